@@ -1,0 +1,45 @@
+//! A triangle mesh in its own (model) space: what sampling and drawing both read.
+
+use glam::{Vec2, Vec3};
+
+/// A triangle mesh in model space.
+///
+/// A vertex is a (position, normal, uv) triple: corners that differ in any of them are different vertices,
+/// so hard edges are split and smooth ones are shared. Triangles wind counter-clockwise seen from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleMesh {
+    /// One position per vertex, finite.
+    pub positions: Vec<Vec3>,
+    /// One unit normal per vertex, finite.
+    pub normals: Vec<Vec3>,
+    /// One texture coordinate per vertex (V up, as in OBJ), or empty when the file has none.
+    pub uvs: Vec<Vec2>,
+    /// Vertex indices, three per triangle, each less than `positions.len()`.
+    pub triangles: Vec<[u32; 3]>,
+    /// For each triangle, the index of the file's polygon that it was cut from; never decreases.
+    pub polygon_of_triangle: Vec<u32>,
+    /// For each triangle, an index into the mesh file's group names.
+    pub group_of_triangle: Vec<u32>,
+    /// For each triangle, an index into the mesh file's materials.
+    pub material_of_triangle: Vec<u32>,
+}
+
+impl TriangleMesh {
+    /// The three corner positions of one triangle, in model space.
+    pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// Least and greatest corner of the axis-aligned box round the triangles' vertices, in model space;
+    /// `None` for a mesh without triangles. Vertices that no triangle uses do not count.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let mut used = self.triangles.iter().flatten().map(|&vertex| self.positions[vertex as usize]);
+        let first = used.next()?;
+        Some(used.fold((first, first), |(low, high), position| (low.min(position), high.max(position))))
+    }
+
+    /// How many polygons the file had, counted before they were cut into triangles.
+    pub fn polygon_count(&self) -> usize {
+        self.polygon_of_triangle.last().map_or(0, |&last| last as usize + 1)
+    }
+}

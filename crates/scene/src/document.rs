@@ -1,0 +1,425 @@
+//! The scene document: every field of a scene file, with its default. Degrees, frames and sRGB colours, as a
+//! person writes them; nothing here is solved or resolved.
+
+use serde::{Deserialize, Serialize};
+
+/// A whole scene file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// The schema's version; this build writes and reads [`Scene::VERSION`].
+    pub version: u32,
+    /// Width and height in pixels for which stroke sizes are meant.
+    #[serde(default = "default_size")]
+    pub size: (u32, u32),
+    /// Changes every random choice at once.
+    #[serde(default)]
+    pub seed: u32,
+    /// What is seen where nothing is painted.
+    #[serde(default)]
+    pub background: Color,
+    /// Frames and their rate.
+    #[serde(default)]
+    pub timeline: Timeline,
+    /// The pose in which stroke directions are stated.
+    #[serde(default)]
+    pub reference: Reference,
+    /// The camera and its keys.
+    pub camera: Camera,
+    /// Lights; empty means the studio default.
+    #[serde(default)]
+    pub lights: Vec<Light>,
+    /// What stands in the scene.
+    pub objects: Vec<Object>,
+    /// Stroke settings for everything that no region overrides.
+    #[serde(default)]
+    pub strokes: StrokeSettings,
+    /// Parts of objects with settings of their own; a later region wins over an earlier one.
+    #[serde(default)]
+    pub regions: Vec<Region>,
+    /// How the scene is drawn.
+    #[serde(default)]
+    pub style: Style,
+}
+
+impl Scene {
+    /// The schema version that this build reads and writes.
+    pub const VERSION: u32 = 1;
+}
+
+fn default_size() -> (u32, u32) {
+    (1280, 720)
+}
+
+/// An sRGB colour, each channel in 0..=1; in the file `"#rrggbb"`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Color(pub [f32; 3]);
+
+/// Frame range and rate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Timeline {
+    /// Frames per second, greater than 0.
+    pub fps: f64,
+    /// First frame of the shot.
+    pub first: i64,
+    /// Last frame of the shot, inclusive.
+    pub last: i64,
+}
+
+/// Which pose the stroke directions refer to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Reference {
+    /// The camera and the objects as they stand at this frame.
+    Frame(i64),
+}
+
+/// How a value leaves its key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Ease {
+    /// Holds until the next key.
+    Step,
+    /// In equal steps.
+    #[default]
+    Linear,
+    /// Starts and ends at rest (3t² − 2t³).
+    Smooth,
+}
+
+/// The camera: a lens and keyed poses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// How the camera projects.
+    #[serde(default)]
+    pub lens: Lens,
+    /// At least one key, frames strictly increasing.
+    pub keys: Vec<CameraKey>,
+}
+
+/// Projection of the camera. Lengths in world units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Lens {
+    /// Central projection; `fov_y_deg` is the vertical field of view.
+    Perspective {
+        /// Vertical field of view, degrees, in (0, 180).
+        fov_y_deg: f64,
+        /// Nearest visible depth, > 0.
+        #[serde(default = "default_near")]
+        near: f64,
+        /// Farthest visible depth, > near.
+        #[serde(default = "default_far")]
+        far: f64,
+    },
+    /// Parallel projection; `height` world units fill the picture's height.
+    Orthographic {
+        /// World units from the bottom to the top of the picture, > 0.
+        height: f64,
+        /// Nearest visible depth.
+        #[serde(default = "default_near")]
+        near: f64,
+        /// Farthest visible depth, > near.
+        #[serde(default = "default_far")]
+        far: f64,
+    },
+}
+
+fn default_near() -> f64 {
+    0.05
+}
+
+fn default_far() -> f64 {
+    100.0
+}
+
+/// One pose of the camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraKey {
+    /// The frame; need not be whole.
+    pub frame: f64,
+    /// Where the eye is, world space.
+    pub eye: [f64; 3],
+    /// What it looks at, world space; differs from `eye`, and not straight up or down from it.
+    pub target: [f64; 3],
+    /// Turns the camera about its gaze: +a turns the picture by −a.
+    #[serde(default)]
+    pub roll_deg: f64,
+    /// Overrides the lens's field of view from here on (perspective lenses; interpolated between keys).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fov_y_deg: Option<f64>,
+    /// How the pose leaves this key.
+    #[serde(default)]
+    pub ease: Ease,
+}
+
+/// A light with its name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Light {
+    /// For people; unique.
+    pub name: String,
+    /// `Sun`, `Point` or `Ambient`.
+    pub kind: LightKind,
+    /// `Sun`: where the light travels to, world space, not zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// `Point`: where it stands, world space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<[f64; 3]>,
+    /// Colour; for `Ambient` the colour from above.
+    #[serde(default = "Color::white")]
+    pub color: Color,
+    /// `Ambient`: the colour from below; left out, a dim warm version of `color`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground: Option<Color>,
+    /// Multiplies the colour, ≥ 0. A point light of intensity 1 lights a facing surface at distance 1 as a sun of 1.
+    #[serde(default = "one")]
+    pub intensity: f64,
+}
+
+/// What kind of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LightKind {
+    /// Parallel light that casts shadows.
+    Sun,
+    /// Light from a point, falling off with the square of the distance; casts no shadow.
+    Point,
+    /// Light from all around: `color` from above, `ground` from below.
+    Ambient,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Which axis of the mesh file points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Up {
+    /// Y up, −Z forward (the usual OBJ export).
+    #[default]
+    Y,
+    /// Z up, Y forward (CAD, raw Blender).
+    Z,
+}
+
+/// A thing in the scene: a mesh file or one group of it, placed and keyed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Object {
+    /// Unique; strokes take their looks from it, so a renamed object is painted anew.
+    pub name: String,
+    /// Path of the mesh, relative to the scene file.
+    pub mesh: String,
+    /// Only this group of the mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
+    /// Moves with this object.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parent: Option<String>,
+    /// How many particles; left out, found from the coverage.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub particles: Option<u64>,
+    /// Static scale of the mesh, applied before anything is sampled; not inherited by children.
+    #[serde(default)]
+    pub scale: Scale,
+    /// Which way the mesh file points.
+    #[serde(default)]
+    pub up: Up,
+    /// Overrides the materials of the mesh file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<MaterialOverride>,
+    /// Rigid poses, frames strictly increasing; none means the identity.
+    #[serde(default)]
+    pub keys: Vec<ObjectKey>,
+}
+
+/// Static scale: in the file one number, or `(x, y, z)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale(pub [f64; 3]);
+
+/// Colour or texture that replaces what the mesh file says.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MaterialOverride {
+    /// Base colour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+    /// Picture file, relative to the scene file; multiplied by `color` (white when that is left out).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texture: Option<String>,
+    /// Shown as it is, without light or shadow.
+    pub unlit: bool,
+}
+
+/// One rigid pose of an object in its parent's space.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectKey {
+    /// The frame; need not be whole.
+    pub frame: f64,
+    /// Translation, parent space.
+    #[serde(default)]
+    pub translation: [f64; 3],
+    /// Euler angles in degrees: about X first, then Y, then Z; interpolated as numbers, so 0 to 720 is two turns.
+    #[serde(default)]
+    pub rotation_deg: [f64; 3],
+    /// How the pose leaves this key.
+    #[serde(default)]
+    pub ease: Ease,
+}
+
+/// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StrokeSettings {
+    /// A named set of values to start from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
+    /// Brush tip by name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub brush: Option<String>,
+    /// Length in pixels at the scene's size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_px: Option<f64>,
+    /// Width in pixels at the scene's size.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width_px: Option<f64>,
+    /// Strokes per pixel × length × width.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<f64>,
+    /// 1 keeps strokes flat on the picture (the paper's similarity), 0 lets their direction follow the surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flatness: Option<f64>,
+    /// Standard deviation of the angle, degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_jitter_deg: Option<f64>,
+    /// Standard deviation of the size, as a share of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_jitter: Option<f64>,
+    /// Higher layers are painted over lower ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer: Option<i32>,
+}
+
+/// A part of the scene with settings of its own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// Unique.
+    pub name: String,
+    /// What it covers.
+    pub on: Selector,
+    /// Base direction of its strokes.
+    #[serde(default)]
+    pub direction: Direction,
+    /// Settings that differ from the scene's.
+    #[serde(default)]
+    pub strokes: StrokeSettings,
+}
+
+/// What a region covers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Selector {
+    /// All objects.
+    Everything,
+    /// A whole object, by name.
+    Object(String),
+    /// A group of an object's mesh: object, group.
+    Group(String, String),
+    /// A material of an object's mesh: object, material.
+    Material(String, String),
+}
+
+/// Base direction of strokes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Direction {
+    /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
+    Angle(f64),
+    /// Round this axis of the object's own space, along the surface.
+    Around([f64; 3]),
+    /// Up the surface, towards the object's own +Y.
+    Up,
+}
+
+/// How the scene is drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Style {
+    /// Brush strokes that turn with what they lie on.
+    RotatingStrokes {
+        /// How the turn is found.
+        #[serde(default)]
+        solver: Solver,
+        /// Large thin strokes under the body layer, so that no hole shows the ground.
+        #[serde(default = "yes")]
+        underpainting: bool,
+    },
+    /// The plain render that strokes take their colours from.
+    Reference,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// How the turn of a stroke is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Solver {
+    /// From the surface's tangent plane, in closed form.
+    #[default]
+    Tangent,
+    /// The source paper's estimate over neighbours, depth-weighted, baked once.
+    Horn,
+    /// The source paper's full sum over neighbours in every frame.
+    HornExact,
+}
+
+impl Color {
+    /// White.
+    pub fn white() -> Self {
+        Self([1.0; 3])
+    }
+}
+
+impl Default for Color {
+    /// A toned ground: warm grey paper.
+    fn default() -> Self {
+        Self([0xe4 as f32 / 255.0, 0xdc as f32 / 255.0, 0xcb as f32 / 255.0])
+    }
+}
+
+impl Default for Scale {
+    fn default() -> Self {
+        Self([1.0; 3])
+    }
+}
+
+impl Default for Timeline {
+    fn default() -> Self {
+        Self { fps: 24.0, first: 0, last: 0 }
+    }
+}
+
+impl Default for Reference {
+    fn default() -> Self {
+        Self::Frame(0)
+    }
+}
+
+impl Default for Lens {
+    fn default() -> Self {
+        Self::Perspective { fov_y_deg: 35.0, near: default_near(), far: default_far() }
+    }
+}
+
+impl Default for Direction {
+    fn default() -> Self {
+        Self::Angle(0.0)
+    }
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self::RotatingStrokes { solver: Solver::default(), underpainting: true }
+    }
+}

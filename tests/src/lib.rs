@@ -1,0 +1,1 @@
+//! Measuring tools that the tests share: reading pictures, comparing them, structure tensors.
