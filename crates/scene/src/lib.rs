@@ -1,5 +1,8 @@
 //! The document: what a `.ron` scene file means, mesh files, keyframes, located errors.
 
+pub mod assets;
 pub mod document;
+pub mod loaded;
 pub mod mesh_file;
+pub mod problem;
 mod values;

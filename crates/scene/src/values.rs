@@ -91,7 +91,8 @@ impl<'de> Deserialize<'de> for Scale {
             fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Scale, A::Error> {
                 let mut values = [0.0; 3];
                 for (index, value) in values.iter_mut().enumerate() {
-                    *value = sequence.next_element()?.ok_or_else(|| de::Error::invalid_length(index, &self))?;
+                    *value =
+                        sequence.next_element()?.ok_or_else(|| de::Error::invalid_length(index, &self))?;
                 }
                 Ok(Scale(values))
             }

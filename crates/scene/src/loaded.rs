@@ -1,0 +1,25 @@
+//! A scene with everything that it names, read and checked.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use crate::document::Scene;
+use crate::mesh_file::{MeshFile, Texture};
+use crate::problem::Problem;
+
+/// A scene and the files that it names. Whoever holds one may rely on everything that `check` promises: names resolve,
+/// numbers are finite and in range, limits hold.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene file, or the mesh file that the scene was made for.
+    pub path: PathBuf,
+    /// The document.
+    pub scene: Scene,
+    /// Mesh files, by the path written in the document.
+    pub meshes: BTreeMap<String, Arc<MeshFile>>,
+    /// Override textures, by the path written in the document.
+    pub textures: BTreeMap<String, Arc<Texture>>,
+    /// Everything that was odd and could be mended on the way.
+    pub warnings: Vec<Problem>,
+}
