@@ -35,9 +35,9 @@ pub fn apple() -> PolyMesh {
         "An apple with stem and leaf: 550 polygons.",
         &[
             ("red", "#b4262b"),
-            ("crimson", "#94182a"),
-            ("orange", "#cf5a2c"),
-            ("yellow", "#d9a441"),
+            ("crimson", "#9c1c2a"),
+            ("orange", "#c4472b"),
+            ("yellow", "#cf8f3a"),
             ("stem", "#5b3d22"),
             ("leaf", "#4f7a2a"),
         ],
@@ -66,7 +66,7 @@ fn skin_point(radius: f64, height: f64, angle: f64) -> DVec3 {
     let five = (5.0 * angle + 0.4).cos();
     let low = (1.0 - smoothstep(0.02, 0.42, height)) * smoothstep(0.04, 0.16, radius);
     let lobes = 1.0 + 0.045 * five * low;
-    let foot = -0.022 * five * bump(0.20, 0.17, radius) * (1.0 - smoothstep(0.1, 0.3, height));
+    let foot = -0.014 * five * bump(0.20, 0.17, radius) * (1.0 - smoothstep(0.1, 0.3, height));
     // One shoulder higher than the other, one cheek fuller.
     let cheek = 1.0 + 0.022 * (angle - 0.7).cos() + 0.020 * (2.0 * angle + 1.1).cos();
     let shoulder = 0.030 * radius * 2.0 * (angle + 2.2).cos() * smoothstep(0.35, 0.85, height);

@@ -90,7 +90,7 @@ pub fn pear() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "pear",
         "A pear, slightly bent, with its stem.",
-        &[("pear", "#b9a13a"), ("blush", "#b8672f"), ("green", "#8d9440"), ("stem", "#50381f")],
+        &[("pear", "#b9a13a"), ("blush", "#b88334"), ("green", "#9c993c"), ("stem", "#50381f")],
     );
     let outline = Profile::through(&PEAR).spread(ROWS, 0.4);
     mesh.lathe(

@@ -11,8 +11,8 @@ const BOARD: [&str; 5] = ["board_1", "board_2", "board_3", "board_4", "board_5"]
 
 /// A table top of five boards, 3.2 by 1.5, its upper face at y = 0 so that things rest on it.
 pub fn table() -> PolyMesh {
-    const COLUMNS: usize = 48;
-    const CELLS_PER_BOARD: usize = 7;
+    const COLUMNS: usize = 28;
+    const CELLS_PER_BOARD: usize = 3;
     const LENGTH: f64 = 3.2;
     const DEPTH: f64 = 1.5;
     const THICKNESS: f64 = 0.09;
@@ -100,7 +100,7 @@ pub fn wall() -> PolyMesh {
             } else {
                 (-BEND, BEND + past_floor - lengths[1])
             };
-            let hollow = 1.1 * across * across * smoothstep(0.5, -0.9, z);
+            let hollow = 0.6 * across * across * smoothstep(0.5, -0.9, z);
             let uneven = 0.012 * (3.0 * across + 1.7 * y).sin() * smoothstep(0.2, 0.8, y);
             DVec3::new(5.0 * across, y, z - 0.1 + hollow + uneven)
         },
