@@ -34,7 +34,15 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
 
 /// Every shipped mesh.
 fn shipped() -> Vec<PolyMesh> {
-    vec![apple::apple(), jug::jug(), lemon::lemon(), lemon::pear(), room::table(), room::wall(), room::plane()]
+    vec![
+        apple::apple(),
+        jug::jug(),
+        lemon::lemon(),
+        lemon::pear(),
+        room::table(),
+        room::wall(),
+        room::plane(),
+    ]
 }
 
 /// Name and text of the two files of a mesh.
