@@ -1,1 +1,3 @@
 //! The integration tests of Impasto.
+
+mod progressive_order;
