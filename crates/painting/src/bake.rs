@@ -149,7 +149,7 @@ impl BakeInputs {
     }
 
     /// The lift from the reference view with its share (1 where the view faces the surface squarely, none where it does
-    /// not), and the one from the virtual view (`methods` 4.3). With neighbours, Horn's estimate; without, the tangent's.
+    /// not), and the one from the virtual view. With neighbours, Horn's estimate; without, the tangent's.
     fn references(&self, index: usize, neighbours: Option<&Neighbours>) -> (Option<(Lift, f64)>, Lift) {
         let particle = &self.particles[index];
         let (position, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
