@@ -103,7 +103,8 @@ fn stem(mesh: &mut PolyMesh) {
         |row, side| {
             let t = ALONG[row];
             let end = row == 0 || row == ALONG.len() - 1;
-            let radius = if end { 0.0 } else { 0.019 + 0.017 * bump(0.0, 0.3, t) + 0.008 * bump(1.0, 0.3, t) };
+            let radius =
+                if end { 0.0 } else { 0.019 + 0.017 * bump(0.0, 0.3, t) + 0.008 * bump(1.0, 0.3, t) };
             let (centre, right, forward) = stem_frame(t);
             let angle = TAU * side as f64 / SIDES as f64;
             centre + radius * (right * angle.cos() + forward * angle.sin())
@@ -136,7 +137,8 @@ fn leaf(mesh: &mut PolyMesh) {
         |column, row| {
             let t = row as f64 / ALONG as f64;
             let s = column as f64 / ACROSS as f64 * 2.0 - 1.0;
-            let half_width = 0.012 + 0.105 * (std::f64::consts::PI * t.powf(0.82)).sin().max(0.0) * (1.0 - 0.18 * t);
+            let half_width =
+                0.012 + 0.105 * (std::f64::consts::PI * t.powf(0.82)).sin().max(0.0) * (1.0 - 0.18 * t);
             let half_width = if row == ALONG { 0.006 } else { half_width };
             // It rises, bends over and curls; the halves fold up from the midrib and their rim waves.
             let reach = 0.46 * (t - 0.10 * t * t);

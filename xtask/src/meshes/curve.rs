@@ -19,9 +19,9 @@ impl Profile {
             // Past an end the curve is continued straight on.
             let before = if span > 0 { points[span - 1] } else { 2.0 * start - end };
             let after = if span + 1 < last { points[span + 2] } else { 2.0 * end - start };
-            samples.extend((1..=STEPS).map(|step| {
-                catmull_rom([before, start, end, after], step as f64 / STEPS as f64)
-            }));
+            samples.extend(
+                (1..=STEPS).map(|step| catmull_rom([before, start, end, after], step as f64 / STEPS as f64)),
+            );
         }
         Self { samples }
     }

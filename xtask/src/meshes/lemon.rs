@@ -100,7 +100,11 @@ pub fn pear() -> PolyMesh {
             let angle = TAU * segment as f64 / SEGMENTS as f64;
             let uneven = 1.0 + 0.025 * (angle + 1.0).cos() + 0.018 * (3.0 * angle + 4.0 * height).cos();
             let bend = pear_bend(height);
-            DVec3::new(radius * uneven * angle.cos() + bend, height, -radius * uneven * angle.sin() + 0.3 * bend)
+            DVec3::new(
+                radius * uneven * angle.cos() + bend,
+                height,
+                -radius * uneven * angle.sin() + 0.3 * bend,
+            )
         },
         |row, segment| {
             let round = segment as f64 / SEGMENTS as f64;
@@ -132,7 +136,11 @@ fn pear_stem(mesh: &mut PolyMesh) {
     const ALONG: [f64; 11] = [0.0, 0.0, 0.05, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0, 1.0];
     let centre = |t: f64| {
         let up = 1.0 - t;
-        DVec3::new(pear_bend(0.9) + 0.02 + 0.11 * up * up, 0.875 + 0.19 * up, 0.3 * pear_bend(0.9) - 0.03 * up)
+        DVec3::new(
+            pear_bend(0.9) + 0.02 + 0.11 * up * up,
+            0.875 + 0.19 * up,
+            0.3 * pear_bend(0.9) - 0.03 * up,
+        )
     };
     mesh.lathe(
         [ALONG.len() - 1, SIDES],

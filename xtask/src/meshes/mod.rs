@@ -1,7 +1,9 @@
 //! The shipped meshes, made by code: `cargo xtask meshes` writes them to `scenes/meshes`.
 
 mod apple;
+mod blocks;
 mod curve;
+mod fish;
 mod jug;
 mod lemon;
 mod poly_mesh;
@@ -34,7 +36,19 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
 
 /// Every shipped mesh.
 fn shipped() -> Vec<PolyMesh> {
-    vec![apple::apple(), jug::jug(), lemon::lemon(), lemon::pear(), room::table(), room::wall(), room::plane()]
+    vec![
+        apple::apple(),
+        blocks::cube(),
+        fish::fish(),
+        jug::jug(),
+        lemon::lemon(),
+        blocks::log(),
+        lemon::pear(),
+        room::plane(),
+        blocks::simple_objects(),
+        room::table(),
+        room::wall(),
+    ]
 }
 
 /// Name and text of the two files of a mesh.
