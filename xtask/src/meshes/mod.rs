@@ -1,7 +1,9 @@
 //! The shipped meshes, made by code: `cargo xtask meshes` writes them to `scenes/meshes`.
 
 mod apple;
+mod blocks;
 mod curve;
+mod fish;
 mod jug;
 mod lemon;
 mod poly_mesh;
@@ -36,12 +38,16 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
 fn shipped() -> Vec<PolyMesh> {
     vec![
         apple::apple(),
+        blocks::cube(),
+        fish::fish(),
         jug::jug(),
         lemon::lemon(),
+        blocks::log(),
         lemon::pear(),
+        room::plane(),
+        blocks::simple_objects(),
         room::table(),
         room::wall(),
-        room::plane(),
     ]
 }
 
