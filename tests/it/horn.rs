@@ -22,7 +22,7 @@ fn view(seed: u32, fov_y_deg: f64, distance: f64) -> View {
     let number = |index: u32| f64::from(hash::unit(hash::combine(seed, index)));
     let rotation = DQuat::from_rotation_z(number(0) * 6.0)
         * DQuat::from_rotation_x((number(1) - 0.5) * 2.0)
-        * DQuat::from_rotation_y(number(2) * 6.28);
+        * DQuat::from_rotation_y(number(2) * 6.0);
     let aside = DVec3::new(number(3) - 0.5, number(4) - 0.5, 0.0) * 0.6;
     let view = DMat4::from_rotation_translation(rotation, aside - DVec3::Z * distance);
     let fov_y = fov_y_deg.to_radians();
