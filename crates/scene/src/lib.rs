@@ -4,5 +4,7 @@ pub mod assets;
 pub mod document;
 pub mod loaded;
 pub mod mesh_file;
+pub mod obj;
 pub mod problem;
+pub mod texture;
 mod values;
