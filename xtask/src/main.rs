@@ -1,2 +1,7 @@
 //! Automation of the repository.
-fn main() {}
+
+mod meshes;
+
+fn main() -> anyhow::Result<()> {
+    meshes::run(std::path::Path::new("."))
+}

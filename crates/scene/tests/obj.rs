@@ -12,12 +12,17 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn read(folder: &Path, text: &[u8]) -> Result<(MeshFile, Vec<Problem>), Report> {
     let path = folder.join("model.obj");
-    fs::write(&path, text).unwrap();
+    fs::write(&path, text).expect("the temporary folder can be written");
     obj::read(&path, folder, &AssetFolders::default())
 }
 
 fn first_place(result: Result<(MeshFile, Vec<Problem>), Report>) -> Option<Place> {
-    result.unwrap_err().0.iter().find(|problem| problem.severity.is_fatal()).and_then(|problem| problem.place)
+    result
+        .expect_err("the text is wrong")
+        .0
+        .iter()
+        .find(|problem| problem.severity.is_fatal())
+        .and_then(|problem| problem.place)
 }
 
 fn assert_sound(file: &MeshFile) {
