@@ -5,6 +5,8 @@ pub mod document;
 pub mod loaded;
 pub mod mesh_file;
 pub mod motion;
+pub mod obj;
 pub mod presets;
 pub mod problem;
+pub mod texture;
 mod values;
