@@ -7,6 +7,7 @@ mod ci;
 mod demo;
 mod gallery;
 mod layers;
+mod meshes;
 mod packages;
 mod steps;
 mod test;

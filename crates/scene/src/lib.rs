@@ -4,5 +4,7 @@ pub mod assets;
 pub mod document;
 pub mod loaded;
 pub mod mesh_file;
+pub mod motion;
+pub mod presets;
 pub mod problem;
 mod values;

@@ -1,0 +1,230 @@
+//! Keyframes: where the camera and the objects are at any frame. Pure functions of the document and the frame.
+
+use std::collections::HashMap;
+
+use glam::{DAffine3, DMat3, DMat4, DVec3};
+
+use crate::document::{CameraKey, Ease, Lens, Object, ObjectKey, Scene};
+
+/// Where the camera is at one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraPose {
+    /// The eye, world space.
+    pub eye: DVec3,
+    /// What it looks at, world space.
+    pub target: DVec3,
+    /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as the camera's user sees it.
+    pub roll_rad: f64,
+    /// The lens, with the field of view of this frame.
+    pub lens: Lens,
+}
+
+impl CameraPose {
+    /// World space to view space: right-handed, looking down −Z, Y up.
+    ///
+    /// The camera turns counter-clockwise by `roll_rad`, so what stood at the screen angle φ without roll is seen at
+    /// φ − roll. `check` refuses a gaze along the Y axis; for such a pose Z stands in for up, so that the matrix is
+    /// finite whatever the pose.
+    pub fn view_from_world(&self) -> DMat4 {
+        let gaze = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
+        let up = if gaze.cross(DVec3::Y).length_squared() > 1e-20 { DVec3::Y } else { DVec3::Z };
+        let unrolled_from_world = glam::dcamera::rh::view::look_to_mat4(self.eye, gaze, up);
+        DMat4::from_rotation_z(-self.roll_rad) * unrolled_from_world
+    }
+}
+
+/// The camera at a frame, which need not be whole. Before the first and after the last key it stands still.
+///
+/// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the key that is left. A key
+/// without a field of view keeps the one before it; before the first such key the lens's own holds.
+pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
+    let keys = &scene.camera.keys;
+    let span = Span::at(keys, frame, |key| (key.frame, key.ease));
+    let Some(span) = span else {
+        return CameraPose {
+            eye: DVec3::Z,
+            target: DVec3::ZERO,
+            roll_rad: 0.0,
+            lens: scene.camera.lens.clone(),
+        };
+    };
+    let (left, right) = (&keys[span.left], &keys[span.right]);
+    let lens = match scene.camera.lens {
+        Lens::Perspective { fov_y_deg, near, far } => {
+            let fov_at = |index: usize| fov_y_deg_at_key(&keys[..=index]).unwrap_or(fov_y_deg);
+            Lens::Perspective { fov_y_deg: span.mix(fov_at(span.left), fov_at(span.right)), near, far }
+        }
+        Lens::Orthographic { .. } => scene.camera.lens.clone(),
+    };
+    CameraPose {
+        eye: span.mix_vec3(left.eye, right.eye),
+        target: span.mix_vec3(left.target, right.target),
+        roll_rad: wrap_deg(span.mix(left.roll_deg, right.roll_deg)).to_radians(),
+        lens,
+    }
+}
+
+/// The field of view that the last of these keys leaves, degrees.
+fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
+    keys.iter().rev().find_map(|key| key.fov_y_deg)
+}
+
+/// `world_from_model` of every object, in the order of the file; rigid. An object moves with its parent, wherever in
+/// the file that stands; keys are in the parent's space.
+///
+/// Takes time and memory in proportion to the objects and follows chains of any depth. An unknown parent, or one that
+/// closes a cycle, counts as none (`check` refuses both).
+pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
+    let objects = &scene.objects;
+    let parents = parent_indices(objects);
+    let mut poses: Vec<DAffine3> = objects.iter().map(|object| pose_in_parent(&object.keys, frame)).collect();
+    for index in parents_first(&parents) {
+        if let Some(parent) = parents[index] {
+            poses[index] = poses[parent] * poses[index];
+        }
+    }
+    poses
+}
+
+/// For each object, the index of its parent; the first object of a name counts.
+pub(crate) fn parent_indices(objects: &[Object]) -> Vec<Option<usize>> {
+    if objects.iter().all(|object| object.parent.is_none()) {
+        return vec![None; objects.len()];
+    }
+    let mut index_of_name = HashMap::with_capacity(objects.len());
+    for (index, object) in objects.iter().enumerate() {
+        index_of_name.entry(object.name.as_str()).or_insert(index);
+    }
+    let find = |object: &Object| object.parent.as_deref().and_then(|name| index_of_name.get(name).copied());
+    let mut parents: Vec<Option<usize>> = objects.iter().map(find).collect();
+    for index in cycle_closers(&parents) {
+        parents[index] = None;
+    }
+    parents
+}
+
+/// One object of every cycle of parents, each cycle once, in the order of the file.
+pub(crate) fn cycle_closers(parents: &[Option<usize>]) -> Vec<usize> {
+    // The walk that visited an object first; meeting one's own walk again is a cycle.
+    let mut walk_of = vec![usize::MAX; parents.len()];
+    let mut closers = Vec::new();
+    for start in 0..parents.len() {
+        let mut at = start;
+        while walk_of[at] == usize::MAX {
+            walk_of[at] = start;
+            match parents[at] {
+                Some(parent) if walk_of[parent] == start => closers.push(parent),
+                Some(parent) => at = parent,
+                None => break,
+            }
+        }
+    }
+    closers.sort_unstable();
+    closers
+}
+
+/// An order in which every parent comes before its children. `parents` has no cycles.
+fn parents_first(parents: &[Option<usize>]) -> Vec<usize> {
+    let mut order = Vec::with_capacity(parents.len());
+    let mut placed = vec![false; parents.len()];
+    let mut chain = Vec::new();
+    for start in 0..parents.len() {
+        let mut at = Some(start);
+        while let Some(index) = at.filter(|&index| !placed[index]) {
+            placed[index] = true;
+            chain.push(index);
+            at = parents[index];
+        }
+        order.extend(chain.drain(..).rev());
+    }
+    order
+}
+
+/// The rigid pose that keys give at a frame; the identity without keys.
+fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
+    let Some(span) = Span::at(keys, frame, |key| (key.frame, key.ease)) else {
+        return DAffine3::IDENTITY;
+    };
+    let (left, right) = (&keys[span.left], &keys[span.right]);
+    let rotation = rotation_from_euler_deg(span.mix_vec3(left.rotation_deg, right.rotation_deg));
+    DAffine3::from_mat3_translation(rotation, span.mix_vec3(left.translation, right.translation))
+}
+
+/// The rotation of Euler angles in degrees: about X first, then Y, then Z (R = Rz·Ry·Rx).
+pub fn rotation_from_euler_deg(angles_deg: DVec3) -> DMat3 {
+    let (sin_x, cos_x) = sin_cos_deg(angles_deg.x);
+    let (sin_y, cos_y) = sin_cos_deg(angles_deg.y);
+    let (sin_z, cos_z) = sin_cos_deg(angles_deg.z);
+    let about_x = DMat3::from_cols(DVec3::X, DVec3::new(0.0, cos_x, sin_x), DVec3::new(0.0, -sin_x, cos_x));
+    let about_y = DMat3::from_cols(DVec3::new(cos_y, 0.0, -sin_y), DVec3::Y, DVec3::new(sin_y, 0.0, cos_y));
+    let about_z = DMat3::from_cols(DVec3::new(cos_z, sin_z, 0.0), DVec3::new(-sin_z, cos_z, 0.0), DVec3::Z);
+    about_z * (about_y * about_x)
+}
+
+/// The same angle in (−180, 180], without rounding: a whole turn is exactly no turn, so that loops close bit for bit.
+fn wrap_deg(angle_deg: f64) -> f64 {
+    let within_a_turn = angle_deg % 360.0;
+    if within_a_turn > 180.0 {
+        within_a_turn - 360.0
+    } else if within_a_turn <= -180.0 {
+        within_a_turn + 360.0
+    } else {
+        within_a_turn
+    }
+}
+
+/// Sine and cosine of degrees, exact at multiples of 90.
+fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
+    let wrapped_deg = wrap_deg(angle_deg);
+    if wrapped_deg == 0.0 {
+        (0.0, 1.0)
+    } else if wrapped_deg == 90.0 {
+        (1.0, 0.0)
+    } else if wrapped_deg == 180.0 {
+        (0.0, -1.0)
+    } else if wrapped_deg == -90.0 {
+        (-1.0, 0.0)
+    } else {
+        wrapped_deg.to_radians().sin_cos()
+    }
+}
+
+/// Two neighbouring keys and how far between them a frame is, ease applied.
+struct Span {
+    left: usize,
+    right: usize,
+    /// 0 at the left key, 1 at the right one.
+    share: f64,
+}
+
+impl Span {
+    /// `frame_and_ease` reads a key. `None` without keys.
+    fn at<K>(keys: &[K], frame: f64, frame_and_ease: impl Fn(&K) -> (f64, Ease)) -> Option<Self> {
+        let last = keys.len().checked_sub(1)?;
+        let right = keys.partition_point(|key| frame_and_ease(key).0 <= frame);
+        if right == 0 || right > last {
+            let still = right.min(last);
+            return Some(Self { left: still, right: still, share: 0.0 });
+        }
+        let (left_frame, ease) = frame_and_ease(&keys[right - 1]);
+        let t = (frame - left_frame) / (frame_and_ease(&keys[right]).0 - left_frame);
+        let share = match ease {
+            Ease::Step => 0.0,
+            Ease::Linear => t,
+            Ease::Smooth => t * t * (3.0 - 2.0 * t),
+        };
+        Some(Self { left: right - 1, right, share })
+    }
+
+    /// Exactly `left` at share 0.
+    fn mix(&self, left: f64, right: f64) -> f64 {
+        left + (right - left) * self.share
+    }
+
+    fn mix_vec3(&self, left: [f64; 3], right: [f64; 3]) -> DVec3 {
+        DVec3::from(left) + (DVec3::from(right) - DVec3::from(left)) * self.share
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,173 @@
+use glam::{DVec3, DVec4};
+
+use super::*;
+use crate::document::Camera;
+
+fn key(frame: f64) -> ObjectKey {
+    ObjectKey { frame, translation: [0.0; 3], rotation_deg: [0.0; 3], ease: Ease::Linear }
+}
+
+fn object(name: &str, parent: Option<&str>, keys: Vec<ObjectKey>) -> Object {
+    Object {
+        name: name.to_owned(),
+        mesh: "cube.obj".to_owned(),
+        group: None,
+        parent: parent.map(str::to_owned),
+        particles: None,
+        scale: Default::default(),
+        up: Default::default(),
+        material: None,
+        keys,
+    }
+}
+
+fn camera_key(frame: f64, roll_deg: f64) -> CameraKey {
+    CameraKey { frame, eye: [0.0, 0.0, 4.0], target: [0.0; 3], roll_deg, fov_y_deg: None, ease: Ease::Linear }
+}
+
+fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
+    Scene {
+        version: Scene::VERSION,
+        size: (640, 360),
+        seed: 0,
+        background: Default::default(),
+        timeline: Default::default(),
+        reference: Default::default(),
+        camera: Camera { lens: Lens::default(), keys: camera_keys },
+        lights: Vec::new(),
+        objects,
+        strokes: Default::default(),
+        regions: Vec::new(),
+        style: Default::default(),
+    }
+}
+
+/// Screen angle of a view-space point, degrees.
+fn screen_angle_deg(view_from_world: DMat4, point_in_world: DVec3) -> f64 {
+    let point = view_from_world * point_in_world.extend(1.0);
+    (point.y / -point.z).atan2(point.x / -point.z).to_degrees()
+}
+
+#[test]
+fn the_camera_looks_down_minus_z_with_y_up() {
+    let pose = camera_at(&scene(vec![camera_key(0.0, 0.0)], vec![]), 0.0);
+    let view_from_world = pose.view_from_world();
+    let expected =
+        [(DVec3::ZERO, [0.0, 0.0, -4.0]), (DVec3::X, [1.0, 0.0, -4.0]), (DVec3::Y, [0.0, 1.0, -4.0])];
+    for (point, in_view) in expected {
+        assert_eq!(view_from_world * point.extend(1.0), DVec4::new(in_view[0], in_view[1], in_view[2], 1.0));
+    }
+}
+
+#[test]
+fn roll_turns_the_picture_the_other_way() {
+    let point = DVec3::new(0.3, 0.1, 0.2);
+    let level = camera_at(&scene(vec![camera_key(0.0, 0.0)], vec![]), 0.0).view_from_world();
+    for roll_deg in [1.0, 7.0, 30.0, 77.0, 137.0, 180.0, 359.0] {
+        let rolled = camera_at(&scene(vec![camera_key(0.0, roll_deg)], vec![]), 0.0).view_from_world();
+        let turn = screen_angle_deg(rolled, point) - screen_angle_deg(level, point) + roll_deg;
+        assert!((turn - (turn / 360.0).round() * 360.0).abs() < 1e-9, "roll {roll_deg}: off by {turn}");
+    }
+}
+
+#[test]
+fn a_whole_roll_is_bit_for_bit_no_roll() {
+    let scene = scene(vec![camera_key(0.0, 0.0), camera_key(100.0, 720.0)], vec![]);
+    assert_eq!(camera_at(&scene, 0.0).view_from_world(), camera_at(&scene, 50.0).view_from_world());
+    assert_eq!(camera_at(&scene, 0.0).view_from_world(), camera_at(&scene, 100.0).view_from_world());
+    assert!((camera_at(&scene, 12.5).roll_rad.to_degrees() - 90.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_field_of_view_is_kept_until_a_key_changes_it() {
+    let mut keys =
+        vec![camera_key(0.0, 0.0), camera_key(10.0, 0.0), camera_key(20.0, 0.0), camera_key(30.0, 0.0)];
+    keys[1].fov_y_deg = Some(40.0);
+    keys[3].fov_y_deg = Some(60.0);
+    let scene = scene(keys, vec![]);
+    let fov = |frame| match camera_at(&scene, frame).lens {
+        Lens::Perspective { fov_y_deg, .. } => fov_y_deg,
+        Lens::Orthographic { .. } => panic!("the lens changed its kind"),
+    };
+    assert_eq!([0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 99.0].map(fov), [35.0, 37.5, 40.0, 40.0, 40.0, 50.0, 60.0]);
+}
+
+#[test]
+fn each_ease_leaves_its_key_in_its_own_way() {
+    for (ease, at_quarter) in [(Ease::Step, 0.0), (Ease::Linear, 2.5), (Ease::Smooth, 1.5625)] {
+        let keys =
+            vec![ObjectKey { ease, ..key(4.0) }, ObjectKey { translation: [10.0, 0.0, 0.0], ..key(8.0) }];
+        let scene = scene(vec![], vec![object("a", None, keys)]);
+        let x_at = |frame| poses_at(&scene, frame)[0].translation.x;
+        assert_eq!([-100.0, 4.0, 5.0, 8.0, 100.0].map(x_at), [0.0, 0.0, at_quarter, 10.0, 10.0], "{ease:?}");
+    }
+}
+
+#[test]
+fn euler_angles_turn_about_x_then_y_then_z() {
+    // (0, 1, 0): about X by 90 to +Z, about Y by 90 to +X, about Z by 90 to +Y.
+    let rotation = rotation_from_euler_deg(DVec3::splat(90.0));
+    assert_eq!(rotation * DVec3::Y, DVec3::Y);
+    // (1, 0, 0): X leaves it, Y takes it to −Z, Z leaves that.
+    assert_eq!(rotation * DVec3::X, DVec3::NEG_Z);
+    let odd = rotation_from_euler_deg(DVec3::new(10.0, 20.0, 30.0));
+    assert!((odd.determinant() - 1.0).abs() < 1e-12);
+    // The closed form of Rz·Ry·Rx, first column.
+    let (y, z) = (20f64.to_radians(), 30f64.to_radians());
+    let first_column = DVec3::new(z.cos() * y.cos(), z.sin() * y.cos(), -y.sin());
+    assert!((odd.x_axis - first_column).length() < 1e-15);
+}
+
+#[test]
+fn seven_hundred_and_twenty_degrees_are_two_turns() {
+    let keys = vec![key(0.0), ObjectKey { rotation_deg: [0.0, 0.0, 720.0], ..key(80.0) }];
+    let scene = scene(vec![], vec![object("a", None, keys)]);
+    for (frame, x, y) in
+        [(10.0, 0.0, 1.0), (20.0, -1.0, 0.0), (30.0, 0.0, -1.0), (40.0, 1.0, 0.0), (50.0, 0.0, 1.0)]
+    {
+        assert_eq!(
+            poses_at(&scene, frame)[0].transform_vector3(DVec3::X),
+            DVec3::new(x, y, 0.0),
+            "frame {frame}"
+        );
+    }
+}
+
+#[test]
+fn a_child_follows_a_parent_that_is_listed_after_it() {
+    let moved = vec![ObjectKey { translation: [1.0, 2.0, 3.0], rotation_deg: [0.0, 0.0, 90.0], ..key(0.0) }];
+    let offset = vec![ObjectKey { translation: [1.0, 0.0, 0.0], ..key(0.0) }];
+    let scene = scene(vec![], vec![object("b", Some("a"), offset), object("a", None, moved)]);
+    let poses = poses_at(&scene, 0.0);
+    assert_eq!(poses[0].translation, DVec3::new(1.0, 3.0, 3.0));
+    assert_eq!(poses[1].translation, DVec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn a_chain_of_ten_thousand_parents_is_followed_to_its_end() {
+    let step = || vec![ObjectKey { translation: [1.0, 0.0, 0.0], ..key(0.0) }];
+    let name = |index: usize| format!("o{index}");
+    let child = |index: usize| object(&name(index), Some(name(index + 1)).as_deref(), step());
+    let mut objects: Vec<Object> = (0..10_000).map(child).collect();
+    objects.push(object(&name(10_000), None, step()));
+    assert_eq!(poses_at(&scene(vec![], objects), 0.0)[0].translation.x, 10_001.0);
+}
+
+#[test]
+fn cycles_and_unknown_parents_do_not_hang() {
+    let with = |name: &str, parent: &str| object(name, Some(parent), vec![key(0.0)]);
+    let objects = vec![with("a", "b"), with("b", "c"), with("c", "b"), with("d", "d"), with("e", "nobody")];
+    let poses = poses_at(&scene(vec![], objects.clone()), 0.0);
+    assert!(poses.iter().all(|pose| *pose == DAffine3::IDENTITY));
+    assert_eq!(cycle_closers(&[Some(1), Some(2), Some(1), Some(3), None]), [1, 3]);
+}
+
+#[test]
+fn the_view_is_finite_even_where_check_would_refuse_it() {
+    for (eye, target) in [([0.0, 5.0, 0.0], [0.0; 3]), ([1.0; 3], [1.0; 3])] {
+        let pose =
+            CameraPose { eye: eye.into(), target: target.into(), roll_rad: 0.0, lens: Lens::default() };
+        assert!(pose.view_from_world().is_finite());
+    }
+    assert!(camera_at(&scene(vec![], vec![]), 3.0).view_from_world().is_finite());
+}
