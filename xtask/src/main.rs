@@ -67,6 +67,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "tidy" => tidy::run(&root),
         "gallery" => gallery::run(&root),
         "bench" => bench::run(&root, passed_on),
+        "meshes" => meshes::run(&root),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(())
