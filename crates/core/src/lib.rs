@@ -1,13 +1,26 @@
 //! The maths of Impasto. No files, no GL, no clock, and no randomness that it was not handed.
 //!
 //! ```text
-//! mesh ─▶ sampling ─▶ particles (progressive blue-noise order)
-//!                         │
-//!         neighbours ◀────┤ (only where `horn` asks)
-//!                         ▼
-//!         direction ─▶ lift: N' per particle ─▶ solve: centre, depth, angle, presence per view
+//! mesh ─▶ shells ─▶ sampling ─▶ particles (progressive blue-noise order)
+//!                                  │
+//!                  neighbours ◀────┤ (only where `horn` asks)
+//!                                  ▼
+//!         direction ─▶ lift: N' per particle ─▶ solve: centre, depth, angle, projected area per view
+//!                                                   └▶ presence
 //! ```
 
+pub mod angle;
+pub mod direction;
+pub mod hash;
+pub mod horn_exact;
+pub mod lift;
 pub mod mesh;
+pub mod neighbours;
+pub mod presence;
+pub mod sampling;
+pub mod screen_map;
+pub mod shells;
+pub mod solve;
 
 pub use mesh::TriangleMesh;
+pub use screen_map::ScreenMap;

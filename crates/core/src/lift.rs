@@ -1,0 +1,177 @@
+//! The reference lift: what is baked per particle so that a frame needs no neighbours and no other frame.
+//!
+//! A lift is a 3×2 matrix N (model units per reference pixel). With J the Jacobian of the current view, `A = J N` is
+//! the local screen map from the reference picture to the current one, and the stroke turns by its polar angle
+//! `φ(A) = atan2(A₂₁ − A₁₂, A₁₁ + A₂₂)` (Horn's similarity, seed paper eq. 1–2, for isotropic neighbours). With the base
+//! angle θ₀ turned in, `N' = N R(θ₀)`, the stroke's own angle is `φ(J N')`.
+
+use glam::{DVec2, DVec3};
+
+/// N or N', by columns, each in model space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lift {
+    /// What one pixel along the reference picture's x is on the surface (with θ₀ turned in: along the stroke).
+    pub along: DVec3,
+    /// Likewise for y (across the stroke, to its left).
+    pub across: DVec3,
+}
+
+/// A screen map A (2×2), by rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelMap2 {
+    /// First row: A₁₁, A₁₂.
+    pub x: DVec2,
+    /// Second row: A₂₁, A₂₂.
+    pub y: DVec2,
+}
+
+impl Lift {
+    /// The tangent solver: `B (J B)⁻¹` for the tangent plane of this normal, B any basis of it. `None` where the
+    /// reference sees the surface edge-on, from behind (`n·(j_x × j_y) ≤ 0`), or not at all.
+    pub fn tangent(reference_jacobian: [DVec3; 2], normal: DVec3) -> Option<Self> {
+        let [jx, jy] = reference_jacobian;
+        // In closed form: with m = j_x × j_y, the columns are j_y × n and n × j_x over n·m.
+        let area = normal.dot(jx.cross(jy));
+        let lift = Self { along: jy.cross(normal) / area, across: normal.cross(jx) / area };
+        (area > 0.0 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
+    }
+
+    /// The virtual reference of `methods` 4.3: a camera that looks straight at the surface, with `up` projected on the
+    /// tangent plane as its up (turntable) and then rolled by `roll_rad`, at `px_per_unit` pixels per model unit.
+    pub fn facing_view(normal: DVec3, up: DVec3, roll_rad: f64, px_per_unit: f64) -> Self {
+        let [right, above] = turntable_axes(normal, up);
+        let (sin, cos) = roll_rad.sin_cos();
+        let scale = 1.0 / px_per_unit;
+        // The camera's own axes turn by +roll, as a rolled camera's do.
+        Self { along: (right * cos + above * sin) * scale, across: (above * cos - right * sin) * scale }
+    }
+
+    /// Horn's estimate over neighbours (seed paper eq. 2): `Σ d pᵀ / Σ|p|²`, d the neighbours' offsets in model space, p
+    /// the same offsets in pixels of the reference picture. Its angle equals the full sum weighted by
+    /// `w = z_neighbour / z_stroke`, exactly. Doubled, so that it maps the reference to about itself, as `tangent` does.
+    /// `None` with fewer than three neighbours or all of them within half a pixel.
+    pub fn horn(offsets: impl Iterator<Item = (DVec3, DVec2)>) -> Option<Self> {
+        let (mut along, mut across, mut sum, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0, 0);
+        for (d, p) in offsets {
+            along += d * p.x;
+            across += d * p.y;
+            sum += p.length_squared();
+            count += 1;
+        }
+        let lift = Self { along: along * (2.0 / sum), across: across * (2.0 / sum) };
+        (count >= 3 && sum > 0.25 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
+    }
+
+    /// `N R(θ)`: what was measured along the reference's x is now measured along a line at this angle to it.
+    pub fn turned(self, angle_rad: f64) -> Self {
+        let (sin, cos) = angle_rad.sin_cos();
+        Self { along: self.along * cos + self.across * sin, across: self.across * cos - self.along * sin }
+    }
+
+    /// `(1 − t)·self + t·other`, `other` taken as the undirected line that is nearer as seen through `jacobian`.
+    pub fn blended(self, other: Self, t: f64, jacobian: [DVec3; 2]) -> Self {
+        let (here, there) = (self.map(jacobian).turn(), other.map(jacobian).turn());
+        let t_signed = if here.dot(there) < 0.0 { -t } else { t };
+        Self {
+            along: self.along * (1.0 - t) + other.along * t_signed,
+            across: self.across * (1.0 - t) + other.across * t_signed,
+        }
+    }
+
+    /// `A = J N`.
+    pub fn map(self, [jx, jy]: [DVec3; 2]) -> PixelMap2 {
+        PixelMap2 {
+            x: DVec2::new(jx.dot(self.along), jx.dot(self.across)),
+            y: DVec2::new(jy.dot(self.along), jy.dot(self.across)),
+        }
+    }
+}
+
+impl PixelMap2 {
+    /// The rotation-and-scale part as a complex number: `(A₁₁ + A₂₂, A₂₁ − A₁₂)`.
+    pub fn turn(self) -> DVec2 {
+        DVec2::new(self.x.x + self.y.y, self.y.x - self.x.y)
+    }
+
+    /// φ(A) in radians, (−π, π].
+    pub fn angle_rad(self) -> f64 {
+        let turn = self.turn();
+        turn.y.atan2(turn.x)
+    }
+
+    /// κ in 0..=1: how much of the map is turning and scaling (`methods` 4.2); at least 1/√2 for any map that does not
+    /// mirror, 0 for a zero map.
+    pub fn kappa(self) -> f64 {
+        let size = self.x.length_squared() + self.y.length_squared();
+        if size > 0.0 { self.turn().length() / (2.0 * size).sqrt() } else { 0.0 }
+    }
+}
+
+/// Right and up axes of a camera that looks straight at a surface: `up` projected on the tangent plane. Where the
+/// surface faces straight up or down, a fixed direction stands in.
+pub fn turntable_axes(normal: DVec3, up: DVec3) -> [DVec3; 2] {
+    let projected = up - normal * normal.dot(up);
+    let above = if projected.length_squared() > 1e-12 {
+        projected.normalize()
+    } else {
+        // Looking down on a table: away from the reader is up.
+        let away = if normal.dot(up) > 0.0 { 1.0 } else { -1.0 };
+        let forward = if up.z.abs() < 0.9 { DVec3::NEG_Z } else { DVec3::Y } * away;
+        (forward - normal * normal.dot(forward)).normalize_or(DVec3::X)
+    };
+    [above.cross(normal), above]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::angle::wrap_pi;
+
+    const JACOBIAN: [DVec3; 2] = [DVec3::new(200.0, 10.0, -40.0), DVec3::new(5.0, 180.0, 60.0)];
+
+    #[test]
+    fn tangent_maps_the_reference_to_itself_and_stays_in_the_plane() {
+        let normal = DVec3::new(0.3, -0.2, 0.9).normalize();
+        let lift = Lift::tangent(JACOBIAN, normal).unwrap();
+        let map = lift.map(JACOBIAN);
+        assert!((map.x - DVec2::X).length() < 1e-12 && (map.y - DVec2::Y).length() < 1e-12);
+        assert!(lift.along.dot(normal).abs() < 1e-15 && lift.across.dot(normal).abs() < 1e-15);
+        assert!(Lift::tangent(JACOBIAN, -normal).is_none());
+        assert!((map.kappa() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_base_angle_is_added_whatever_the_map() {
+        let normal = DVec3::new(0.3, -0.2, 0.9).normalize();
+        let lift = Lift::tangent(JACOBIAN, normal).unwrap();
+        let elsewhere = [DVec3::new(-30.0, 90.0, 12.0), DVec3::new(-140.0, -20.0, 33.0)];
+        for base in [-2.0, 0.1, 0.6, 3.0] {
+            let turned = lift.turned(base).map(elsewhere).angle_rad();
+            assert!(wrap_pi(turned - lift.map(elsewhere).angle_rad() - base).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn facing_view_sees_its_own_base_angle() {
+        let (normal, up) = (DVec3::new(0.1, 0.4, 0.8).normalize(), DVec3::Y);
+        for roll in [0.0, 0.5, -2.0] {
+            let lift = Lift::facing_view(normal, up, roll, 150.0);
+            let [right, above] = turntable_axes(normal, up);
+            assert!((right.cross(above) - normal).length() < 1e-12);
+            // A camera rolled by `roll` has its axes turned; seen by it, the lift is the identity.
+            let camera_x = (right * roll.cos() + above * roll.sin()) * 150.0;
+            let camera_y = (above * roll.cos() - right * roll.sin()) * 150.0;
+            let map = lift.map([camera_x, camera_y]);
+            assert!((map.x - DVec2::X).length() < 1e-12 && (map.y - DVec2::Y).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_blend_takes_the_nearer_of_two_opposite_lines() {
+        let normal = DVec3::new(0.3, -0.2, 0.9).normalize();
+        let lift = Lift::tangent(JACOBIAN, normal).unwrap();
+        let other = lift.turned(std::f64::consts::PI + 0.2);
+        let blend = lift.blended(other, 0.5, JACOBIAN).map(JACOBIAN).angle_rad();
+        assert!((blend - 0.1).abs() < 1e-3, "{blend}");
+    }
+}

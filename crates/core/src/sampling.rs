@@ -1,0 +1,126 @@
+//! Particles on a surface: progressive blue noise, or the source paper's equal counts per polygon.
+
+mod candidates;
+mod dart_grid;
+mod paper;
+mod progressive;
+
+use glam::{Vec2, Vec3};
+
+use crate::TriangleMesh;
+use crate::shells::{Side, sides};
+
+pub use paper::{PolygonParticle, per_polygon};
+pub use progressive::progressive;
+
+/// Where a particle sits: a triangle and a place in it, so that it rides any deformation of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Particle {
+    /// Index of the triangle.
+    pub triangle: u32,
+    /// Weights of the triangle's second and third corner; the first has what is left of 1.
+    pub barycentric: [f32; 2],
+    /// Whether the particle is on the triangle's back.
+    pub flipped: bool,
+    /// Position in model space.
+    pub position: Vec3,
+    /// Unit normal in model space, smooth over shared vertices, on the particle's own side of the triangle.
+    pub normal: Vec3,
+}
+
+impl Particle {
+    /// The texture coordinate at the particle, if the mesh has any.
+    pub fn uv(&self, mesh: &TriangleMesh) -> Option<Vec2> {
+        let [a, b, c] =
+            mesh.triangles[self.triangle as usize].map(|vertex| mesh.uvs.get(vertex as usize).copied());
+        let [v, w] = self.barycentric;
+        Some(a? * (1.0 - v - w) + b? * v + c? * w)
+    }
+}
+
+/// The sides of a mesh that can be seen, with a running sum of their areas.
+#[derive(Clone, Debug)]
+pub struct Surface<'mesh> {
+    mesh: &'mesh TriangleMesh,
+    faces: Vec<Face>,
+    /// Area of all faces up to and including this one, model units squared.
+    area_up_to: Vec<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Face {
+    triangle: u32,
+    flipped: bool,
+}
+
+impl<'mesh> Surface<'mesh> {
+    /// The visible sides of those triangles for which `keep` holds. Triangles without area are left out.
+    pub fn new(mesh: &'mesh TriangleMesh, keep: impl Fn(usize) -> bool) -> Self {
+        let mut surface = Self { mesh, faces: Vec::new(), area_up_to: Vec::new() };
+        let mut sum = 0.0;
+        for (triangle, side) in sides(mesh).into_iter().enumerate() {
+            let area = triangle_area(mesh, triangle);
+            if !(keep(triangle) && area > 0.0) {
+                continue;
+            }
+            let flips: &[bool] = match side {
+                Side::Front => &[false],
+                Side::Back => &[true],
+                Side::Both => &[false, true],
+            };
+            for &flipped in flips {
+                sum += area;
+                surface.faces.push(Face { triangle: triangle as u32, flipped });
+                surface.area_up_to.push(sum);
+            }
+        }
+        surface
+    }
+
+    /// Sum of the areas of all visible sides, model units squared; a sheet counts twice.
+    pub fn area(&self) -> f64 {
+        self.area_up_to.last().copied().unwrap_or(0.0)
+    }
+
+    /// The visible sides as (triangle, whether its back, area in model units squared).
+    pub fn faces(&self) -> impl Iterator<Item = (u32, bool, f64)> + '_ {
+        self.faces.iter().enumerate().map(|(index, face)| {
+            let before = if index == 0 { 0.0 } else { self.area_up_to[index - 1] };
+            (face.triangle, face.flipped, self.area_up_to[index] - before)
+        })
+    }
+
+    /// The particle at a place of a face.
+    fn particle(&self, face: usize, barycentric: [f32; 2]) -> Particle {
+        let Face { triangle, flipped } = self.faces[face];
+        let [v, w] = barycentric;
+        let u = 1.0 - v - w;
+        let [a, b, c] = self.mesh.corners(triangle as usize);
+        let mut across = (b - a).cross(c - a);
+        if flipped {
+            across = -across;
+        }
+        let [na, nb, nc] =
+            self.mesh.triangles[triangle as usize].map(|vertex| self.mesh.normals[vertex as usize]);
+        let smooth = na * u + nb * v + nc * w;
+        let normal = if smooth.dot(across) < 0.0 { -smooth } else { smooth };
+        let normal = normal.try_normalize().or_else(|| across.try_normalize()).unwrap_or(Vec3::Y);
+        Particle { triangle, barycentric, flipped, position: a * u + b * v + c * w, normal }
+    }
+}
+
+fn triangle_area(mesh: &TriangleMesh, triangle: usize) -> f64 {
+    let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
+    (b - a).cross(c - a).length() * 0.5
+}
+
+/// Spreads two numbers in 0..1 evenly over a triangle, as weights of its second and third corner.
+fn barycentric(first: f32, second: f32) -> [f32; 2] {
+    let root = first.sqrt();
+    [root * (1.0 - second), root * second]
+}
+
+/// Greatest spacing that `count` points can have on an area: the hexagonal lattice's, √(2A / (√3 N)).
+pub fn hexagonal_spacing(area: f64, count: usize) -> f64 {
+    (2.0 * area / (3f64.sqrt() * count as f64)).sqrt()
+}

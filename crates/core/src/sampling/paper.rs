@@ -1,0 +1,69 @@
+//! The source paper's sampling: a given number of particles at random places of every polygon.
+
+use rayon::prelude::*;
+
+use super::{Particle, Surface, barycentric};
+use crate::hash;
+
+/// A particle with its number among those of its polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PolygonParticle {
+    /// The particle.
+    pub particle: Particle,
+    /// 0 for the first of its polygon.
+    pub number_in_polygon: u32,
+    /// How many its polygon has.
+    pub count_in_polygon: u32,
+}
+
+/// `count` particles, as equally many on each polygon side as goes, at random places in it (seed paper, 2.1): the
+/// first `count % polygons` polygons get one more.
+pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<PolygonParticle> {
+    let polygons = polygons(surface);
+    let counts: Vec<usize> = (0..polygons.len())
+        .map(|polygon| count / polygons.len() + usize::from(polygon < count % polygons.len()))
+        .collect();
+    polygons
+        .into_par_iter()
+        .zip(counts)
+        .enumerate()
+        .flat_map_iter(|(polygon, (faces, count))| {
+            let seed = hash::combine(seed, polygon as u32);
+            (0..count as u32).map(move |number| {
+                let seed = hash::combine(seed, number);
+                let area: f64 = faces.iter().map(|&(_, area)| area).sum();
+                let mut target = f64::from(hash::unit(hash::combine(seed, 0))) * area;
+                let mut face = faces[0].0;
+                for &(candidate, area) in &faces {
+                    face = candidate;
+                    if target < area {
+                        break;
+                    }
+                    target -= area;
+                }
+                let place =
+                    barycentric(hash::unit(hash::combine(seed, 1)), hash::unit(hash::combine(seed, 2)));
+                PolygonParticle {
+                    particle: surface.particle(face, place),
+                    number_in_polygon: number,
+                    count_in_polygon: count as u32,
+                }
+            })
+        })
+        .collect()
+}
+
+/// The faces of each polygon side, with their areas.
+fn polygons(surface: &Surface<'_>) -> Vec<Vec<(usize, f64)>> {
+    let mut polygons: Vec<Vec<(usize, f64)>> = Vec::new();
+    let mut keys: std::collections::HashMap<(u32, bool), usize> = std::collections::HashMap::new();
+    for (index, (triangle, flipped, area)) in surface.faces().enumerate() {
+        let polygon = surface.mesh.polygon_of_triangle.get(triangle as usize).copied().unwrap_or(triangle);
+        let slot = *keys.entry((polygon, flipped)).or_insert_with(|| {
+            polygons.push(Vec::new());
+            polygons.len() - 1
+        });
+        polygons[slot].push((index, area));
+    }
+    polygons
+}

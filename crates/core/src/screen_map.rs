@@ -1,0 +1,129 @@
+//! From a point of model space to pixels, and the Jacobian of that map.
+
+use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
+
+/// Projects points of one body into one picture: pixels, origin in the picture's centre, Y up.
+///
+/// With homogeneous `p = (x, y, z, 1)`: `x_px = (row_x·p)/(row_w·p)`, likewise y. A perspective lens has
+/// `row_w = depth`, an orthographic one `row_w = (0, 0, 0, 1)`; all else is the same for both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScreenMap {
+    /// Numerator of the x coordinate.
+    pub row_x: DVec4,
+    /// Numerator of the y coordinate.
+    pub row_y: DVec4,
+    /// Denominator of both.
+    pub row_w: DVec4,
+    /// Depth along the gaze, world units, positive in front.
+    pub row_depth: DVec4,
+}
+
+/// How the camera projects, with the picture's height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PixelLens {
+    /// `focal_px` = height / (2 tan(fov_y / 2)).
+    Perspective {
+        /// Distance from the eye to the picture plane, in pixels.
+        focal_px: f64,
+    },
+    /// Parallel rays.
+    Orthographic {
+        /// Pixels per world unit.
+        px_per_unit: f64,
+    },
+}
+
+impl ScreenMap {
+    /// The map of a body at `world_from_model` seen through `view_from_world` (right-handed, looking down −Z).
+    pub fn new(view_from_world: DMat4, world_from_model: DAffine3, lens: PixelLens) -> Self {
+        let view_from_model = view_from_world * DMat4::from(world_from_model);
+        let (x, y, depth) = (view_from_model.row(0), view_from_model.row(1), -view_from_model.row(2));
+        match lens {
+            PixelLens::Perspective { focal_px } => {
+                Self { row_x: x * focal_px, row_y: y * focal_px, row_w: depth, row_depth: depth }
+            }
+            PixelLens::Orthographic { px_per_unit } => {
+                Self { row_x: x * px_per_unit, row_y: y * px_per_unit, row_w: DVec4::W, row_depth: depth }
+            }
+        }
+    }
+
+    /// Where a point of model space shows, in pixels from the picture's centre; not finite on the eye's plane.
+    pub fn project(&self, position_in_model: DVec3) -> DVec2 {
+        let p = position_in_model.extend(1.0);
+        DVec2::new(self.row_x.dot(p), self.row_y.dot(p)) / self.row_w.dot(p)
+    }
+
+    /// Depth of a point of model space along the gaze.
+    pub fn depth(&self, position_in_model: DVec3) -> f64 {
+        self.row_depth.dot(position_in_model.extend(1.0))
+    }
+
+    /// The two rows of the Jacobian J (pixels per model unit) at a point: `methods` 4.1, for any lens.
+    pub fn jacobian(&self, position_in_model: DVec3) -> [DVec3; 2] {
+        let p = position_in_model.extend(1.0);
+        let w = self.row_w.dot(p);
+        let (u, v) = (self.row_x.dot(p) / w, self.row_y.dot(p) / w);
+        [
+            (self.row_x.truncate() - self.row_w.truncate() * u) / w,
+            (self.row_y.truncate() - self.row_w.truncate() * v) / w,
+        ]
+    }
+}
+
+/// Projected area in px² per unit of surface with this unit normal, positive where the surface faces the eye:
+/// `n · (j_x × j_y)`.
+pub fn area_px(jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
+    normal_in_model.dot(jacobian[0].cross(jacobian[1]))
+}
+
+/// Cosine between the normal and the direction to the eye; 0 where the Jacobian is singular.
+pub fn facing(jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
+    let towards_eye = jacobian[0].cross(jacobian[1]);
+    let length = towards_eye.length();
+    if length > 0.0 { normal_in_model.dot(towards_eye) / length } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DQuat;
+
+    fn tilted_map(lens: PixelLens) -> ScreenMap {
+        let view = DMat4::from_rotation_translation(DQuat::from_rotation_z(0.3), DVec3::new(0.1, -0.2, -4.0));
+        let pose =
+            DAffine3::from_rotation_translation(DQuat::from_rotation_y(0.7), DVec3::new(0.2, 0.1, 0.3));
+        ScreenMap::new(view, pose, lens)
+    }
+
+    #[test]
+    fn jacobian_is_the_derivative_of_the_projection() {
+        for lens in
+            [PixelLens::Perspective { focal_px: 900.0 }, PixelLens::Orthographic { px_per_unit: 200.0 }]
+        {
+            let map = tilted_map(lens);
+            let at = DVec3::new(0.4, -0.3, 0.5);
+            let jacobian = map.jacobian(at);
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let step = 1e-5;
+                let slope = (map.project(at + axis * step) - map.project(at - axis * step)) / (2.0 * step);
+                assert!((slope.x - jacobian[0].dot(axis)).abs() < 1e-4, "{lens:?}");
+                assert!((slope.y - jacobian[1].dot(axis)).abs() < 1e-4, "{lens:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn facing_is_the_cosine_to_the_eye() {
+        let map = tilted_map(PixelLens::Perspective { focal_px: 900.0 });
+        let at = DVec3::new(0.4, -0.3, 0.5);
+        // The eye is where numerator and denominator vanish together.
+        let eye = glam::DMat3::from_cols(map.row_x.truncate(), map.row_y.truncate(), map.row_w.truncate())
+            .transpose()
+            .inverse()
+            * -DVec3::new(map.row_x.w, map.row_y.w, map.row_w.w);
+        let normal = DVec3::new(0.1, 0.2, 0.9).normalize();
+        let expected = normal.dot((eye - at).normalize());
+        assert!((facing(map.jacobian(at), normal) - expected).abs() < 1e-12);
+    }
+}

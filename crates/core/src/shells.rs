@@ -1,0 +1,138 @@
+//! Which side of a surface can be seen: closed shells from outside only, open sheets from both sides.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+
+use crate::TriangleMesh;
+
+/// From where the triangles of a shell can be seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// A closed shell that winds outwards, as it should.
+    Front,
+    /// A closed shell that is inside out: its back is the outside.
+    Back,
+    /// A sheet with a border, or one that cannot be oriented.
+    Both,
+}
+
+/// For each triangle, the side that can be seen.
+///
+/// Triangles that share an edge belong to one shell (edges are compared by position, so split normals and texture
+/// seams do not open a shell). A shell is closed when every edge is run as often forwards as backwards; it is inside
+/// out when its signed volume is negative.
+pub fn sides(mesh: &TriangleMesh) -> Vec<Side> {
+    let point_of_vertex = weld(&mesh.positions);
+    let mut shells = Shells::new(mesh.triangles.len());
+    // Edge -> (a triangle on it, times run from the lower to the higher point minus times run back).
+    let mut edges: HashMap<(u32, u32), (u32, i32)> = HashMap::with_capacity(mesh.triangles.len() * 2);
+    for (triangle, vertices) in mesh.triangles.iter().enumerate() {
+        let points = vertices.map(|vertex| point_of_vertex[vertex as usize]);
+        for corner in 0..3 {
+            let (from, to) = (points[corner], points[(corner + 1) % 3]);
+            if from == to {
+                continue;
+            }
+            let (key, step) = if from < to { ((from, to), 1) } else { ((to, from), -1) };
+            let entry = edges.entry(key).or_insert((triangle as u32, 0));
+            shells.join(entry.0 as usize, triangle);
+            entry.1 += step;
+        }
+    }
+    let mut open = vec![false; mesh.triangles.len()];
+    for &(triangle, balance) in edges.values() {
+        if balance != 0 {
+            open[shells.root(triangle as usize)] = true;
+        }
+    }
+    let mut volume = vec![0.0f64; mesh.triangles.len()];
+    for triangle in 0..mesh.triangles.len() {
+        let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
+        volume[shells.root(triangle)] += a.dot(b.cross(c));
+    }
+    (0..mesh.triangles.len())
+        .map(|triangle| match shells.root(triangle) {
+            root if open[root] || volume[root] == 0.0 => Side::Both,
+            root if volume[root] < 0.0 => Side::Back,
+            _ => Side::Front,
+        })
+        .collect()
+}
+
+/// Gives vertices at the same position the same number.
+fn weld(positions: &[Vec3]) -> Vec<u32> {
+    let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(positions.len());
+    positions
+        .iter()
+        .map(|position| {
+            let next = numbers.len() as u32;
+            // Adding zero turns −0 into +0.
+            *numbers.entry(position.to_array().map(|value| (value + 0.0).to_bits())).or_insert(next)
+        })
+        .collect()
+}
+
+/// Disjoint sets of triangles.
+struct Shells {
+    parent: Vec<u32>,
+}
+
+impl Shells {
+    fn new(count: usize) -> Self {
+        Self { parent: (0..count as u32).collect() }
+    }
+
+    fn root(&mut self, mut triangle: usize) -> usize {
+        while self.parent[triangle] as usize != triangle {
+            let grandparent = self.parent[self.parent[triangle] as usize];
+            self.parent[triangle] = grandparent;
+            triangle = grandparent as usize;
+        }
+        triangle
+    }
+
+    fn join(&mut self, first: usize, second: usize) {
+        let (first, second) = (self.root(first), self.root(second));
+        self.parent[first.max(second)] = first.min(second) as u32;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tetrahedron() -> TriangleMesh {
+        TriangleMesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_closed_shell_is_seen_from_outside() {
+        let mut mesh = tetrahedron();
+        assert_eq!(sides(&mesh), [Side::Front; 4]);
+        for triangle in &mut mesh.triangles {
+            triangle.swap(0, 1);
+        }
+        assert_eq!(sides(&mesh), [Side::Back; 4]);
+    }
+
+    #[test]
+    fn a_sheet_beside_a_shell_is_seen_from_both_sides() {
+        let mut mesh = tetrahedron();
+        mesh.positions.extend([5.0, 6.0, 7.0].map(|x| Vec3::new(x, x * x, 0.0)));
+        mesh.triangles.push([4, 5, 6]);
+        assert_eq!(sides(&mesh), [Side::Front, Side::Front, Side::Front, Side::Front, Side::Both]);
+    }
+
+    #[test]
+    fn split_vertices_do_not_open_a_shell() {
+        let mut mesh = tetrahedron();
+        mesh.positions.push(Vec3::new(-0.0, 0.0, 0.0));
+        mesh.triangles[2][0] = 4;
+        assert_eq!(sides(&mesh), [Side::Front; 4]);
+    }
+}

@@ -1,0 +1,230 @@
+//! Projection and orientation of all particles of a body, in one pass over structure-of-arrays data.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::ScreenMap;
+use crate::angle::atan2;
+use crate::lift::Lift;
+
+/// How many particles one task handles.
+const CHUNK: usize = 8192;
+
+/// What is baked per particle, one array per number.
+#[derive(Clone, Debug, Default)]
+pub struct BakedParticles {
+    /// Position in model space: x, y, z.
+    pub position: [Vec<f32>; 3],
+    /// Unit normal in model space: x, y, z.
+    pub normal: [Vec<f32>; 3],
+    /// First column of N': x, y, z.
+    pub along: [Vec<f32>; 3],
+    /// Second column of N': x, y, z.
+    pub across: [Vec<f32>; 3],
+    /// 1 keeps the stroke flat on the picture, 0 lets its direction follow the surface; empty when all are 1.
+    pub flatness: Vec<f32>,
+}
+
+/// What a view makes of them, one array per number, in the same order.
+#[derive(Clone, Debug, Default)]
+pub struct SolvedParticles {
+    /// Pixels from the picture's centre.
+    pub x_px: Vec<f32>,
+    /// Pixels from the picture's centre, Y up.
+    pub y_px: Vec<f32>,
+    /// Along the gaze, world units.
+    pub depth: Vec<f32>,
+    /// Counter-clockwise from +X, radians in (−π, π].
+    pub angle_rad: Vec<f32>,
+    /// Projected area in px² per unit of surface; positive where it faces the eye.
+    pub area_px: Vec<f32>,
+}
+
+impl BakedParticles {
+    /// Appends one particle.
+    pub fn push(&mut self, position: DVec3, normal: DVec3, lift: Lift) {
+        for (arrays, value) in [
+            (&mut self.position, position),
+            (&mut self.normal, normal),
+            (&mut self.along, lift.along),
+            (&mut self.across, lift.across),
+        ] {
+            for (array, number) in arrays.iter_mut().zip(value.to_array()) {
+                array.push(number as f32);
+            }
+        }
+    }
+
+    /// How many particles.
+    pub fn len(&self) -> usize {
+        self.position[0].len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Memory held, in bytes.
+    pub fn bytes(&self) -> usize {
+        (12 * self.len() + self.flatness.len()) * size_of::<f32>()
+    }
+
+    /// A particle's position in model space.
+    pub fn position_of(&self, particle: usize) -> DVec3 {
+        vector(&self.position, particle)
+    }
+
+    /// A particle's unit normal in model space.
+    pub fn normal_of(&self, particle: usize) -> DVec3 {
+        vector(&self.normal, particle)
+    }
+
+    /// A particle's lift N'.
+    pub fn lift_of(&self, particle: usize) -> Lift {
+        Lift { along: vector(&self.along, particle), across: vector(&self.across, particle) }
+    }
+}
+
+fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
+    DVec3::from_array([0, 1, 2].map(|axis| f64::from(arrays[axis][particle])))
+}
+
+/// Projects every particle and turns its stroke: `θ = φ(J N')`, or with flatness F < 1
+/// `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
+pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {
+    let count = particles.len();
+    for array in
+        [&mut solved.x_px, &mut solved.y_px, &mut solved.depth, &mut solved.angle_rad, &mut solved.area_px]
+    {
+        array.resize(count, 0.0);
+    }
+    let rows = Rows::new(map);
+    let outputs = (
+        solved.x_px.par_chunks_mut(CHUNK),
+        solved.y_px.par_chunks_mut(CHUNK),
+        solved.depth.par_chunks_mut(CHUNK),
+        solved.angle_rad.par_chunks_mut(CHUNK),
+        solved.area_px.par_chunks_mut(CHUNK),
+    );
+    outputs.into_par_iter().enumerate().for_each(|(chunk, (x_px, y_px, depth, angle_rad, area_px))| {
+        let first = chunk * CHUNK;
+        let output = Output { x_px, y_px, depth, angle_rad, area_px };
+        if particles.flatness.is_empty() {
+            wide::run::<false>(particles, first, &rows, output);
+        } else {
+            wide::run::<true>(particles, first, &rows, output);
+        }
+    });
+}
+
+/// The screen map in single precision.
+#[derive(Clone, Copy)]
+struct Rows {
+    x: [f32; 4],
+    y: [f32; 4],
+    w: [f32; 4],
+    depth: [f32; 4],
+}
+
+impl Rows {
+    fn new(map: &ScreenMap) -> Self {
+        let row = |row: glam::DVec4| row.as_vec4().to_array();
+        Self { x: row(map.row_x), y: row(map.row_y), w: row(map.row_w), depth: row(map.row_depth) }
+    }
+}
+
+struct Output<'a> {
+    x_px: &'a mut [f32],
+    y_px: &'a mut [f32],
+    depth: &'a mut [f32],
+    angle_rad: &'a mut [f32],
+    area_px: &'a mut [f32],
+}
+
+/// The loop, compiled for the widest vectors that the processor has.
+#[expect(unsafe_code, reason = "a function compiled for AVX2 may only be called where AVX2 was found")]
+mod wide {
+    use super::{BakedParticles, Output, Rows, run_portable};
+
+    /// Runs the loop. Every build of it rounds alike (no fused multiply-add), so the bits do not depend on the machine.
+    pub(super) fn run<const WRAPPED: bool>(
+        particles: &BakedParticles,
+        first: usize,
+        rows: &Rows,
+        output: Output<'_>,
+    ) {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: AVX2 was found on this processor.
+            return unsafe { run_avx2::<WRAPPED>(particles, first, rows, output) };
+        }
+        run_portable::<WRAPPED>(particles, first, rows, output);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn run_avx2<const WRAPPED: bool>(
+        particles: &BakedParticles,
+        first: usize,
+        rows: &Rows,
+        output: Output<'_>,
+    ) {
+        run_portable::<WRAPPED>(particles, first, rows, output);
+    }
+}
+
+#[inline(always)]
+fn run_portable<const WRAPPED: bool>(
+    particles: &BakedParticles,
+    first: usize,
+    rows: &Rows,
+    output: Output<'_>,
+) {
+    let count = output.x_px.len();
+    // Slices of one known length, so that the compiler drops the bounds checks and runs lanes side by side.
+    let [px, py, pz] = slices(&particles.position, first, count);
+    let [nx, ny, nz] = slices(&particles.normal, first, count);
+    let [ax, ay, az] = slices(&particles.along, first, count);
+    let [bx, by, bz] = slices(&particles.across, first, count);
+    let flatness = if WRAPPED { &particles.flatness[first..first + count] } else { px };
+    let Output { x_px, y_px, depth, angle_rad, area_px } = output;
+    let (x_px, y_px, depth) = (&mut x_px[..count], &mut y_px[..count], &mut depth[..count]);
+    let (angle_rad, area_px) = (&mut angle_rad[..count], &mut area_px[..count]);
+    let Rows { x: rx, y: ry, w: rw, depth: rd } = *rows;
+    for i in 0..count {
+        let (x, y, z) = (px[i], py[i], pz[i]);
+        let over_w = 1.0 / (rw[0] * x + rw[1] * y + rw[2] * z + rw[3]);
+        let u = (rx[0] * x + rx[1] * y + rx[2] * z + rx[3]) * over_w;
+        let v = (ry[0] * x + ry[1] * y + ry[2] * z + ry[3]) * over_w;
+        x_px[i] = u;
+        y_px[i] = v;
+        depth[i] = rd[0] * x + rd[1] * y + rd[2] * z + rd[3];
+        // J, row by row.
+        let (jx0, jx1, jx2) =
+            ((rx[0] - rw[0] * u) * over_w, (rx[1] - rw[1] * u) * over_w, (rx[2] - rw[2] * u) * over_w);
+        let (jy0, jy1, jy2) =
+            ((ry[0] - rw[0] * v) * over_w, (ry[1] - rw[1] * v) * over_w, (ry[2] - rw[2] * v) * over_w);
+        area_px[i] = nx[i] * (jx1 * jy2 - jx2 * jy1)
+            + ny[i] * (jx2 * jy0 - jx0 * jy2)
+            + nz[i] * (jx0 * jy1 - jx1 * jy0);
+        // A = J N'.
+        let a11 = jx0 * ax[i] + jx1 * ay[i] + jx2 * az[i];
+        let a21 = jy0 * ax[i] + jy1 * ay[i] + jy2 * az[i];
+        let a12 = jx0 * bx[i] + jx1 * by[i] + jx2 * bz[i];
+        let a22 = jy0 * bx[i] + jy1 * by[i] + jy2 * bz[i];
+        let (mut turn_x, mut turn_y) = (a11 + a22, a21 - a12);
+        if WRAPPED {
+            let flat = flatness[i] / (turn_x * turn_x + turn_y * turn_y).sqrt().max(f32::MIN_POSITIVE);
+            let wrapped = (1.0 - flatness[i]) / (a11 * a11 + a21 * a21).sqrt().max(f32::MIN_POSITIVE);
+            turn_x = turn_x * flat + a11 * wrapped;
+            turn_y = turn_y * flat + a21 * wrapped;
+        }
+        angle_rad[i] = atan2(turn_y, turn_x);
+    }
+}
+
+#[inline(always)]
+fn slices(arrays: &[Vec<f32>; 3], first: usize, count: usize) -> [&[f32]; 3] {
+    [&arrays[0][first..first + count], &arrays[1][first..first + count], &arrays[2][first..first + count]]
+}
