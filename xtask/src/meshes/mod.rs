@@ -55,3 +55,52 @@ fn shipped() -> Vec<PolyMesh> {
 fn files(mesh: &PolyMesh) -> anyhow::Result<[(String, String); 2]> {
     Ok([(format!("{}.obj", mesh.name), mesh.to_obj()?), (format!("{}.mtl", mesh.name), mesh.to_mtl()?)])
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::*;
+
+    #[test]
+    fn committed_files_are_what_the_code_writes() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(FOLDER);
+        for mesh in shipped() {
+            for (name, text) in files(&mesh).unwrap() {
+                let committed = std::fs::read_to_string(folder.join(&name)).unwrap();
+                assert!(committed == text, "{name} is stale: run `cargo xtask meshes`");
+            }
+        }
+    }
+
+    #[test]
+    fn counts_are_the_papers() {
+        for (name, polygons) in [("apple", 550), ("fish", 8618), ("simple_objects", 3978)] {
+            let mesh = shipped().into_iter().find(|mesh| mesh.name == name).unwrap();
+            assert_eq!(mesh.faces.len(), polygons, "{name}");
+        }
+    }
+
+    /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
+    #[test]
+    fn bodies_are_closed_and_wind_outwards() {
+        for mesh in shipped().into_iter().filter(|mesh| mesh.name != "wall") {
+            let mut edges = HashMap::new();
+            let mut volume = 0.0;
+            for face in &mesh.faces {
+                for (index, &from) in face.corners.iter().enumerate() {
+                    let to = face.corners[(index + 1) % face.corners.len()];
+                    *edges.entry((from, to)).or_insert(0) += 1;
+                }
+                let at = |corner: usize| mesh.positions[face.corners[corner]];
+                for corner in 2..face.corners.len() {
+                    volume += at(0).dot(at(corner - 1).cross(at(corner)));
+                }
+            }
+            assert!(volume > 0.0, "{} is inside out", mesh.name);
+            for (&(from, to), &count) in &edges {
+                assert!(count == 1 && edges.get(&(to, from)) == Some(&1), "{}: edge {from}-{to}", mesh.name);
+            }
+        }
+    }
+}
