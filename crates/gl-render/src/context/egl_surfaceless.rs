@@ -95,11 +95,8 @@ pub(super) fn open(options: &OpenOptions) -> Result<Opened, String> {
     let mut found = 0;
     // SAFETY: every pointer is null or points to a live value of the documented kind and length.
     let display = unsafe {
-        let display = (egl.get_platform_display)(
-            PLATFORM_SURFACELESS_MESA,
-            std::ptr::null_mut(),
-            std::ptr::null(),
-        );
+        let display =
+            (egl.get_platform_display)(PLATFORM_SURFACELESS_MESA, std::ptr::null_mut(), std::ptr::null());
         if display.is_null() {
             return Err("this EGL has no surfaceless platform".to_owned());
         }
@@ -135,9 +132,8 @@ fn create(
         }
         attributes.push(NONE);
         // SAFETY: display and config come from this EGL; the list ends with NONE.
-        let context = unsafe {
-            (egl.create_context)(display, config, std::ptr::null_mut(), attributes.as_ptr())
-        };
+        let context =
+            unsafe { (egl.create_context)(display, config, std::ptr::null_mut(), attributes.as_ptr()) };
         if !context.is_null() {
             return Ok(context);
         }

@@ -116,7 +116,6 @@ fn finish(opened: Opened, options: &OpenOptions) -> Result<(Gpu, String), String
     }
     let messages = options.debug.then(|| DriverMessages::install(&mut gl)).flatten();
     let limits = Limits::read(&gl);
-    #[expect(clippy::arc_with_non_send_sync, reason = "the window's toolkit shares contexts as an Arc")]
     let gl = Arc::new(gl);
     Ok((Gpu::new(gl, platform, messages, limits), device))
 }

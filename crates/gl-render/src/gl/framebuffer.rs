@@ -40,23 +40,11 @@ impl Framebuffer {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(id));
             for (&point, texture) in points.iter().zip(colors) {
                 debug_assert!(!texture.format().is_depth());
-                gl.framebuffer_texture_2d(
-                    glow::FRAMEBUFFER,
-                    point,
-                    glow::TEXTURE_2D,
-                    Some(texture.id()),
-                    0,
-                );
+                gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(texture.id()), 0);
             }
             if let Some(depth) = depth {
                 let point = glow::DEPTH_ATTACHMENT;
-                gl.framebuffer_texture_2d(
-                    glow::FRAMEBUFFER,
-                    point,
-                    glow::TEXTURE_2D,
-                    Some(depth.id()),
-                    0,
-                );
+                gl.framebuffer_texture_2d(glow::FRAMEBUFFER, point, glow::TEXTURE_2D, Some(depth.id()), 0);
             }
             if points.is_empty() {
                 gl.draw_buffers(&[glow::NONE]);

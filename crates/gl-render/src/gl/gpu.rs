@@ -83,12 +83,6 @@ impl Gpu {
         self.shared.platform.make_current().map_err(GlError::Context)
     }
 
-    /// Waits until everything has been drawn.
-    pub(crate) fn finish(&self) {
-        // SAFETY: the context is current.
-        unsafe { self.gl().finish() };
-    }
-
     /// The driver's complaints since the last call, as an error.
     pub(crate) fn complaints(&self) -> Result<(), GlError> {
         let said = self.shared.messages.as_ref().map(DriverMessages::take).unwrap_or_default();

@@ -1,6 +1,9 @@
 //! The OpenGL that Impasto needs, as safe types: nothing above this module can call OpenGL any other way.
 
-#![expect(unsafe_code, reason = "every OpenGL call is an unsafe function; this module wraps the few that are needed")]
+#![expect(
+    unsafe_code,
+    reason = "every OpenGL call is an unsafe function; this module wraps the few that are needed"
+)]
 
 mod buffer;
 mod framebuffer;
@@ -15,9 +18,9 @@ pub(crate) use buffer::{Buffer, BufferUse};
 pub(crate) use framebuffer::Framebuffer;
 pub(crate) use gpu::{Gpu, Limits};
 pub(crate) use pass::{Blend, DrawState, Records, Vertices};
-pub(crate) use program::{Program, ProgramSource, Value};
+pub(crate) use program::{Bound, Program, ProgramSource};
 pub(crate) use shader_text::ShaderFile;
-pub(crate) use texture::{Filter, Format, Texture, TextureShape};
+pub(crate) use texture::{Filter, Format, Texture};
 pub(crate) use vertex_array::{Attribute, VertexArray};
 
 /// What can go wrong between Impasto and the driver.

@@ -32,14 +32,9 @@ pub(crate) enum Vertices {
     /// One triangle that covers the picture, made from the vertex number.
     Screen,
     /// Indexed triangles: first index and number of indices.
-    Indexed {
-        first: u32,
-        count: u32,
-    },
+    Indexed { first: u32, count: u32 },
     /// A strip of four corners for each instance.
-    Quads {
-        instances: u32,
-    },
+    Quads { instances: u32 },
 }
 
 impl Gpu {

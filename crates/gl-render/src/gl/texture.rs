@@ -184,18 +184,7 @@ impl Texture {
                 TextureShape::Array([w, h, layers]) => {
                     let layers = layers as i32;
                     let target = glow::TEXTURE_2D_ARRAY;
-                    gl.tex_image_3d(
-                        target,
-                        level,
-                        internal,
-                        side(w),
-                        side(h),
-                        layers,
-                        0,
-                        format,
-                        kind,
-                        data,
-                    );
+                    gl.tex_image_3d(target, level, internal, side(w), side(h), layers, 0, format, kind, data);
                 }
             }
         }
@@ -208,7 +197,9 @@ impl Texture {
             Filter::LinearInLevel if levels > 1 => {
                 (glow::LINEAR_MIPMAP_NEAREST, glow::LINEAR, glow::CLAMP_TO_EDGE)
             }
-            Filter::LinearInLevel | Filter::ShadowCompare => (glow::LINEAR, glow::LINEAR, glow::CLAMP_TO_EDGE),
+            Filter::LinearInLevel | Filter::ShadowCompare => {
+                (glow::LINEAR, glow::LINEAR, glow::CLAMP_TO_EDGE)
+            }
             Filter::TrilinearRepeat => (glow::LINEAR_MIPMAP_LINEAR, glow::LINEAR, glow::REPEAT),
         };
         let kind = self.kind();
@@ -222,11 +213,7 @@ impl Texture {
             gl.tex_parameter_i32(kind, glow::TEXTURE_WRAP_T, wrap as i32);
             gl.tex_parameter_i32(kind, glow::TEXTURE_MAX_LEVEL, levels as i32 - 1);
             if filter == Filter::ShadowCompare {
-                gl.tex_parameter_i32(
-                    kind,
-                    glow::TEXTURE_COMPARE_MODE,
-                    glow::COMPARE_REF_TO_TEXTURE as i32,
-                );
+                gl.tex_parameter_i32(kind, glow::TEXTURE_COMPARE_MODE, glow::COMPARE_REF_TO_TEXTURE as i32);
                 gl.tex_parameter_i32(kind, glow::TEXTURE_COMPARE_FUNC, glow::LEQUAL as i32);
             }
         }
