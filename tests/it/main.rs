@@ -3,4 +3,5 @@
 mod horn;
 mod progressive_order;
 mod roll_and_lateral;
+mod rotating_strokes;
 mod steadiness;
