@@ -69,6 +69,7 @@ pub struct Timeline {
 
 /// Which pose the stroke directions refer to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Reference {
     /// The camera and the objects as they stand at this frame.
     Frame(i64),
@@ -99,6 +100,7 @@ pub struct Camera {
 
 /// Projection of the camera. Lengths in world units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Lens {
     /// Central projection; `fov_y_deg` is the vertical field of view.
     Perspective {
@@ -320,6 +322,7 @@ pub struct Region {
 
 /// What a region covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Selector {
     /// All objects.
     Everything,
@@ -333,6 +336,7 @@ pub enum Selector {
 
 /// Base direction of strokes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Direction {
     /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
     Angle(f64),
@@ -344,6 +348,7 @@ pub enum Direction {
 
 /// How the scene is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Style {
     /// Brush strokes that turn with what they lie on.
     RotatingStrokes {

@@ -2,9 +2,13 @@
 
 pub mod assets;
 pub mod document;
+pub mod limits;
+pub mod load;
 pub mod loaded;
+pub mod locate;
 pub mod mesh_file;
 pub mod motion;
+mod nearest;
 pub mod presets;
 pub mod problem;
 mod values;
