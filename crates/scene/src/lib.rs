@@ -1,6 +1,7 @@
 //! The document: what a `.ron` scene file means, mesh files, keyframes, located errors.
 
 pub mod assets;
+pub mod check;
 pub mod document;
 pub mod limits;
 pub mod load;
@@ -11,4 +12,5 @@ pub mod motion;
 mod nearest;
 pub mod presets;
 pub mod problem;
+pub mod save;
 mod values;
