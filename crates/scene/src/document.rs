@@ -104,7 +104,8 @@ pub struct Camera {
 pub enum Lens {
     /// Central projection; `fov_y_deg` is the vertical field of view.
     Perspective {
-        /// Vertical field of view, degrees, in (0, 180).
+        /// Vertical field of view, degrees, from 1 to 170.
+        #[serde(default = "default_fov_y_deg")]
         fov_y_deg: f64,
         /// Nearest visible depth, > 0.
         #[serde(default = "default_near")]
@@ -124,6 +125,10 @@ pub enum Lens {
         #[serde(default = "default_far")]
         far: f64,
     },
+}
+
+fn default_fov_y_deg() -> f64 {
+    35.0
 }
 
 fn default_near() -> f64 {
@@ -413,7 +418,7 @@ impl Default for Reference {
 
 impl Default for Lens {
     fn default() -> Self {
-        Self::Perspective { fov_y_deg: 35.0, near: default_near(), far: default_far() }
+        Self::Perspective { fov_y_deg: default_fov_y_deg(), near: default_near(), far: default_far() }
     }
 }
 

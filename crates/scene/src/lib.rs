@@ -10,6 +10,7 @@ pub mod locate;
 pub mod mesh_file;
 pub mod motion;
 mod nearest;
+pub mod new_scene;
 pub mod presets;
 pub mod problem;
 pub mod save;

@@ -108,6 +108,11 @@ impl Located {
         self.place(node.start as usize)
     }
 
+    /// The value of a field; `None` where the file leaves it out.
+    pub(crate) fn node_at(&self, field_path: &str) -> Option<&Node> {
+        Step::split(field_path).try_fold(&self.root, |node, step| self.child(node, step))
+    }
+
     /// The value one step inside another, through a `Some(…)`.
     pub(crate) fn child<'a>(&'a self, node: &'a Node, step: Step<'_>) -> Option<&'a Node> {
         match (&self.through_some(node).inside, step) {
@@ -138,12 +143,11 @@ impl Located {
                 Inside::Items(items) => {
                     // A place between two values belongs to the later one only if it starts there.
                     let index = items.partition_point(|item| (item.end as usize) < offset);
-                    items.get(index).filter(|item| holds(item)).map(|item| {
+                    items.get(index).filter(|item| holds(item)).inspect(|_| {
                         let is_payload = node.name_bytes > 0;
                         if !is_payload {
                             path.push_str(&format!("[{index}]"));
                         }
-                        item
                     })
                 }
                 Inside::Fields(fields) => {

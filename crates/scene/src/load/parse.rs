@@ -133,11 +133,9 @@ fn explain(path: &Path, located: &Located, error: &SpannedError, unknown: Option
             error_in(path, at(place), message, one_of(found, expected))
         }
         E::MissingStructField { field, .. } => {
-            let (field_path, node) = located.innermost(start.min(end));
-            let owner =
-                if field_path.is_empty() { "the scene".to_owned() } else { format!("`{field_path}`") };
+            let (field_path, place) = enclosing_struct(located, end);
             let mend = format!("add `{field}: …`, {}", what_goes_into(field).unwrap_or("it has no default"));
-            error_in(path, at(node.start as usize), format!("{owner} has no `{field}`"), mend)
+            error_in(path, at(place), format!("{field_path} has no `{field}`"), mend)
         }
         E::DuplicateStructField { field, .. } => {
             error_in(path, at(end), format!("the field `{field}` is given twice"), "keep one of them")
@@ -149,14 +147,29 @@ fn explain(path: &Path, located: &Located, error: &SpannedError, unknown: Option
             let mend = "remove the line; only `#![enable(implicit_some)]` is of use here";
             error_in(path, at(end), format!("there is no RON extension `{}`", shorten(name)), mend)
         }
+        E::ExpectedComma if !is_inside_value(located, end) => {
+            error_in(path, at(end), "a comma is missing before this", "add `,` between the two values")
+        }
         other => does_not_fit(path, located, (start, end), other),
     }
 }
 
 /// A value of the wrong kind, or text that is no RON.
 fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ron::Error) -> Problem {
+    let is_count = matches!(
+        error,
+        ron::Error::ExpectedDifferentLength { .. }
+            | ron::Error::ExpectedStructLikeEnd
+            | ron::Error::ExpectedArrayEnd
+    );
     let (field_path, offset) = enclosing(located, span.0, span.1);
-    let (_, node) = located.innermost(offset);
+    let item_path = field_path.trim_matches('`');
+    // Too many or too few values are a fault of what holds them, not of the last one.
+    let holder = item_path.strip_suffix(']').filter(|_| is_count).and_then(|path| path.rsplit_once('['));
+    let (field_path, node) = match holder.and_then(|(path, _)| Some((path, located.node_at(path)?))) {
+        Some((path, node)) => (named(path), node),
+        None => (field_path, located.innermost(offset).1),
+    };
     let value = shorten(located.text_of(node));
     let said = shorten(&lower_first(&error.to_string()));
     let field = field_path.trim_matches('`').rsplit('.').next().unwrap_or("");
@@ -166,12 +179,27 @@ fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ro
         |kind| format!("it takes {kind}"),
     );
     let message = format!("`{value}` does not fit {field_path} ({said})");
-    error_in(path, Some(located.place(offset)), message, mend)
+    error_in(path, Some(located.place(node.start as usize)), message, mend)
+}
+
+/// Whether the parser stopped within a number, a text or a name, as in `10.5` where a whole number belongs.
+fn is_inside_value(located: &Located, offset: usize) -> bool {
+    let (_, node) = located.innermost(offset);
+    let own_end = match node.inside {
+        Inside::Nothing => node.end as usize,
+        // The name of a variant, up to its bracket.
+        Inside::Items(_) | Inside::Fields(_) if node.name_bytes > 0 => {
+            (node.start + node.name_bytes) as usize + 1
+        }
+        Inside::Items(_) | Inside::Fields(_) => return false,
+    };
+    (node.start as usize + 1..own_end).contains(&offset)
 }
 
 /// Which value the parser stumbled in: its path for a message, and its offset.
 fn enclosing(located: &Located, start: usize, end: usize) -> (String, usize) {
-    let blank = located.text()[start.min(end)..].len() - located.text()[start.min(end)..].trim_start().len();
+    let behind = &located.text()[start.min(end)..];
+    let blank = behind.len() - behind.trim_start().len();
     let first = (start.min(end) + blank).min(start.max(end));
     let (mut field_path, mut node) = located.innermost(first);
     if !matches!(node.inside, Inside::Nothing) {
@@ -180,8 +208,26 @@ fn enclosing(located: &Located, start: usize, end: usize) -> (String, usize) {
             (field_path, node) = (later_path, later);
         }
     }
-    let named = if field_path.is_empty() { "the scene".to_owned() } else { format!("`{field_path}`") };
-    (named, node.start as usize)
+    (named(&field_path), node.start as usize)
+}
+
+/// The struct in whose brackets the parser stood: its path for a message, and its offset.
+fn enclosing_struct(located: &Located, offset: usize) -> (String, usize) {
+    let (mut field_path, mut node) = located.innermost(offset);
+    let is_open = |node: &Node| {
+        let is_bracketed = !matches!(node.inside, Inside::Nothing) && located.text_of(node).ends_with(')');
+        is_bracketed && offset < node.end as usize
+    };
+    while !is_open(node) {
+        let Some(cut) = field_path.rfind(['.', '[']).or((!field_path.is_empty()).then_some(0)) else { break };
+        field_path.truncate(cut);
+        node = located.node_at(&field_path).unwrap_or(located.root());
+    }
+    (named(&field_path), node.start as usize)
+}
+
+fn named(field_path: &str) -> String {
+    if field_path.is_empty() { "the scene".to_owned() } else { format!("`{field_path}`") }
 }
 
 fn one_of(found: &str, expected: &[&str]) -> String {
@@ -233,9 +279,9 @@ fn lower_first(text: &str) -> String {
     characters.next().map_or_else(String::new, |first| first.to_lowercase().chain(characters).collect())
 }
 
-/// At most 60 characters of a text of any length, on one line.
+/// At most 80 characters of a text of any length, on one line.
 fn shorten(text: &str) -> String {
-    let mut short: String = text.chars().take(60).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let mut short: String = text.chars().take(80).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if short.len() < text.len() {
         short.push('…');
     }
