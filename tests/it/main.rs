@@ -1,1 +1,6 @@
 //! The integration tests of Impasto.
+
+mod horn;
+mod progressive_order;
+mod roll_and_lateral;
+mod steadiness;

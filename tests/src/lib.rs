@@ -1,1 +1,3 @@
-//! Measuring tools that the tests share: reading pictures, comparing them, structure tensors.
+//! Measuring tools that the tests share: shapes whose answers are known, pictures read and compared.
+
+pub mod shapes;

@@ -1,2 +1,84 @@
-//! Automation of the repository.
-fn main() {}
+//! Automation of the repository: `cargo xtask <command>`. Needs nothing but cargo and std.
+
+#![expect(clippy::print_stdout, reason = "these commands exist to print what they found")]
+
+mod bench;
+mod ci;
+mod demo;
+mod gallery;
+mod layers;
+mod meshes;
+mod packages;
+mod steps;
+mod test;
+mod tidy;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context as _, bail};
+
+use crate::packages::Install;
+
+const USAGE: &str = "\
+cargo xtask <command>
+  ci                          everything that .ci/run checks
+  test [--no-install] [-- …]  install what the tests need, run them all (… goes to cargo test)
+  demo [--no-install]         install what rendering needs, build, paint a short animation into out/
+  layers                      every arrow between crates is one that ARCHITECTURE.md allows
+  tidy                        long files, empty names, half a technique, big pictures, unfinished work
+  gallery                     render the pictures of the README and the docs into docs/pictures/
+  bench [-- …]                the benchmarks of bench/
+  meshes                      write the meshes of scenes/meshes/ anew";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &[String]) -> anyhow::Result<()> {
+    let root = repository_root()?;
+    let Some((command, rest)) = arguments.split_first() else { bail!("which command?\n{USAGE}") };
+    let (own, passed_on) = match rest.iter().position(|argument| argument == "--") {
+        Some(at) => (&rest[..at], &rest[at + 1..]),
+        None => (rest, &[][..]),
+    };
+    let mut install = Install::Yes;
+    for flag in own {
+        match (command.as_str(), flag.as_str()) {
+            ("test" | "demo", "--no-install") => install = Install::PrintOnly,
+            _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
+        }
+    }
+    if !passed_on.is_empty() && !matches!(command.as_str(), "test" | "bench") {
+        bail!("`{command}` passes nothing on\n{USAGE}");
+    }
+    match command.as_str() {
+        "ci" => ci::run(&root),
+        "test" => test::run(&root, install, passed_on),
+        "demo" => demo::run(&root, install),
+        "layers" => layers::run(&root),
+        "tidy" => tidy::run(&root),
+        "gallery" => gallery::run(&root),
+        "bench" => bench::run(&root, passed_on),
+        "meshes" => meshes::run(&root),
+        "help" | "--help" | "-h" => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        _ => bail!("there is no command `{command}`\n{USAGE}"),
+    }
+}
+
+/// The folder with the workspace's Cargo.toml: the parent of this package's own.
+fn repository_root() -> anyhow::Result<PathBuf> {
+    let package = std::env::var_os("CARGO_MANIFEST_DIR")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    package.parent().map(Path::to_path_buf).context("the xtask package has no parent folder")
+}

@@ -28,8 +28,8 @@ pub fn atan2(y: f32, x: f32) -> f32 {
     series = series * s + 0.042_909_614;
     series = series * s - 0.075_289_64;
     series = series * s + 0.106_562_64;
-    series = series * s - 0.142_088_99;
-    series = series * s + 0.199_935_51;
+    series = series * s - 0.142_089;
+    series = series * s + 0.199_935_5;
     series = series * s - 0.333_331_45;
     series = series * s + 1.0;
     let octant = ratio * series;

@@ -36,7 +36,7 @@ impl Lift {
         (area > 0.0 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
     }
 
-    /// The virtual reference of `methods` 4.3: a camera that looks straight at the surface, with `up` projected on the
+    /// The virtual reference: a camera that looks straight at the surface, with `up` projected on the
     /// tangent plane as its up (turntable) and then rolled by `roll_rad`, at `px_per_unit` pixels per model unit.
     pub fn facing_view(normal: DVec3, up: DVec3, roll_rad: f64, px_per_unit: f64) -> Self {
         let [right, above] = turntable_axes(normal, up);
@@ -99,7 +99,7 @@ impl PixelMap2 {
         turn.y.atan2(turn.x)
     }
 
-    /// κ in 0..=1: how much of the map is turning and scaling (`methods` 4.2); at least 1/√2 for any map that does not
+    /// κ in 0..=1: how much of the map is turning and scaling; at least 1/√2 for any map that does not
     /// mirror, 0 for a zero map.
     pub fn kappa(self) -> f64 {
         let size = self.x.length_squared() + self.y.length_squared();

@@ -59,7 +59,7 @@ impl ScreenMap {
         self.row_depth.dot(position_in_model.extend(1.0))
     }
 
-    /// The two rows of the Jacobian J (pixels per model unit) at a point: `methods` 4.1, for any lens.
+    /// The two rows of the Jacobian J (pixels per model unit) at a point, for any lens.
     pub fn jacobian(&self, position_in_model: DVec3) -> [DVec3; 2] {
         let p = position_in_model.extend(1.0);
         let w = self.row_w.dot(p);

@@ -1,1 +1,18 @@
 //! The only crate that draws: Frame -> pixels.
+//!
+//! ```text
+//! Frame ─▶ reference pass: shadow ─▶ surface ─▶ openness ─▶ light      (colour, normal, depth and id)
+//!                │
+//!                └─▶ a style: its targets and its passes in order ─▶ sRGB bytes
+//! ```
+
+pub mod context;
+mod gl;
+mod meshes;
+mod reference;
+mod renderer;
+mod shader_files;
+mod styles;
+
+pub use gl::GlError;
+pub use renderer::{Picture, ReferencePixels, RenderError, Renderer, ResolvedStroke};

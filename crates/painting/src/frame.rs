@@ -33,7 +33,7 @@ pub struct Frame {
 }
 
 /// The style, with what it needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FrameStyle {
     /// Brush strokes over a ground.
     RotatingStrokes,

@@ -1,5 +1,22 @@
-//! `prepare(scene) -> Painting`, then `painting.at(frame, size) -> Frame`: plain data, no files, no GL.
+//! `prepare(scene) -> Painting`, then `painting.at(frame, options) -> Frame`: plain data, no files, no GL.
+//!
+//! ```text
+//! LoadedScene ─▶ surfaces ─▶ sampling ─▶ neighbours (horn only) ─▶ lift ─▶ order ─▶ Painting
+//!                each step is kept as long as its inputs stay the same
+//! Painting + frame number + picture size ─▶ Frame
+//! ```
 
+mod at;
+mod bake;
 pub mod frame;
+mod lights;
+mod paper;
+mod particle_count;
+mod prepare;
+mod regions;
+mod surface;
+mod view;
 
+pub use at::FrameOptions;
 pub use frame::Frame;
+pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::assets::AssetFolders;
+use crate::assets::{AssetFolders, AssetRequest};
 use crate::check::{self, Finding};
 use crate::document::Scene;
 use crate::limits;
@@ -16,7 +16,7 @@ mod overrides;
 mod parse;
 mod source;
 
-use files::{Files, Readers, retold};
+use files::{Files, MeshRead, Readers, TextureRead, retold};
 use overrides::Applied;
 use parse::Parsed;
 use source::error_in;
@@ -74,8 +74,7 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
 /// The made scene goes through its text, so that `--set` finds what it would find in the file that `impasto new`
 /// writes, and so that both are painted alike.
 fn load_mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let (mesh, warnings) = read_mesh(path, &name, &options.folders)?;
+    let (mesh, warnings) = crate::obj::read(path, folder_of(path), &options.folders)?;
     let scene = crate::new_scene::for_mesh(path, &mesh);
     let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
     finish(path, parsed, options, Some((mesh, warnings)))
@@ -168,13 +167,27 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
 #[cfg(test)]
 mod tests;
 
-fn read_mesh(scene: &Path, name: &str, _folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
-    Err(Report(vec![error_in(&scene.with_file_name(name), None, "unread", "")]))
+/// A mesh that the scene names.
+fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
+    let root = folder_of(scene);
+    let request = AssetRequest { name, beside: scene, root, max_bytes: crate::obj::MAX_FILE_BYTES };
+    let path = folders
+        .find(&request)
+        .map_err(|error| Report(vec![error.to_problem(Severity::Error, scene, None)]))?;
+    crate::obj::read(&path, root, folders)
 }
-fn read_texture(
-    scene: &Path,
-    name: &str,
-    _folders: &AssetFolders,
-) -> Result<(crate::mesh_file::Texture, Vec<Problem>), Problem> {
-    Err(error_in(&scene.with_file_name(name), None, "unread", ""))
+
+/// A texture that the scene names. One that cannot be used is an error here: the scene asks for it by name.
+fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead {
+    let max_bytes = crate::texture::MAX_FILE_BYTES;
+    let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes };
+    match crate::texture::read(folders, &request) {
+        Ok(decoded) => Ok((decoded.texture, decoded.warnings)),
+        Err(problem) => Err(Problem { severity: problem.severity.max(Severity::Error), ..problem }),
+    }
+}
+
+/// The folder that a file is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

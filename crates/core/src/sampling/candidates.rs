@@ -1,47 +1,12 @@
 //! An endless, even, random sequence of particles: what dart throwing throws.
 
-use rayon::prelude::*;
-
 use super::{Particle, Surface, barycentric};
 use crate::hash;
 
-/// How many candidates are made at once, by all threads.
-const BLOCK: u32 = 1 << 14;
-
-/// The sequence, read in order; the `i`th candidate depends on the surface, the seed and `i` alone.
-pub(super) struct Candidates<'a> {
-    surface: &'a Surface<'a>,
-    guide: Vec<u32>,
-    seed: u32,
-    block: Vec<Particle>,
-    blocks_made: u32,
-    at: usize,
-}
-
-impl<'a> Candidates<'a> {
-    /// `surface` must have at least one face.
-    pub(super) fn new(surface: &'a Surface<'a>, seed: u32) -> Self {
-        let guide = guide_table(&surface.area_up_to);
-        Self { surface, guide, seed, block: Vec::new(), blocks_made: 0, at: 0 }
-    }
-
-    pub(super) fn next(&mut self) -> Particle {
-        if self.at == self.block.len() {
-            let first = self.blocks_made.wrapping_mul(BLOCK);
-            let (surface, guide, seed) = (self.surface, &self.guide, self.seed);
-            // The first block is small: a body with a hundred particles need not make sixteen thousand candidates.
-            let size = if self.blocks_made == 0 { BLOCK / 16 } else { BLOCK };
-            (first..first.wrapping_add(size))
-                .into_par_iter()
-                .with_min_len(1024)
-                .map(|index| candidate(surface, guide, hash::combine(seed, index)))
-                .collect_into_vec(&mut self.block);
-            self.blocks_made += 1;
-            self.at = 0;
-        }
-        self.at += 1;
-        self.block[self.at - 1]
-    }
+/// The sequence: its `i`th particle depends on the surface, the seed and `i` alone. `surface` must have a face.
+pub(super) fn candidates<'a>(surface: &'a Surface<'a>, seed: u32) -> impl Fn(u32) -> Particle + Sync + 'a {
+    let guide = guide_table(&surface.area_up_to);
+    move |index| candidate(surface, &guide, hash::combine(seed, index))
 }
 
 fn candidate(surface: &Surface<'_>, guide: &[u32], seed: u32) -> Particle {

@@ -1,5 +1,5 @@
-//! Finds the nearest accepted particle on the same side of the surface, in a hashed grid whose cells shrink with the
-//! spacing.
+//! Tells whether a place is free of accepted particles on the same side of the surface, in a hashed grid whose cells
+//! shrink with the spacing.
 
 use glam::Vec3;
 
@@ -21,8 +21,8 @@ struct Entry {
 }
 
 impl DartGrid {
-    pub(super) fn new(radius: f32) -> Self {
-        Self { cell: radius * 2.0, heads: vec![NONE; 64], entries: Vec::new() }
+    pub(super) fn new() -> Self {
+        Self { cell: f32::MAX, heads: vec![NONE; 64], entries: Vec::new() }
     }
 
     /// Makes the grid finer when `radius` has shrunk enough to be worth it.
@@ -42,27 +42,22 @@ impl DartGrid {
         }
     }
 
-    /// Squared distance to the nearest accepted particle on the same side, where that is less than `radius`, else
-    /// `radius` squared. Stops early, with some value of at most `hopeless_sq`, once the distance is at most that.
-    pub(super) fn nearest_sq(&self, position: Vec3, normal: Vec3, radius: f32, hopeless_sq: f32) -> f32 {
-        let mut nearest_sq = radius * radius;
+    /// Whether no accepted particle on the same side is nearer than `radius`.
+    pub(super) fn has_room(&self, position: Vec3, normal: Vec3, radius: f32) -> bool {
         let corner = (position / self.cell - 0.5).floor().as_ivec3();
         for offset in 0..8 {
             let key = [corner.x + (offset & 1), corner.y + (offset >> 1 & 1), corner.z + (offset >> 2)];
             let mut at = self.heads[self.slot(key)];
             while at != NONE {
                 let entry = &self.entries[at as usize];
-                let distance_sq = entry.position.distance_squared(position);
-                if distance_sq < nearest_sq && entry.normal.dot(normal) > 0.0 {
-                    nearest_sq = distance_sq;
-                    if nearest_sq <= hopeless_sq {
-                        return nearest_sq;
-                    }
+                let crowded = entry.position.distance_squared(position) < radius * radius;
+                if crowded && entry.normal.dot(normal) > 0.0 {
+                    return false;
                 }
                 at = entry.next;
             }
         }
-        nearest_sq
+        true
     }
 
     fn slot(&self, key: [i32; 3]) -> usize {

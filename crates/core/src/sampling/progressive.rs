@@ -1,52 +1,69 @@
 //! Progressive dart throwing: an order in which every beginning is blue noise.
 
-use super::candidates::Candidates;
+use rayon::prelude::*;
+
+use super::candidates::candidates;
 use super::dart_grid::DartGrid;
 use super::{Particle, Surface, hexagonal_spacing};
 
-/// The particle after `n` others keeps this share of the hexagonal spacing of `n + 1` particles from them all. More is
-/// smoother and slower: at 0.776 no room is ever left (the density of a maximal Poisson disk set).
-const SPACING: f64 = 0.63;
+/// Particles keep this share of the hexagonal spacing of as many as their level is meant to end with.
+const SPACING: f64 = 0.56;
 
-/// After so many failures the best of them is taken: on thin parts, and for the first few particles, there may be no
-/// room at all.
-const MAX_TRIES: usize = 48;
+/// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
+const TRIES: usize = 5;
+
+/// A level ends with this many times the particles that it began with.
+const GROWTH: f64 = 1.08;
+
+/// Where there is no room (faces that lie on each other, the first few particles of a thin rod), a level still ends with
+/// this share of the particles that it is meant for, so that the work is in proportion to the count.
+const LEAST_FILLED: f64 = 0.5;
 
 /// `count` particles in progressive blue-noise order: the first `n` of them are spread evenly, for every `n`, and a
 /// greater `count` keeps the particles that a smaller one gives.
 ///
-/// Dart throwing with a spacing that depends on how many there are already, never on how many there will be. Two
+/// Dart throwing in levels, whose spacings are absolute: they do not depend on how many particles there will be. Two
 /// particles crowd each other only on the same side of the surface, so thin sheets carry their full share on both.
 /// The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
 pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
-    if surface.faces.is_empty() || count == 0 {
+    if surface.faces.is_empty() {
         return Vec::new();
     }
-    let area = surface.area();
-    let radius_after = |accepted: usize| (SPACING * hexagonal_spacing(area, accepted + 1)) as f32;
-    let mut candidates = Candidates::new(surface, seed);
-    let mut grid = DartGrid::new(radius_after(0));
+    let candidates = candidates(surface, seed);
+    let mut grid = DartGrid::new();
     // Grows as particles are found, so that a count is never taken on trust.
     let mut particles: Vec<Particle> = Vec::new();
+    let (mut thrown, mut level_end) = (0u32, 1usize);
     while particles.len() < count {
-        let radius = radius_after(particles.len());
+        let level_begin = level_end;
+        level_end = (level_begin + 1).max((level_begin as f64 * GROWTH) as usize);
+        let radius = (SPACING * hexagonal_spacing(surface.area(), level_end)) as f32;
         grid.shrink_to(radius);
-        let mut best_sq = -1.0;
-        let mut best = None;
-        for _ in 0..MAX_TRIES {
-            let candidate = candidates.next();
-            let nearest_sq = grid.nearest_sq(candidate.position, candidate.normal, radius, best_sq);
-            if nearest_sq > best_sq {
-                best_sq = nearest_sq;
-                best = Some(candidate);
-                if nearest_sq >= radius * radius {
-                    break;
-                }
+        let tries = ((level_end - level_begin) * TRIES) as u32;
+        // First against those that stood before, on all threads; then, the few that are left, against each other.
+        let roomy: Vec<Particle> = (thrown..thrown.wrapping_add(tries))
+            .into_par_iter()
+            .with_min_len(512)
+            .map(&candidates)
+            .filter(|candidate| grid.has_room(candidate.position, candidate.normal, radius))
+            .collect();
+        for candidate in roomy {
+            if grid.has_room(candidate.position, candidate.normal, radius) {
+                grid.insert(candidate.position, candidate.normal);
+                particles.push(candidate);
             }
         }
-        let Some(accepted) = best else { break };
-        grid.insert(accepted.position, accepted.normal);
-        particles.push(accepted);
+        let least = (level_end as f64 * LEAST_FILLED) as usize;
+        for index in thrown..thrown.wrapping_add(tries) {
+            if particles.len() >= least {
+                break;
+            }
+            let forced = candidates(index);
+            grid.insert(forced.position, forced.normal);
+            particles.push(forced);
+        }
+        thrown = thrown.wrapping_add(tries);
     }
+    particles.truncate(count);
     particles
 }

@@ -8,8 +8,8 @@ use crate::document::Scene;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::problem::{Problem, Report};
 
-type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
-type TextureRead = Result<(Texture, Vec<Problem>), Problem>;
+pub(super) type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
+pub(super) type TextureRead = Result<(Texture, Vec<Problem>), Problem>;
 
 /// How the files of one scene are read. Names are as the document writes them.
 pub(super) struct Readers<'a> {
@@ -80,7 +80,7 @@ fn first_uses<'a>(
 /// The problem as one of the scene file, keeping the words about the file that it was about.
 pub(super) fn retold(problem: Problem, scene_path: &Path, place: Option<crate::problem::Place>) -> Problem {
     let file = problem.path.display().to_string();
-    let message = if file.is_empty() || problem.message.contains(&file) {
+    let message = if problem.path == scene_path || problem.message.contains(&file) {
         problem.message
     } else {
         format!("{file}: {}", problem.message)

@@ -1,0 +1,140 @@
+//! What was tried, what was taken, and what would help.
+
+use std::fmt;
+
+use crate::gl::Gpu;
+
+/// Which library to take OpenGL from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Driver {
+    /// EGL where it works, else OSMesa.
+    #[default]
+    Auto,
+    /// EGL, with a graphics card or in software.
+    Egl,
+    /// OSMesa, always in software.
+    Osmesa,
+}
+
+impl fmt::Display for Driver {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Driver::Auto => "auto",
+            Driver::Egl => "egl",
+            Driver::Osmesa => "osmesa",
+        })
+    }
+}
+
+/// A way to a context that did not work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FailedAttempt {
+    /// Whose way it was.
+    pub driver: Driver,
+    /// Which way, in words.
+    pub way: &'static str,
+    /// Why it failed, as one line.
+    pub reason: String,
+}
+
+/// System packages that bring a driver, by their Debian and Ubuntu names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mend {
+    /// The driver that they bring.
+    pub driver: Driver,
+    /// Package names for `apt-get install`.
+    pub packages: &'static [&'static str],
+}
+
+impl Mend {
+    /// All that is known.
+    pub const ALL: [Mend; 2] = [
+        Mend { driver: Driver::Egl, packages: &["libegl1", "libgl1-mesa-dri"] },
+        Mend { driver: Driver::Osmesa, packages: &["libosmesa6"] },
+    ];
+}
+
+/// No driver gave a context.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct ContextError {
+    /// Every way that was tried, in order.
+    pub tried: Vec<FailedAttempt>,
+}
+
+impl ContextError {
+    /// The packages that would bring the drivers that were tried.
+    pub fn mends(&self) -> Vec<Mend> {
+        let tried = |mend: &Mend| self.tried.iter().any(|attempt| attempt.driver == mend.driver);
+        Mend::ALL.into_iter().filter(tried).collect()
+    }
+}
+
+impl fmt::Display for ContextError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "no usable OpenGL 3.3:")?;
+        for attempt in &self.tried {
+            write!(formatter, "\n  {}: {}", attempt.way, attempt.reason)?;
+        }
+        let mends: Vec<String> = self
+            .mends()
+            .iter()
+            .map(|mend| format!("`apt-get install {}` ({})", mend.packages.join(" "), mend.driver))
+            .collect();
+        write!(formatter, "\n  on Debian and Ubuntu: {}", mends.join(" or "))
+    }
+}
+
+/// The driver in use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ContextReport {
+    /// The driver that was taken.
+    pub driver: Driver,
+    /// The way to it, in words, such as "EGL device".
+    pub way: &'static str,
+    /// The device, where the driver names one.
+    pub device: String,
+    /// `GL_VENDOR`.
+    pub vendor: String,
+    /// `GL_RENDERER`.
+    pub renderer: String,
+    /// `GL_VERSION`.
+    pub version: String,
+    /// `GL_SHADING_LANGUAGE_VERSION`.
+    pub shading_language: String,
+    /// The longest side of a picture, in pixels.
+    pub max_side_px: u32,
+    /// Whether the driver's debug output is being listened to.
+    pub debug_output: bool,
+    /// Ways that were tried before and why they were not taken.
+    pub tried: Vec<FailedAttempt>,
+}
+
+impl fmt::Display for ContextReport {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} ({}): {}, OpenGL {}", self.driver, self.way, self.renderer, self.version)?;
+        for attempt in &self.tried {
+            write!(formatter, "; not {}: {}", attempt.way, attempt.reason)?;
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn describe(
+    gpu: &Gpu,
+    (driver, way, device): (Driver, &'static str, String),
+    tried: Vec<FailedAttempt>,
+) -> ContextReport {
+    let limits = gpu.limits();
+    ContextReport {
+        driver,
+        way,
+        device,
+        vendor: limits.vendor.clone(),
+        renderer: limits.renderer.clone(),
+        version: limits.version.clone(),
+        shading_language: limits.shading_language.clone(),
+        max_side_px: limits.max_side_px,
+        debug_output: gpu.listens(),
+        tried,
+    }
+}

@@ -1,0 +1,99 @@
+//! Buffers that grow.
+
+use glow::HasContext as _;
+
+use super::{GlError, Gpu};
+
+/// What a buffer is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BufferUse {
+    /// Written once.
+    Fixed,
+    /// Written anew each frame.
+    Streamed,
+    /// Written by the GPU, read back by the CPU.
+    ReadBack,
+}
+
+/// Bytes on the GPU.
+pub(crate) struct Buffer {
+    gpu: Gpu,
+    id: glow::Buffer,
+    usage: u32,
+    capacity: usize,
+}
+
+/// The largest buffer: sizes are `i32` in places, and no frame comes near it.
+const MAX_BYTES: usize = 1 << 30;
+
+impl Buffer {
+    pub(crate) fn new(gpu: &Gpu, buffer_use: BufferUse) -> Result<Self, GlError> {
+        let usage = match buffer_use {
+            BufferUse::Fixed => glow::STATIC_DRAW,
+            BufferUse::Streamed => glow::STREAM_DRAW,
+            BufferUse::ReadBack => glow::DYNAMIC_READ,
+        };
+        // SAFETY: the context is current.
+        let id = unsafe { gpu.gl().create_buffer() }
+            .map_err(|reason| GlError::Resource { what: "a buffer".to_owned(), reason })?;
+        Ok(Self { gpu: gpu.clone(), id, usage, capacity: 0 })
+    }
+
+    pub(super) fn id(&self) -> glow::Buffer {
+        self.id
+    }
+
+    /// Makes room for that many bytes; what was in it is lost when it grows.
+    pub(crate) fn reserve(&mut self, bytes: usize) -> Result<(), GlError> {
+        if bytes <= self.capacity {
+            return Ok(());
+        }
+        let what = format!("a buffer of {bytes} bytes");
+        if bytes > MAX_BYTES {
+            return Err(GlError::Resource { what, reason: format!("the limit is {MAX_BYTES} bytes") });
+        }
+        let capacity = if self.usage == glow::STATIC_DRAW { bytes } else { bytes.next_power_of_two() };
+        let gl = self.gpu.gl();
+        // SAFETY: the context is current; the size fits an i32.
+        unsafe {
+            gl.bind_buffer(glow::COPY_WRITE_BUFFER, Some(self.id));
+            gl.buffer_data_size(glow::COPY_WRITE_BUFFER, capacity as i32, self.usage);
+        }
+        self.gpu.check_memory(&what)?;
+        self.capacity = capacity;
+        Ok(())
+    }
+
+    /// Replaces the contents.
+    pub(crate) fn upload(&mut self, bytes: &[u8]) -> Result<(), GlError> {
+        self.reserve(bytes.len())?;
+        let gl = self.gpu.gl();
+        // SAFETY: the context is current; `reserve` made room.
+        unsafe {
+            gl.bind_buffer(glow::COPY_WRITE_BUFFER, Some(self.id));
+            gl.buffer_sub_data_u8_slice(glow::COPY_WRITE_BUFFER, 0, bytes);
+        }
+        Ok(())
+    }
+
+    /// Reads the first bytes back.
+    pub(crate) fn read(&self, bytes: usize) -> Vec<u8> {
+        let mut contents = vec![0; bytes.min(self.capacity)];
+        let gl = self.gpu.gl();
+        // SAFETY: the context is current; the slice is no longer than the buffer.
+        unsafe {
+            gl.bind_buffer(glow::COPY_READ_BUFFER, Some(self.id));
+            gl.get_buffer_sub_data(glow::COPY_READ_BUFFER, 0, &mut contents);
+        }
+        contents
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        if self.gpu.make_current().is_ok() {
+            // SAFETY: the context is current and the buffer was made in it.
+            unsafe { self.gpu.gl().delete_buffer(self.id) };
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! A shared handle on one OpenGL context.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use glow::HasContext as _;
+
+use super::GlError;
+use crate::context::{DriverMessages, Platform};
+
+/// A context, shared by everything that was made in it; it goes away after the last of them.
+#[derive(Clone)]
+pub(crate) struct Gpu {
+    shared: Rc<Shared>,
+}
+
+struct Shared {
+    gl: Arc<glow::Context>,
+    messages: Option<DriverMessages>,
+    limits: Limits,
+    platform: Box<dyn Platform>,
+}
+
+/// What the driver says of itself.
+#[derive(Clone, Debug)]
+pub(crate) struct Limits {
+    pub vendor: String,
+    pub renderer: String,
+    pub version: String,
+    pub shading_language: String,
+    /// Longest side of a texture that can also be drawn into.
+    pub max_side_px: u32,
+}
+
+impl Limits {
+    /// Reads them from the current context.
+    pub(crate) fn read(gl: &glow::Context) -> Self {
+        // SAFETY: the context is current; the names are defined in OpenGL 3.3.
+        unsafe {
+            let mut viewport = [0; 2];
+            gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport);
+            let side = gl
+                .get_parameter_i32(glow::MAX_TEXTURE_SIZE)
+                .min(gl.get_parameter_i32(glow::MAX_RENDERBUFFER_SIZE))
+                .min(viewport[0])
+                .min(viewport[1]);
+            Self {
+                vendor: gl.get_parameter_string(glow::VENDOR),
+                renderer: gl.get_parameter_string(glow::RENDERER),
+                version: gl.get_parameter_string(glow::VERSION),
+                shading_language: gl.get_parameter_string(glow::SHADING_LANGUAGE_VERSION),
+                max_side_px: u32::try_from(side).unwrap_or(0),
+            }
+        }
+    }
+}
+
+impl Gpu {
+    pub(crate) fn new(
+        gl: Arc<glow::Context>,
+        platform: Box<dyn Platform>,
+        messages: Option<DriverMessages>,
+        limits: Limits,
+    ) -> Self {
+        Self { shared: Rc::new(Shared { gl, messages, limits, platform }) }
+    }
+
+    pub(super) fn gl(&self) -> &glow::Context {
+        &self.shared.gl
+    }
+
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.shared.limits
+    }
+
+    /// Whether the driver's debug output is being kept.
+    pub(crate) fn listens(&self) -> bool {
+        self.shared.messages.is_some()
+    }
+
+    /// Makes the context current on this thread; to be called before a run of calls into it.
+    pub(crate) fn make_current(&self) -> Result<(), GlError> {
+        self.shared.platform.make_current().map_err(GlError::Context)
+    }
+
+    /// The driver's complaints since the last call, as an error.
+    pub(crate) fn complaints(&self) -> Result<(), GlError> {
+        let said = self.shared.messages.as_ref().map(DriverMessages::take).unwrap_or_default();
+        if said.is_empty() { Ok(()) } else { Err(GlError::Driver(said)) }
+    }
+
+    /// Checks that what was just made fits the memory.
+    pub(super) fn check_memory(&self, what: &str) -> Result<(), GlError> {
+        // SAFETY: the context is current.
+        match unsafe { self.gl().get_error() } {
+            glow::NO_ERROR => Ok(()),
+            glow::OUT_OF_MEMORY => {
+                Err(GlError::Resource { what: what.to_owned(), reason: "out of memory".to_owned() })
+            }
+            code => Err(GlError::Resource { what: what.to_owned(), reason: format!("error {code:#06x}") }),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Shader files: `#include`, and driver messages that name our files and lines.
+
+use std::fmt::Write as _;
+
+/// A shader file that is part of the program.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShaderFile {
+    /// Path below `shaders/`.
+    pub path: &'static str,
+    /// The whole text.
+    pub text: &'static str,
+}
+
+/// A file with its includes put in.
+#[derive(Debug)]
+pub(super) struct Expanded {
+    pub text: String,
+    /// Paths by the number that `#line` gives to the compiler.
+    paths: Vec<&'static str>,
+}
+
+/// Puts every `#include "path"` in, each file once. Paths start at `shaders/`.
+pub(super) fn expand(files: &[&[ShaderFile]], path: &str) -> Result<Expanded, String> {
+    let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
+    append(files, path, &mut expanded)?;
+    Ok(expanded)
+}
+
+fn append(files: &[&[ShaderFile]], path: &str, into: &mut Expanded) -> Result<(), String> {
+    let file = files
+        .iter()
+        .flat_map(|group| group.iter())
+        .find(|file| file.path == path)
+        .ok_or_else(|| format!("there is no shader file {path}"))?;
+    if into.paths.contains(&file.path) {
+        return Ok(());
+    }
+    let number = into.paths.len();
+    into.paths.push(file.path);
+    let mark = |into: &mut Expanded, line: usize| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(into.text, "#line {line} {number}");
+    };
+    mark(into, 1);
+    for (index, line) in file.text.lines().enumerate() {
+        match included(line) {
+            Some(inner) => {
+                append(files, inner, into).map_err(|fault| format!("{path}:{}: {fault}", index + 1))?;
+                mark(into, index + 2);
+            }
+            None => {
+                into.text.push_str(line);
+                into.text.push('\n');
+            }
+        }
+    }
+    Ok(())
+}
+
+fn included(line: &str) -> Option<&str> {
+    line.trim().strip_prefix("#include")?.trim().strip_prefix('"')?.strip_suffix('"')
+}
+
+impl Expanded {
+    /// Puts our file names into the compiler's words: `1:12(5)`, `1(12)` and `ERROR: 1:12` all become `path:12`.
+    pub(super) fn name_places(&self, log: &str) -> String {
+        log.lines().map(|line| self.name_place(line)).collect::<Vec<_>>().join("\n").trim().to_owned()
+    }
+
+    fn name_place(&self, line: &str) -> String {
+        let start = line.find(|c: char| c.is_ascii_digit()).unwrap_or(line.len());
+        let (before, rest) = line.split_at(start);
+        let after_file = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+        let file = &rest[..rest.len() - after_file.len()];
+        let number = after_file.strip_prefix([':', '(']).unwrap_or_default();
+        let after_line = number.trim_start_matches(|c: char| c.is_ascii_digit());
+        let row = &number[..number.len() - after_line.len()];
+        match file.parse::<usize>().ok().and_then(|file| self.paths.get(file)) {
+            Some(path) if !row.is_empty() => {
+                let tail = after_line.strip_prefix(')').unwrap_or(after_line);
+                format!("{before}{path}:{row}{tail}")
+            }
+            _ => line.to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILES: &[ShaderFile] = &[
+        ShaderFile { path: "a.frag", text: "one\n#include \"b.glsl\"\n#include \"b.glsl\"\nfour\n" },
+        ShaderFile { path: "b.glsl", text: "inner\n" },
+        ShaderFile { path: "lost.frag", text: "\n#include \"nowhere.glsl\"\n" },
+    ];
+
+    #[test]
+    fn a_file_is_included_once_and_lines_stay_true() {
+        let expanded = expand(&[FILES], "a.frag").unwrap();
+        let wanted = "#version 330 core\n#line 1 0\none\n#line 1 1\ninner\n#line 3 0\n#line 4 0\nfour\n";
+        assert_eq!(expanded.text, wanted);
+    }
+
+    #[test]
+    fn a_missing_include_names_the_line() {
+        let fault = expand(&[FILES], "lost.frag").unwrap_err();
+        assert_eq!(fault, "lost.frag:2: there is no shader file nowhere.glsl");
+    }
+
+    #[test]
+    fn messages_of_three_compilers_get_our_names() {
+        let expanded = expand(&[FILES], "a.frag").unwrap();
+        assert_eq!(expanded.name_places("1:12(5): error: x"), "b.glsl:12(5): error: x");
+        assert_eq!(expanded.name_places("1(12) : error C0000"), "b.glsl:12 : error C0000");
+        assert_eq!(expanded.name_places("ERROR: 0:7: 'y'"), "ERROR: a.frag:7: 'y'");
+        assert_eq!(expanded.name_places("linking failed"), "linking failed");
+    }
+}

@@ -1,0 +1,116 @@
+//! Surfaces on the GPU, kept as long as some frame holds them.
+
+use std::rc::Rc;
+use std::sync::{Arc, Weak};
+
+use bytemuck::{Pod, Zeroable};
+use impasto_painting::frame::BodySurface;
+
+use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, VertexArray};
+
+/// One uploaded surface.
+pub(crate) struct MeshOnGpu {
+    pub(crate) array: VertexArray,
+    pub(crate) parts: Vec<Part>,
+    _vertices: Buffer,
+    _indices: Buffer,
+}
+
+/// Triangles of one material.
+pub(crate) struct Part {
+    pub(crate) first_index: u32,
+    pub(crate) index_count: u32,
+    pub(crate) material: usize,
+    pub(crate) texture: Rc<Texture>,
+}
+
+/// All surfaces on the GPU.
+pub(crate) struct MeshCache {
+    entries: Vec<(Weak<BodySurface>, Rc<MeshOnGpu>)>,
+    white: Rc<Texture>,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Vertex {
+    position: [f32; 3],
+    normal: [f32; 3],
+    uv: [f32; 2],
+}
+
+impl MeshCache {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
+        let white = Texture::with_driver_levels(gpu, Format::SrgbAlpha8, [1, 1], &[255; 4])?;
+        Ok(Self { entries: Vec::new(), white: Rc::new(white) })
+    }
+
+    /// The surface on the GPU; uploads it the first time, and forgets surfaces that nobody holds any more.
+    pub(crate) fn get(&mut self, gpu: &Gpu, surface: &Arc<BodySurface>) -> Result<Rc<MeshOnGpu>, GlError> {
+        let here = |weak: &Weak<BodySurface>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(surface));
+        if let Some((_, mesh)) = self.entries.iter().find(|(weak, _)| here(weak)) {
+            return Ok(Rc::clone(mesh));
+        }
+        self.entries.retain(|(weak, _)| weak.strong_count() > 0);
+        let mesh = Rc::new(self.upload(gpu, surface)?);
+        self.entries.push((Arc::downgrade(surface), Rc::clone(&mesh)));
+        Ok(mesh)
+    }
+
+    fn upload(&self, gpu: &Gpu, surface: &BodySurface) -> Result<MeshOnGpu, GlError> {
+        let mesh = &surface.mesh;
+        let vertices: Vec<Vertex> = (0..mesh.positions.len())
+            .map(|index| Vertex {
+                position: mesh.positions[index].to_array(),
+                normal: mesh.normals[index].to_array(),
+                uv: mesh.uvs.get(index).copied().unwrap_or_default().to_array(),
+            })
+            .collect();
+        let material_of =
+            |triangle: usize| mesh.material_of_triangle.get(triangle).map_or(0, |&m| m as usize);
+        let mut by_material: Vec<usize> = (0..mesh.triangles.len()).collect();
+        by_material.sort_by_key(|&triangle| material_of(triangle));
+        let indices: Vec<u32> = by_material.iter().flat_map(|&triangle| mesh.triangles[triangle]).collect();
+        let mut parts: Vec<Part> = Vec::new();
+        for run in by_material.chunk_by(|&a, &b| material_of(a) == material_of(b)) {
+            let material = material_of(run[0]);
+            let first_index = parts.last().map_or(0, |part| part.first_index + part.index_count);
+            let texture = self.texture(gpu, surface, material)?;
+            parts.push(Part { first_index, index_count: run.len() as u32 * 3, material, texture });
+        }
+        let mut vertex_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
+        vertex_buffer.upload(bytemuck::cast_slice(&vertices))?;
+        let mut index_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
+        index_buffer.upload(bytemuck::cast_slice(&indices))?;
+        let input = |location: u32, components: i32, offset_bytes: i32| Attribute {
+            location,
+            buffer: &vertex_buffer,
+            components,
+            integer: false,
+            stride_bytes: size_of::<Vertex>() as i32,
+            offset_bytes,
+            per_instance: false,
+        };
+        let array =
+            VertexArray::new(gpu, &[input(0, 3, 0), input(1, 3, 12), input(2, 2, 24)], Some(&index_buffer))?;
+        Ok(MeshOnGpu { array, parts, _vertices: vertex_buffer, _indices: index_buffer })
+    }
+
+    fn texture(&self, gpu: &Gpu, surface: &BodySurface, material: usize) -> Result<Rc<Texture>, GlError> {
+        let picture = surface.materials.get(material).and_then(|material| material.texture.as_ref());
+        let Some(picture) = picture.filter(|_| !surface.mesh.uvs.is_empty()) else {
+            return Ok(Rc::clone(&self.white));
+        };
+        // OBJ counts V from the bottom; the first row of a picture is its top.
+        let width = picture.size_px[0] as usize;
+        let texels: Vec<[u8; 4]> = picture.rgba8.chunks(width).rev().flatten().copied().collect();
+        let limit = gpu.limits().max_side_px;
+        if picture.size_px.iter().any(|&side| side > limit) {
+            return Err(GlError::Resource {
+                what: format!("a texture of {} x {} pixels", picture.size_px[0], picture.size_px[1]),
+                reason: format!("this driver's limit is {limit}"),
+            });
+        }
+        let bytes = bytemuck::cast_slice(&texels);
+        Ok(Rc::new(Texture::with_driver_levels(gpu, Format::SrgbAlpha8, picture.size_px, bytes)?))
+    }
+}

@@ -1,0 +1,175 @@
+//! The renderer: long-lived, fed with one plain frame after the other.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use impasto_painting::Frame;
+use impasto_painting::frame::FrameStyle;
+
+use crate::context::{Context, ContextReport};
+use crate::gl::{Filter, Format, Framebuffer, GlError, Texture};
+use crate::reference::{ReferencePass, ReferenceTargets, targets_of_size};
+use crate::styles::{self, RotatingStrokes, Style, StyleInput};
+
+/// A finished picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// sRGB bytes with straight alpha, four a pixel, top row first.
+    pub rgba8: Vec<u8>,
+}
+
+/// What was painted of a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResolvedStroke {
+    /// Display-linear colour.
+    pub color_linear: [f32; 3],
+    /// Presence times what can be seen of the stroke's centre, 0..=1.
+    pub alpha: f32,
+}
+
+/// The reference picture as numbers, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferencePixels {
+    /// Depth along the gaze in world units; 0 where nothing is.
+    pub depth: Vec<f32>,
+    /// Index of the body plus 1; 0 where nothing is.
+    pub body_id: Vec<u32>,
+}
+
+/// Why a frame was not drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RenderError {
+    /// The picture is larger than the driver can draw.
+    #[error("a picture of {} x {} pixels: this driver's limit is {limit_px} a side; use a smaller --size", size_px[0], size_px[1])]
+    TooLarge {
+        /// What was asked for.
+        size_px: [u32; 2],
+        /// The longest side that works.
+        limit_px: u32,
+    },
+    /// A picture has at least one pixel.
+    #[error("a picture of no pixels")]
+    Empty,
+    /// The driver refused, or a shader is broken.
+    #[error(transparent)]
+    Gl(#[from] GlError),
+}
+
+/// Draws frames. Belongs to the thread that made it.
+pub struct Renderer {
+    // Styles, passes and targets go before the context that they were made in.
+    styles: HashMap<FrameStyle, Box<dyn Style>>,
+    reference: ReferencePass,
+    targets: Option<ReferenceTargets>,
+    output: Option<Framebuffer>,
+    last_style: FrameStyle,
+    context: Context,
+}
+
+impl Renderer {
+    /// Compiles what every frame needs.
+    ///
+    /// # Errors
+    /// When the driver refuses a shader or a texture.
+    pub fn new(context: Context) -> Result<Self, RenderError> {
+        let gpu = context.gpu();
+        gpu.make_current()?;
+        Ok(Self {
+            styles: HashMap::new(),
+            reference: ReferencePass::new(gpu)?,
+            targets: None,
+            output: None,
+            last_style: FrameStyle::Reference,
+            context,
+        })
+    }
+
+    /// The driver in use.
+    pub fn report(&self) -> &ContextReport {
+        self.context.report()
+    }
+
+    /// The longest side of a picture in pixels.
+    pub fn max_side_px(&self) -> u32 {
+        self.context.report().max_side_px
+    }
+
+    /// Draws a frame and reads it back.
+    ///
+    /// # Errors
+    /// When the picture is too large for the driver, memory runs out, or (in a debug context) the driver complains.
+    pub fn render(&mut self, frame: &Frame) -> Result<Picture, RenderError> {
+        let [width, height] = frame.size_px;
+        if width == 0 || height == 0 {
+            return Err(RenderError::Empty);
+        }
+        if width.max(height) > self.max_side_px() {
+            return Err(RenderError::TooLarge { size_px: frame.size_px, limit_px: self.max_side_px() });
+        }
+        let gpu = self.context.gpu().clone();
+        gpu.make_current()?;
+        let targets = targets_of_size(&gpu, self.targets.take(), frame.size_px)?;
+        let output = match self.output.take() {
+            Some(output) if output.size_px() == frame.size_px => output,
+            _ => {
+                let color = Rc::new(Texture::target(&gpu, Format::Rgba8, frame.size_px, Filter::Nearest)?);
+                Framebuffer::new(&gpu, &[&color], None)?
+            }
+        };
+        let lights = self.reference.draw(frame, &targets)?;
+        let style = match self.styles.entry(frame.style) {
+            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
+            std::collections::hash_map::Entry::Vacant(entry) => {
+                entry.insert(styles::open(&gpu, frame.style)?)
+            }
+        };
+        style.draw(&StyleInput { frame, reference: &targets, lights: &lights }, &output)?;
+        let rgba8 = top_row_first(&output.read_bytes(0), width as usize * 4);
+        gpu.complaints()?;
+        self.targets = Some(targets);
+        self.output = Some(output);
+        self.last_style = frame.style;
+        Ok(Picture { size_px: frame.size_px, rgba8 })
+    }
+
+    /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.
+    pub fn resolved_strokes(&self) -> Vec<ResolvedStroke> {
+        let Some(strokes) = self.strokes() else { return Vec::new() };
+        let resolved = strokes.read_resolved();
+        resolved
+            .into_iter()
+            .map(|[r, g, b, alpha]| ResolvedStroke { color_linear: [r, g, b], alpha })
+            .collect()
+    }
+
+    /// Depth and body of every pixel of the last frame.
+    pub fn read_reference(&self) -> ReferencePixels {
+        let Some(targets) = &self.targets else {
+            return ReferencePixels { depth: Vec::new(), body_id: Vec::new() };
+        };
+        let values = targets.read_depth_and_id();
+        let width = targets.depth_and_id.size_px()[0] as usize;
+        let rows = top_row_first(&values, width * 2);
+        let (depth, body_id) = rows.chunks_exact(2).map(|pixel| (pixel[0], pixel[1] as u32)).unzip();
+        ReferencePixels { depth, body_id }
+    }
+
+    /// The paint of the last frame without its ground: premultiplied, display-linear, top row first.
+    pub fn read_paint(&self) -> Vec<[f32; 4]> {
+        let (Some(strokes), Some(output)) = (self.strokes(), &self.output) else { return Vec::new() };
+        top_row_first(&strokes.read_paint(), output.size_px()[0] as usize)
+    }
+
+    fn strokes(&self) -> Option<&RotatingStrokes> {
+        if self.context.gpu().make_current().is_err() {
+            return None;
+        }
+        self.styles.get(&self.last_style)?.as_strokes()
+    }
+}
+
+fn top_row_first<T: Copy>(values: &[T], row: usize) -> Vec<T> {
+    values.chunks_exact(row).rev().flatten().copied().collect()
+}

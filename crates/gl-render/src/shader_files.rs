@@ -1,0 +1,31 @@
+//! The shader files, part of the binary, so that an install cannot lose them.
+
+use crate::gl::ShaderFile;
+
+macro_rules! shader_files {
+    ($($path:literal),* $(,)?) => {
+        &[$(ShaderFile { path: $path, text: include_str!(concat!("../../../shaders/", $path)) }),*]
+    };
+}
+
+/// What every style may include.
+pub(crate) const SHARED: &[ShaderFile] =
+    shader_files!["shared/screen.vert", "shared/encode.frag", "shared/lens.glsl"];
+
+/// The reference pass.
+pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
+    "reference/lighting.glsl",
+    "reference/surface.vert",
+    "reference/surface.frag",
+    "reference/shadow.vert",
+    "reference/shadow.frag",
+    "reference/openness.frag",
+    "reference/light.frag",
+];
+
+/// Brush strokes.
+pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
+    "rotating_strokes/resolve.vert",
+    "rotating_strokes/paint.vert",
+    "rotating_strokes/paint.frag",
+];

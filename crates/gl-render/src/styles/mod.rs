@@ -1,0 +1,55 @@
+//! Styles: each is a list of targets and an ordered list of passes, in a file of its own.
+
+mod reference;
+mod rotating_strokes;
+
+use impasto_painting::Frame;
+use impasto_painting::frame::FrameStyle;
+
+use crate::gl::{Framebuffer, GlError, Gpu, Program, ProgramSource};
+use crate::reference::{LightSetup, ReferenceTargets};
+use crate::shader_files::SHARED;
+
+pub(crate) use rotating_strokes::RotatingStrokes;
+
+/// What a style starts from.
+pub(crate) struct StyleInput<'a> {
+    pub(crate) frame: &'a Frame,
+    pub(crate) reference: &'a ReferenceTargets,
+    pub(crate) lights: &'a LightSetup,
+}
+
+/// A way of drawing a frame.
+pub(crate) trait Style {
+    /// Runs the style's passes; the last one writes sRGB bytes with straight alpha into `output`.
+    fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError>;
+
+    /// For styles of strokes, what was painted.
+    fn as_strokes(&self) -> Option<&RotatingStrokes> {
+        None
+    }
+}
+
+/// Makes a style ready.
+pub(crate) fn open(gpu: &Gpu, style: FrameStyle) -> Result<Box<dyn Style>, GlError> {
+    Ok(match style {
+        FrameStyle::RotatingStrokes => Box::new(RotatingStrokes::new(gpu)?),
+        FrameStyle::Reference => Box::new(reference::Reference::new(gpu)?),
+    })
+}
+
+/// The program of the pass that every style ends with.
+pub(crate) fn encode_program(gpu: &Gpu) -> Result<Program, GlError> {
+    let source = ProgramSource {
+        vertex: "shared/screen.vert",
+        fragment: Some("shared/encode.frag"),
+        captured: &[],
+        uniforms: &["picture", "ground"],
+    };
+    Program::new(gpu, &[SHARED], &source)
+}
+
+/// The ground under the picture, premultiplied.
+pub(crate) fn ground(frame: &Frame) -> glam::Vec4 {
+    frame.background.map_or(glam::Vec4::ZERO, |[r, g, b]| glam::Vec4::new(r, g, b, 1.0))
+}

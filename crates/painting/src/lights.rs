@@ -1,0 +1,102 @@
+//! From the document's lights to linear light.
+
+use glam::{DAffine3, DVec3, Vec3};
+use impasto_scene::document::{Color, LightKind, Scene};
+
+use crate::frame::{FrameLights, PointLight, SunLight};
+
+/// sRGB to linear, one channel (IEC 61966-2-1).
+pub(crate) fn linear_from_srgb(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Linear to sRGB, one channel, clamped to 0..=1.
+pub(crate) fn srgb_from_linear(linear: f32) -> f32 {
+    let linear = linear.clamp(0.0, 1.0);
+    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// A colour in linear Rec. 709.
+pub(crate) fn linear(color: Color) -> [f32; 3] {
+    color.0.map(linear_from_srgb)
+}
+
+fn radiance(color: Color, intensity: f64) -> Vec3 {
+    Vec3::from(linear(color)) * intensity as f32
+}
+
+/// The lights of a scene; those of a studio when it names none: a warm sun from the upper left front, a cool sky, a
+/// warm floor.
+pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights {
+    let mut lights = FrameLights { shadow_bounds, ..Default::default() };
+    if scene.lights.is_empty() {
+        lights.suns.push(SunLight {
+            to_light: Vec3::new(-0.55, 0.75, 0.6).normalize(),
+            radiance: Vec3::new(1.0, 0.9, 0.75) * 2.5,
+        });
+        lights.ambient_above = Vec3::new(0.40, 0.50, 0.68) * 0.55;
+        lights.ambient_below = Vec3::new(0.50, 0.36, 0.24) * 0.45;
+        return lights;
+    }
+    for light in &scene.lights {
+        let radiance = radiance(light.color, light.intensity);
+        match light.kind {
+            LightKind::Sun => lights.suns.push(SunLight {
+                to_light: -DVec3::from(light.direction.unwrap_or([0.0, -1.0, 0.0]))
+                    .as_vec3()
+                    .normalize_or(Vec3::NEG_Y),
+                radiance,
+            }),
+            LightKind::Point => lights.points.push(PointLight {
+                position: DVec3::from(light.position.unwrap_or_default()).as_vec3(),
+                radiance,
+            }),
+            LightKind::Ambient => {
+                lights.ambient_above += radiance;
+                lights.ambient_below += match light.ground {
+                    Some(ground) => Vec3::from(linear(ground)) * light.intensity as f32,
+                    // What a warm floor throws back.
+                    None => radiance * Vec3::new(0.5, 0.42, 0.34),
+                };
+            }
+        }
+    }
+    lights
+}
+
+/// A sphere round all bodies in all of these poses: centre and radius, world space.
+pub(crate) fn bounds_over(
+    bodies: &[Option<(Vec3, Vec3)>],
+    poses: impl Iterator<Item = Vec<DAffine3>>,
+) -> (Vec3, f32) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for poses in poses {
+        for (bounds, pose) in bodies.iter().zip(poses) {
+            let Some((least, greatest)) = bounds else { continue };
+            for corner in 0..8 {
+                let pick = |axis: usize| if corner >> axis & 1 == 0 { least[axis] } else { greatest[axis] };
+                let at = pose.transform_point3(Vec3::new(pick(0), pick(1), pick(2)).as_dvec3());
+                low = low.min(at);
+                high = high.max(at);
+            }
+        }
+    }
+    if low.cmpgt(high).any() {
+        return (Vec3::ZERO, 1.0);
+    }
+    (((low + high) * 0.5).as_vec3(), (((high - low).length() * 0.5) as f32).max(1e-6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb_goes_there_and_back() {
+        for step in 0..=255u8 {
+            let encoded = f32::from(step) / 255.0;
+            assert!((srgb_from_linear(linear_from_srgb(encoded)) - encoded).abs() < 1e-6);
+        }
+        assert!((linear_from_srgb(0.5) - 0.214_041).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,75 @@
+//! The source paper's own count: each polygon shows as many of its particles as its projected area asks for.
+
+use glam::DVec3;
+use impasto_core::ScreenMap;
+use impasto_core::TriangleMesh;
+use impasto_core::sampling::{PolygonParticle, Surface};
+use impasto_core::screen_map::area_px;
+
+/// Polygons of a body and where its particles belong.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PolygonCounts {
+    /// Index into `sides` per particle, and the particle's number in it.
+    of_particle: Vec<(u32, u32)>,
+    sides: Vec<PolygonSide>,
+}
+
+/// One side of one polygon.
+#[derive(Clone, Debug, PartialEq)]
+struct PolygonSide {
+    center: DVec3,
+    normal: DVec3,
+    area: f64,
+    count: u32,
+}
+
+impl PolygonCounts {
+    pub(crate) fn new(surface: &Surface<'_>, mesh: &TriangleMesh, particles: &[PolygonParticle]) -> Self {
+        let mut index_of: std::collections::HashMap<(u32, bool), u32> = std::collections::HashMap::new();
+        let mut sides: Vec<PolygonSide> = Vec::new();
+        let polygon_of =
+            |triangle: u32| mesh.polygon_of_triangle.get(triangle as usize).copied().unwrap_or(triangle);
+        for (triangle, flipped, area) in surface.faces() {
+            let [a, b, c] = mesh.corners(triangle as usize).map(glam::Vec3::as_dvec3);
+            let index = *index_of.entry((polygon_of(triangle), flipped)).or_insert(sides.len() as u32);
+            if index as usize == sides.len() {
+                sides.push(PolygonSide { center: DVec3::ZERO, normal: DVec3::ZERO, area: 0.0, count: 0 });
+            }
+            let side = &mut sides[index as usize];
+            side.center += (a + b + c) / 3.0 * area;
+            side.normal += (b - a).cross(c - a) * if flipped { -1.0 } else { 1.0 };
+            side.area += area;
+        }
+        for side in &mut sides {
+            side.center /= side.area;
+            side.normal = side.normal.normalize_or_zero();
+        }
+        let of_particle = particles
+            .iter()
+            .map(|entry| {
+                let index = index_of[&(polygon_of(entry.particle.triangle), entry.particle.flipped)];
+                sides[index as usize].count = entry.count_in_polygon;
+                (index, entry.number_in_polygon)
+            })
+            .collect();
+        Self { of_particle, sides }
+    }
+
+    /// How many particles of each polygon show in a view.
+    pub(crate) fn shown(&self, map: &ScreenMap, wanted_per_px: f64) -> Vec<u32> {
+        self.sides
+            .iter()
+            .map(|side| {
+                let projected_px = area_px(map.jacobian(side.center), side.normal) * side.area;
+                let wanted = projected_px * wanted_per_px;
+                if wanted > 0.0 { (wanted.round() as u32).min(side.count) } else { 0 }
+            })
+            .collect()
+    }
+
+    /// Whether a particle is among those shown.
+    pub(crate) fn is_shown(&self, shown: &[u32], particle: usize) -> bool {
+        let (side, number) = self.of_particle[particle];
+        number < shown[side as usize]
+    }
+}

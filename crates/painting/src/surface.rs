@@ -1,0 +1,139 @@
+//! From an object of the document to the surface that is sampled and drawn.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use impasto_core::TriangleMesh;
+use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::{MeshFile, Texture};
+
+use crate::frame::{BodyMaterial, BodySurface};
+use crate::lights::linear;
+
+/// All that a body's surface depends on; while it stays equal, the surface is kept.
+#[derive(Clone, Debug)]
+pub(crate) struct SurfaceInputs {
+    pub(crate) name: String,
+    file: Arc<MeshFile>,
+    group: Option<String>,
+    scale: Scale,
+    up: Up,
+    material: Option<MaterialOverride>,
+    texture: Option<Arc<Texture>>,
+}
+
+impl PartialEq for SurfaceInputs {
+    fn eq(&self, other: &Self) -> bool {
+        let same_texture = match (&self.texture, &other.texture) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        Arc::ptr_eq(&self.file, &other.file)
+            && same_texture
+            && self.name == other.name
+            && self.group == other.group
+            && self.scale == other.scale
+            && self.up == other.up
+            && self.material == other.material
+    }
+}
+
+impl SurfaceInputs {
+    /// `None` when the mesh was not read.
+    pub(crate) fn new(loaded: &LoadedScene, object: &Object) -> Option<Self> {
+        let texture_name = object.material.as_ref().and_then(|material| material.texture.as_ref());
+        Some(Self {
+            name: object.name.clone(),
+            file: Arc::clone(loaded.meshes.get(&object.mesh)?),
+            group: object.group.clone(),
+            scale: object.scale,
+            up: object.up,
+            material: object.material.clone(),
+            texture: texture_name.and_then(|name| loaded.textures.get(name)).map(Arc::clone),
+        })
+    }
+
+    /// Names of the groups and materials of the mesh file, as regions know them.
+    pub(crate) fn file(&self) -> &MeshFile {
+        &self.file
+    }
+
+    pub(crate) fn build(&self) -> BodySurface {
+        let mesh = placed(self.chosen(), self.scale, self.up);
+        let materials = self.file.materials.iter().map(|material| self.material_of(material)).collect();
+        BodySurface { name: self.name.clone(), mesh, materials }
+    }
+
+    /// The whole mesh, or the triangles of the object's group.
+    fn chosen(&self) -> TriangleMesh {
+        let mesh = self.file.mesh.clone();
+        let Some(group) = &self.group else { return mesh };
+        let in_group =
+            |triangle: usize| self.file.groups[mesh.group_of_triangle[triangle] as usize] == *group;
+        let kept: Vec<usize> = (0..mesh.triangles.len()).filter(|&triangle| in_group(triangle)).collect();
+        let pick = |array: &[u32]| kept.iter().map(|&triangle| array[triangle]).collect::<Vec<u32>>();
+        TriangleMesh {
+            triangles: kept.iter().map(|&triangle| mesh.triangles[triangle]).collect(),
+            polygon_of_triangle: pick(&mesh.polygon_of_triangle),
+            group_of_triangle: pick(&mesh.group_of_triangle),
+            material_of_triangle: pick(&mesh.material_of_triangle),
+            ..mesh
+        }
+    }
+
+    fn material_of(&self, from_file: &impasto_scene::mesh_file::Material) -> BodyMaterial {
+        match &self.material {
+            Some(over) if over.color.is_some() || self.texture.is_some() => BodyMaterial {
+                albedo: linear(over.color.unwrap_or(Color::white())),
+                texture: self.texture.clone(),
+                unlit: over.unlit,
+            },
+            over => BodyMaterial {
+                albedo: linear(Color(from_file.color)),
+                texture: from_file.texture.clone(),
+                unlit: over.as_ref().is_some_and(|over| over.unlit),
+            },
+        }
+    }
+}
+
+/// Turns Z up into Y up and applies the static scale. A scale of zero leaves no triangle: nothing is painted.
+fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
+    let turn = |v: Vec3| match up {
+        Up::Y => v,
+        Up::Z => Vec3::new(v.x, v.z, -v.y),
+    };
+    let scale = Vec3::from_array(scale.0.map(|value| value as f32));
+    if scale.min_element() <= 0.0 {
+        return TriangleMesh::default();
+    }
+    for position in &mut mesh.positions {
+        *position = turn(*position) * scale;
+    }
+    for normal in &mut mesh.normals {
+        *normal = (turn(*normal) / scale).normalize_or(Vec3::Y);
+    }
+    mesh
+}
+
+impl BodySurface {
+    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
+    pub(crate) fn albedo_srgb8(&self, particle: &impasto_core::sampling::Particle) -> u32 {
+        let material = self.mesh.material_of_triangle.get(particle.triangle as usize).copied().unwrap_or(0);
+        let Some(material) = self.materials.get(material as usize) else { return 0xffcc_cccc };
+        let mut albedo = material.albedo;
+        if let (Some(texture), Some(uv)) = (&material.texture, particle.uv(&self.mesh)) {
+            let at = |value: f32, size: u32| ((value.rem_euclid(1.0) * size as f32) as u32).min(size - 1);
+            let [width, height] = texture.size_px;
+            let texel = at(uv.x, width) + (height - 1 - at(uv.y, height)) * width;
+            for (channel, byte) in albedo.iter_mut().zip(texture.rgba8[texel as usize]) {
+                *channel *= crate::lights::linear_from_srgb(f32::from(byte) / 255.0);
+            }
+        }
+        let [r, g, b] =
+            albedo.map(|channel| (crate::lights::srgb_from_linear(channel) * 255.0).round() as u32);
+        let lit = if material.unlit { 0 } else { 255 };
+        lit << 24 | b << 16 | g << 8 | r
+    }
+}

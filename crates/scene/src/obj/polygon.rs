@@ -1,0 +1,151 @@
+//! Polygons cut into triangles: a fan where that is right, ear clipping in the polygon's plane elsewhere.
+
+use std::collections::VecDeque;
+
+use glam::{DVec2, DVec3};
+
+/// Work (point in triangle tests) that one polygon may cost before it is cut as a fan.
+const MAX_TESTS: u64 = 300_000_000;
+
+/// The triangles of one polygon, as numbers of its corners.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Cut {
+    pub triangles: Vec<[usize; 3]>,
+    /// The polygon crosses itself, or is too large to be cut with care: some triangles may lie outside it.
+    pub is_rough: bool,
+}
+
+/// Twice the vector area of a polygon (Newell's method): its direction is the polygon's normal.
+pub(super) fn newell(corners: &[DVec3]) -> DVec3 {
+    let Some(&origin) = corners.first() else { return DVec3::ZERO };
+    corners.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum()
+}
+
+/// Cuts a polygon of at least three corners; winding is kept.
+pub(super) fn cut(corners: &[DVec3]) -> Cut {
+    let count = corners.len();
+    let fan = || (1..count - 1).map(|second| [0, second, second + 1]).collect::<Vec<_>>();
+    let normal = newell(corners).normalize_or_zero();
+    if count == 3 || normal == DVec3::ZERO {
+        return Cut { triangles: fan(), is_rough: count > 3 };
+    }
+    let (along, across) = normal.any_orthonormal_pair();
+    let points: Vec<DVec2> = corners
+        .iter()
+        .map(|at| at - corners[0])
+        .map(|at| DVec2::new(at.dot(along), at.dot(across)))
+        .collect();
+    // any_orthonormal_pair is right-handed with the normal up to a sign: make the polygon counter-clockwise.
+    let is_mirrored = along.cross(across).dot(normal) < 0.0;
+    let points = if is_mirrored { points.iter().map(|at| DVec2::new(at.x, -at.y)).collect() } else { points };
+    let is_convex = (0..count)
+        .all(|at| turn(points[(at + count - 1) % count], points[at], points[(at + 1) % count]) >= 0.0)
+        && winds_once(&points);
+    if is_convex { Cut { triangles: fan(), is_rough: false } } else { Ears::new(&points).clip() }
+}
+
+/// Whether a polygon that only turns left goes round once, and not as a pentagram does.
+fn winds_once(points: &[DVec2]) -> bool {
+    let count = points.len();
+    let edge = |at: usize| points[(at + 1) % count] - points[at];
+    let total: f64 = (0..count).map(|at| edge(at).angle_to(edge((at + 1) % count))).sum();
+    total < 1.5 * std::f64::consts::TAU
+}
+
+/// Twice the signed area of a triangle.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+struct Ears<'a> {
+    points: &'a [DVec2],
+    before: Vec<usize>,
+    after: Vec<usize>,
+    is_reflex: Vec<bool>,
+    /// Corners that turn right, by x: only these can lie in an ear. Entries that turned convex are skipped.
+    reflex_by_x: Vec<usize>,
+    tests: u64,
+}
+
+impl<'a> Ears<'a> {
+    fn new(points: &'a [DVec2]) -> Self {
+        let count = points.len();
+        let before = (0..count).map(|at| (at + count - 1) % count).collect();
+        let after = (0..count).map(|at| (at + 1) % count).collect();
+        let mut ears =
+            Self { points, before, after, is_reflex: vec![false; count], reflex_by_x: Vec::new(), tests: 0 };
+        for at in 0..count {
+            ears.is_reflex[at] = ears.turn_at(at) <= 0.0;
+        }
+        ears.reflex_by_x = (0..count).filter(|&at| ears.is_reflex[at]).collect();
+        ears.reflex_by_x.sort_by(|&a, &b| points[a].x.total_cmp(&points[b].x));
+        ears
+    }
+
+    fn turn_at(&self, at: usize) -> f64 {
+        turn(self.points[self.before[at]], self.points[at], self.points[self.after[at]])
+    }
+
+    /// Whether the triangle at a convex corner holds no other corner of the polygon (Meisters 1975).
+    fn is_ear(&mut self, at: usize) -> bool {
+        if self.is_reflex[at] {
+            return false;
+        }
+        let [a, b, c] = [self.before[at], at, self.after[at]].map(|corner| self.points[corner]);
+        let (low, high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let first = self.reflex_by_x.partition_point(|&corner| self.points[corner].x < low);
+        for &corner in &self.reflex_by_x[first..] {
+            let point = self.points[corner];
+            if point.x > high {
+                break;
+            }
+            self.tests += 1;
+            // Corners at the same place as the triangle's own are bridges to holes: they do not block.
+            let is_own = point == a || point == b || point == c;
+            if self.is_reflex[corner]
+                && !is_own
+                && turn(a, b, point) >= 0.0
+                && turn(b, c, point) >= 0.0
+                && turn(c, a, point) >= 0.0
+            {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn clip(mut self) -> Cut {
+        let mut left = self.points.len();
+        let mut cut = Cut::default();
+        let mut is_gone = vec![false; left];
+        let mut candidates: VecDeque<usize> = (0..left).collect();
+        let mut start = 0;
+        while left > 3 {
+            let next = candidates.pop_front();
+            let at = match next {
+                Some(at) if is_gone[at] || (self.tests < MAX_TESTS && !self.is_ear(at)) => continue,
+                Some(at) if self.tests < MAX_TESTS => at,
+                // No ear is left, so the polygon crosses itself; or it is too large. Cut on regardless.
+                _ => {
+                    let stuck = start;
+                    cut.is_rough |= self.turn_at(stuck) != 0.0;
+                    stuck
+                }
+            };
+            let (before, after) = (self.before[at], self.after[at]);
+            cut.triangles.push([before, at, after]);
+            is_gone[at] = true;
+            self.is_reflex[at] = false;
+            self.after[before] = after;
+            self.before[after] = before;
+            left -= 1;
+            start = after;
+            for corner in [before, after] {
+                self.is_reflex[corner] = self.is_reflex[corner] && self.turn_at(corner) <= 0.0;
+                candidates.push_back(corner);
+            }
+        }
+        cut.triangles.push([self.before[start], start, self.after[start]]);
+        cut
+    }
+}

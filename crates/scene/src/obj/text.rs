@@ -1,0 +1,192 @@
+//! Lines, words and places of an OBJ or MTL text, in whatever encoding and with whatever line ends it comes.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use crate::problem::{Place, Problem, Report, Severity};
+
+/// How many errors, and how many warnings, are told one by one.
+const MAX_TOLD: usize = 20;
+
+/// A word of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Word<'a> {
+    /// Its bytes: no white space in them.
+    pub bytes: &'a [u8],
+    /// Where it begins in the text, in bytes.
+    pub offset: usize,
+}
+
+impl<'a> Word<'a> {
+    /// The word as text, for a message or a number; bytes that are no UTF-8 become U+FFFD.
+    pub fn text(self) -> Cow<'a, str> {
+        String::from_utf8_lossy(self.bytes)
+    }
+
+    /// The word between quotes and short enough for a message.
+    pub fn quoted(self) -> String {
+        let text = self.text();
+        if text.chars().count() <= 40 {
+            format!("{text:?}")
+        } else {
+            format!("{:?}…", text.chars().take(32).collect::<String>())
+        }
+    }
+}
+
+/// A file's bytes as text that the reader can walk: UTF-16 turned into UTF-8, a byte order mark blanked out.
+pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
+    let wide = |to_unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| to_unit([pair[0], pair[1]])).collect();
+        String::from_utf16_lossy(&units).into_bytes()
+    };
+    match bytes.get(..2) {
+        Some([0xff, 0xfe]) => (wide(u16::from_le_bytes), true),
+        Some([0xfe, 0xff]) => (wide(u16::from_be_bytes), true),
+        _ if bytes.starts_with(&[0xef, 0xbb, 0xbf]) => (bytes[3..].to_vec(), false),
+        _ => (bytes, false),
+    }
+}
+
+/// The words of the next line that has any: a `\` at the end of a line joins the next one to it, `#` begins a comment.
+pub(super) struct Lines<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Lines<'a> {
+    pub fn new(text: &'a [u8]) -> Self {
+        Self { text, at: 0 }
+    }
+
+    /// Fills `words` with the next line's words; false at the end of the text.
+    pub fn next_into(&mut self, words: &mut Vec<Word<'a>>) -> bool {
+        words.clear();
+        while self.at < self.text.len() {
+            let byte = self.text[self.at];
+            if byte == b'\n' || byte == b'\r' {
+                self.at += 1;
+                if !words.is_empty() {
+                    return true;
+                }
+            } else if byte == b'#' {
+                self.skip_comment();
+            } else if let Some(length) = joint(&self.text[self.at..]) {
+                self.at += length;
+            } else if byte.is_ascii_whitespace() || byte == 0x0b {
+                self.at += 1;
+            } else {
+                words.push(self.word());
+            }
+        }
+        !words.is_empty()
+    }
+
+    fn skip_comment(&mut self) {
+        while self.at < self.text.len() && !matches!(self.text[self.at], b'\n' | b'\r') {
+            self.at += 1;
+        }
+    }
+
+    fn word(&mut self) -> Word<'a> {
+        let offset = self.at;
+        while let Some(&byte) = self.text.get(self.at)
+            && !byte.is_ascii_whitespace()
+            && byte != 0x0b
+            && joint(&self.text[self.at..]).is_none()
+        {
+            self.at += 1;
+        }
+        Word { bytes: &self.text[offset..self.at], offset }
+    }
+}
+
+/// The length of a `\` and the line end that follows it.
+fn joint(text: &[u8]) -> Option<usize> {
+    match text {
+        [b'\\', b'\r', b'\n', ..] => Some(3),
+        [b'\\', b'\r' | b'\n', ..] => Some(2),
+        _ => None,
+    }
+}
+
+/// The words of a name joined by single spaces: names are compared in this form, so that tabs, trailing blanks and
+/// line ends make no difference.
+pub(super) fn name_of(words: &[Word<'_>]) -> String {
+    words.iter().map(|word| word.text()).collect::<Vec<_>>().join(" ")
+}
+
+/// The problems of one text, with their places; the first 20 errors and the first 20 warnings are kept, the rest counted.
+pub(super) struct Findings<'a> {
+    path: &'a Path,
+    text: &'a [u8],
+    problems: Vec<Problem>,
+    errors: usize,
+    warnings: usize,
+}
+
+impl<'a> Findings<'a> {
+    pub fn new(path: &'a Path, text: &'a [u8]) -> Self {
+        Self { path, text, problems: Vec::new(), errors: 0, warnings: 0 }
+    }
+
+    /// Line and column of a byte of the text.
+    pub fn place(&self, offset: usize) -> Place {
+        let before = &self.text[..offset.min(self.text.len())];
+        let mut line = 1;
+        let mut line_start = 0;
+        for (index, &byte) in before.iter().enumerate() {
+            let is_pair = byte == b'\r' && before.get(index + 1) == Some(&b'\n');
+            if (byte == b'\n' || byte == b'\r') && !is_pair {
+                line += 1;
+                line_start = index + 1;
+            }
+        }
+        let is_char_start = |byte: &&u8| **byte & 0xc0 != 0x80;
+        Place { line, column: before[line_start..].iter().filter(is_char_start).count() + 1 }
+    }
+
+    pub fn error(&mut self, offset: usize, message: impl Into<String>, mend: &str) {
+        self.errors += 1;
+        if self.errors <= MAX_TOLD {
+            let place = Some(self.place(offset));
+            self.push(Severity::Error, place, message.into(), mend);
+        }
+    }
+
+    pub fn warning(&mut self, offset: usize, message: impl Into<String>, mend: &str) {
+        self.warnings += 1;
+        if self.warnings <= MAX_TOLD {
+            let place = Some(self.place(offset));
+            self.push(Severity::Warning, place, message.into(), mend);
+        }
+    }
+
+    /// An error about the whole file.
+    pub fn error_of_file(&mut self, message: impl Into<String>, mend: &str) {
+        self.errors += 1;
+        self.push(Severity::Error, None, message.into(), mend);
+    }
+
+    fn push(&mut self, severity: Severity, place: Option<Place>, message: String, mend: &str) {
+        let path = self.path.to_owned();
+        self.problems.push(Problem { severity, path, place, message, mend: mend.to_owned() });
+    }
+
+    pub fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// The warnings, or the report when there was any error; both in the order of the file.
+    pub fn finish(mut self) -> Result<Vec<Problem>, Report> {
+        self.problems.sort_by_key(|problem| (problem.place.is_none(), problem.place));
+        for (count, severity, word) in
+            [(self.errors, Severity::Error, "errors"), (self.warnings, Severity::Warning, "warnings")]
+        {
+            if count > MAX_TOLD {
+                self.push(severity, None, format!("{} more {word} like these", count - MAX_TOLD), "");
+            }
+        }
+        if self.errors > 0 { Err(Report(self.problems)) } else { Ok(self.problems) }
+    }
+}

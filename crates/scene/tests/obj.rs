@@ -1,0 +1,112 @@
+//! OBJ reading from outside: good files come out whole, bad ones with a place, and no mutation breaks an invariant.
+
+use std::fs;
+use std::path::Path;
+
+use impasto_scene::assets::AssetFolders;
+use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::obj;
+use impasto_scene::problem::{Place, Problem, Report};
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+fn read(folder: &Path, text: &[u8]) -> Result<(MeshFile, Vec<Problem>), Report> {
+    let path = folder.join("model.obj");
+    fs::write(&path, text).expect("the temporary folder can be written");
+    obj::read(&path, folder, &AssetFolders::default())
+}
+
+fn first_place(result: Result<(MeshFile, Vec<Problem>), Report>) -> Option<Place> {
+    result
+        .expect_err("the text is wrong")
+        .0
+        .iter()
+        .find(|problem| problem.severity.is_fatal())
+        .and_then(|problem| problem.place)
+}
+
+fn assert_sound(file: &MeshFile) {
+    let mesh = &file.mesh;
+    let count = mesh.triangles.len();
+    assert!(count > 0 && !file.groups.is_empty() && !file.materials.is_empty());
+    assert!(mesh.positions.iter().all(|at| at.is_finite()));
+    assert!(mesh.normals.len() == mesh.positions.len());
+    assert!(mesh.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-3));
+    assert!(mesh.uvs.is_empty() || mesh.uvs.len() == mesh.positions.len());
+    assert!(mesh.triangles.iter().flatten().all(|&vertex| (vertex as usize) < mesh.positions.len()));
+    assert!(mesh.polygon_of_triangle.len() == count && mesh.polygon_of_triangle.is_sorted());
+    assert!(mesh.group_of_triangle.len() == count && mesh.material_of_triangle.len() == count);
+    assert!(mesh.group_of_triangle.iter().all(|&group| (group as usize) < file.groups.len()));
+    assert!(mesh.material_of_triangle.iter().all(|&material| (material as usize) < file.materials.len()));
+}
+
+#[test]
+fn errors_stand_where_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    for (line, column) in
+        [("f 1 2 9", 7), ("f 1 0 3", 5), ("f 1 2 1.5", 7), ("v 0 nan 0", 5), ("v 0 1.0D0 1", 5), ("v 1 1", 1)]
+    {
+        let text = format!("\u{feff}{SQUARE}{line}\nf 1 2 3\n");
+        assert_eq!(
+            first_place(read(folder.path(), text.as_bytes())),
+            Some(Place { line: 5, column }),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn a_concave_polygon_keeps_its_area() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n";
+    let (file, _) = read(folder.path(), text.as_bytes()).unwrap();
+    let area = |triangle: usize| {
+        let [a, b, c] = file.mesh.corners(triangle);
+        (b - a).cross(c - a).z / 2.0
+    };
+    let areas: Vec<f32> = (0..file.mesh.triangles.len()).map(area).collect();
+    assert!(areas.iter().all(|&area| area > 0.0), "{areas:?}");
+    assert_eq!(areas.iter().sum::<f32>(), 10.0);
+}
+
+#[test]
+fn nothing_outside_the_folder_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("secret.mtl"), "newmtl m\nKd 1 0 0\n").unwrap();
+    let inner = folder.path().join("inner");
+    fs::create_dir(&inner).unwrap();
+    let text = format!("mtllib ../secret.mtl\nusemtl m\n{SQUARE}f 1 2 3 4\n");
+    let (file, warnings) = read(&inner, text.as_bytes()).unwrap();
+    assert_eq!((file.materials[0].color, warnings.len()), ([0.8; 3], 1));
+}
+
+#[test]
+fn mutations_give_a_sound_mesh_or_a_report() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("m.mtl"), "newmtl a b\nKd 0.5 0.5\n").unwrap();
+    let good = format!(
+        "mtllib m.mtl\ng a\nusemtl a b\n{SQUARE}vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -1 -2 -3\n"
+    );
+    let swaps: [&[u8]; 8] = [b"nan", b"-9", b"1e38", b"/", b"\\\n", b"\xff", b"99999999999", b"\nf "];
+    let mut state = 7_u64;
+    let mut next = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    for case in 0..2000 {
+        let mut text = good.clone().into_bytes();
+        if case < good.len() {
+            text.truncate(case);
+        } else {
+            for _ in 0..=next(3) {
+                let at = next(text.len());
+                let end = (at + next(4)).min(text.len());
+                text.splice(at..end, swaps[next(swaps.len())].iter().copied());
+            }
+        }
+        match read(folder.path(), &text) {
+            Ok((file, _)) => assert_sound(&file),
+            Err(report) => assert!(report.0.iter().any(|problem| problem.severity.is_fatal()), "case {case}"),
+        }
+    }
+}

@@ -1,0 +1,2 @@
+// Depth is all that is kept.
+void main() {}

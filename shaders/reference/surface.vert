@@ -1,0 +1,23 @@
+// A body's vertices into the picture.
+layout(location = 0) in vec3 position_in_model;
+layout(location = 1) in vec3 normal_in_model;
+layout(location = 2) in vec2 uv;
+
+uniform mat4 world_from_model;
+uniform mat4 view_from_world;
+uniform mat4 clip_from_view;
+
+out vec3 position_in_world;
+out vec3 normal_in_world;
+out float depth_along_gaze;
+out vec2 texture_at;
+
+void main() {
+    vec4 world = world_from_model * vec4(position_in_model, 1.0);
+    vec4 view = view_from_world * world;
+    position_in_world = world.xyz;
+    normal_in_world = mat3(world_from_model) * normal_in_model;
+    depth_along_gaze = -view.z;
+    texture_at = uv;
+    gl_Position = clip_from_view * view;
+}

@@ -1,0 +1,18 @@
+// From a pixel and a depth to a place, for either kind of lens.
+uniform mat4 world_from_view;
+uniform vec2 size_px;
+uniform float px_per_unit_at_1;  // focal length in pixels, or pixels per world unit where parallel
+uniform float orthographic;      // 1 where rays are parallel
+
+// World units per pixel at a depth.
+float units_per_px(float depth) {
+    return mix(depth, 1.0, orthographic) / px_per_unit_at_1;
+}
+
+vec3 view_from_px(vec2 at_px, float depth) {
+    return vec3((at_px - 0.5 * size_px) * units_per_px(depth), -depth);
+}
+
+vec3 world_from_px(vec2 at_px, float depth) {
+    return (world_from_view * vec4(view_from_px(at_px, depth), 1.0)).xyz;
+}

@@ -1,0 +1,174 @@
+//! Meshes and scenes whose answers are known in closed form.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+use impasto_core::TriangleMesh;
+use impasto_scene::document::{
+    Camera, CameraKey, Color, Direction, Ease, Lens, Object, Reference, Region, Scene, Selector,
+    StrokeSettings, Style, Timeline,
+};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::{Material, MeshFile};
+
+/// A unit sphere of `columns` × `rows` quads (triangles at the poles), with its analytic normals.
+pub fn sphere(columns: u32, rows: u32) -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let polar = std::f32::consts::PI * row as f32 / rows as f32;
+            // The seam and the poles repeat positions exactly, so that the shell is closed.
+            let around = std::f32::consts::TAU * (column % columns) as f32 / columns as f32;
+            let radius = if row == 0 || row == rows { 0.0 } else { polar.sin() };
+            let position = Vec3::new(radius * around.sin(), polar.cos(), radius * around.cos());
+            mesh.positions.push(position);
+            mesh.normals.push(position.normalize());
+            mesh.uvs.push(Vec2::new(column as f32 / columns as f32, 1.0 - row as f32 / rows as f32));
+        }
+    }
+    let at = |row: u32, column: u32| row * (columns + 1) + column;
+    for row in 0..rows {
+        for column in 0..columns {
+            let [a, b] = [at(row, column), at(row + 1, column)];
+            let [c, d] = [at(row + 1, column + 1), at(row, column + 1)];
+            let triangles: &[[u32; 3]] = match row {
+                0 => &[[a, b, c]],
+                _ if row == rows - 1 => &[[a, b, d]],
+                _ => &[[a, b, c], [a, c, d]],
+            };
+            push_polygon(&mut mesh, triangles);
+        }
+    }
+    mesh
+}
+
+/// A square sheet of side 2 in the plane z = 0, facing +Z, of `cells` × `cells` quads.
+pub fn sheet(cells: u32) -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for row in 0..=cells {
+        for column in 0..=cells {
+            let uv = Vec2::new(column as f32, row as f32) / cells as f32;
+            mesh.positions.push((uv * 2.0 - 1.0).extend(0.0));
+            mesh.normals.push(Vec3::Z);
+            mesh.uvs.push(uv);
+        }
+    }
+    for row in 0..cells {
+        for column in 0..cells {
+            let a = row * (cells + 1) + column;
+            let (b, d) = (a + 1, a + cells + 1);
+            push_polygon(&mut mesh, &[[a, b, d + 1], [a, d + 1, d]]);
+        }
+    }
+    mesh
+}
+
+/// A cube from −1 to 1 with flat normals.
+pub fn cube() -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for axis in 0..3 {
+        for sign in [-1.0f32, 1.0] {
+            let mut normal = Vec3::ZERO;
+            normal[axis] = sign;
+            let mut right = Vec3::ZERO;
+            right[(axis + 1) % 3] = 1.0;
+            let up = normal.cross(right);
+            let first = mesh.positions.len() as u32;
+            for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+                mesh.positions.push(normal + right * x + up * y);
+                mesh.normals.push(normal);
+                mesh.uvs.push(Vec2::new(x, y) * 0.5 + 0.5);
+            }
+            push_polygon(&mut mesh, &[[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+    }
+    mesh
+}
+
+fn push_polygon(mesh: &mut TriangleMesh, triangles: &[[u32; 3]]) {
+    let polygon = mesh.polygon_count() as u32;
+    for &triangle in triangles {
+        mesh.triangles.push(triangle);
+        mesh.polygon_of_triangle.push(polygon);
+        mesh.group_of_triangle.push(0);
+        mesh.material_of_triangle.push(0);
+    }
+}
+
+/// An object of a scene that is put together in a test.
+pub fn object(name: &str, particles: u64) -> Object {
+    Object {
+        name: name.to_owned(),
+        mesh: format!("{name}.obj"),
+        group: None,
+        parent: None,
+        particles: Some(particles),
+        scale: Default::default(),
+        up: Default::default(),
+        material: None,
+        keys: Vec::new(),
+    }
+}
+
+/// A camera key without roll.
+pub fn camera_key(frame: f64, eye: [f64; 3], target: [f64; 3]) -> CameraKey {
+    CameraKey { frame, eye, target, roll_deg: 0.0, fov_y_deg: None, ease: Ease::Linear }
+}
+
+/// A scene over these objects, seen from (0, 0, 4) with a 35° lens, strokes at 20° without jitter.
+pub fn scene(objects: Vec<Object>) -> Scene {
+    Scene {
+        version: Scene::VERSION,
+        size: (640, 360),
+        seed: 7,
+        background: Color::default(),
+        timeline: Timeline { fps: 24.0, first: 0, last: 0 },
+        reference: Reference::Frame(0),
+        camera: Camera {
+            lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.05, far: 100.0 },
+            keys: vec![camera_key(0.0, [0.0, 0.0, 4.0], [0.0; 3])],
+        },
+        lights: Vec::new(),
+        objects,
+        strokes: StrokeSettings {
+            angle_jitter_deg: Some(0.0),
+            size_jitter: Some(0.0),
+            length_px: Some(20.0),
+            width_px: Some(7.0),
+            ..Default::default()
+        },
+        regions: vec![Region {
+            name: "all".to_owned(),
+            on: Selector::Everything,
+            direction: Direction::Angle(20.0),
+            strokes: StrokeSettings::default(),
+        }],
+        style: Style::default(),
+    }
+}
+
+/// Puts meshes under the names of a scene's objects, in their order, as if they had been read from files.
+pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> Arc<LoadedScene> {
+    let meshes: BTreeMap<String, Arc<MeshFile>> = scene
+        .objects
+        .iter()
+        .zip(meshes)
+        .map(|(object, mesh)| {
+            let file = MeshFile {
+                mesh,
+                groups: vec!["whole".to_owned()],
+                materials: vec![Material { name: String::new(), color: [0.7, 0.4, 0.3], texture: None }],
+            };
+            (object.mesh.clone(), Arc::new(file))
+        })
+        .collect();
+    Arc::new(LoadedScene {
+        path: PathBuf::from("scene.ron"),
+        scene,
+        meshes,
+        textures: BTreeMap::new(),
+        warnings: Vec::new(),
+    })
+}

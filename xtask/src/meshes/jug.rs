@@ -1,0 +1,127 @@
+//! The jug of the still life: thrown clay, glazed from the rim to below the belly, with a lip and a handle.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::curve::{Profile, bump, noise, smoothstep};
+use super::poly_mesh::{Look, PolyMesh};
+
+/// From the middle of the foot, up the outside, over the rim and down the inside: distance from the axis, height.
+const OUTLINE: [[f64; 2]; 26] = [
+    [0.0, 0.010],
+    [0.15, 0.010],
+    [0.205, 0.0],
+    [0.232, 0.010],
+    [0.262, 0.055],
+    [0.318, 0.150],
+    [0.362, 0.270],
+    [0.372, 0.380],
+    [0.345, 0.500],
+    [0.286, 0.615],
+    [0.222, 0.710],
+    [0.186, 0.790],
+    [0.182, 0.855],
+    [0.202, 0.920],
+    [0.236, 0.972],
+    [0.248, 0.992],
+    [0.238, 1.004],
+    [0.220, 0.992],
+    [0.182, 0.930],
+    [0.150, 0.860],
+    [0.152, 0.790],
+    [0.188, 0.700],
+    [0.312, 0.480],
+    [0.320, 0.280],
+    [0.200, 0.060],
+    [0.0, 0.045],
+];
+
+/// A jug of about one unit: body (64 × 72 faces), spout towards −X, handle towards +X.
+pub fn jug() -> PolyMesh {
+    let mut mesh = PolyMesh::new(
+        "jug",
+        "A glazed clay jug, its lip towards -X, its handle towards +X.",
+        &[("glaze", "#3f6673"), ("rim", "#2f4b57"), ("clay", "#b98a62"), ("inside", "#4a4038")],
+    );
+    body(&mut mesh);
+    handle(&mut mesh);
+    mesh
+}
+
+fn body(mesh: &mut PolyMesh) {
+    const ROWS: usize = 64;
+    const SEGMENTS: usize = 72;
+    let mut outline = Profile::through(&OUTLINE).spread(ROWS, 0.45);
+    // The lathe runs from the upper pole to the lower one; here that is from the inside floor to the foot.
+    outline.reverse();
+    let rim = (0..=ROWS).max_by(|&a, &b| outline[a].y.total_cmp(&outline[b].y)).unwrap_or(0);
+    mesh.lathe(
+        [ROWS, SEGMENTS],
+        |row, segment| body_point(outline[row].x, outline[row].y, TAU * segment as f64 / SEGMENTS as f64),
+        |row, segment| {
+            let height = outline[row].y;
+            let round = segment as f64 / SEGMENTS as f64;
+            // The glaze ends in a wavy line with a few runs.
+            let border = 0.215 + 0.030 * (TAU * round * 3.0 + 0.6).sin() + 0.028 * noise(round, 0.0, 14, 5);
+            let (group, material) = if row + 2 < rim && height < 0.975 {
+                ("inside", "inside")
+            } else if height > 0.962 {
+                ("body", "rim")
+            } else if height > border {
+                ("body", "glaze")
+            } else {
+                ("body", "clay")
+            };
+            Look { group, material }
+        },
+    );
+}
+
+/// A point of the outline turned round the axis, with the lip pulled out towards −X, and faint throwing rings.
+fn body_point(radius: f64, height: f64, angle: f64) -> DVec3 {
+    let towards_lip = -angle.cos();
+    let high = smoothstep(0.80, 1.0, height);
+    let pull = smoothstep(0.55, 1.0, towards_lip) * high;
+    let pinch = bump(0.62, 0.32, towards_lip) * high;
+    let rings = 1.0 + 0.004 * (height * 46.0).sin() * smoothstep(0.1, 0.2, height) * (1.0 - high);
+    let spread = radius * rings * (1.0 + 0.48 * pull * pull - 0.07 * pinch);
+    let lift = 0.050 * pull - 0.012 * pinch;
+    DVec3::new(spread * angle.cos(), height + lift * radius / 0.24, -spread * angle.sin())
+}
+
+/// A pulled handle: a flat oval that springs from the neck, bows out and lands on the belly.
+fn handle(mesh: &mut PolyMesh) {
+    const ALONG: usize = 34;
+    const SIDES: usize = 16;
+    let path = Profile::through(&[
+        [0.176, 0.892],
+        [0.270, 0.935],
+        [0.405, 0.925],
+        [0.485, 0.820],
+        [0.495, 0.680],
+        [0.440, 0.540],
+        [0.350, 0.440],
+    ])
+    .spread(ALONG - 2, 0.4);
+    let last = path.len() - 1;
+    mesh.lathe(
+        [ALONG, SIDES],
+        |row, side| {
+            // The first and the last band close the ends, which lie inside the wall.
+            let index = row.saturating_sub(1).min(last);
+            let tangent = (path[(index + 1).min(last)] - path[index.saturating_sub(1)]).normalize();
+            let t = index as f64 / last as f64;
+            let centre = DVec3::new(path[index].x, path[index].y, 0.0);
+            let flat = DVec3::new(tangent.y, -tangent.x, 0.0);
+            if row == 0 || row == ALONG {
+                return centre;
+            }
+            let swell = 0.014 * bump(0.0, 0.16, t) + 0.020 * bump(1.0, 0.22, t);
+            let (thick, wide) = (0.027 + swell * 0.7, 0.043 + swell);
+            let angle = TAU * side as f64 / SIDES as f64;
+            centre + flat * (thick * angle.cos()) + DVec3::Z * (wide * angle.sin())
+        },
+        |_, _| Look { group: "handle", material: "glaze" },
+    );
+}

@@ -1,0 +1,106 @@
+//! The shipped meshes, made by code: `cargo xtask meshes` writes them to `scenes/meshes`.
+
+mod apple;
+mod blocks;
+mod curve;
+mod fish;
+mod jug;
+mod lemon;
+mod poly_mesh;
+mod room;
+
+use std::path::Path;
+
+use anyhow::Context as _;
+
+use poly_mesh::PolyMesh;
+
+/// Where the meshes are kept, from the repository's root.
+const FOLDER: &str = "scenes/meshes";
+
+/// Writes every shipped mesh, an OBJ and its MTL, under `root`.
+///
+/// # Errors
+/// When a mesh came out wrong, or a file cannot be written.
+pub fn run(root: &Path) -> anyhow::Result<()> {
+    let folder = root.join(FOLDER);
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    for mesh in shipped() {
+        for (name, text) in files(&mesh)? {
+            let path = folder.join(name);
+            std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Every shipped mesh.
+fn shipped() -> Vec<PolyMesh> {
+    vec![
+        apple::apple(),
+        blocks::cube(),
+        fish::fish(),
+        jug::jug(),
+        lemon::lemon(),
+        blocks::log(),
+        lemon::pear(),
+        room::plane(),
+        blocks::simple_objects(),
+        room::table(),
+        room::wall(),
+    ]
+}
+
+/// Name and text of the two files of a mesh.
+fn files(mesh: &PolyMesh) -> anyhow::Result<[(String, String); 2]> {
+    Ok([(format!("{}.obj", mesh.name), mesh.to_obj()?), (format!("{}.mtl", mesh.name), mesh.to_mtl()?)])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::*;
+
+    #[test]
+    fn committed_files_are_what_the_code_writes() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(FOLDER);
+        for mesh in shipped() {
+            for (name, text) in files(&mesh).unwrap() {
+                let committed = std::fs::read_to_string(folder.join(&name)).unwrap();
+                assert!(committed == text, "{name} is stale: run `cargo xtask meshes`");
+            }
+        }
+    }
+
+    #[test]
+    fn counts_are_the_papers() {
+        for (name, polygons) in [("apple", 550), ("fish", 8618), ("simple_objects", 3978)] {
+            let mesh = shipped().into_iter().find(|mesh| mesh.name == name).unwrap();
+            assert_eq!(mesh.faces.len(), polygons, "{name}");
+        }
+    }
+
+    /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
+    #[test]
+    fn bodies_are_closed_and_wind_outwards() {
+        for mesh in shipped().into_iter().filter(|mesh| mesh.name != "wall") {
+            let mut edges = HashMap::new();
+            let mut volume = 0.0;
+            for face in &mesh.faces {
+                for (index, &from) in face.corners.iter().enumerate() {
+                    let to = face.corners[(index + 1) % face.corners.len()];
+                    *edges.entry((from, to)).or_insert(0) += 1;
+                }
+                let at = |corner: usize| mesh.positions[face.corners[corner]];
+                for corner in 2..face.corners.len() {
+                    volume += at(0).dot(at(corner - 1).cross(at(corner)));
+                }
+            }
+            assert!(volume > 0.0, "{} is inside out", mesh.name);
+            for (&(from, to), &count) in &edges {
+                assert!(count == 1 && edges.get(&(to, from)) == Some(&1), "{}: edge {from}-{to}", mesh.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! System packages: found by looking for the libraries themselves, installed with apt-get where there is one.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context as _, bail};
+
+use crate::steps::run;
+
+/// What to do about a package that is missing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Install {
+    /// Install it, saying so first.
+    Yes,
+    /// Print the command that would, and stop.
+    PrintOnly,
+}
+
+/// A library that has to be there, and the Debian package that brings it.
+pub struct Need {
+    /// What it is, for people.
+    what: &'static str,
+    /// The Debian and Ubuntu package.
+    package: &'static str,
+    /// Starts of file names, one of which has to lie in a library folder (or its `dri` folder).
+    files: &'static [&'static str],
+    /// Whether newer systems no longer have the package at all.
+    retired: bool,
+}
+
+const EGL: Need =
+    Need { what: "the EGL library", package: "libegl1", files: &["libEGL.so.1"], retired: false };
+
+const MESA: Need = Need {
+    what: "an OpenGL driver for EGL",
+    package: "libgl1-mesa-dri",
+    files: &["swrast_dri.so", "libgallium-", "libEGL_nvidia.so.0"],
+    retired: false,
+};
+
+const OSMESA: Need = Need {
+    what: "the OSMesa library",
+    package: "libosmesa6",
+    files: &["libOSMesa.so.8", "libOSMesa.so.6"],
+    // Mesa 25.1 dropped it.
+    retired: true,
+};
+
+/// What `impasto render` needs on a machine without a display.
+pub const RENDERING: &[Need] = &[EGL, MESA];
+
+/// What the tests need: they draw with every driver.
+pub const TESTS: &[Need] = &[EGL, MESA, OSMESA];
+
+/// Makes sure that everything in `needs` is there, or says how to get it.
+pub fn ensure(root: &Path, needs: &[Need], install: Install) -> anyhow::Result<()> {
+    let folders = library_folders();
+    let missing: Vec<&Need> = needs.iter().filter(|need| !is_there(need, &folders)).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    for need in &missing {
+        println!("missing: {} (package {})", need.what, need.package);
+    }
+    let names: Vec<&str> = missing.iter().map(|need| need.package).collect();
+    if program("apt-get").is_none() {
+        bail!(
+            "this system has no apt-get; install what brings {} (Mesa's EGL, its software driver{}) and try again",
+            missing.iter().map(|need| need.files[0]).collect::<Vec<_>>().join(", "),
+            if missing.iter().any(|need| need.retired) { ", OSMesa" } else { "" }
+        );
+    }
+    let prefix = prefix()?;
+    if install == Install::PrintOnly {
+        let shown: String = prefix.iter().map(|word| format!("{word} ")).collect();
+        bail!(
+            "install the packages first:\n  {shown}apt-get update && \
+             {shown}apt-get install --yes --no-install-recommends {}",
+            names.join(" ")
+        );
+    }
+    apt_get(root, &prefix, &["update"])?;
+    let known: Vec<&Need> = missing.into_iter().filter(|need| !need.retired || is_known(need)).collect();
+    let mut arguments = vec!["install", "--yes", "--no-install-recommends"];
+    arguments.extend(known.iter().map(|need| need.package));
+    if !known.is_empty() {
+        apt_get(root, &prefix, &arguments)?;
+    }
+    let folders = library_folders();
+    match known.iter().find(|need| !is_there(need, &folders)) {
+        Some(need) => bail!("{} is still missing after installing {}", need.what, need.package),
+        None => Ok(()),
+    }
+}
+
+/// Whether apt knows the package; says so when it does not.
+fn is_known(need: &Need) -> bool {
+    let known = Command::new("apt-cache")
+        .args(["show", "--no-all-versions", need.package])
+        .output()
+        .is_ok_and(|output| output.status.success() && !output.stdout.is_empty());
+    if !known {
+        println!("this system no longer packages {}: going on without {}", need.package, need.what);
+    }
+    known
+}
+
+/// Runs apt-get, saying so first, without questions.
+fn apt_get(root: &Path, prefix: &[&'static str], arguments: &[&str]) -> anyhow::Result<()> {
+    // `env` so that the setting survives sudo.
+    let mut words = prefix.to_vec();
+    words.extend(["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]);
+    words.extend(arguments);
+    println!("running: {}", words.join(" "));
+    run(root, words[0], &words[1..])
+}
+
+/// What has to stand before apt-get: nothing for root, else sudo.
+fn prefix() -> anyhow::Result<Vec<&'static str>> {
+    let id = Command::new("id").arg("-u").output().context("`id` cannot be started")?;
+    if id.stdout.trim_ascii() == b"0" {
+        return Ok(Vec::new());
+    }
+    if program("sudo").is_none() {
+        bail!("installing packages needs root, and there is no sudo; run this as root once");
+    }
+    Ok(vec!["sudo"])
+}
+
+fn program(name: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
+}
+
+/// Whether one of the need's files lies in one of the folders or in its `dri` folder.
+fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
+    folders.iter().flat_map(|folder| [folder.clone(), folder.join("dri")]).any(|folder| {
+        let Ok(entries) = std::fs::read_dir(folder) else { return false };
+        entries.flatten().any(|entry| {
+            let name = entry.file_name();
+            need.files.iter().any(|start| name.to_string_lossy().starts_with(start))
+        })
+    })
+}
+
+/// The folders that the dynamic loader looks in: the cache's, the environment's, and the usual ones.
+fn library_folders() -> Vec<PathBuf> {
+    let mut folders: Vec<PathBuf> = Vec::new();
+    for ldconfig in ["ldconfig", "/sbin/ldconfig", "/usr/sbin/ldconfig"] {
+        let Ok(cache) = Command::new(ldconfig).arg("-p").output() else { continue };
+        let cache = String::from_utf8_lossy(&cache.stdout).into_owned();
+        let files = cache.lines().filter_map(|line| line.split_once("=> ").map(|(_, file)| file.trim()));
+        folders.extend(files.filter_map(|file| Path::new(file).parent().map(Path::to_path_buf)));
+        break;
+    }
+    if let Some(path) = std::env::var_os("LD_LIBRARY_PATH") {
+        folders.extend(std::env::split_paths(&path));
+    }
+    for parent in ["/usr/lib", "/lib"].map(Path::new) {
+        folders.push(parent.to_path_buf());
+        let triplet = |folder: &PathBuf| folder.extension().is_none() && name_ends(folder, "-linux-gnu");
+        let inside = std::fs::read_dir(parent).into_iter().flatten().flatten().map(|entry| entry.path());
+        folders.extend(inside.filter(triplet));
+    }
+    folders.push(PathBuf::from("/usr/lib64"));
+    folders.sort();
+    folders.dedup();
+    folders
+}
+
+fn name_ends(path: &Path, end: &str) -> bool {
+    path.file_name().and_then(OsStr::to_str).is_some_and(|name| name.ends_with(end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_library_is_found_by_its_file_also_among_the_drivers() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let folders = [folder.path().to_path_buf()];
+        assert!(!is_there(&EGL, &folders) && !is_there(&MESA, &folders));
+        std::fs::write(folder.path().join("libEGL.so.1.1.0"), "").expect("written");
+        std::fs::create_dir(folder.path().join("dri")).expect("made");
+        assert!(is_there(&EGL, &folders) && !is_there(&MESA, &folders));
+        std::fs::write(folder.path().join("dri/swrast_dri.so"), "").expect("written");
+        assert!(is_there(&MESA, &folders) && !is_there(&OSMESA, &folders));
+    }
+}

@@ -1,0 +1,18 @@
+//! Files and folders are named for what is in them.
+
+use super::finding::Finding;
+
+/// Starts of names that say nothing about what is inside.
+const EMPTY_NAMES: &[&str] = &["util", "misc", "helper", "common", "manager"];
+
+/// Names along the path that say nothing.
+pub fn check(file: &str) -> Vec<Finding> {
+    let empty = |part: &&str| EMPTY_NAMES.iter().any(|name| part.to_lowercase().starts_with(name));
+    file.split('/')
+        .filter(empty)
+        .map(|part| {
+            let mend = "name the noun that is inside (`strip`, `angle`), and split what has none in common";
+            Finding::of_file(file, format!("`{part}` says nothing about what is in it"), mend)
+        })
+        .collect()
+}

@@ -1,0 +1,43 @@
+//! The files of the repository, without what is built or written by running it.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+
+/// Folders that hold output, wherever they lie.
+const OUTPUT_FOLDERS: &[&str] = &["target", "out", ".git"];
+
+/// Every file under `root`, as a path from it with `/`, sorted.
+pub fn files(root: &Path) -> anyhow::Result<Vec<String>> {
+    let mut files = Vec::new();
+    let mut folders = vec![String::new()];
+    while let Some(folder) = folders.pop() {
+        let here = root.join(&folder);
+        for entry in std::fs::read_dir(&here).with_context(|| format!("{} cannot be read", here.display()))? {
+            let entry = entry?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
+            let kind = entry.file_type()?;
+            if OUTPUT_FOLDERS.contains(&name.as_str()) {
+                continue;
+            }
+            if kind.is_dir() {
+                folders.push(path);
+            } else if kind.is_file() {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// The last part of a path.
+pub fn name(file: &str) -> &str {
+    file.rsplit('/').next().unwrap_or(file)
+}
+
+/// What stands after the last dot of the file's name; empty without one.
+pub fn extension(file: &str) -> &str {
+    name(file).rsplit_once('.').map_or("", |(_, extension)| extension)
+}
