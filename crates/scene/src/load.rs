@@ -191,3 +191,6 @@ fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
+
+#[cfg(test)]
+mod hostile_tests;
