@@ -1,6 +1,7 @@
 //! The integration tests of Impasto.
 
 mod horn;
+mod hostile_scenes;
 mod progressive_order;
 mod roll_and_lateral;
 mod steadiness;

@@ -31,6 +31,9 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
             Ok(_) => break,
             Err(error) => error,
         };
+        if is_mistyped(&error, &problems) {
+            break;
+        }
         let unknown = unknown_field(&located, &left, &error);
         problems.push(explain(path, &located, &error, unknown));
         // An unknown field is blanked out, so that the parser goes on to the next fault and all places hold.
@@ -40,6 +43,13 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
         }
     }
     Err(Report(problems))
+}
+
+/// Whether a field is missing only because it was mistyped, which is one fault and is reported already.
+fn is_mistyped(error: &SpannedError, problems: &[Problem]) -> bool {
+    let ron::Error::MissingStructField { field, .. } = &error.code else { return false };
+    let suggestion = did_you_mean(field);
+    problems.iter().any(|problem| problem.mend.starts_with(&suggestion))
 }
 
 /// The version is looked at before anything else: a newer file may have any fields.
@@ -233,9 +243,13 @@ fn named(field_path: &str) -> String {
 fn one_of(found: &str, expected: &[&str]) -> String {
     let known = expected.join(", ");
     match nearest(found, expected.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`? Known here: {known}"),
+        Some(near) => format!("{} Known here: {known}", did_you_mean(near)),
         None => format!("known here: {known}"),
     }
+}
+
+fn did_you_mean(name: &str) -> String {
+    format!("did you mean `{name}`?")
 }
 
 /// What a field holds, for people.
