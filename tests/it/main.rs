@@ -4,4 +4,5 @@ mod horn;
 mod hostile_scenes;
 mod progressive_order;
 mod roll_and_lateral;
+mod rotating_strokes;
 mod steadiness;
