@@ -223,13 +223,13 @@ fn scene_text(fields: &str) -> String {
 
 /// A folder with meshes, a picture whose header claims 3.6 thousand million pixels, and the scene.
 fn load_in_folder(folder: &Path, scene: &[u8]) -> Result<LoadedScene, Report> {
-    fs::create_dir_all(folder.join("sub")).unwrap();
-    fs::write(folder.join("cube.obj"), CUBE).unwrap();
-    fs::write(folder.join("sub/cube.obj"), CUBE).unwrap();
-    let picture = fs::File::create(folder.join("bomb.png")).unwrap();
-    png::Encoder::new(picture, 60_000, 60_000).write_header().unwrap();
+    fs::create_dir_all(folder.join("sub")).expect("a temporary folder can be written to");
+    fs::write(folder.join("cube.obj"), CUBE).expect("a temporary folder can be written to");
+    fs::write(folder.join("sub/cube.obj"), CUBE).expect("a temporary folder can be written to");
+    let picture = fs::File::create(folder.join("bomb.png")).expect("a temporary folder can be written to");
+    png::Encoder::new(picture, 60_000, 60_000).write_header().expect("a temporary folder can be written to");
     let path = folder.join("scene.ron");
-    fs::write(&path, scene).unwrap();
+    fs::write(&path, scene).expect("a temporary folder can be written to");
     load::load(&path, &LoadOptions::default())
 }
 
