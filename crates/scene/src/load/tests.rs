@@ -67,6 +67,13 @@ fn all_unknown_fields_are_reported_at_once() {
 }
 
 #[test]
+fn unknown_fields_that_are_not_ascii_do_not_shift_the_next_one() {
+    let said = after_edit("particles: 10", "größe: \"äöü\", parents: 1");
+    assert!(said.contains("s.ron:6:59: error: unknown field `größe`"), "{said}");
+    assert!(said.contains("s.ron:6:73: error: unknown field `parents`; did you mean `parent`?"), "{said}");
+}
+
+#[test]
 fn an_unknown_field_is_found_again_where_a_known_one_of_its_name_stands_elsewhere() {
     // `particles` is known in objects; `fps` is known in the timeline.
     let said = after_edit("strokes: (flatness: 0.5)", "strokes: (particles: 3, fps: 2)");
