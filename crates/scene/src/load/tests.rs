@@ -188,7 +188,8 @@ fn a_missing_file_a_folder_and_a_strange_extension_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let options = LoadOptions::default();
     let said = |path: &Path| load(path, &options).expect_err("taken").to_string();
-    assert!(said(&folder.path().join("none.ron")).contains("none.ron: error: the scene cannot be read"));
+    assert!(said(&folder.path().join("none.ron")).contains("none.ron: error: the file cannot be read"));
+    assert!(said(&folder.path().join("none.obj")).contains("none.obj: error: the file cannot be read"));
     let subfolder = folder.path().join("folder.ron");
     std::fs::create_dir(&subfolder).unwrap();
     assert!(said(&subfolder).contains("this is no regular file"));
