@@ -42,18 +42,24 @@ pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Renders the scene's shot in equal steps; the events that `impasto` reported, one per JSON line.
+/// Renders the scene's shot in equal steps, as frames and once more as one moving picture; the events that `impasto`
+/// reported, one per JSON line.
 fn paint(root: &Path, impasto: &Path) -> anyhow::Result<Vec<Value>> {
-    let output = Command::new(impasto)
-        .args(["render", SCENE, "--frames", &format!("0-{}x5", (FRAMES - 1) * 5), "--size", "640x360"])
-        .args(["-o", "out/roll_####.png", "--contact-sheet", "--apng", "--json"])
-        .current_dir(root)
-        .stderr(Stdio::inherit())
-        .output()
-        .with_context(|| format!("{} cannot be started", impasto.display()))?;
-    if !output.status.success() {
-        bail!("rendering failed: {}; `impasto doctor` says more", output.status);
-    }
-    let text = String::from_utf8(output.stdout)?;
+    let frames = format!("0-{}x5", (FRAMES - 1) * 5);
+    let render = |more: &[&str]| -> anyhow::Result<String> {
+        let output = Command::new(impasto)
+            .args(["render", SCENE, "--frames", &frames, "--size", "640x360", "--quiet"])
+            .args(more)
+            .current_dir(root)
+            .stderr(Stdio::inherit())
+            .output()
+            .with_context(|| format!("{} cannot be started", impasto.display()))?;
+        if !output.status.success() {
+            bail!("rendering failed: {}; `impasto doctor` says more", output.status);
+        }
+        Ok(String::from_utf8(output.stdout)?)
+    };
+    let text = render(&["-o", "out/roll_####.png", "--contact-sheet", "--json"])?;
+    render(&["-o", "out/roll.png", "--apng"])?;
     text.lines().map(|line| serde_json::from_str(line).with_context(|| format!("no JSON: {line}"))).collect()
 }

@@ -72,7 +72,7 @@ impl Range {
     }
 
     fn count(self) -> u64 {
-        self.first.abs_diff(self.last) / self.step + 1
+        (self.first.abs_diff(self.last) / self.step).saturating_add(1)
     }
 
     fn iter(self) -> impl Iterator<Item = i64> {

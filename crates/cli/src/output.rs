@@ -4,39 +4,47 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
-/// A path with a place for the frame number.
+/// A path with a place for the frame number; one frame needs no such place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Pattern {
     before: String,
-    digits: usize,
+    /// `None` where the path has no place for the number.
+    digits: Option<usize>,
     after: String,
 }
 
 impl Pattern {
-    /// `####` (as many digits as there are), `%04d`, `$F4`; a name without any gets `_####` before its ending.
-    pub(crate) fn parse(text: &str) -> Self {
-        let found = hashes(text).or_else(|| percent(text)).or_else(|| dollar(text));
-        let (start, end, digits) = found.unwrap_or_else(|| {
-            let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
-            let dot = text[name_at..].rfind('.').map_or(text.len(), |at| name_at + at);
-            (dot, dot, 0)
-        });
-        if digits == 0 {
-            return Self { before: format!("{}_", &text[..start]), digits: 4, after: text[end..].to_owned() };
+    /// `####` (as many digits as there are), `%04d`, `$F4`. A name without any is taken as it is for a single frame, and
+    /// gets `_####` before its ending for several.
+    pub(crate) fn parse(text: &str, frames: u64) -> Self {
+        if let Some((start, end, digits)) = hashes(text).or_else(|| percent(text)).or_else(|| dollar(text)) {
+            return Self {
+                before: text[..start].to_owned(),
+                digits: Some(digits),
+                after: text[end..].to_owned(),
+            };
         }
-        Self { before: text[..start].to_owned(), digits, after: text[end..].to_owned() }
+        let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
+        let dot = text[name_at..].rfind('.').map_or(text.len(), |at| name_at + at);
+        let (name, after) = (text[..dot].to_owned(), text[dot..].to_owned());
+        match frames {
+            0 | 1 => Self { before: name, digits: None, after },
+            _ => Self { before: format!("{name}_"), digits: Some(4), after },
+        }
     }
 
     /// The file of a frame.
     pub(crate) fn path(&self, frame: i64) -> PathBuf {
         let sign = if frame < 0 { "-" } else { "" };
         let Self { before, digits, after } = self;
+        let Some(digits) = *digits else { return PathBuf::from(format!("{before}{after}")) };
         PathBuf::from(format!("{before}{sign}{:0digits$}{after}", frame.unsigned_abs()))
     }
 
     /// A file beside the frames, named after them.
     pub(crate) fn beside(&self, word: &str) -> PathBuf {
-        PathBuf::from(format!("{}{word}{}", self.before, self.after))
+        let gap = if self.digits.is_some() { "" } else { "_" };
+        PathBuf::from(format!("{}{gap}{word}{}", self.before, self.after))
     }
 }
 
@@ -106,8 +114,10 @@ mod tests {
             ("out.d/f", 7, "out.d/f_0007"),
             ("f_####.png", -3, "f_-0003.png"),
         ] {
-            assert_eq!(Pattern::parse(pattern).path(frame), PathBuf::from(path), "{pattern}");
+            assert_eq!(Pattern::parse(pattern, 9).path(frame), PathBuf::from(path), "{pattern}");
         }
-        assert_eq!(Pattern::parse("out/f_####.png").beside("sheet"), PathBuf::from("out/f_sheet.png"));
+        assert_eq!(Pattern::parse("out/f.png", 1).path(7), PathBuf::from("out/f.png"));
+        assert_eq!(Pattern::parse("out/f.png", 1).beside("sheet"), PathBuf::from("out/f_sheet.png"));
+        assert_eq!(Pattern::parse("out/f_####.png", 9).beside("sheet"), PathBuf::from("out/f_sheet.png"));
     }
 }

@@ -120,14 +120,14 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         let has_place = arguments.output.contains('#')
             || arguments.output.contains('%')
             || arguments.output.contains("$F");
-        let pattern = Pattern::parse(&arguments.output);
+        let pattern = Pattern::parse(&arguments.output, frames.count());
         return Ok(Destination::Animation(if has_place {
             pattern.beside("all")
         } else {
             PathBuf::from(&arguments.output)
         }));
     }
-    Ok(Destination::Files(Pattern::parse(&arguments.output)))
+    Ok(Destination::Files(Pattern::parse(&arguments.output, frames.count())))
 }
 
 impl Plan {
@@ -137,6 +137,11 @@ impl Plan {
         let mut sheet =
             arguments.contact_sheet.then(|| Sheet::new(self.frames.count(), self.options.size_px));
         let (mut done, mut failed, start) = (0, 0, Instant::now());
+        if arguments.json {
+            let driver = self.renderer.report().to_string();
+            let line = serde_json::json!({ "version": 1, "event": "context", "driver": driver });
+            writeln!(std::io::stdout(), "{line}")?;
+        }
         for frame_number in self.frames.clone().iter() {
             if self.interrupted.load(Ordering::SeqCst) {
                 return Err(Failure::Interrupted { done });
@@ -170,7 +175,7 @@ impl Plan {
                     }
                     if arguments.json {
                         let line = serde_json::json!({
-                            "version": 1, "frame": frame_number, "path": path, "strokes": frame.strokes.len(), "seconds": seconds,
+                            "version": 1, "event": "frame", "frame": frame_number, "path": path, "strokes": frame.strokes.len(), "seconds": seconds,
                         });
                         writeln!(std::io::stdout(), "{line}")?;
                     }
