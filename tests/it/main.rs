@@ -12,4 +12,5 @@ mod hostile_scenes;
 mod progressive_order;
 mod roll_and_lateral;
 mod rotating_strokes;
+mod scenes_in_motion;
 mod steadiness;
