@@ -1,5 +1,6 @@
 //! The integration tests of Impasto.
 
+mod corpus;
 mod horn;
 mod progressive_order;
 mod roll_and_lateral;
