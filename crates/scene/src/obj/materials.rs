@@ -11,7 +11,8 @@ pub(super) const GREY: [f32; 3] = [0.8; 3];
 #[derive(Clone, Debug)]
 pub(super) struct Described {
     pub name: String,
-    pub color: [f32; 3],
+    /// `None` where there is no `Kd` that can be used.
+    pub color: Option<[f32; 3]>,
     /// The picture's name as written.
     pub picture: Option<String>,
 }
@@ -33,7 +34,7 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
         if keyword.bytes == b"newmtl" {
             check_name(keyword, rest, &mut findings);
             plain.push_str(&format!("newmtl m{}\n", materials.len()));
-            materials.push(Described { name: name_of(rest), color: GREY, picture: None });
+            materials.push(Described { name: name_of(rest), color: None, picture: None });
             continue;
         }
         let Some(material) = materials.last_mut() else { continue };
@@ -58,7 +59,7 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
     }
     if let Ok((read, _)) = tobj::load_mtl_buf(&mut plain.as_bytes()) {
         for (material, color) in materials.iter_mut().zip(read.iter().map(|material| material.diffuse)) {
-            material.color = color.unwrap_or(GREY);
+            material.color = color;
         }
     }
     let warnings = findings.finish().unwrap_or_else(|report| report.0);

@@ -48,7 +48,11 @@ pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     }
 }
 
-/// The words of the next line that has any: a `\` at the end of a line joins the next one to it, `#` begins a comment.
+/// Lines that end in a name: a `#` in it belongs to the name.
+const NAMING: [&[u8]; 6] = [b"g", b"o", b"usemtl", b"mtllib", b"newmtl", b"map_Kd"];
+
+/// The words of the next line that has any: a `\` at the end of a line joins the next one to it, `#` begins a comment
+/// (but in a name).
 pub(super) struct Lines<'a> {
     text: &'a [u8],
     at: usize,
@@ -69,7 +73,7 @@ impl<'a> Lines<'a> {
                 if !words.is_empty() {
                     return true;
                 }
-            } else if byte == b'#' {
+            } else if byte == b'#' && !words.first().is_some_and(|first| NAMING.contains(&first.bytes)) {
                 self.skip_comment();
             } else if let Some(length) = joint(&self.text[self.at..]) {
                 self.at += length;
