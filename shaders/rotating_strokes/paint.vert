@@ -5,7 +5,6 @@ layout(location = 2) in uvec3 marks;         // random bits, body id, albedo
 layout(location = 4) in vec4 resolved;       // colour and how much is there
 
 uniform vec2 size_px;
-uniform sampler2D thresholds;    // for each share of the brush mark, the height that this share of it exceeds
 uniform float tip_rows;          // texels across a tip
 uniform float tip_count;
 uniform float underpainting;
@@ -18,13 +17,8 @@ flat out vec2 own;               // depth and id of the body
 
 const float MARGIN = 1.0 / 0.84;
 
-float threshold_at(float share) {
-    float last = float(textureSize(thresholds, 0).x - 1);
-    float at = clamp(share, 0.0, 1.0) * last;
-    float low = texelFetch(thresholds, ivec2(int(at), 0), 0).r;
-    float high = texelFetch(thresholds, ivec2(min(int(at) + 1, int(last)), 0), 0).r;
-    return mix(low, high, fract(at));
-}
+// Half the width of a mark's soft edge, in height. Heights are spread evenly over the mark, so this is a share of it.
+const float SOFT = 0.08;
 
 void main() {
     float there = resolved.a;
@@ -36,7 +30,7 @@ void main() {
     float dry = float((bits >> 8) & 255u) / 255.0;
     // A drier brush leaves less of its mark; as the stroke goes away, what is left of it erodes to its last hairs.
     float share = mix(0.98, 0.80, dry * dry) * there;
-    paint = vec4(resolved.rgb, threshold_at(share));
+    paint = vec4(resolved.rgb, mix(1.0 + SOFT, SOFT + 0.02, share));
     if (underpainting > 0.5) {
         // Thin, earthy, a little quieter than what goes over it.
         float grey = dot(paint.rgb, vec3(0.2126, 0.7152, 0.0722));

@@ -4,4 +4,5 @@ mod corpus;
 mod horn;
 mod progressive_order;
 mod roll_and_lateral;
+mod rotating_strokes;
 mod steadiness;

@@ -1,3 +1,4 @@
 //! Measuring tools that the tests share: shapes whose answers are known, pictures read and compared.
 
+pub mod pictures;
 pub mod shapes;

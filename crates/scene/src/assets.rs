@@ -109,10 +109,19 @@ impl AssetFolders {
     /// Finds and reads a file that another file names: first beside that file, then in the extra folders.
     ///
     /// # Errors
-    /// [`AssetError`] when the name is absolute, a URL, over [`MAX_NAME_BYTES`] or leads (also through a link) out of the
-    /// scene's folder and the extra folders; when no folder has it; when it is not a regular file, is over
-    /// `max_bytes`, or can not be read.
+    /// As [`Self::find`], and when the file is not a regular one, is over `max_bytes`, or can not be read.
     pub fn open(&self, request: &AssetRequest<'_>) -> Result<Asset, AssetError> {
+        let path = self.find(request)?;
+        let bytes = read_regular_file(&path, request.max_bytes)?;
+        Ok(Asset { path, bytes })
+    }
+
+    /// Finds a file that another file names, without opening it: first beside that file, then in the extra folders.
+    ///
+    /// # Errors
+    /// [`AssetError`] when the name is absolute, a URL, over [`MAX_NAME_BYTES`] or leads (also through a link) out of the
+    /// scene's folder and the extra folders; when no folder has it.
+    pub fn find(&self, request: &AssetRequest<'_>) -> Result<PathBuf, AssetError> {
         let name = request.name.trim().replace('\\', "/");
         if let Some(why) = refusal(&name) {
             return Err(AssetError::Refused { name: shorten(&name), why });
@@ -133,10 +142,7 @@ impl AssetFolders {
                 continue;
             }
             match fs::canonicalize(&candidate) {
-                Ok(real) if is_inside(&real, &allowed) => {
-                    let bytes = read_regular_file(&real, request.max_bytes)?;
-                    return Ok(Asset { path: candidate, bytes });
-                }
+                Ok(real) if is_inside(&real, &allowed) => return Ok(candidate),
                 Ok(_) => is_outside = true,
                 Err(_) => tried.push(candidate),
             }

@@ -69,6 +69,7 @@ pub struct Timeline {
 
 /// Which pose the stroke directions refer to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Reference {
     /// The camera and the objects as they stand at this frame.
     Frame(i64),
@@ -99,10 +100,12 @@ pub struct Camera {
 
 /// Projection of the camera. Lengths in world units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Lens {
     /// Central projection; `fov_y_deg` is the vertical field of view.
     Perspective {
-        /// Vertical field of view, degrees, in (0, 180).
+        /// Vertical field of view, degrees, from 1 to 170.
+        #[serde(default = "default_fov_y_deg")]
         fov_y_deg: f64,
         /// Nearest visible depth, > 0.
         #[serde(default = "default_near")]
@@ -122,6 +125,10 @@ pub enum Lens {
         #[serde(default = "default_far")]
         far: f64,
     },
+}
+
+fn default_fov_y_deg() -> f64 {
+    35.0
 }
 
 fn default_near() -> f64 {
@@ -320,6 +327,7 @@ pub struct Region {
 
 /// What a region covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Selector {
     /// All objects.
     Everything,
@@ -333,6 +341,7 @@ pub enum Selector {
 
 /// Base direction of strokes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Direction {
     /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
     Angle(f64),
@@ -344,6 +353,7 @@ pub enum Direction {
 
 /// How the scene is drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Style {
     /// Brush strokes that turn with what they lie on.
     RotatingStrokes {
@@ -408,7 +418,7 @@ impl Default for Reference {
 
 impl Default for Lens {
     fn default() -> Self {
-        Self::Perspective { fov_y_deg: 35.0, near: default_near(), far: default_far() }
+        Self::Perspective { fov_y_deg: default_fov_y_deg(), near: default_near(), far: default_far() }
     }
 }
 

@@ -1,12 +1,19 @@
 //! The document: what a `.ron` scene file means, mesh files, keyframes, located errors.
 
 pub mod assets;
+pub mod check;
 pub mod document;
+pub mod limits;
+pub mod load;
 pub mod loaded;
+pub mod locate;
 pub mod mesh_file;
 pub mod motion;
+mod nearest;
+pub mod new_scene;
 pub mod obj;
 pub mod presets;
 pub mod problem;
+pub mod save;
 pub mod texture;
 mod values;

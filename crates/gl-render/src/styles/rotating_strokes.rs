@@ -31,7 +31,6 @@ pub(crate) struct RotatingStrokes {
     paint: Program,
     encode: Program,
     tips: Texture,
-    thresholds: Texture,
     strokes: Buffer,
     resolved: Buffer,
     stroke_count: usize,
@@ -78,7 +77,6 @@ impl RotatingStrokes {
             captured: &[],
             uniforms: &[
                 "size_px",
-                "thresholds",
                 "tip_rows",
                 "tip_count",
                 "underpainting",
@@ -89,20 +87,13 @@ impl RotatingStrokes {
                 "orthographic",
             ],
         };
-        let tip::Tips { levels, thresholds } = tip::make();
         let size = [tip::SIZE[0], tip::SIZE[1], tip::COUNT];
         Ok(Self {
             gpu: gpu.clone(),
             resolve: Program::new(gpu, files, &resolve)?,
             paint: Program::new(gpu, files, &paint)?,
             encode: encode_program(gpu)?,
-            tips: Texture::array_with_levels(gpu, Format::Rg8, size, &levels)?,
-            thresholds: Texture::from_texels(
-                gpu,
-                Format::R32F,
-                [thresholds.len() as u32, 1],
-                bytemuck::cast_slice(&thresholds),
-            )?,
+            tips: Texture::array_with_levels(gpu, Format::Rg8, size, &tip::levels())?,
             strokes: Buffer::new(gpu, BufferUse::Streamed)?,
             resolved: Buffer::new(gpu, BufferUse::ReadBack)?,
             stroke_count: 0,
@@ -153,7 +144,6 @@ impl RotatingStrokes {
         let bound = lens
             .set(self.paint.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
-            .texture("thresholds", &self.thresholds)
             .set("tip_rows", tip::SIZE[1] as f32)
             .set("tip_count", tip::COUNT as f32)
             .set("underpainting", f32::from(layer.underpainting))

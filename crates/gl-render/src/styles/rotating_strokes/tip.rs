@@ -16,32 +16,42 @@ const HAIRS: f32 = 18.0;
 /// A mark fills this share of its quad's width; the rest is room for ragged ends.
 const FILL: f32 = 0.84;
 
-/// All marks and what belongs to them.
-pub(super) struct Tips {
-    /// Height (R) and half-mixed paint (G) of every mark, all marks of a level behind each other, finest level first.
-    pub(super) levels: Vec<Vec<u8>>,
-    /// For each share from 0 to 1 of the mark that shall be left: the height to cut it off at.
-    pub(super) thresholds: Vec<f32>,
-}
-
-/// Makes the marks; the same on every machine.
-pub(super) fn make() -> Tips {
+/// Makes the marks, the same on every machine: height (R) and half-mixed paint (G) of every mark, all marks of a level
+/// behind each other, finest level first.
+///
+/// Heights are spread evenly: a share `h` of a mark's texels with any height lies above `1 − h`.
+pub(super) fn levels() -> Vec<Vec<u8>> {
     let [width, height] = SIZE.map(|side| side as usize);
-    let marks: Vec<Vec<[f32; 2]>> = (0..COUNT).map(mark).collect();
-    let thresholds = thresholds(&marks);
+    let mut level: Vec<Vec<[f32; 2]>> = (0..COUNT).map(|number| evened(mark(number))).collect();
+    let mut size = [width, height];
     let mut levels = Vec::new();
-    let (mut level, mut size) = (marks, [width, height]);
     loop {
         let bytes =
             level.iter().flatten().flatten().map(|&value| (value.clamp(0.0, 1.0) * 255.0).round() as u8);
         levels.push(bytes.collect());
         if size == [1, 1] {
-            return Tips { levels, thresholds };
+            return levels;
         }
         let half = size.map(|side| (side / 2).max(1));
         level = level.iter().map(|texels| halved(texels, size, half)).collect();
         size = half;
     }
+}
+
+/// Replaces each height by its place among all heights of the mark, 0..1.
+fn evened(mut texels: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
+    let mut inked: Vec<usize> = (0..texels.len()).filter(|&index| texels[index][0] > 0.02).collect();
+    inked.sort_by(|&a, &b| texels[a][0].total_cmp(&texels[b][0]).then(a.cmp(&b)));
+    for texel in &mut texels {
+        if texel[0] <= 0.02 {
+            texel[0] = 0.0;
+        }
+    }
+    let count = inked.len() as f32;
+    for (place, index) in inked.into_iter().enumerate() {
+        texels[index][0] = (place as f32 + 0.5) / count;
+    }
+    texels
 }
 
 /// Box filter to the next level.
@@ -59,21 +69,6 @@ fn halved(texels: &[[f32; 2]], size: [usize; 2], half: [usize; 2]) -> Vec<[f32; 
         }
     }
     smaller
-}
-
-/// Heights in falling order, read at even shares of the texels that have any height.
-fn thresholds(marks: &[Vec<[f32; 2]>]) -> Vec<f32> {
-    const STEPS: usize = 64;
-    let mut heights: Vec<f32> =
-        marks.iter().flatten().map(|texel| texel[0]).filter(|&height| height > 0.1).collect();
-    heights.sort_by(|a, b| b.total_cmp(a));
-    (0..=STEPS)
-        .map(|step| match step {
-            // Above every height by more than the soft edge: nothing is left.
-            0 => 1.1,
-            _ => heights[(heights.len() - 1) * step / STEPS],
-        })
-        .collect()
 }
 
 /// One mark: height and half-mixed paint per texel, row by row.
@@ -109,7 +104,8 @@ impl Noise {
             + 0.4 * hairs;
         // A filbert is a little narrower at its ends, and its edge wanders.
         let half_width = 1.0 - 0.16 * (2.0 * u - 1.0).abs().powi(4);
-        let wander = (self.line(7, u * 1.5) - 0.5) * 0.10;
+        // The same at both ends, so that a mark as a whole lies straight.
+        let wander = (0.5 * (self.line(7, u * 3.0) + self.line(7, 3.0 - u * 3.0)) - 0.5) * 0.10;
         let side =
             half_width + (self.line(if v > 0.0 { 8 } else { 9 }, u * 9.0) - 0.5) * 0.10 - (v - wander).abs();
         // Rounded ends, ragged by hair; the lifted end more than the loaded one.
@@ -167,14 +163,14 @@ mod tests {
     }
 
     #[test]
-    fn thresholds_leave_the_share_that_was_asked_for() {
-        let marks: Vec<_> = (0..COUNT).map(mark).collect();
-        let thresholds = thresholds(&marks);
-        assert!(thresholds.windows(2).all(|pair| pair[1] <= pair[0]));
-        let all = marks.iter().flatten().filter(|texel| texel[0] > 0.1).count() as f32;
-        for (step, threshold) in thresholds.iter().enumerate() {
-            let left = marks.iter().flatten().filter(|texel| texel[0] > *threshold).count() as f32 / all;
-            assert!((left - step as f32 / 64.0).abs() < 0.01, "{left} at step {step}");
+    fn heights_are_spread_evenly() {
+        for number in 0..COUNT {
+            let heights: Vec<f32> =
+                evened(mark(number)).iter().map(|texel| texel[0]).filter(|&h| h > 0.0).collect();
+            for share in [0.02, 0.1, 0.5, 0.9] {
+                let above = heights.iter().filter(|&&height| height > 1.0 - share).count() as f32;
+                assert!((above / heights.len() as f32 - share).abs() < 0.001);
+            }
         }
     }
 }

@@ -1,0 +1,215 @@
+//! Whether the values of a document make sense: in range, together, and as names of things that exist.
+//!
+//! Nothing here opens a file. A finding names its field by a path such as `objects[2].keys[1].frame`, which
+//! [`crate::locate::Located::place_of`] turns into a line and a column.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::document::Scene;
+use crate::limits;
+use crate::mesh_file::MeshFile;
+use crate::problem::Severity;
+
+mod mesh_names;
+mod objects;
+mod shot;
+mod strokes;
+
+/// One thing that is wrong, or odd, with one field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// Whether the scene can still be used.
+    pub severity: Severity,
+    /// The field, as in `objects[2].keys[1].frame`.
+    pub field_path: String,
+    /// What is wrong, as one sentence without a full stop.
+    pub message: String,
+    /// What to do about it, as one sentence without a full stop.
+    pub mend: String,
+}
+
+/// Everything that can be said about a document alone, at most [`limits::MAX_PROBLEMS`] findings and one that counts
+/// the rest.
+///
+/// Takes time in proportion to the document, whatever it says.
+pub fn check(scene: &Scene) -> Vec<Finding> {
+    let mut findings = Findings::default();
+    shot::check(scene, &mut findings);
+    objects::check(scene, &mut findings);
+    strokes::check(scene, &mut findings);
+    findings.done()
+}
+
+/// Whether the groups and materials that the document names are in its meshes, which are listed by the path written in
+/// the document. A mesh that is not listed is passed over: whoever failed to read it has said so.
+pub fn check_names_in_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Vec<Finding> {
+    let mut findings = Findings::default();
+    mesh_names::check(scene, meshes, &mut findings);
+    findings.done()
+}
+
+/// Collects findings up to the limit, and counts the rest.
+#[derive(Debug, Default)]
+struct Findings {
+    found: Vec<Finding>,
+    left_out: usize,
+    left_out_is_fatal: bool,
+}
+
+impl Findings {
+    /// Adds one. `finding` runs only while there is room, so that a thousand wrong names are not all compared.
+    fn add(&mut self, severity: Severity, finding: impl FnOnce() -> (String, String, String)) {
+        if self.found.len() < limits::MAX_PROBLEMS {
+            let (field_path, message, mend) = finding();
+            self.found.push(Finding { severity, field_path, message, mend });
+        } else {
+            self.left_out += 1;
+            self.left_out_is_fatal |= severity.is_fatal();
+        }
+    }
+
+    fn error(&mut self, field_path: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) {
+        self.add(Severity::Error, || (field_path.into(), message.into(), mend.into()));
+    }
+
+    fn limit(&mut self, field_path: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) {
+        self.add(Severity::Limit, || (field_path.into(), message.into(), mend.into()));
+    }
+
+    fn warning(
+        &mut self,
+        field_path: impl Into<String>,
+        message: impl Into<String>,
+        mend: impl Into<String>,
+    ) {
+        self.add(Severity::Warning, || (field_path.into(), message.into(), mend.into()));
+    }
+
+    /// A number that must lie in a range. NaN lies in none.
+    fn number(&mut self, field_path: &str, value: f64, range: std::ops::RangeInclusive<f64>) {
+        if !range.contains(&value) {
+            let mend = format!("give a number from {} to {}", short(*range.start()), short(*range.end()));
+            self.error(field_path, format!("{} is out of range", short(value)), mend);
+        }
+    }
+
+    /// A point, or a vector, within the space that this build can handle.
+    fn vector(&mut self, field_path: &str, value: [f64; 3]) {
+        if let Some(&bad) = value.iter().find(|component| !within(**component, limits::MAX_LENGTH)) {
+            let limit = short(limits::MAX_LENGTH);
+            let mend = format!("give three numbers from -{limit} to {limit}");
+            self.error(field_path, format!("{} is out of range", short(bad)), mend);
+        }
+    }
+
+    /// A direction: a vector that is not zero.
+    fn direction(&mut self, field_path: &str, value: [f64; 3]) {
+        self.vector(field_path, value);
+        if value.iter().all(|component| component.abs() < limits::MIN_LENGTH) {
+            self.error(field_path, "a direction cannot be zero", "give three numbers that are not all 0");
+        }
+    }
+
+    /// Frames of keys: in range, and strictly increasing.
+    fn frames(&mut self, keys_path: &str, frames: impl Iterator<Item = f64>) {
+        let mut before: Option<f64> = None;
+        for (index, frame) in frames.enumerate() {
+            if !within(frame, limits::MAX_FRAME) {
+                let limit = short(limits::MAX_FRAME);
+                self.error(
+                    format!("{keys_path}[{index}].frame"),
+                    format!("{} is no frame", short(frame)),
+                    format!("give a number from -{limit} to {limit}"),
+                );
+                continue;
+            }
+            if let Some(before) = before.filter(|&before| frame <= before) {
+                let (message, mend) = if frame == before {
+                    (format!("two keys stand at frame {}", short(frame)), "remove one, or move it")
+                } else {
+                    let message = format!("frame {} stands behind frame {}", short(frame), short(before));
+                    (message, "put the keys in the order of their frames")
+                };
+                self.error(format!("{keys_path}[{index}].frame"), message, mend);
+            }
+            before = Some(before.map_or(frame, |before| before.max(frame)));
+        }
+    }
+
+    /// A name: not empty, not endless, one line.
+    fn name(&mut self, field_path: &str, name: &str) {
+        if name.trim().is_empty() {
+            self.error(field_path, "the name is empty", "give it a name");
+        } else if name.len() > limits::MAX_NAME_BYTES {
+            let message = format!("the name is longer than {} bytes", limits::MAX_NAME_BYTES);
+            self.error(field_path, message, "give it a shorter name");
+        } else if name.chars().any(char::is_control) {
+            self.error(field_path, "the name holds a control character", "use letters, digits and spaces");
+        }
+    }
+
+    /// Names that must differ. `list_path` is the list whose items have a `name`.
+    fn unique<'a>(&mut self, list_path: &str, names: impl Iterator<Item = &'a str>) {
+        let mut seen = std::collections::HashSet::new();
+        for (index, name) in names.enumerate() {
+            let field_path = format!("{list_path}[{index}].name");
+            self.name(&field_path, name);
+            if !seen.insert(name) && !name.trim().is_empty() {
+                let message = format!("the name \"{}\" is taken already", shown(name));
+                self.error(field_path, message, "give each its own name");
+            }
+        }
+    }
+
+    fn done(mut self) -> Vec<Finding> {
+        if self.left_out > 0 {
+            let severity = if self.left_out_is_fatal { Severity::Error } else { Severity::Warning };
+            let message = format!("{} more problems are not listed", self.left_out);
+            let mend = "mend those above first".to_owned();
+            self.found.push(Finding { severity, field_path: String::new(), message, mend });
+        }
+        self.found
+    }
+}
+
+/// Whether a number is finite and at most `limit` from 0.
+fn within(value: f64, limit: f64) -> bool {
+    value.abs() <= limit
+}
+
+/// A number for a message, short however large it is.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && value.is_finite() && !(1e-4..1e7).contains(&size) {
+        format!("{value:e}")
+    } else {
+        format!("{value}")
+    }
+}
+
+/// A name for a message: on one line, at most 60 characters.
+fn shown(name: &str) -> String {
+    let mut shown: String = name.chars().take(60).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    if shown.len() < name.len() {
+        shown.push('…');
+    }
+    shown
+}
+
+/// The mend for a name that is not known: the nearest one, or the known ones.
+fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
+    if let Some(near) = crate::nearest::nearest(name, known.clone()) {
+        return format!("did you mean \"{}\"?", shown(near));
+    }
+    const LISTED: usize = 12;
+    let listed: Vec<String> = known.clone().take(LISTED).map(|name| format!("\"{}\"", shown(name))).collect();
+    match (listed.is_empty(), known.count() > LISTED) {
+        (true, _) => "there is none".to_owned(),
+        (false, true) => format!("known are {}, …", listed.join(", ")),
+        (false, false) => format!("known are {}", listed.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests;

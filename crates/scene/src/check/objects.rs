@@ -1,0 +1,119 @@
+//! Objects: names, parents, particles, scales, keys.
+
+use std::collections::HashMap;
+
+use super::{Findings, did_you_mean, short, shown};
+use crate::document::{Object, Scene};
+use crate::limits;
+
+pub(super) fn check(scene: &Scene, findings: &mut Findings) {
+    let objects = &scene.objects;
+    findings.unique("objects", objects.iter().map(|object| object.name.as_str()));
+    for (index, object) in objects.iter().enumerate() {
+        check_object(&format!("objects[{index}]"), object, findings);
+    }
+    check_particles(objects, findings);
+    check_parents(objects, findings);
+}
+
+fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
+    findings.name(&format!("{object_path}.mesh"), &object.mesh);
+    if let Some(texture) = object.material.as_ref().and_then(|material| material.texture.as_deref()) {
+        findings.name(&format!("{object_path}.material.texture"), texture);
+    }
+    check_scale(&format!("{object_path}.scale"), object.scale.0, findings);
+    findings.frames(&format!("{object_path}.keys"), object.keys.iter().map(|key| key.frame));
+    for (index, key) in object.keys.iter().enumerate() {
+        findings.vector(&format!("{object_path}.keys[{index}].translation"), key.translation);
+        let turn = limits::MAX_ANGLE_DEG;
+        for angle_deg in key.rotation_deg {
+            findings.number(&format!("{object_path}.keys[{index}].rotation_deg"), angle_deg, -turn..=turn);
+        }
+    }
+}
+
+fn check_scale(field_path: &str, scale: [f64; 3], findings: &mut Findings) {
+    let range = limits::MIN_LENGTH..=limits::MAX_LENGTH;
+    let is_good = |component: &f64| *component == 0.0 || range.contains(component);
+    if let Some(bad) = scale.iter().find(|component| !is_good(component)) {
+        let (least, most) = (short(limits::MIN_LENGTH), short(limits::MAX_LENGTH));
+        let mend = if *bad < 0.0 {
+            "a mirrored mesh must be mirrored in its file; give a positive scale".to_owned()
+        } else {
+            format!("give a scale from {least} to {most}")
+        };
+        findings.error(field_path, format!("{} is no scale", short(*bad)), mend);
+    } else if scale.contains(&0.0) {
+        let mend = "give a scale above 0, or remove the object";
+        findings.warning(field_path, "a scale of 0 leaves no surface; the object is not painted", mend);
+    }
+}
+
+fn check_particles(objects: &[Object], findings: &mut Findings) {
+    let mut sum = 0_u64;
+    let mut is_sum_reported = false;
+    for (index, object) in objects.iter().enumerate() {
+        let Some(particles) = object.particles else { continue };
+        let field_path = format!("objects[{index}].particles");
+        if particles == 0 {
+            let mend = "give a number above 0, or leave it out to have it found from the coverage";
+            findings.warning(field_path, "no particles: the object is not painted", mend);
+        } else if particles > limits::MAX_PARTICLES_OF_OBJECT {
+            let limit = limits::MAX_PARTICLES_OF_OBJECT;
+            let message = format!("{particles} particles are more than {limit}");
+            findings.limit(field_path, message, format!("give at most {limit}"));
+        } else {
+            sum += particles; // Each is small, and a file holds no more than a million values.
+            if sum > limits::MAX_PARTICLES && !is_sum_reported {
+                is_sum_reported = true;
+                let limit = limits::MAX_PARTICLES;
+                let message = format!("with this object the scene has more than {limit} particles");
+                findings.limit(field_path, message, "give the objects fewer");
+            }
+        }
+    }
+}
+
+fn check_parents(objects: &[Object], findings: &mut Findings) {
+    let index_of: HashMap<&str, usize> =
+        objects.iter().enumerate().rev().map(|(index, object)| (object.name.as_str(), index)).collect();
+    let parents: Vec<Option<usize>> = objects
+        .iter()
+        .map(|object| object.parent.as_deref().and_then(|parent| index_of.get(parent).copied()))
+        .collect();
+    for (index, object) in objects.iter().enumerate() {
+        let Some(parent) = &object.parent else { continue };
+        if parents[index].is_none() {
+            let others = objects.iter().map(|other| other.name.as_str()).filter(|name| *name != object.name);
+            findings.add(crate::problem::Severity::Error, || {
+                let message = format!("there is no object \"{}\"", shown(parent));
+                (format!("objects[{index}].parent"), message, did_you_mean(parent, others))
+            });
+        }
+    }
+    for index in first_of_each_cycle(&parents) {
+        let name = shown(&objects[index].name);
+        let message = format!("\"{name}\" is, through its parents, its own parent");
+        findings.error(format!("objects[{index}].parent"), message, "take one of the parents away");
+    }
+}
+
+/// The least index of every cycle. Each object is walked over at most twice.
+fn first_of_each_cycle(parents: &[Option<usize>]) -> Vec<usize> {
+    let mut walk_of: Vec<Option<usize>> = vec![None; parents.len()];
+    let mut firsts = Vec::new();
+    for start in 0..parents.len() {
+        let mut at = Some(start);
+        while let Some(index) = at.filter(|&index| walk_of[index].is_none()) {
+            walk_of[index] = Some(start);
+            at = parents[index];
+        }
+        // A walk that ends on its own trail has gone round a cycle; on an older trail, it is known already.
+        if let Some(index) = at.filter(|&index| walk_of[index] == Some(start)) {
+            let round = std::iter::successors(parents[index], |&inner| parents[inner]);
+            firsts.push(round.take_while(|&inner| inner != index).fold(index, usize::min));
+        }
+    }
+    firsts.sort_unstable();
+    firsts
+}

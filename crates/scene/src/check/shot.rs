@@ -1,0 +1,167 @@
+//! The picture, the frames, the camera and the lights.
+
+use glam::DVec3;
+
+use super::{Findings, short, within};
+use crate::document::{Lens, Light, LightKind, Reference, Scene};
+use crate::limits;
+
+pub(super) fn check(scene: &Scene, findings: &mut Findings) {
+    check_size(scene.size, findings);
+    check_timeline(scene, findings);
+    check_lens(&scene.camera.lens, findings);
+    check_camera_keys(scene, findings);
+    check_lights(&scene.lights, findings);
+}
+
+fn check_size((width, height): (u32, u32), findings: &mut Findings) {
+    if width == 0 || height == 0 {
+        findings.error("size", "a picture has at least one pixel a side", "give two whole numbers from 1 up");
+    } else if width.max(height) > limits::MAX_SIDE_PX {
+        let message = format!("{width} × {height} pixels: a side is longer than {}", limits::MAX_SIDE_PX);
+        findings.limit("size", message, format!("give at most {} pixels a side", limits::MAX_SIDE_PX));
+    } else if u64::from(width) * u64::from(height) > limits::MAX_PIXELS {
+        let message = format!("{width} × {height} pixels are more than {}", limits::MAX_PIXELS);
+        findings.limit("size", message, "give a smaller size");
+    }
+}
+
+fn check_timeline(scene: &Scene, findings: &mut Findings) {
+    let timeline = &scene.timeline;
+    if !(timeline.fps > 0.0 && timeline.fps <= 1e6) {
+        let message = format!("{} frames per second", short(timeline.fps));
+        findings.error("timeline.fps", message, "give a number above 0, at most 1000000");
+    }
+    let mut in_range = true;
+    for (field_path, frame) in [("timeline.first", timeline.first), ("timeline.last", timeline.last)] {
+        in_range &= check_whole_frame(field_path, frame, findings);
+    }
+    if timeline.first > timeline.last {
+        let message = format!("the shot ends at {}, before it starts at {}", timeline.last, timeline.first);
+        findings.error("timeline.last", message, "give a last frame that is not before the first");
+    } else if in_range {
+        let frames = (timeline.last - timeline.first).unsigned_abs() + 1;
+        if frames > limits::MAX_FRAMES {
+            let message = format!("the shot has {frames} frames, more than {}", limits::MAX_FRAMES);
+            findings.limit("timeline.last", message, "split the shot");
+        }
+    }
+    let Reference::Frame(reference) = scene.reference;
+    check_whole_frame("reference", reference, findings);
+}
+
+fn check_whole_frame(field_path: &str, frame: i64, findings: &mut Findings) -> bool {
+    let in_range = within(frame as f64, limits::MAX_FRAME);
+    if !in_range {
+        let limit = short(limits::MAX_FRAME);
+        let mend = format!("give a whole number from -{limit} to {limit}");
+        findings.limit(field_path, format!("frame {frame} is too far away"), mend);
+    }
+    in_range
+}
+
+fn check_lens(lens: &Lens, findings: &mut Findings) {
+    const NEAR: &str = "camera.lens.near";
+    const FAR: &str = "camera.lens.far";
+    let (near, far) = match *lens {
+        Lens::Perspective { fov_y_deg, near, far } => {
+            findings.number("camera.lens.fov_y_deg", fov_y_deg, limits::FOV_Y_DEG);
+            findings.number(NEAR, near, limits::MIN_LENGTH..=limits::MAX_LENGTH);
+            (near, far)
+        }
+        Lens::Orthographic { height, near, far } => {
+            let range = limits::MIN_LENGTH..=limits::MAX_LENGTH;
+            findings.number("camera.lens.height", height, range);
+            findings.number(NEAR, near, -limits::MAX_LENGTH..=limits::MAX_LENGTH);
+            (near, far)
+        }
+    };
+    findings.number(FAR, far, -limits::MAX_LENGTH..=limits::MAX_LENGTH);
+    if near >= far {
+        let message = format!("near ({}) is not less than far ({})", short(near), short(far));
+        findings.error(FAR, message, "give a far depth behind the near one");
+    }
+}
+
+fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
+    let keys = &scene.camera.keys;
+    if keys.is_empty() {
+        let mend = "add one, as in (frame: 0, eye: (0, 1, 4), target: (0, 0, 0))";
+        findings.error("camera.keys", "the camera has no key", mend);
+    }
+    findings.frames("camera.keys", keys.iter().map(|key| key.frame));
+    for (index, key) in keys.iter().enumerate() {
+        let path = |field: &str| format!("camera.keys[{index}].{field}");
+        findings.vector(&path("eye"), key.eye);
+        findings.vector(&path("target"), key.target);
+        let turn = limits::MAX_ANGLE_DEG;
+        findings.number(&path("roll_deg"), key.roll_deg, -turn..=turn);
+        if let Some(fov_y_deg) = key.fov_y_deg {
+            let field_path = path("fov_y_deg");
+            findings.number(&field_path, fov_y_deg, limits::FOV_Y_DEG);
+            if matches!(scene.camera.lens, Lens::Orthographic { .. }) {
+                let mend = "remove it, or use a Perspective lens";
+                findings.warning(field_path, "an orthographic lens has no field of view", mend);
+            }
+        }
+        check_gaze(&path("target"), DVec3::from(key.eye), DVec3::from(key.target), findings);
+    }
+}
+
+/// A gaze has a length, and a sideways part: straight up or down, the picture's up would be undefined.
+fn check_gaze(field_path: &str, eye: DVec3, target: DVec3, findings: &mut Findings) {
+    const LEAST_SINE: f64 = 1e-6;
+    let gaze = target - eye;
+    let scale = eye.abs().max(target.abs()).max_element();
+    if !scale.is_finite() || scale > limits::MAX_LENGTH {
+        return; // Said already, by the field that is out of range.
+    }
+    // Apart by more than rounding, so that the gaze still has a direction in 32 bits.
+    if gaze.length() <= limits::MIN_LENGTH.max(1e-6 * scale) {
+        let mend = "move the eye or the target, so that the camera looks somewhere";
+        findings.error(field_path, "eye and target are the same point", mend);
+    } else if gaze.normalize().cross(DVec3::Y).length() < LEAST_SINE {
+        let mend = "move the eye a little to the side, as in (0, 5, 0.01)";
+        findings.error(field_path, "the camera looks straight up or down", mend);
+    }
+}
+
+fn check_lights(lights: &[Light], findings: &mut Findings) {
+    findings.unique("lights", lights.iter().map(|light| light.name.as_str()));
+    for (index, light) in lights.iter().enumerate() {
+        let path = |field: &str| format!("lights[{index}].{field}");
+        findings.number(&path("intensity"), light.intensity, 0.0..=limits::MAX_INTENSITY);
+        match (light.kind, light.direction) {
+            (LightKind::Sun, Some(direction)) => findings.direction(&path("direction"), direction),
+            (LightKind::Sun, None) => {
+                let mend = "add where its light goes, as in direction: (0.5, -1, -0.6)";
+                findings.error(format!("lights[{index}]"), "a Sun needs a direction", mend);
+            }
+            (_, Some(_)) => unused(&path("direction"), "a Sun", findings),
+            (_, None) => {}
+        }
+        match (light.kind, light.position) {
+            (LightKind::Point, Some(position)) => findings.vector(&path("position"), position),
+            (LightKind::Point, None) => {
+                let mend = "add where it stands, as in position: (0, 3, 1)";
+                findings.error(format!("lights[{index}]"), "a Point light needs a position", mend);
+            }
+            (_, Some(_)) => unused(&path("position"), "a Point light", findings),
+            (_, None) => {}
+        }
+        if light.ground.is_some() && light.kind != LightKind::Ambient {
+            unused(&path("ground"), "an Ambient light", findings);
+        }
+    }
+    for (kind, limit) in [(LightKind::Sun, limits::MAX_SUNS), (LightKind::Point, limits::MAX_POINT_LIGHTS)] {
+        let mut of_kind = lights.iter().enumerate().filter(|(_, light)| light.kind == kind);
+        if let Some((index, _)) = of_kind.nth(limit) {
+            let message = format!("there are more than {limit} lights of kind {kind:?}");
+            findings.limit(format!("lights[{index}]"), message, format!("keep {limit} of them"));
+        }
+    }
+}
+
+fn unused(field_path: &str, owner: &str, findings: &mut Findings) {
+    findings.warning(field_path, format!("only {owner} uses this"), "remove it, or change the kind");
+}

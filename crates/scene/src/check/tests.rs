@@ -1,0 +1,244 @@
+use std::path::Path;
+
+use impasto_core::TriangleMesh;
+
+use super::*;
+use crate::load::parse;
+use crate::mesh_file::Material;
+use crate::problem::Severity::{Error, Limit, Warning};
+
+/// A scene of the given fields beside a camera and objects that are right, where the fields do not bring their own.
+fn scene(fields: &str) -> Scene {
+    let mut text = format!("(version: 1, {fields}");
+    if !fields.contains("camera:") {
+        text.push_str(", camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])");
+    }
+    if !fields.contains("objects:") {
+        text.push_str(", objects: [(name: \"a\", mesh: \"cube.obj\")]");
+    }
+    text.push(')');
+    parse(Path::new("s.ron"), &text).unwrap_or_else(|report| panic!("{report}\n{text}"))
+}
+
+fn found(fields: &str) -> Vec<(Severity, String)> {
+    check(&scene(fields)).into_iter().map(|finding| (finding.severity, finding.field_path)).collect()
+}
+
+#[track_caller]
+fn assert_finds(fields: &str, expected: &[(Severity, &str)]) {
+    let expected: Vec<_> = expected.iter().map(|(severity, path)| (*severity, path.to_string())).collect();
+    assert_eq!(found(fields), expected, "{fields}");
+}
+
+#[test]
+fn a_plain_scene_is_good() {
+    assert_finds("seed: 3", &[]);
+}
+
+#[test]
+fn sizes_frames_and_rates_have_limits() {
+    assert_finds("size: (16384, 8192)", &[]);
+    assert_finds("size: (16384, 8193)", &[(Limit, "size")]);
+    assert_finds("size: (16385, 16)", &[(Limit, "size")]);
+    assert_finds("size: (16, 0)", &[(Error, "size")]);
+    for fps in ["0", "-24", "NaN", "inf"] {
+        assert_finds(&format!("timeline: (fps: {fps})"), &[(Error, "timeline.fps")]);
+    }
+    assert_finds("timeline: (first: 5, last: 4)", &[(Error, "timeline.last")]);
+    assert_finds("timeline: (first: 1, last: 1000000)", &[]);
+    assert_finds("timeline: (first: 0, last: 1000000)", &[(Limit, "timeline.last")]);
+    assert_finds("timeline: (last: 1000000000000)", &[(Limit, "timeline.last")]);
+    let whole_range = format!("timeline: (first: {}, last: {})", i64::MIN, i64::MAX);
+    assert_finds(&whole_range, &[(Limit, "timeline.first"), (Limit, "timeline.last")]);
+    assert_finds("reference: Frame(-9223372036854775808)", &[(Limit, "reference")]);
+}
+
+#[test]
+fn cameras_look_somewhere_that_has_an_up() {
+    let keys = |keys: &str| format!("camera: (keys: [{keys}])");
+    assert_finds(&keys(""), &[(Error, "camera.keys")]);
+    let target = "camera.keys[0].target";
+    assert_finds(&keys("(frame: 0, eye: (0, 5, 0), target: (0, 0, 0))"), &[(Error, target)]);
+    assert_finds(&keys("(frame: 0, eye: (0, 5, 0.01), target: (0, 0, 0))"), &[]);
+    assert_finds(&keys("(frame: 0, eye: (1, 2, 3), target: (1, 2, 3))"), &[(Error, target)]);
+    assert_finds(&keys("(frame: 0, eye: (NaN, 2, 3), target: (1, 2, 3))"), &[(Error, "camera.keys[0].eye")]);
+    assert_finds(
+        &keys("(frame: 0, eye: (0, 1e300, 3), target: (1, 2, 3))"),
+        &[(Error, "camera.keys[0].eye")],
+    );
+    let good = "eye: (0, 1, 4), target: (0, 0, 0)";
+    let unsorted = keys(&format!("(frame: 0, {good}), (frame: 2, {good}), (frame: 1, {good})"));
+    assert_finds(&unsorted, &[(Error, "camera.keys[2].frame")]);
+    let twice = keys(&format!("(frame: 1, {good}), (frame: 1, {good}), (frame: NaN, {good})"));
+    assert_finds(&twice, &[(Error, "camera.keys[1].frame"), (Error, "camera.keys[2].frame")]);
+    assert_finds(
+        &keys(&format!("(frame: 0, {good}, fov_y_deg: 171, roll_deg: inf)")),
+        &[(Error, "camera.keys[0].roll_deg"), (Error, "camera.keys[0].fov_y_deg")],
+    );
+}
+
+#[test]
+fn lenses_have_a_near_before_their_far() {
+    let lens =
+        |lens: &str| format!("camera: (lens: {lens}, keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])");
+    assert_finds(&lens("Perspective(fov_y_deg: 180)"), &[(Error, "camera.lens.fov_y_deg")]);
+    assert_finds(&lens("Perspective(fov_y_deg: 0.5)"), &[(Error, "camera.lens.fov_y_deg")]);
+    assert_finds(&lens("Perspective(near: 10, far: 1)"), &[(Error, "camera.lens.far")]);
+    assert_finds(&lens("Perspective(near: 1, far: 1)"), &[(Error, "camera.lens.far")]);
+    assert_finds(&lens("Perspective(near: 0)"), &[(Error, "camera.lens.near")]);
+    assert_finds(&lens("Orthographic(height: 2, near: -5, far: 5)"), &[]);
+    assert_finds(&lens("Orthographic(height: 0)"), &[(Error, "camera.lens.height")]);
+}
+
+#[test]
+fn lights_say_where_they_are_and_are_few() {
+    let lights = |lights: &str| format!("lights: [{lights}]");
+    assert_finds(&lights("(name: \"s\", kind: Sun)"), &[(Error, "lights[0]")]);
+    assert_finds(&lights("(name: \"p\", kind: Point)"), &[(Error, "lights[0]")]);
+    let zero = lights("(name: \"s\", kind: Sun, direction: (0, 0, 0))");
+    assert_finds(&zero, &[(Error, "lights[0].direction")]);
+    let dark =
+        lights("(name: \"a\", kind: Ambient, intensity: -1), (name: \"a\", kind: Ambient, intensity: inf)");
+    assert_finds(
+        &dark,
+        &[(Error, "lights[1].name"), (Error, "lights[0].intensity"), (Error, "lights[1].intensity")],
+    );
+    assert_finds(
+        &lights("(name: \"a\", kind: Ambient, position: (0, 1, 0))"),
+        &[(Warning, "lights[0].position")],
+    );
+    let suns = |count: usize| {
+        lights(
+            &(0..count)
+                .map(|i| format!("(name: \"{i}\", kind: Sun, direction: (0, -1, 0)),"))
+                .collect::<String>(),
+        )
+    };
+    assert_finds(&suns(8), &[]);
+    assert_finds(&suns(9), &[(Limit, "lights[8]")]);
+}
+
+#[test]
+fn objects_have_names_particles_and_scales_in_range() {
+    let object = |fields: &str| format!("objects: [(name: \"a\", mesh: \"cube.obj\", {fields})]");
+    assert_finds(&object("particles: 0"), &[(Warning, "objects[0].particles")]);
+    assert_finds(&object("particles: 4000000"), &[]);
+    assert_finds(&object("particles: 4000001"), &[(Limit, "objects[0].particles")]);
+    assert_finds(&object(&format!("particles: {}", u64::MAX)), &[(Limit, "objects[0].particles")]);
+    assert_finds(&object("scale: 0"), &[(Warning, "objects[0].scale")]);
+    assert_finds(&object("scale: (10, 1, 0.1)"), &[]);
+    for scale in ["-1", "(1, -2, 1)", "NaN", "1e-300", "inf"] {
+        assert_finds(&object(&format!("scale: {scale}")), &[(Error, "objects[0].scale")]);
+    }
+    let key = "keys: [(frame: 0, translation: (0, NaN, 0), rotation_deg: (inf, 0, 0))]";
+    let expected = [(Error, "objects[0].keys[0].translation"), (Error, "objects[0].keys[0].rotation_deg")];
+    assert_finds(&object(key), &expected);
+    let named = |first: &str, second: &str| {
+        format!("objects: [(name: \"{first}\", mesh: \"m.obj\"), (name: \"{second}\", mesh: \"m.obj\")]")
+    };
+    assert_finds(&named("a", "a"), &[(Error, "objects[1].name")]);
+    assert_finds(&named("a", " "), &[(Error, "objects[1].name")]);
+    assert_finds(&named("a", "b\\u{7}"), &[(Error, "objects[1].name")]);
+    let many: String =
+        (0..1000).map(|i| format!("(name: \"{i}\", mesh: \"m.obj\", particles: 100000),")).collect();
+    assert_finds(&format!("objects: [{many}]"), &[(Limit, "objects[80].particles")]);
+}
+
+#[test]
+fn parents_exist_and_lead_to_a_root() {
+    let objects = |parents: &[(&str, &str)]| {
+        let list: String = parents
+            .iter()
+            .map(|(name, parent)| format!("(name: \"{name}\", mesh: \"m.obj\", parent: \"{parent}\"),"))
+            .collect();
+        format!("objects: [{list} (name: \"root\", mesh: \"m.obj\")]")
+    };
+    assert_finds(&objects(&[("b", "a"), ("a", "root")]), &[]);
+    assert_finds(&objects(&[("a", "a")]), &[(Error, "objects[0].parent")]);
+    // One finding per cycle, however many hang on it, and none for those that only lead into it.
+    assert_finds(
+        &objects(&[("d", "b"), ("a", "c"), ("b", "a"), ("c", "b"), ("e", "d")]),
+        &[(Error, "objects[1].parent")],
+    );
+    let findings = check(&scene(&objects(&[("wheel", "rot")])));
+    assert_eq!(findings[0].message, "there is no object \"rot\"");
+    assert_eq!(findings[0].mend, "did you mean \"root\"?");
+}
+
+#[test]
+fn stroke_settings_have_ranges_and_known_names() {
+    for settings in [
+        "length_px: 0",
+        "length_px: -1",
+        "width_px: 4097",
+        "coverage: 20.1",
+        "coverage: NaN",
+        "flatness: 1.1",
+        "angle_jitter_deg: -1",
+        "size_jitter: inf",
+        "layer: 1001",
+        "brush: \"filbret\"",
+        "preset: \"oil\"",
+    ] {
+        let field = settings.split(':').next().unwrap();
+        assert_finds(&format!("strokes: ({settings})"), &[(Error, &format!("strokes.{field}"))]);
+    }
+    assert_finds(
+        "strokes: (length_px: 4096, width_px: 0.5, coverage: 20, flatness: 0, preset: \"broad\")",
+        &[],
+    );
+}
+
+#[test]
+fn flatness_below_one_needs_the_tangent_plane() {
+    let flat = "strokes: (flatness: 0.5)";
+    assert_finds(&format!("{flat}, style: RotatingStrokes(solver: Tangent)"), &[]);
+    for solver in ["Horn", "HornExact"] {
+        let scene = format!("{flat}, style: RotatingStrokes(solver: {solver})");
+        assert_finds(&scene, &[(Error, "strokes.flatness")]);
+    }
+    assert_finds("strokes: (flatness: 0.5, preset: \"paper\")", &[(Error, "strokes.flatness")]);
+    assert_finds("strokes: (flatness: 1, preset: \"paper\")", &[]);
+}
+
+#[test]
+fn regions_name_objects_and_differ() {
+    let region = |on: &str, rest: &str| format!("regions: [(name: \"r\", on: {on}{rest})]");
+    assert_finds(&region("Everything", ""), &[]);
+    assert_finds(&region("Object(\"b\")", ""), &[(Error, "regions[0].on")]);
+    assert_finds(&region("Group(\"b\", \"g\")", ""), &[(Error, "regions[0].on")]);
+    assert_finds(&region("Everything", ", direction: Around((0, 0, 0))"), &[(Error, "regions[0].direction")]);
+    assert_finds(&region("Everything", ", direction: Angle(NaN)"), &[(Error, "regions[0].direction")]);
+    let paper = region("Everything", ", strokes: (preset: \"paper\")");
+    assert_finds(&paper, &[(Error, "regions[0].strokes.preset")]);
+}
+
+#[test]
+fn groups_and_materials_are_looked_for_in_the_mesh() {
+    let mesh = MeshFile {
+        mesh: TriangleMesh::default(),
+        groups: vec!["skin".to_owned(), "leaf".to_owned()],
+        materials: vec![Material { name: "wax".to_owned(), color: [0.5; 3], texture: None }],
+    };
+    let meshes = BTreeMap::from([("cube.obj".to_owned(), Arc::new(mesh))]);
+    let scene = scene(
+        "objects: [(name: \"a\", mesh: \"cube.obj\", group: \"laef\"), (name: \"b\", mesh: \"unread.obj\", group: \"x\")],
+         regions: [(name: \"1\", on: Group(\"a\", \"skin\")), (name: \"2\", on: Group(\"a\", \"wax\")),
+                   (name: \"3\", on: Material(\"a\", \"wax\")), (name: \"4\", on: Material(\"a\", \"skin\"))]",
+    );
+    let findings = check_names_in_meshes(&scene, &meshes);
+    let paths: Vec<&str> = findings.iter().map(|finding| finding.field_path.as_str()).collect();
+    assert_eq!(paths, ["objects[0].group", "regions[1].on", "regions[3].on"]);
+    assert_eq!(findings[0].mend, "did you mean \"leaf\"?");
+}
+
+#[test]
+fn ten_thousand_problems_make_a_short_report_quickly() {
+    let list: String = (0..10_000)
+        .map(|i| format!("(name: \"object {i}\", mesh: \"m.obj\", parent: \"nobody {i}\"),"))
+        .collect();
+    let findings = check(&scene(&format!("objects: [{list}]")));
+    assert_eq!(findings.len(), limits::MAX_PROBLEMS + 1);
+    assert_eq!(findings.last().unwrap().message, "9900 more problems are not listed");
+    assert!(findings.last().unwrap().severity.is_fatal());
+}

@@ -1,0 +1,67 @@
+//! What a scene may ask for at most. Everything above is refused by name, before any memory is set aside for it.
+
+/// Bytes of a scene file.
+pub const MAX_SCENE_BYTES: u64 = 16 << 20;
+
+/// Values (numbers, texts, lists, fields) in a scene file.
+pub const MAX_VALUES: usize = 1_000_000;
+
+/// Brackets, or comments, inside each other.
+pub const MAX_NESTING: usize = 64;
+
+/// Characters of one number.
+pub const MAX_NUMBER_CHARS: usize = 400;
+
+/// Bytes of a name of an object, light or region.
+pub const MAX_NAME_BYTES: usize = 1024;
+
+/// Pixels along one side of the picture: the least that a current driver takes as a render target.
+pub const MAX_SIDE_PX: u32 = 16_384;
+
+/// Pixels of the picture.
+pub const MAX_PIXELS: u64 = 1 << 27;
+
+/// Frames of a shot.
+pub const MAX_FRAMES: u64 = 1_000_000;
+
+/// Distance of any frame number from 0; exact in every type that carries a frame.
+pub const MAX_FRAME: f64 = 1e9;
+
+/// Coordinates, lengths and scales, world units; their squares stay finite in 32 bits.
+pub const MAX_LENGTH: f64 = 1e9;
+
+/// The least length, depth or scale that is not zero, world units.
+pub const MIN_LENGTH: f64 = 1e-9;
+
+/// Angles of keys and regions, degrees.
+pub const MAX_ANGLE_DEG: f64 = 1e9;
+
+/// Light intensity.
+pub const MAX_INTENSITY: f64 = 1e6;
+
+/// Vertical field of view, degrees.
+pub const FOV_Y_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
+
+/// Particles of one object.
+pub const MAX_PARTICLES_OF_OBJECT: u64 = 4_000_000;
+
+/// Particles of the scene.
+pub const MAX_PARTICLES: u64 = 8_000_000;
+
+/// Length or width of a stroke, pixels.
+pub const MAX_STROKE_PX: f64 = 4096.0;
+
+/// Strokes per pixel × length × width.
+pub const MAX_COVERAGE: f64 = 20.0;
+
+/// Distance of a layer from 0.
+pub const MAX_LAYER: i32 = 1000;
+
+/// Lights of kind `Sun`.
+pub const MAX_SUNS: usize = 8;
+
+/// Lights of kind `Point`.
+pub const MAX_POINT_LIGHTS: usize = 16;
+
+/// Problems that one report lists.
+pub const MAX_PROBLEMS: usize = 100;

@@ -1,0 +1,193 @@
+//! Reading a scene with everything that it names.
+
+use std::path::{Path, PathBuf};
+
+use crate::assets::{AssetFolders, AssetRequest};
+use crate::check::{self, Finding};
+use crate::document::Scene;
+use crate::limits;
+use crate::loaded::LoadedScene;
+use crate::locate::Located;
+use crate::mesh_file::MeshFile;
+use crate::problem::{Problem, Report, Severity};
+
+mod files;
+mod overrides;
+mod parse;
+mod source;
+
+use files::{Files, MeshRead, Readers, TextureRead, retold};
+use overrides::Applied;
+use parse::Parsed;
+use source::error_in;
+
+/// What the command line adds to a scene file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LoadOptions {
+    /// Where meshes and textures may lie.
+    pub folders: AssetFolders,
+    /// Values in place of those of the file, in order (`--set PATH=VALUE`): a field path and RON. Text needs no
+    /// quotes; an item of a list is named by its index or its name, as in `objects[0].particles` and
+    /// `objects.apple.particles`; `style.RotatingStrokes.solver` and `style.solver` are the same field.
+    pub overrides: Vec<(String, String)>,
+}
+
+/// Reads a document from its text; `path` is for messages only, no file is opened. A byte order mark is skipped.
+///
+/// This finds what is no scene at all: text that is no RON, unknown fields, values of the wrong kind. Whether the
+/// values make sense together is [`crate::check`]'s to say.
+///
+/// # Errors
+///
+/// Every unknown field, or the first fault of another kind, each with its place.
+pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    parse::parse(path, text).map(|parsed| parsed.scene)
+}
+
+/// Reads a scene file (`.ron`), or a mesh (`.obj`) in the scene that [`crate::new_scene`] makes for it, with everything
+/// that it names, and checks all of it.
+///
+/// # Errors
+///
+/// All problems of all the files at once, warnings included, those of the scene file first; at least one is fatal.
+pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("ron") => load_scene(path, options),
+        Some("obj") => load_mesh(path, options),
+        _ => {
+            let mend = "name a scene file (.ron) or a mesh (.obj)";
+            Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
+        }
+    }
+}
+
+fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    let alone = |problem| Report(vec![problem]);
+    let bytes = source::read(path).map_err(alone)?;
+    let text = source::decode(path, &bytes).map_err(alone)?;
+    let parsed = parse::parse(path, text)?;
+    finish(path, parsed, options, None)
+}
+
+/// The made scene goes through its text, so that `--set` finds what it would find in the file that `impasto new`
+/// writes, and so that both are painted alike.
+fn load_mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    let (mesh, warnings) = crate::obj::read(path, folder_of(path), &options.folders)?;
+    let scene = crate::new_scene::for_mesh(path, &mesh);
+    let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
+    finish(path, parsed, options, Some((mesh, warnings)))
+}
+
+/// Overrides, checks, files. `known_mesh` is the mesh of a scene that was made for it.
+fn finish(
+    path: &Path,
+    parsed: Parsed,
+    options: &LoadOptions,
+    known_mesh: Option<(MeshFile, Vec<Problem>)>,
+) -> Result<LoadedScene, Report> {
+    let written = known_mesh.is_none().then(|| parsed.located.clone());
+    let (Parsed { scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
+    let told = Told { path, written: written.as_ref(), applied: &applied };
+    let mut problems: Vec<Problem> =
+        check::check(&scene).into_iter().map(|finding| told.problem(finding)).collect();
+    let known_name =
+        known_mesh.is_some().then(|| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
+    let known_mesh = std::cell::RefCell::new(known_mesh);
+    let readers = Readers {
+        mesh: &|name| {
+            let is_known = known_name.as_deref() == Some(name);
+            match known_mesh.borrow_mut().take_if(|_| is_known) {
+                Some(mesh) => Ok(mesh),
+                None => read_mesh(path, name, &options.folders),
+            }
+        },
+        texture: &|name| read_texture(path, name, &options.folders),
+    };
+    let files = Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
+    let in_meshes = check::check_names_in_meshes(&scene, &files.meshes);
+    problems.extend(in_meshes.into_iter().map(|finding| told.problem(finding)));
+    sort_and_cap(path, &mut problems, files.problems);
+    if problems.iter().any(|problem| problem.severity.is_fatal()) {
+        return Err(Report(problems));
+    }
+    let Files { meshes, textures, .. } = files;
+    Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, warnings: problems })
+}
+
+/// Gives findings their place: in the file, or on the command line where that set the field.
+struct Told<'a> {
+    path: &'a Path,
+    /// The file as it was written; none for a scene that was made.
+    written: Option<&'a Located>,
+    applied: &'a [Applied],
+}
+
+impl Told<'_> {
+    fn problem(&self, finding: Finding) -> Problem {
+        let Finding { severity, field_path, message, mend } = finding;
+        let problem = Problem { severity, path: PathBuf::new(), place: None, message, mend };
+        self.at_field(problem, &field_path)
+    }
+
+    fn of_file(&self, problem: Problem, field_path: &str) -> Problem {
+        self.at_field(retold(problem, self.path, None), field_path)
+    }
+
+    fn at_field(&self, problem: Problem, field_path: &str) -> Problem {
+        if let Some(applied) = self.applied.iter().rev().find(|applied| applied.covers(field_path)) {
+            return Problem { path: applied.option.clone(), place: None, ..problem };
+        }
+        let place =
+            self.written.filter(|_| !field_path.is_empty()).map(|located| located.place_of(field_path));
+        Problem { path: self.path.to_owned(), place, ..problem }
+    }
+}
+
+/// The scene's problems by place, then those of its files in the order of use; at most
+/// [`limits::MAX_PROBLEMS`] of either, with a last one that counts the rest.
+fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Problem>) {
+    let is_of_scene = |problem: &Problem| problem.path == path;
+    problems.extend(of_files.extract_if(.., |problem| is_of_scene(problem)));
+    problems.sort_by_key(|problem| (problem.place.is_none(), problem.place));
+    // A fatal problem is never left out in favour of a warning.
+    of_files.sort_by_key(|problem| !problem.severity.is_fatal());
+    let left_out = of_files.len().saturating_sub(limits::MAX_PROBLEMS);
+    let is_fatal = of_files.iter().skip(limits::MAX_PROBLEMS).any(|problem| problem.severity.is_fatal());
+    of_files.truncate(limits::MAX_PROBLEMS);
+    problems.append(&mut of_files);
+    if left_out > 0 {
+        let severity = if is_fatal { Severity::Error } else { Severity::Warning };
+        let message = format!("{left_out} more problems of its files are not listed");
+        problems.push(Problem { severity, ..error_in(path, None, message, "mend those above first") });
+    }
+}
+
+#[cfg(test)]
+mod tests;
+
+/// A mesh that the scene names.
+fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
+    let root = folder_of(scene);
+    let request = AssetRequest { name, beside: scene, root, max_bytes: crate::obj::MAX_FILE_BYTES };
+    let path = folders
+        .find(&request)
+        .map_err(|error| Report(vec![error.to_problem(Severity::Error, scene, None)]))?;
+    crate::obj::read(&path, root, folders)
+}
+
+/// A texture that the scene names. One that cannot be used is an error here: the scene asks for it by name.
+fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead {
+    let max_bytes = crate::texture::MAX_FILE_BYTES;
+    let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes };
+    match crate::texture::read(folders, &request) {
+        Ok(decoded) => Ok((decoded.texture, decoded.warnings)),
+        Err(problem) => Err(Problem { severity: problem.severity.max(Severity::Error), ..problem }),
+    }
+}
+
+/// The folder that a file is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}

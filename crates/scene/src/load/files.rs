@@ -1,0 +1,89 @@
+//! The meshes and textures that a document names.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::document::Scene;
+use crate::mesh_file::{MeshFile, Texture};
+use crate::problem::{Problem, Report};
+
+pub(super) type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
+pub(super) type TextureRead = Result<(Texture, Vec<Problem>), Problem>;
+
+/// How the files of one scene are read. Names are as the document writes them.
+pub(super) struct Readers<'a> {
+    pub(super) mesh: &'a dyn Fn(&str) -> MeshRead,
+    pub(super) texture: &'a dyn Fn(&str) -> TextureRead,
+}
+
+/// What was read, and what there was to say.
+#[derive(Debug, Default)]
+pub(super) struct Files {
+    pub(super) meshes: BTreeMap<String, Arc<MeshFile>>,
+    pub(super) textures: BTreeMap<String, Arc<Texture>>,
+    pub(super) problems: Vec<Problem>,
+}
+
+impl Files {
+    /// Reads every file once, however many objects name it. `at` gives a problem the place of a field of the document.
+    pub(super) fn read(scene: &Scene, readers: &Readers<'_>, at: impl Fn(Problem, &str) -> Problem) -> Self {
+        let mut files = Self::default();
+        for (name, field_path) in first_uses(scene, |object| Some(&object.mesh), "mesh") {
+            match (readers.mesh)(name) {
+                Ok((mesh, warnings)) => {
+                    files.problems.extend(warnings);
+                    files.meshes.insert(name.to_owned(), Arc::new(mesh));
+                }
+                Err(Report(problems)) => {
+                    // Without a place in the mesh file, the place that names it is the best one.
+                    files.problems.extend(problems.into_iter().map(|problem| match problem.place {
+                        Some(_) => problem,
+                        None => at(problem, &field_path),
+                    }));
+                }
+            }
+        }
+        let texture_of = |object| {
+            let object: &crate::document::Object = object;
+            object.material.as_ref()?.texture.as_ref()
+        };
+        for (name, field_path) in first_uses(scene, texture_of, "material.texture") {
+            match (readers.texture)(name) {
+                Ok((texture, warnings)) => {
+                    files.problems.extend(warnings);
+                    files.textures.insert(name.to_owned(), Arc::new(texture));
+                }
+                Err(problem) => files.problems.push(at(problem, &field_path)),
+            }
+        }
+        files
+    }
+}
+
+/// Each name that objects give, with the field that gives it first, in the order of the file.
+fn first_uses<'a>(
+    scene: &'a Scene,
+    name_of: impl Fn(&'a crate::document::Object) -> Option<&'a String>,
+    field: &str,
+) -> Vec<(&'a str, String)> {
+    let mut seen = std::collections::HashSet::new();
+    let mut uses = Vec::new();
+    for (index, object) in scene.objects.iter().enumerate() {
+        if let Some(name) = name_of(object).filter(|name| seen.insert(name.as_str())) {
+            uses.push((name.as_str(), format!("objects[{index}].{field}")));
+        }
+    }
+    uses
+}
+
+/// The problem as one of the scene file, keeping the words about the file that it was about.
+pub(super) fn retold(problem: Problem, scene_path: &Path, place: Option<crate::problem::Place>) -> Problem {
+    let file = problem.path.display().to_string();
+    let message = if problem.path == scene_path || problem.message.contains(&file) {
+        problem.message
+    } else {
+        format!("{file}: {}", problem.message)
+    };
+    Problem { path: scene_path.to_owned(), place, message, ..problem }
+}

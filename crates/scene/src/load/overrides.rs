@@ -1,0 +1,233 @@
+//! `--set PATH=VALUE`: values of the command line in place of those of the file.
+//!
+//! A value is put into the text, and the text is parsed anew; so it may be whatever a file may hold there, and what
+//! the parser says of it is said of the command line.
+
+use std::path::{Path, PathBuf};
+
+use super::parse::{self, Parsed};
+use super::source::error_in;
+use crate::locate::{Inside, Located, Node, Step};
+use crate::nearest::nearest;
+use crate::problem::{Problem, Report};
+
+/// A value that was put in.
+#[derive(Debug)]
+pub(super) struct Applied {
+    /// As a check would name the field: `objects[0].particles`.
+    field_path: String,
+    /// As the user wrote it, for messages.
+    pub(super) option: PathBuf,
+}
+
+impl Applied {
+    /// Whether a field is this one, inside it, or round it.
+    pub(super) fn covers(&self, field_path: &str) -> bool {
+        let holds = |outer: &str, inner: &str| {
+            inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        holds(&self.field_path, field_path) || holds(field_path, &self.field_path)
+    }
+}
+
+/// The document with all values put in, in the order of the command line.
+pub(super) fn apply(
+    mut parsed: Parsed,
+    overrides: &[(String, String)],
+) -> Result<(Parsed, Vec<Applied>), Report> {
+    let mut applied = Vec::new();
+    for (field_path, value) in overrides {
+        let option = PathBuf::from(format!("--set {field_path}={value}"));
+        let (next, field_path) = put_in(&parsed, field_path, value, &option)?;
+        parsed = next;
+        applied.push(Applied { field_path, option });
+    }
+    Ok((parsed, applied))
+}
+
+fn put_in(parsed: &Parsed, field_path: &str, value: &str, option: &Path) -> Result<(Parsed, String), Report> {
+    let refused = |(message, mend): Fault| Report(vec![error_in(option, None, message, mend)]);
+    let spot = find_spot(&parsed.located, field_path.trim()).map_err(refused)?;
+    let mut first_report = None;
+    for candidate in candidates(value) {
+        let text = spot.with(parsed.located.text(), &candidate);
+        match parse::parse(option, &text) {
+            Ok(parsed) => return Ok((parsed, spot.field_path)),
+            Err(report) => {
+                first_report.get_or_insert(report);
+            }
+        }
+    }
+    let problems = first_report.map_or_else(Vec::new, |report| report.0);
+    // A line and a column in the command line mean nothing to anybody.
+    Err(Report(problems.into_iter().map(|problem| Problem { place: None, ..problem }).collect()))
+}
+
+/// The value as it is where it is one value, and as quoted text, so that a shell's quotes are enough.
+fn candidates(value: &str) -> Vec<String> {
+    let value = value.trim();
+    let as_it_is = Located::scan(value).ok().map(|located| located.text_of(located.root()).to_owned());
+    let quoted = format!("\"{}\"", value.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"));
+    as_it_is.into_iter().chain([quoted]).collect()
+}
+
+/// What is wrong, and the mend.
+type Fault = (String, String);
+
+/// Where a value goes: the bytes that it replaces, and what is written around it.
+#[derive(Debug, Default)]
+struct Spot {
+    start: usize,
+    end: usize,
+    before: String,
+    after: String,
+    field_path: String,
+}
+
+impl Spot {
+    fn with(&self, text: &str, value: &str) -> String {
+        let (head, tail) = (&text[..self.start], &text[self.end..]);
+        format!("{head}{}{value}{}{tail}", self.before, self.after)
+    }
+}
+
+fn find_spot(located: &Located, field_path: &str) -> Result<Spot, Fault> {
+    let mut node = located.root();
+    let mut rest = field_path;
+    let mut known = String::new();
+    if rest.is_empty() {
+        return Err(("no field is named".to_owned(), "write it as in strokes.width_px=12".to_owned()));
+    }
+    loop {
+        node = located.through_some(node);
+        rest = rest.trim_start_matches('.');
+        if rest.is_empty() {
+            let (start, end) = (node.start as usize, node.end as usize);
+            return Ok(Spot { start, end, field_path: known, ..Spot::default() });
+        }
+        let (segment, behind) = first_segment(rest);
+        let name = located.name_of(node);
+        if is_variant(segment) && !name.is_empty() {
+            if name != segment {
+                let mend = format!("set {known}={segment}(…) as a whole");
+                return Err((format!("`{known}` is {name}, not {segment}"), mend));
+            }
+            rest = behind;
+            continue;
+        }
+        match &node.inside {
+            Inside::Items(items) if is_list(located, node) => {
+                let (index, behind) = item(located, items, rest).map_err(|mend| {
+                    (format!("`{known}` has no item `{}`", segment.trim_matches(['[', ']'])), mend)
+                })?;
+                known.push_str(&format!("[{index}]"));
+                (node, rest) = (&items[index], behind);
+            }
+            Inside::Nothing => {
+                let mend = "name the field that holds the value".to_owned();
+                return Err((format!("`{known}` has no field `{segment}`"), mend));
+            }
+            Inside::Items(_) | Inside::Fields(_) => {
+                if !known.is_empty() {
+                    known.push('.');
+                }
+                known.push_str(segment);
+                match located.child(node, Step::Field(segment)) {
+                    Some(child) => (node, rest) = (child, behind),
+                    None => return new_field(located, node, rest, known),
+                }
+            }
+        }
+    }
+}
+
+/// The spot for a field that the file leaves out, and for those around it that it leaves out as well.
+fn new_field(located: &Located, node: &Node, field_path: &str, known: String) -> Result<Spot, Fault> {
+    let name_end = (node.start + node.name_bytes) as usize;
+    let Some(bracket) = located.text()[name_end..node.end as usize].find('(') else {
+        return Err((format!("`{known}` cannot be added"), "write it into the scene file".to_owned()));
+    };
+    let at = name_end + bracket + 1;
+    let mut spot = Spot { start: at, end: at, field_path: known, ..Spot::default() };
+    let mut is_first = true;
+    let mut rest = field_path;
+    while !rest.is_empty() {
+        let (segment, behind) = first_segment(rest);
+        if segment.is_empty() || segment.starts_with('[') {
+            let message = format!("`{field_path}` is a list that the file leaves out");
+            return Err((message, "write it into the scene file".to_owned()));
+        }
+        if is_variant(segment) {
+            spot.before.push_str(segment);
+        } else {
+            let is_inside = !is_first;
+            if is_inside {
+                spot.field_path.push('.');
+                spot.field_path.push_str(segment);
+                spot.before.push('(');
+                spot.after.push(')');
+            }
+            spot.before.push_str(segment);
+            spot.before.push_str(": ");
+        }
+        is_first = false;
+        if let Some((_, variant)) = DEFAULT_VARIANTS.iter().find(|(field, _)| *field == segment) {
+            let is_stated = is_variant(behind.trim_start_matches('.')) || behind.is_empty();
+            spot.before.push_str(if is_stated { "" } else { variant });
+        }
+        rest = behind.trim_start_matches('.');
+    }
+    spot.after.push_str(", ");
+    Ok(spot)
+}
+
+/// What stands in a field whose fields can be set although the file leaves it out.
+const DEFAULT_VARIANTS: [(&str, &str); 2] = [("style", "RotatingStrokes"), ("lens", "Perspective")];
+
+/// A segment with a capital names a variant, as `RotatingStrokes` in `style.RotatingStrokes.solver`.
+fn is_variant(segment: &str) -> bool {
+    segment.starts_with(|first: char| first.is_ascii_uppercase())
+}
+
+/// Lists, tuples and the values of variants, but not `()`, which is a struct with all its fields left out.
+fn is_list(located: &Located, node: &Node) -> bool {
+    let is_empty = matches!(&node.inside, Inside::Items(items) if items.is_empty());
+    !(is_empty && located.text_of(node).ends_with(')'))
+}
+
+/// Up to the next `.` or `[`, and what is behind; an index is a segment with its brackets.
+fn first_segment(field_path: &str) -> (&str, &str) {
+    let from = usize::from(field_path.starts_with('['));
+    let end = field_path[from..].find(['.', '[']).map_or(field_path.len(), |at| from + at);
+    field_path.split_at(end)
+}
+
+/// The item that a path starts with, by index or by name, and the path behind it. A name may hold dots.
+fn item<'a>(located: &Located, items: &[Node], field_path: &'a str) -> Result<(usize, &'a str), String> {
+    if let Some((index, behind)) = field_path.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
+        return match index.trim().parse::<usize>() {
+            Ok(index) if index < items.len() => Ok((index, behind)),
+            _ => Err(format!("it has {}, counted from 0", items.len())),
+        };
+    }
+    let names: Vec<String> = items
+        .iter()
+        .map(|item| {
+            let name = located.child(item, Step::Field("name")).map(|name| located.text_of(name));
+            name.and_then(|quoted| ron::from_str(quoted).ok()).unwrap_or_default()
+        })
+        .collect();
+    let behind = |name: &str| {
+        let rest = field_path.strip_prefix(name)?;
+        (rest.is_empty() || rest.starts_with(['.', '['])).then_some(rest)
+    };
+    let named = names.iter().enumerate().filter(|(_, name)| !name.is_empty());
+    let found = named.filter_map(|(index, name)| Some((index, behind(name)?)));
+    found.min_by_key(|(_, rest)| rest.len()).ok_or_else(|| {
+        let (segment, _) = first_segment(field_path);
+        match nearest(segment, names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "name one of its items, or give an index as in [0]".to_owned(),
+        }
+    })
+}

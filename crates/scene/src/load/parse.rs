@@ -1,0 +1,289 @@
+//! From text to the document, with every complaint of the RON parser said in the words of a scene.
+
+use std::path::Path;
+
+use ron::error::SpannedError;
+use ron::extensions::Extensions;
+
+use super::source::{self, error_in};
+use crate::document::Scene;
+use crate::limits;
+use crate::locate::{Field, Inside, Located, Node};
+use crate::nearest::nearest;
+use crate::problem::{Problem, Report};
+
+/// A document and where everything in it stands.
+#[derive(Debug)]
+pub(super) struct Parsed {
+    pub(super) scene: Scene,
+    pub(super) located: Located,
+}
+
+/// Parses a text without byte order mark. All unknown fields are reported at once; of other faults the first.
+pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
+    let located = source::scan(path, text).map_err(|problem| Report(vec![problem]))?;
+    check_version(path, &located).map_err(|problem| Report(vec![problem]))?;
+    let mut problems = Vec::new();
+    let mut left = text.to_owned();
+    loop {
+        let error = match from_ron(&left) {
+            Ok(scene) if problems.is_empty() => return Ok(Parsed { scene, located }),
+            Ok(_) => break,
+            Err(error) => error,
+        };
+        let unknown = unknown_field(&located, &left, &error);
+        problems.push(explain(path, &located, &error, unknown));
+        // An unknown field is blanked out, so that the parser goes on to the next fault and all places hold.
+        match unknown {
+            Some(field) if problems.len() < limits::MAX_PROBLEMS => blank_out(&mut left, field),
+            _ => break,
+        }
+    }
+    Err(Report(problems))
+}
+
+/// The version is looked at before anything else: a newer file may have any fields.
+fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
+    let Inside::Fields(fields) = &located.root().inside else { return Ok(()) };
+    let place = |node: &Node| Some(located.place(node.start as usize));
+    let current = Scene::VERSION;
+    let Some(field) = fields.iter().find(|field| located.text_of(&field.key) == "version") else {
+        let mend = format!("write `version: {current},` as the first field");
+        return Err(error_in(path, place(located.root()), "the scene does not say its version", mend));
+    };
+    let digits = located.text_of(&field.value);
+    match digits.parse::<u64>() {
+        Ok(version) if version == u64::from(current) => Ok(()),
+        Ok(0) => {
+            let mend = format!("write `version: {current}`");
+            Err(error_in(path, place(&field.value), "there is no version 0 of the scene file", mend))
+        }
+        Ok(version) => {
+            let message = format!("this scene has version {version}, but this build reads {current}");
+            Err(error_in(path, place(&field.value), message, "open it with a newer Impasto"))
+        }
+        Err(_) => {
+            let message = format!("`{}` is no version", shorten(digits));
+            Err(error_in(path, place(&field.value), message, format!("write `version: {current}`")))
+        }
+    }
+}
+
+fn from_ron(text: &str) -> Result<Scene, SpannedError> {
+    ron::Options::default()
+        .with_default_extension(Extensions::IMPLICIT_SOME)
+        .with_recursion_limit(2 * limits::MAX_NESTING)
+        .from_str(text)
+}
+
+/// The field that the parser does not know, looked for where it stopped.
+fn unknown_field<'a>(located: &'a Located, left: &str, error: &SpannedError) -> Option<&'a Field> {
+    let ron::Error::NoSuchStructField { found, .. } = &error.code else { return None };
+    let end = located.offset(error.span.end.line, error.span.end.col);
+    let is_left = |field: &&Field| !left[field.key.start as usize..].starts_with(' ');
+    let mut best: Option<&Field> = None;
+    let mut open = vec![located.root()];
+    while let Some(node) = open.pop() {
+        match &node.inside {
+            Inside::Nothing => {}
+            Inside::Items(items) => open.extend(items.iter().filter(|item| reaches(item, end))),
+            Inside::Fields(fields) => {
+                open.extend(fields.iter().map(|field| &field.value).filter(|value| reaches(value, end)));
+                let named = fields.iter().filter(|field| located.text_of(&field.key) == found);
+                let before = named.filter(|field| field.key.start as usize <= end).filter(is_left);
+                best = before.chain(best).max_by_key(|field| field.key.start);
+            }
+        }
+    }
+    best
+}
+
+fn reaches(node: &Node, offset: usize) -> bool {
+    (node.start as usize..=node.end as usize).contains(&offset)
+}
+
+/// Overwrites a field, and the comma behind it, with spaces. Line ends stay, and every other offset in characters.
+fn blank_out(text: &mut String, field: &Field) {
+    let (start, end) = (field.key.start as usize, field.value.end as usize);
+    let behind = text[end..].trim_start();
+    let end = if behind.starts_with(',') { text.len() - behind.len() + 1 } else { end };
+    let blank = |character: char| match character {
+        '\n' => "\n".to_owned(),
+        // As many bytes as before, so that byte offsets hold; a line with an unknown field that is not ASCII
+        // may then report later columns a little too far right.
+        character => " ".repeat(character.len_utf8()),
+    };
+    let blanked: String = text[start..end].chars().map(blank).collect();
+    text.replace_range(start..end, &blanked);
+}
+
+fn explain(path: &Path, located: &Located, error: &SpannedError, unknown: Option<&Field>) -> Problem {
+    use ron::Error as E;
+    let start = located.offset(error.span.start.line, error.span.start.col);
+    let end = located.offset(error.span.end.line, error.span.end.col);
+    let at = |offset: usize| Some(located.place(offset));
+    match &error.code {
+        E::NoSuchStructField { expected, found, .. } => {
+            let place = unknown.map_or(end, |field| field.key.start as usize);
+            error_in(path, at(place), format!("unknown field `{}`", shorten(found)), one_of(found, expected))
+        }
+        E::NoSuchEnumVariant { expected, found, .. } => {
+            let (field_path, place) = enclosing(located, start, end);
+            let message = format!("{field_path} cannot be `{}`", shorten(found));
+            error_in(path, at(place), message, one_of(found, expected))
+        }
+        E::MissingStructField { field, .. } => {
+            let (field_path, place) = enclosing_struct(located, end);
+            let mend = format!("add `{field}: …`, {}", what_goes_into(field).unwrap_or("it has no default"));
+            error_in(path, at(place), format!("{field_path} has no `{field}`"), mend)
+        }
+        E::DuplicateStructField { field, .. } => {
+            error_in(path, at(end), format!("the field `{field}` is given twice"), "keep one of them")
+        }
+        E::TrailingCharacters => {
+            error_in(path, at(end), "there is more text behind the end of the scene", "remove it")
+        }
+        E::NoSuchExtension(name) => {
+            let mend = "remove the line; only `#![enable(implicit_some)]` is of use here";
+            error_in(path, at(end), format!("there is no RON extension `{}`", shorten(name)), mend)
+        }
+        E::ExpectedComma if !is_inside_value(located, end) => {
+            error_in(path, at(end), "a comma is missing before this", "add `,` between the two values")
+        }
+        other => does_not_fit(path, located, (start, end), other),
+    }
+}
+
+/// A value of the wrong kind, or text that is no RON.
+fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ron::Error) -> Problem {
+    let is_count = matches!(
+        error,
+        ron::Error::ExpectedDifferentLength { .. }
+            | ron::Error::ExpectedStructLikeEnd
+            | ron::Error::ExpectedArrayEnd
+    );
+    let (field_path, offset) = enclosing(located, span.0, span.1);
+    let item_path = field_path.trim_matches('`');
+    // Too many or too few values are a fault of what holds them, not of the last one.
+    let holder = item_path.strip_suffix(']').filter(|_| is_count).and_then(|path| path.rsplit_once('['));
+    let (field_path, node) = match holder.and_then(|(path, _)| Some((path, located.node_at(path)?))) {
+        Some((path, node)) => (named(path), node),
+        None => (field_path, located.innermost(offset).1),
+    };
+    let value = shorten(located.text_of(node));
+    let said = shorten(&lower_first(&error.to_string()));
+    let field = field_path.trim_matches('`').rsplit('.').next().unwrap_or("");
+    let field = field.split('[').next().unwrap_or("");
+    let mend = what_goes_into(field).map_or_else(
+        || "compare with a scene written by `impasto new`".to_owned(),
+        |kind| format!("it takes {kind}"),
+    );
+    let message = format!("`{value}` does not fit {field_path} ({said})");
+    error_in(path, Some(located.place(node.start as usize)), message, mend)
+}
+
+/// Whether the parser stopped within a number, a text or a name, as in `10.5` where a whole number belongs.
+fn is_inside_value(located: &Located, offset: usize) -> bool {
+    let (_, node) = located.innermost(offset);
+    let own_end = match node.inside {
+        Inside::Nothing => node.end as usize,
+        // The name of a variant, up to its bracket.
+        Inside::Items(_) | Inside::Fields(_) if node.name_bytes > 0 => {
+            (node.start + node.name_bytes) as usize + 1
+        }
+        Inside::Items(_) | Inside::Fields(_) => return false,
+    };
+    (node.start as usize + 1..own_end).contains(&offset)
+}
+
+/// Which value the parser stumbled in: its path for a message, and its offset.
+fn enclosing(located: &Located, start: usize, end: usize) -> (String, usize) {
+    let behind = &located.text()[start.min(end)..];
+    let blank = behind.len() - behind.trim_start().len();
+    let first = (start.min(end) + blank).min(start.max(end));
+    let (mut field_path, mut node) = located.innermost(first);
+    if !matches!(node.inside, Inside::Nothing) {
+        let (later_path, later) = located.innermost(end);
+        if matches!(later.inside, Inside::Nothing) || later_path.len() > field_path.len() {
+            (field_path, node) = (later_path, later);
+        }
+    }
+    (named(&field_path), node.start as usize)
+}
+
+/// The struct in whose brackets the parser stood: its path for a message, and its offset.
+fn enclosing_struct(located: &Located, offset: usize) -> (String, usize) {
+    let (mut field_path, mut node) = located.innermost(offset);
+    let is_open = |node: &Node| {
+        let is_bracketed = !matches!(node.inside, Inside::Nothing) && located.text_of(node).ends_with(')');
+        is_bracketed && offset < node.end as usize
+    };
+    while !is_open(node) {
+        let Some(cut) = field_path.rfind(['.', '[']).or((!field_path.is_empty()).then_some(0)) else { break };
+        field_path.truncate(cut);
+        node = located.node_at(&field_path).unwrap_or(located.root());
+    }
+    (named(&field_path), node.start as usize)
+}
+
+fn named(field_path: &str) -> String {
+    if field_path.is_empty() { "the scene".to_owned() } else { format!("`{field_path}`") }
+}
+
+fn one_of(found: &str, expected: &[&str]) -> String {
+    let known = expected.join(", ");
+    match nearest(found, expected.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`? Known here: {known}"),
+        None => format!("known here: {known}"),
+    }
+}
+
+/// What a field holds, for people.
+fn what_goes_into(field: &str) -> Option<&'static str> {
+    Some(match field {
+        "version" | "particles" | "seed" => "a whole number, as in 7",
+        "first" | "last" | "reference" => "a whole frame number, as in 24",
+        "layer" => "a whole number, as in 1 or -1",
+        "size" => "two whole numbers, as in (1280, 720)",
+        "fps" | "frame" | "roll_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
+        | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter" => {
+            "one number, as in 2.5"
+        }
+        "eye" | "target" | "position" | "translation" | "rotation_deg" => "three numbers, as in (0, 1.5, -2)",
+        "scale" => "one number, or three as in (1, 2, 1)",
+        "background" | "color" | "ground" => "a colour, as in \"#b3262a\"",
+        "name" | "mesh" | "group" | "parent" | "texture" | "preset" | "brush" => {
+            "text in quotes, as in \"apple\""
+        }
+        "unlit" | "underpainting" => "true or false",
+        "keys" => "a list of keys, as in [(frame: 0, …), (frame: 24, …)]",
+        "objects" | "lights" | "regions" => "a list, as in [(name: \"apple\", …)]",
+        "timeline" => "frames and their rate, as in (fps: 24, first: 0, last: 119)",
+        "camera" => "a lens and keys, as in (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
+        "lens" => "Perspective(fov_y_deg: 35) or Orthographic(height: 2)",
+        "strokes" => "stroke settings, as in (length_px: 34, width_px: 11)",
+        "material" => "a colour or a texture, as in (color: \"#b3262a\")",
+        "style" => "RotatingStrokes() or Reference",
+        "solver" => "Tangent, Horn or HornExact",
+        "ease" => "Step, Linear or Smooth",
+        "kind" => "Sun, Point or Ambient",
+        "up" => "Y or Z",
+        "on" => "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\") or Material(\"apple\", \"wood\")",
+        "direction" => "a direction: Angle(35), Around((0, 1, 0)) or Up in a region, (x, y, z) in a light",
+        _ => return None,
+    })
+}
+
+fn lower_first(text: &str) -> String {
+    let mut characters = text.chars();
+    characters.next().map_or_else(String::new, |first| first.to_lowercase().chain(characters).collect())
+}
+
+/// At most 80 characters of a text of any length, on one line.
+fn shorten(text: &str) -> String {
+    let mut short: String = text.chars().take(80).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}

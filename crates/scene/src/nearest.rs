@@ -1,0 +1,17 @@
+//! Which known name somebody may have meant.
+
+/// The known name nearest to a mistyped one; `None` where none is near.
+pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // Long texts are no typing mistakes, and comparing them takes time in proportion to the product of their lengths.
+    const LONGEST: usize = 128;
+    if name.len() > LONGEST {
+        return None;
+    }
+    let lower = name.to_lowercase();
+    let close = known.into_iter().filter(|candidate| candidate.len() <= LONGEST).map(|candidate| {
+        let likeness = strsim::normalized_damerau_levenshtein(&lower, &candidate.to_lowercase());
+        (likeness, candidate)
+    });
+    let (likeness, candidate) = close.max_by(|left, right| left.0.total_cmp(&right.0))?;
+    (likeness >= 0.5).then_some(candidate)
+}

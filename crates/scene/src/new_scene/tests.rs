@@ -1,0 +1,99 @@
+use glam::{DMat4, DVec4, Vec3};
+use impasto_core::TriangleMesh;
+
+use super::*;
+use crate::motion::camera_at;
+
+/// A box between two corners, wound outwards; with `open`, only its face at the least z, which looks to −Z.
+fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
+    let positions = (0..8)
+        .map(|i| {
+            let pick = |bit: usize, low: f32, high: f32| if i >> bit & 1 == 1 { high } else { low };
+            Vec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+        })
+        .collect();
+    let mut triangles = vec![[0, 2, 1], [1, 2, 3]];
+    if !open {
+        triangles.extend([[4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7]]);
+        triangles.extend([[0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]);
+    }
+    let mesh = TriangleMesh { positions, triangles, ..TriangleMesh::default() };
+    MeshFile { mesh, groups: vec![String::new()], materials: Vec::new() }
+}
+
+/// Normalised device coordinates of every vertex, by a projection matrix of glam's own.
+fn on_screen(scene: &Scene, mesh: &MeshFile) -> Vec<DVec4> {
+    let pose = camera_at(scene, 0.0);
+    let Lens::Perspective { fov_y_deg, near, far } = pose.lens else { panic!("no perspective") };
+    let aspect = f64::from(scene.size.0) / f64::from(scene.size.1);
+    let clip_from_view =
+        glam::dcamera::rh::proj::opengl::perspective(fov_y_deg.to_radians(), aspect, near, far);
+    let clip_from_world: DMat4 = clip_from_view * pose.view_from_world();
+    used_points(mesh)
+        .map(|point| {
+            let clip = clip_from_world * point.extend(1.0);
+            clip / clip.w
+        })
+        .collect()
+}
+
+#[test]
+fn meshes_of_any_size_and_place_fill_the_picture_up_to_the_margin() {
+    for (center, half) in [
+        (Vec3::ZERO, Vec3::ONE),
+        (Vec3::new(5.0, -3.0, 2.0), Vec3::splat(5e-4)),
+        (Vec3::new(1e5, 2e6, -3e4), Vec3::splat(5e5)),
+        (Vec3::ZERO, Vec3::new(20.0, 0.1, 0.1)),
+        (Vec3::ZERO, Vec3::new(0.1, 20.0, 0.1)),
+        (Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0)),
+    ] {
+        let mesh = box_between(center - half, center + half, false);
+        let scene = for_mesh(Path::new("x.obj"), &mesh);
+        let seen = on_screen(&scene, &mesh);
+        let reach = seen.iter().map(|point| point.x.abs().max(point.y.abs())).fold(0.0, f64::max);
+        assert!((0.82..0.86).contains(&reach), "{center} {half}: reaches {reach}");
+        assert!(seen.iter().all(|point| point.z.abs() <= 1.0), "{center} {half}: cut by near or far");
+        let findings = crate::check::check(&scene);
+        assert!(findings.is_empty(), "{center} {half}: {findings:?}");
+    }
+}
+
+#[test]
+fn a_single_point_still_gives_a_good_scene() {
+    let mesh = box_between(Vec3::ONE, Vec3::ONE, false);
+    let scene = for_mesh(Path::new("x.obj"), &mesh);
+    assert!(crate::check::check(&scene).is_empty());
+}
+
+#[test]
+fn an_open_mesh_is_looked_at_from_its_front() {
+    let panel = box_between(Vec3::NEG_ONE, Vec3::ONE, true);
+    let eye = for_mesh(Path::new("x.obj"), &panel).camera.keys[0].eye;
+    assert!(eye[2] < -1.0 && eye[1] > 0.0, "{eye:?} does not face a panel that looks to −Z");
+    let solid = box_between(Vec3::NEG_ONE, Vec3::ONE, false);
+    let eye = for_mesh(Path::new("x.obj"), &solid).camera.keys[0].eye;
+    assert!(eye[2] > 1.0 && eye[0] > 0.0 && eye[1] > 0.0, "{eye:?}");
+}
+
+#[test]
+fn the_sun_comes_from_the_upper_left_front_of_the_picture() {
+    for open in [false, true] {
+        let scene = for_mesh(Path::new("x.obj"), &box_between(Vec3::NEG_ONE, Vec3::ONE, open));
+        let direction = DVec3::from(scene.lights[0].direction.unwrap());
+        let in_view = camera_at(&scene, 0.0).view_from_world().transform_vector3(direction);
+        assert!(in_view.x > 0.3 && in_view.y < -0.3 && in_view.z < -0.3, "{in_view}");
+    }
+}
+
+#[test]
+fn names_come_from_the_file() {
+    let mesh = box_between(Vec3::NEG_ONE, Vec3::ONE, false);
+    let scene = for_mesh(Path::new("models/red apple.obj"), &mesh);
+    assert_eq!(
+        (scene.objects[0].name.as_str(), scene.objects[0].mesh.as_str()),
+        ("red apple", "red apple.obj")
+    );
+    assert_eq!(scene.regions[0].on, Selector::Object("red apple".to_owned()));
+    let text = crate::save::to_ron(&scene);
+    assert_eq!(crate::load::parse(Path::new("s.ron"), &text).unwrap(), scene);
+}

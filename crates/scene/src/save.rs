@@ -1,0 +1,232 @@
+//! Writing a document as a scene file: readable, what is at its default left out, the same bytes every time.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::document::{
+    Camera, CameraKey, Color, Direction, Ease, Lens, Light, MaterialOverride, Object, ObjectKey, Reference,
+    Region, Scale, Scene, Selector, StrokeSettings, Style, Timeline, Up,
+};
+
+mod layout;
+
+use layout::{Fields, Value, number, text};
+
+/// The document as text that [`crate::load::parse`] reads back as an equal document.
+///
+/// Colours are written with 8 bits a channel, which is all that a scene file can hold.
+pub fn to_ron(scene: &Scene) -> String {
+    let value = Fields::new()
+        .with("version", Value::Word(scene.version.to_string()))
+        .with("size", pair(scene.size))
+        .unless(scene.seed == 0, "seed", || Value::Word(scene.seed.to_string()))
+        .unless(scene.background == Color::default(), "background", || color(scene.background))
+        .unless(scene.timeline == Timeline::default(), "timeline", || timeline(&scene.timeline))
+        .unless(scene.reference == Reference::default(), "reference", || reference(&scene.reference))
+        .with("camera", camera(&scene.camera))
+        .unless(scene.lights.is_empty(), "lights", || Value::List(scene.lights.iter().map(light).collect()))
+        .with("objects", Value::List(scene.objects.iter().map(object).collect()))
+        .unless(scene.strokes == StrokeSettings::default(), "strokes", || strokes(&scene.strokes))
+        .unless(scene.regions.is_empty(), "regions", || {
+            Value::List(scene.regions.iter().map(region).collect())
+        })
+        .with("style", style(&scene.style))
+        .done();
+    format!("#![enable(implicit_some)]\n{}\n", layout::lay_out(&value))
+}
+
+/// Writes a scene file so that at any moment, even after a crash, the path holds the old file or the new one, whole.
+/// A link is followed: the file that it points to is replaced.
+///
+/// # Errors
+///
+/// What the file system said; the old file is then untouched.
+pub fn write(path: &Path, scene: &Scene) -> std::io::Result<()> {
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".impasto-").suffix(".ron.part");
+    // As any new file: readable by whom the user's umask lets.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(to_ron(scene).as_bytes())?;
+    if let Ok(metadata) = std::fs::metadata(&target) {
+        if metadata.permissions().readonly() {
+            let message = format!("{} is read-only", target.display());
+            return Err(std::io::Error::new(std::io::ErrorKind::PermissionDenied, message));
+        }
+        file.as_file().set_permissions(metadata.permissions())?;
+    }
+    file.as_file().sync_all()?;
+    file.persist(&target).map_err(|error| error.error)?;
+    Ok(())
+}
+
+fn pair((x, y): (u32, u32)) -> Value {
+    Value::Tuple(vec![Value::Word(x.to_string()), Value::Word(y.to_string())])
+}
+
+fn vector(values: [f64; 3]) -> Value {
+    Value::Tuple(values.map(number).to_vec())
+}
+
+fn color(color: Color) -> Value {
+    text(&color.to_hex())
+}
+
+fn flag(value: bool) -> Value {
+    Value::Word(value.to_string())
+}
+
+fn word(value: impl std::fmt::Debug) -> Value {
+    Value::Word(format!("{value:?}"))
+}
+
+fn timeline(timeline: &Timeline) -> Value {
+    Fields::new()
+        .with("fps", number(timeline.fps))
+        .with("first", Value::Word(timeline.first.to_string()))
+        .with("last", Value::Word(timeline.last.to_string()))
+        .done()
+}
+
+fn reference(reference: &Reference) -> Value {
+    let Reference::Frame(frame) = reference;
+    Value::Word(format!("Frame({frame})"))
+}
+
+fn camera(camera: &Camera) -> Value {
+    Fields::new()
+        .unless(camera.lens == Lens::default(), "lens", || lens(&camera.lens))
+        .with("keys", Value::List(camera.keys.iter().map(camera_key).collect()))
+        .done()
+}
+
+fn lens(lens: &Lens) -> Value {
+    let (name, size_field, size, near, far) = match *lens {
+        Lens::Perspective { fov_y_deg, near, far } => ("Perspective", "fov_y_deg", fov_y_deg, near, far),
+        Lens::Orthographic { height, near, far } => ("Orthographic", "height", height, near, far),
+    };
+    Fields::new()
+        .with(size_field, number(size))
+        .with("near", number(near))
+        .with("far", number(far))
+        .named(name)
+}
+
+fn camera_key(key: &CameraKey) -> Value {
+    Fields::new()
+        .with("frame", number(key.frame))
+        .with("eye", vector(key.eye))
+        .with("target", vector(key.target))
+        .unless(key.roll_deg == 0.0, "roll_deg", || number(key.roll_deg))
+        .maybe("fov_y_deg", key.fov_y_deg.map(number))
+        .unless(key.ease == Ease::default(), "ease", || word(key.ease))
+        .done()
+}
+
+fn light(light: &Light) -> Value {
+    Fields::new()
+        .with("name", text(&light.name))
+        .with("kind", word(light.kind))
+        .maybe("direction", light.direction.map(vector))
+        .maybe("position", light.position.map(vector))
+        .unless(light.color == Color::white(), "color", || color(light.color))
+        .maybe("ground", light.ground.map(color))
+        .unless(light.intensity == 1.0, "intensity", || number(light.intensity))
+        .done()
+}
+
+fn object(object: &Object) -> Value {
+    Fields::new()
+        .with("name", text(&object.name))
+        .with("mesh", text(&object.mesh))
+        .maybe("group", object.group.as_deref().map(text))
+        .maybe("parent", object.parent.as_deref().map(text))
+        .maybe("particles", object.particles.map(|particles| Value::Word(particles.to_string())))
+        .unless(object.scale == Scale::default(), "scale", || scale(object.scale))
+        .unless(object.up == Up::default(), "up", || word(object.up))
+        .maybe("material", object.material.as_ref().map(material))
+        .unless(object.keys.is_empty(), "keys", || Value::List(object.keys.iter().map(object_key).collect()))
+        .done()
+}
+
+fn scale(scale: Scale) -> Value {
+    let [x, y, z] = scale.0;
+    if x == y && y == z { number(x) } else { vector(scale.0) }
+}
+
+fn material(material: &MaterialOverride) -> Value {
+    Fields::new()
+        .maybe("color", material.color.map(color))
+        .maybe("texture", material.texture.as_deref().map(text))
+        .unless(!material.unlit, "unlit", || flag(true))
+        .done()
+}
+
+fn object_key(key: &ObjectKey) -> Value {
+    Fields::new()
+        .with("frame", number(key.frame))
+        .unless(key.translation == [0.0; 3], "translation", || vector(key.translation))
+        .unless(key.rotation_deg == [0.0; 3], "rotation_deg", || vector(key.rotation_deg))
+        .unless(key.ease == Ease::default(), "ease", || word(key.ease))
+        .done()
+}
+
+fn strokes(settings: &StrokeSettings) -> Value {
+    Fields::new()
+        .maybe("preset", settings.preset.as_deref().map(text))
+        .maybe("brush", settings.brush.as_deref().map(text))
+        .maybe("length_px", settings.length_px.map(number))
+        .maybe("width_px", settings.width_px.map(number))
+        .maybe("coverage", settings.coverage.map(number))
+        .maybe("flatness", settings.flatness.map(number))
+        .maybe("angle_jitter_deg", settings.angle_jitter_deg.map(number))
+        .maybe("size_jitter", settings.size_jitter.map(number))
+        .maybe("layer", settings.layer.map(|layer| Value::Word(layer.to_string())))
+        .done()
+}
+
+fn region(region: &Region) -> Value {
+    Fields::new()
+        .with("name", text(&region.name))
+        .with("on", selector(&region.on))
+        .unless(region.direction == Direction::default(), "direction", || direction(&region.direction))
+        .unless(region.strokes == StrokeSettings::default(), "strokes", || strokes(&region.strokes))
+        .done()
+}
+
+fn selector(selector: &Selector) -> Value {
+    let named = |name, parts: &[&String]| Value::Named(name, parts.iter().map(|part| text(part)).collect());
+    match selector {
+        Selector::Everything => Value::Word("Everything".to_owned()),
+        Selector::Object(object) => named("Object", &[object]),
+        Selector::Group(object, group) => named("Group", &[object, group]),
+        Selector::Material(object, material) => named("Material", &[object, material]),
+    }
+}
+
+fn direction(direction: &Direction) -> Value {
+    match direction {
+        Direction::Angle(angle_deg) => Value::Named("Angle", vec![number(*angle_deg)]),
+        Direction::Around(axis) => Value::Named("Around", vec![vector(*axis)]),
+        Direction::Up => Value::Word("Up".to_owned()),
+    }
+}
+
+fn style(style: &Style) -> Value {
+    match style {
+        Style::Reference => Value::Word("Reference".to_owned()),
+        Style::RotatingStrokes { solver, underpainting } => Fields::new()
+            .with("solver", word(solver))
+            .unless(*underpainting, "underpainting", || flag(false))
+            .named("RotatingStrokes"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,263 @@
+use std::path::Path;
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::load::parse;
+
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        Just(0.0),
+        -10.0..10.0_f64,
+        (-1000..1000_i32).prop_map(f64::from),
+        proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL | proptest::num::f64::NEGATIVE,
+    ]
+}
+
+fn vector3() -> impl Strategy<Value = [f64; 3]> {
+    [number(), number(), number()]
+}
+
+fn any_color() -> impl Strategy<Value = Color> {
+    any::<[u8; 3]>().prop_map(|bytes| Color(bytes.map(|byte| f32::from(byte) / 255.0)))
+}
+
+fn ease() -> impl Strategy<Value = Ease> {
+    prop_oneof![Just(Ease::Step), Just(Ease::Linear), Just(Ease::Smooth)]
+}
+
+fn name() -> impl Strategy<Value = String> {
+    prop_oneof!["[a-z ]{1,12}", any::<String>()]
+}
+
+fn any_camera() -> impl Strategy<Value = Camera> {
+    let lens = prop_oneof![
+        (number(), number(), number()).prop_map(|(fov_y_deg, near, far)| Lens::Perspective {
+            fov_y_deg,
+            near,
+            far
+        }),
+        (number(), number(), number()).prop_map(|(height, near, far)| Lens::Orthographic {
+            height,
+            near,
+            far
+        }),
+        Just(Lens::default()),
+    ];
+    let key = (number(), vector3(), vector3(), number(), proptest::option::of(number()), ease()).prop_map(
+        |(frame, eye, target, roll_deg, fov_y_deg, ease)| CameraKey {
+            frame,
+            eye,
+            target,
+            roll_deg,
+            fov_y_deg,
+            ease,
+        },
+    );
+    (lens, prop::collection::vec(key, 0..4)).prop_map(|(lens, keys)| Camera { lens, keys })
+}
+
+fn any_light() -> impl Strategy<Value = Light> {
+    let kind = prop_oneof![
+        Just(crate::document::LightKind::Sun),
+        Just(crate::document::LightKind::Point),
+        Just(crate::document::LightKind::Ambient)
+    ];
+    let places = (proptest::option::of(vector3()), proptest::option::of(vector3()));
+    (name(), kind, places, any_color(), proptest::option::of(any_color()), number()).prop_map(
+        |(name, kind, (direction, position), color, ground, intensity)| Light {
+            name,
+            kind,
+            direction,
+            position,
+            color,
+            ground,
+            intensity,
+        },
+    )
+}
+
+fn any_object() -> impl Strategy<Value = Object> {
+    let key =
+        (number(), vector3(), vector3(), ease()).prop_map(|(frame, translation, rotation_deg, ease)| {
+            ObjectKey { frame, translation, rotation_deg, ease }
+        });
+    let material = (proptest::option::of(any_color()), proptest::option::of(name()), any::<bool>())
+        .prop_map(|(color, texture, unlit)| MaterialOverride { color, texture, unlit });
+    let names = (name(), name(), proptest::option::of(name()), proptest::option::of(name()));
+    let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);
+    let up = prop_oneof![Just(Up::Y), Just(Up::Z)];
+    let keys = prop::collection::vec(key, 0..4);
+    (names, proptest::option::of(any::<u64>()), scale, up, proptest::option::of(material), keys).prop_map(
+        |((name, mesh, group, parent), particles, scale, up, material, keys)| Object {
+            name,
+            mesh,
+            group,
+            parent,
+            particles,
+            scale,
+            up,
+            material,
+            keys,
+        },
+    )
+}
+
+fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
+    let names = (proptest::option::of(name()), proptest::option::of(name()));
+    let numbers = prop::collection::vec(proptest::option::of(number()), 6);
+    (names, numbers, proptest::option::of(any::<i32>())).prop_map(|((preset, brush), numbers, layer)| {
+        StrokeSettings {
+            preset,
+            brush,
+            length_px: numbers[0],
+            width_px: numbers[1],
+            coverage: numbers[2],
+            flatness: numbers[3],
+            angle_jitter_deg: numbers[4],
+            size_jitter: numbers[5],
+            layer,
+        }
+    })
+}
+
+fn any_region() -> impl Strategy<Value = Region> {
+    let on = prop_oneof![
+        Just(Selector::Everything),
+        name().prop_map(Selector::Object),
+        (name(), name()).prop_map(|(object, group)| Selector::Group(object, group)),
+        (name(), name()).prop_map(|(object, material)| Selector::Material(object, material)),
+    ];
+    let direction = prop_oneof![
+        number().prop_map(Direction::Angle),
+        vector3().prop_map(Direction::Around),
+        Just(Direction::Up)
+    ];
+    (name(), on, direction, any_strokes()).prop_map(|(name, on, direction, strokes)| Region {
+        name,
+        on,
+        direction,
+        strokes,
+    })
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    let solver = prop_oneof![
+        Just(crate::document::Solver::Tangent),
+        Just(crate::document::Solver::Horn),
+        Just(crate::document::Solver::HornExact)
+    ];
+    let style = prop_oneof![
+        Just(Style::Reference),
+        (solver, any::<bool>())
+            .prop_map(|(solver, underpainting)| Style::RotatingStrokes { solver, underpainting }),
+    ];
+    let timeline =
+        (number(), any::<i64>(), any::<i64>()).prop_map(|(fps, first, last)| Timeline { fps, first, last });
+    let head = (any::<(u32, u32)>(), any::<u32>(), any_color(), timeline, any::<i64>(), style);
+    let lists = (
+        prop::collection::vec(any_light(), 0..3),
+        prop::collection::vec(any_object(), 0..4),
+        prop::collection::vec(any_region(), 0..3),
+    );
+    (head, any_camera(), lists, any_strokes()).prop_map(
+        |(
+            (size, seed, background, timeline, reference, style),
+            camera,
+            (lights, objects, regions),
+            strokes,
+        )| {
+            Scene {
+                version: Scene::VERSION,
+                size,
+                seed,
+                background,
+                timeline,
+                reference: Reference::Frame(reference),
+                camera,
+                lights,
+                objects,
+                strokes,
+                regions,
+                style,
+            }
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(256) })]
+
+    #[test]
+    fn what_is_saved_reads_back_equal_and_saves_to_the_same_bytes(scene in any_scene()) {
+        let text = to_ron(&scene);
+        let read = parse(Path::new("s.ron"), &text).map_err(|report| {
+            TestCaseError::fail(format!("{report}\n{text}"))
+        })?;
+        prop_assert_eq!(&read, &scene);
+        prop_assert_eq!(to_ron(&read), text);
+    }
+}
+
+const READABLE: &str = r##"#![enable(implicit_some)]
+(
+    version: 1,
+    size: (1280, 720),
+    timeline: (fps: 24, first: 0, last: 119),
+    camera: (
+        lens: Perspective(fov_y_deg: 32, near: 0.05, far: 100),
+        keys: [
+            (frame: 0, eye: (0, 1.1, 4), target: (0, 0.5, 0), ease: Smooth),
+            (frame: 119, eye: (0, 1.1, 4), target: (0, 0.5, 0), roll_deg: 90),
+        ],
+    ),
+    lights: [(name: "window", kind: Sun, direction: (-0.5, -1, -0.6), color: "#fff1dc", intensity: 2.5)],
+    objects: [
+        (
+            name: "apple",
+            mesh: "meshes/apple.obj",
+            particles: 45658,
+            material: (color: "#b3262a"),
+            keys: [
+                (frame: 0),
+                (frame: 60, translation: (0.8, 0, 0), rotation_deg: (0, 0, -140)),
+            ],
+        ),
+        (name: "leaf", mesh: "meshes/apple.obj", group: "leaf", parent: "apple"),
+    ],
+    strokes: (preset: "oil study"),
+    style: RotatingStrokes(solver: Tangent),
+)
+"##;
+
+#[test]
+fn a_saved_scene_reads_as_a_person_would_write_it() {
+    let scene = parse(Path::new("s.ron"), READABLE).unwrap();
+    assert_eq!(to_ron(&scene), READABLE);
+}
+
+#[test]
+fn writing_replaces_the_file_whole_and_leaves_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.ron");
+    std::fs::write(&path, "old").unwrap();
+    let scene = parse(Path::new("s.ron"), READABLE).unwrap();
+    write(&path, &scene).unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), READABLE);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_left_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.ron");
+    std::fs::write(&path, "old").unwrap();
+    let mut permissions = std::fs::metadata(&path).unwrap().permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&path, permissions).unwrap();
+    let scene = parse(Path::new("s.ron"), READABLE).unwrap();
+    assert!(write(&path, &scene).is_err());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    assert!(write(&folder.path().join("no/such/folder.ron"), &scene).is_err());
+}
