@@ -1,4 +1,4 @@
-//! The corpus of hostile and real files, where `IMPASTO_CORPUS` names its folder: every OBJ, MTL and picture case in a
+//! The corpus of hostile and real files, where `IMPASTO_CORPUS` names its folder: every OBJ, MTL, picture and RON case in a
 //! child process with 1 GiB of memory and 10 seconds, against what its list expects.
 //!
 //! The child is this test binary again, running [`one_case`] alone: exit code 10 is a sound mesh, 11 one with warnings, 3 a report with
@@ -11,9 +11,10 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use impasto_scene::assets::AssetFolders;
+use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::obj;
-use impasto_scene::problem::Severity;
+use impasto_scene::problem::{Problem, Report, Severity};
 
 const CASE: &str = "IMPASTO_CORPUS_CASE";
 const MEMORY_KIB: u32 = 1 << 20;
@@ -122,17 +123,29 @@ fn assert_sound(file: &MeshFile) {
     assert!(file.materials.iter().flat_map(|material| material.color).all(|c| (0.0..=1.0).contains(&c)));
 }
 
+/// Reads a scene with everything that it names, or a mesh, which has to be sound.
+fn warnings_of(path: &Path) -> Result<Vec<Problem>, Report> {
+    if path.extension().is_some_and(|extension| extension == "ron") {
+        return load::load(path, &LoadOptions::default()).map(|loaded| loaded.warnings);
+    }
+    let (file, warnings) = obj::read(path, path.parent().unwrap(), &AssetFolders::default())?;
+    assert_sound(&file);
+    // What is a sound mesh is a scene, too.
+    if path.extension().is_some_and(|extension| extension == "obj") {
+        load::load(path, &LoadOptions::default())?;
+    }
+    Ok(warnings)
+}
+
 #[test]
 #[ignore = "the child of the other tests here: reads the file that IMPASTO_CORPUS_CASE names"]
 fn one_case() {
     let Some(path) = std::env::var_os(CASE).map(PathBuf::from) else { return };
-    let root = path.parent().unwrap();
-    let code = match obj::read(&path, root, &AssetFolders::default()) {
-        Ok((file, warnings)) => {
+    let code = match warnings_of(&path) {
+        Ok(warnings) => {
             for warning in &warnings {
                 eprintln!("{warning}");
             }
-            assert_sound(&file);
             if warnings.is_empty() { 10 } else { 11 }
         }
         Err(report) => {
@@ -154,7 +167,7 @@ fn hostile_files_end_as_the_list_expects() {
     let mut faults = String::new();
     let mut count = 0;
     for [id, file, kind, expect] in columns(&corpus.join("hostile.csv"), ["id", "file", "kind", "expect"]) {
-        if !["obj", "mtl", "tex"].contains(&kind.as_str()) {
+        if !["obj", "mtl", "tex", "ron"].contains(&kind.as_str()) {
             continue;
         }
         count += 1;
