@@ -43,13 +43,13 @@ fn rows(text: &str) -> Vec<Vec<String>> {
     let mut rows = vec![vec![String::new()]];
     let mut is_quoted = false;
     for letter in text.chars() {
-        let row = rows.last_mut().unwrap();
+        let row = rows.last_mut().expect("there is always a row and a cell");
         match letter {
             '"' => is_quoted = !is_quoted,
             ',' if !is_quoted => row.push(String::new()),
             '\n' if !is_quoted => rows.push(vec![String::new()]),
             '\r' if !is_quoted => {}
-            other => row.last_mut().unwrap().push(other),
+            other => row.last_mut().expect("there is always a row and a cell").push(other),
         }
     }
     rows
@@ -57,9 +57,10 @@ fn rows(text: &str) -> Vec<Vec<String>> {
 
 /// The cells of the named columns, row by row.
 fn columns<const N: usize>(file: &Path, names: [&str; N]) -> Vec<[String; N]> {
-    let rows = rows(&fs::read_to_string(file).unwrap());
-    let places = names.map(|name| rows[0].iter().position(|cell| cell == name).unwrap());
-    let last = places.into_iter().max().unwrap();
+    let rows = rows(&fs::read_to_string(file).expect("the list can be read"));
+    let places =
+        names.map(|name| rows[0].iter().position(|cell| cell == name).expect("the list has the column"));
+    let last = places.into_iter().max().expect("a column is asked for");
     rows[1..].iter().filter(|row| row.len() > last).map(|row| places.map(|at| row[at].clone())).collect()
 }
 
@@ -67,16 +68,16 @@ fn columns<const N: usize>(file: &Path, names: [&str; N]) -> Vec<[String; N]> {
 fn outcome(file: &Path) -> Result<Outcome, String> {
     let mut child = Command::new("sh")
         .args(["-c", "ulimit -v \"$1\"; shift; exec \"$@\"", "sh", &MEMORY_KIB.to_string()])
-        .arg(std::env::current_exe().unwrap())
+        .arg(std::env::current_exe().expect("a child can be run"))
         .args(["--exact", "corpus::one_case", "--ignored", "--nocapture", "--test-threads=1"])
         .env(CASE, file)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
-        .unwrap();
+        .expect("a child can be run");
     let start = Instant::now();
     loop {
-        if let Some(status) = child.try_wait().unwrap() {
+        if let Some(status) = child.try_wait().expect("a child can be run") {
             return match status.code() {
                 Some(10) => Ok(Outcome::Fine),
                 Some(11) => Ok(Outcome::Warned),
@@ -86,8 +87,8 @@ fn outcome(file: &Path) -> Result<Outcome, String> {
             };
         }
         if start.elapsed() > TIME {
-            child.kill().unwrap();
-            child.wait().unwrap();
+            child.kill().expect("a child can be run");
+            child.wait().expect("a child can be run");
             return Err(format!("took over {TIME:?}"));
         }
         std::thread::sleep(Duration::from_millis(2));
@@ -128,7 +129,8 @@ fn warnings_of(path: &Path) -> Result<Vec<Problem>, Report> {
     if path.extension().is_some_and(|extension| extension == "ron") {
         return load::load(path, &LoadOptions::default()).map(|loaded| loaded.warnings);
     }
-    let (file, warnings) = obj::read(path, path.parent().unwrap(), &AssetFolders::default())?;
+    let (file, warnings) =
+        obj::read(path, path.parent().expect("a file lies in a folder"), &AssetFolders::default())?;
     assert_sound(&file);
     // What is a sound mesh is a scene, too.
     if path.extension().is_some_and(|extension| extension == "obj") {
@@ -226,16 +228,18 @@ fn real_models_and_pictures_end_as_the_list_expects() {
 
 /// Reads a triangle with this picture on it.
 fn outcome_with_picture(picture: &Path) -> Result<Outcome, String> {
-    let folder = tempfile::tempdir().unwrap();
-    fs::copy(picture, folder.path().join("picture.png")).unwrap();
-    fs::write(folder.path().join("case.mtl"), "newmtl m\nmap_Kd picture.png\n").unwrap();
+    let folder = tempfile::tempdir().expect("the temporary folder can be used");
+    fs::copy(picture, folder.path().join("picture.png")).expect("the temporary folder can be used");
+    fs::write(folder.path().join("case.mtl"), "newmtl m\nmap_Kd picture.png\n")
+        .expect("the temporary folder can be used");
     outcome(&triangle_with(folder.path()))
 }
 
 /// A triangle whose material is `m` of `case.mtl` in the same folder.
 fn triangle_with(folder: &Path) -> PathBuf {
     let model = folder.join("case.obj");
-    fs::write(&model, "mtllib case.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    fs::write(&model, "mtllib case.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .expect("the temporary folder can be used");
     model
 }
 

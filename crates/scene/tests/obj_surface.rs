@@ -14,9 +14,9 @@ use impasto_scene::problem::Problem;
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn read(text: impl AsRef<[u8]>) -> (MeshFile, Vec<Problem>) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("the temporary folder can be used");
     let path = folder.path().join("model.obj");
-    fs::write(&path, text).unwrap();
+    fs::write(&path, text).expect("the temporary folder can be used");
     obj::read(&path, folder.path(), &AssetFolders::default()).unwrap_or_else(|report| panic!("{report}"))
 }
 
@@ -185,10 +185,14 @@ fn a_last_line_without_an_end_is_kept_where_it_can_be_whole() {
 
 /// The materials of a square with this MTL file beside it.
 fn materials(folder: &Path, mtl: &[u8]) -> (MeshFile, usize) {
-    fs::write(folder.join("my library.mtl"), mtl).unwrap();
+    for name in ["my library.mtl", "model.obj"] {
+        fs::remove_file(folder.join(name)).ok();
+    }
+    fs::write(folder.join("my library.mtl"), mtl).expect("the temporary folder can be used");
     let path = folder.join("model.obj");
-    fs::write(&path, format!("mtllib my library.mtl\nusemtl red paint\n{SQUARE}f 1 2 3 4\n")).unwrap();
-    let (file, warnings) = obj::read(&path, folder, &AssetFolders::default()).unwrap();
+    fs::write(&path, format!("mtllib my library.mtl\nusemtl red paint\n{SQUARE}f 1 2 3 4\n"))
+        .expect("the temporary folder can be used");
+    let (file, warnings) = obj::read(&path, folder, &AssetFolders::default()).expect("the model is good");
     (file, warnings.len())
 }
 
