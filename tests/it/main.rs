@@ -2,6 +2,7 @@
 
 mod corpus;
 mod horn;
+mod hostile_scenes;
 mod progressive_order;
 mod roll_and_lateral;
 mod rotating_strokes;

@@ -1,4 +1,5 @@
 //! Measuring tools that the tests share: shapes whose answers are known, pictures read and compared.
 
+pub mod command;
 pub mod pictures;
 pub mod shapes;

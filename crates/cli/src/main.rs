@@ -1,2 +1,68 @@
-//! The `impasto` command.
-fn main() {}
+//! The `impasto` command: paints scenes with no window, and tells what is in them.
+
+mod args;
+mod check;
+mod doctor;
+mod failure;
+mod frame_list;
+mod info;
+mod new;
+mod output;
+mod picture_file;
+mod render;
+mod session;
+mod sheet;
+mod strokes;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use clap::{CommandFactory as _, Parser as _};
+
+use args::{Arguments, Command};
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no errors; everything else is a wrong command line.
+            let code = if error.use_stderr() { failure::USAGE } else { 0 };
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let result = match arguments.command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+        Command::Strokes(arguments) => strokes::run(&arguments),
+        Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Completions { shell } => {
+            clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut std::io::stdout());
+            Ok(())
+        }
+    };
+    let _ = std::io::stdout().flush();
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if let Some(words) = failure.words() {
+                eprintln!("{words}");
+            }
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        // A closed pipe is the reader's choice.
+        if error.kind() == std::io::ErrorKind::BrokenPipe {
+            Self::Quiet(0)
+        } else {
+            Self::Other(error.to_string())
+        }
+    }
+}

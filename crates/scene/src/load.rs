@@ -74,6 +74,7 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
 /// The made scene goes through its text, so that `--set` finds what it would find in the file that `impasto new`
 /// writes, and so that both are painted alike.
 fn load_mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
     let (mesh, warnings) = crate::obj::read(path, folder_of(path), &options.folders)?;
     let scene = crate::new_scene::for_mesh(path, &mesh);
     let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
@@ -191,3 +192,6 @@ fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
+
+#[cfg(test)]
+mod hostile_tests;

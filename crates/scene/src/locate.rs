@@ -88,11 +88,12 @@ impl Located {
         place_in(&self.text, &self.line_starts, offset)
     }
 
-    /// The byte offset of a line and a column, both counted from 1; the end of the text for a place beyond it.
-    pub(crate) fn offset(&self, line: usize, column: usize) -> usize {
-        let Some(&start) = self.line_starts.get(line.saturating_sub(1)) else { return self.text.len() };
-        let rest = &self.text[start..];
-        rest.char_indices().nth(column.saturating_sub(1)).map_or(self.text.len(), |(at, _)| start + at)
+    /// The byte offset of a line and a column, both counted from 1, in a text with the same line ends at the same
+    /// bytes; the end of the text for a place beyond it.
+    pub(crate) fn offset_in(&self, text: &str, line: usize, column: usize) -> usize {
+        let Some(&start) = self.line_starts.get(line.saturating_sub(1)) else { return text.len() };
+        let rest = &text[start..];
+        rest.char_indices().nth(column.saturating_sub(1)).map_or(text.len(), |(at, _)| start + at)
     }
 
     /// Where a field stands, such as `objects[2].keys[1].frame`. Where the file leaves it out (it has a default, or a

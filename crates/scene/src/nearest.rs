@@ -1,17 +1,19 @@
 //! Which known name somebody may have meant.
 
-/// The known name nearest to a mistyped one; `None` where none is near.
+/// The known name nearest to a mistyped one; `None` where none is near. Of a very long list only the start is compared.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Long texts are no typing mistakes, and comparing them takes time in proportion to the product of their lengths.
     const LONGEST: usize = 128;
+    const COMPARED: usize = 1000;
     if name.len() > LONGEST {
         return None;
     }
     let lower = name.to_lowercase();
-    let close = known.into_iter().filter(|candidate| candidate.len() <= LONGEST).map(|candidate| {
-        let likeness = strsim::normalized_damerau_levenshtein(&lower, &candidate.to_lowercase());
-        (likeness, candidate)
-    });
+    let close =
+        known.into_iter().take(COMPARED).filter(|candidate| candidate.len() <= LONGEST).map(|candidate| {
+            let likeness = strsim::normalized_damerau_levenshtein(&lower, &candidate.to_lowercase());
+            (likeness, candidate)
+        });
     let (likeness, candidate) = close.max_by(|left, right| left.0.total_cmp(&right.0))?;
     (likeness >= 0.5).then_some(candidate)
 }

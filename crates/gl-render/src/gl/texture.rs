@@ -11,7 +11,6 @@ pub(crate) enum Format {
     Rgba8,
     /// sRGB encoded colour that is decoded when it is read.
     SrgbAlpha8,
-    R32F,
     Rg32F,
     Rgba16F,
     Rgba32F,
@@ -25,7 +24,6 @@ impl Format {
             Format::Rg8 => (glow::RG8, glow::RG, glow::UNSIGNED_BYTE),
             Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
             Format::SrgbAlpha8 => (glow::SRGB8_ALPHA8, glow::RGBA, glow::UNSIGNED_BYTE),
-            Format::R32F => (glow::R32F, glow::RED, glow::FLOAT),
             Format::Rg32F => (glow::RG32F, glow::RG, glow::FLOAT),
             Format::Rgba16F => (glow::RGBA16F, glow::RGBA, glow::HALF_FLOAT),
             Format::Rgba32F => (glow::RGBA32F, glow::RGBA, glow::FLOAT),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ron::error::SpannedError;
+use ron::error::{Position, SpannedError};
 use ron::extensions::Extensions;
 
 use super::source::{self, error_in};
@@ -11,6 +11,9 @@ use crate::limits;
 use crate::locate::{Field, Inside, Located, Node};
 use crate::nearest::nearest;
 use crate::problem::{Problem, Report};
+
+/// Bytes that are parsed at most in all passes over one text, if that takes more than one.
+const MOST_PARSED_BYTES: usize = 32 << 20;
 
 /// A document and where everything in it stands.
 #[derive(Debug)]
@@ -25,21 +28,35 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
     check_version(path, &located).map_err(|problem| Report(vec![problem]))?;
     let mut problems = Vec::new();
     let mut left = text.to_owned();
+    // Each unknown field costs one more pass, so a very long text gets fewer of them.
+    let most_problems = (MOST_PARSED_BYTES / text.len().max(1)).clamp(1, limits::MAX_PROBLEMS);
     loop {
         let error = match from_ron(&left) {
             Ok(scene) if problems.is_empty() => return Ok(Parsed { scene, located }),
             Ok(_) => break,
             Err(error) => error,
         };
-        let unknown = unknown_field(&located, &left, &error);
-        problems.push(explain(path, &located, &error, unknown));
+        if is_mistyped(&error, &problems) {
+            break;
+        }
+        let offset = |at: Position| located.offset_in(&left, at.line, at.col);
+        let span = (offset(error.span.start), offset(error.span.end));
+        let unknown = unknown_field(&located, &left, &error.code, span.1);
+        problems.push(explain(path, &located, &error.code, span, unknown));
         // An unknown field is blanked out, so that the parser goes on to the next fault and all places hold.
         match unknown {
-            Some(field) if problems.len() < limits::MAX_PROBLEMS => blank_out(&mut left, field),
+            Some(field) if problems.len() < most_problems => blank_out(&mut left, field),
             _ => break,
         }
     }
     Err(Report(problems))
+}
+
+/// Whether a field is missing only because it was mistyped, which is one fault and is reported already.
+fn is_mistyped(error: &SpannedError, problems: &[Problem]) -> bool {
+    let ron::Error::MissingStructField { field, .. } = &error.code else { return false };
+    let suggestion = did_you_mean(field);
+    problems.iter().any(|problem| problem.mend.starts_with(&suggestion))
 }
 
 /// The version is looked at before anything else: a newer file may have any fields.
@@ -77,9 +94,8 @@ fn from_ron(text: &str) -> Result<Scene, SpannedError> {
 }
 
 /// The field that the parser does not know, looked for where it stopped.
-fn unknown_field<'a>(located: &'a Located, left: &str, error: &SpannedError) -> Option<&'a Field> {
-    let ron::Error::NoSuchStructField { found, .. } = &error.code else { return None };
-    let end = located.offset(error.span.end.line, error.span.end.col);
+fn unknown_field<'a>(located: &'a Located, left: &str, error: &ron::Error, end: usize) -> Option<&'a Field> {
+    let ron::Error::NoSuchStructField { found, .. } = error else { return None };
     let is_left = |field: &&Field| !left[field.key.start as usize..].starts_with(' ');
     let mut best: Option<&Field> = None;
     let mut open = vec![located.root()];
@@ -102,27 +118,30 @@ fn reaches(node: &Node, offset: usize) -> bool {
     (node.start as usize..=node.end as usize).contains(&offset)
 }
 
-/// Overwrites a field, and the comma behind it, with spaces. Line ends stay, and every other offset in characters.
+/// Overwrites a field, and the comma behind it, with spaces. Line ends stay, and so does every other byte.
 fn blank_out(text: &mut String, field: &Field) {
     let (start, end) = (field.key.start as usize, field.value.end as usize);
     let behind = text[end..].trim_start();
     let end = if behind.starts_with(',') { text.len() - behind.len() + 1 } else { end };
     let blank = |character: char| match character {
         '\n' => "\n".to_owned(),
-        // As many bytes as before, so that byte offsets hold; a line with an unknown field that is not ASCII
-        // may then report later columns a little too far right.
+        // As many bytes as before, so that byte offsets hold.
         character => " ".repeat(character.len_utf8()),
     };
     let blanked: String = text[start..end].chars().map(blank).collect();
     text.replace_range(start..end, &blanked);
 }
 
-fn explain(path: &Path, located: &Located, error: &SpannedError, unknown: Option<&Field>) -> Problem {
+fn explain(
+    path: &Path,
+    located: &Located,
+    error: &ron::Error,
+    (start, end): (usize, usize),
+    unknown: Option<&Field>,
+) -> Problem {
     use ron::Error as E;
-    let start = located.offset(error.span.start.line, error.span.start.col);
-    let end = located.offset(error.span.end.line, error.span.end.col);
     let at = |offset: usize| Some(located.place(offset));
-    match &error.code {
+    match error {
         E::NoSuchStructField { expected, found, .. } => {
             let place = unknown.map_or(end, |field| field.key.start as usize);
             error_in(path, at(place), format!("unknown field `{}`", shorten(found)), one_of(found, expected))
@@ -233,9 +252,13 @@ fn named(field_path: &str) -> String {
 fn one_of(found: &str, expected: &[&str]) -> String {
     let known = expected.join(", ");
     match nearest(found, expected.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`? Known here: {known}"),
+        Some(near) => format!("{} Known here: {known}", did_you_mean(near)),
         None => format!("known here: {known}"),
     }
+}
+
+fn did_you_mean(name: &str) -> String {
+    format!("did you mean `{name}`?")
 }
 
 /// What a field holds, for people.

@@ -7,21 +7,24 @@ use crate::limits;
 use crate::locate::{Located, Refused, line_starts, place_in};
 use crate::problem::{Place, Problem, Severity};
 
-/// Reads a scene file whole, at most [`limits::MAX_SCENE_BYTES`] of it. Devices, pipes and folders are refused unread.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, Problem> {
-    let failed = |error: std::io::Error| {
-        let mend = "check the path and the permissions";
-        error_in(path, None, format!("the scene cannot be read: {error}"), mend)
-    };
-    let metadata = std::fs::metadata(path).map_err(failed)?;
-    if !metadata.is_file() {
-        return Err(error_in(
-            path,
-            None,
-            "this is no regular file",
-            "name a scene file (.ron) or a mesh (.obj)",
-        ));
+/// Whether a file that the user names is there and is a regular one; devices, pipes and folders are not opened.
+pub(super) fn check_regular(path: &Path) -> Result<(), Problem> {
+    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
+    if metadata.is_file() {
+        Ok(())
+    } else {
+        Err(error_in(path, None, "this is no regular file", "name a scene file (.ron) or a mesh (.obj)"))
     }
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Problem {
+    error_in(path, None, format!("the file cannot be read: {error}"), "check the path and the permissions")
+}
+
+/// Reads a scene file whole, at most [`limits::MAX_SCENE_BYTES`] of it.
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Problem> {
+    check_regular(path)?;
+    let failed = |error| unreadable(path, &error);
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(failed)?;
     file.take(limits::MAX_SCENE_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;

@@ -1,0 +1,215 @@
+//! What was typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Paints 3D scenes with brush strokes that turn with what they lie on.
+#[derive(Debug, Parser)]
+#[command(name = "impasto", version, about, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Paint frames of a scene, or any OBJ model from a sensible camera.
+    Render(RenderArguments),
+    /// Write down the scene that `render MODEL.obj` would use.
+    New(NewArguments),
+    /// Tell every problem of scenes, with its place.
+    Check(CheckArguments),
+    /// Tell what is in a scene or a mesh.
+    Info(InfoArguments),
+    /// Write the strokes of a frame as they are drawn.
+    Strokes(StrokesArguments),
+    /// Tell which OpenGL drivers work here, and draw a test picture.
+    Doctor(DoctorArguments),
+    /// Print a completion script for a shell.
+    Completions {
+        /// Which shell.
+        shell: clap_complete::Shell,
+    },
+}
+
+/// How to read a scene.
+#[derive(Args, Debug)]
+pub(crate) struct SceneArguments {
+    /// A scene (.ron) or a model (.obj).
+    pub(crate) scene: PathBuf,
+    /// Another folder that meshes and textures may come from; may be given again.
+    #[arg(long = "asset-dir", value_name = "DIR")]
+    pub(crate) asset_dirs: Vec<PathBuf>,
+    /// A value in place of the scene's own, such as strokes.width_px=12; may be given again.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// How many threads prepare and solve; all cores when left out. The result is the same.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+}
+
+/// How much to say.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct Talk {
+    /// Say more: the driver and why, the steps of preparing, each frame's strokes and seconds.
+    #[arg(short, long, action = clap::ArgAction::Count)]
+    pub(crate) verbose: u8,
+    /// Say nothing but errors.
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+}
+
+/// Which library to take OpenGL from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DriverChoice {
+    /// EGL where it works, else OSMesa.
+    #[default]
+    Auto,
+    /// EGL, on a graphics card or in software.
+    Egl,
+    /// OSMesa, in software.
+    Osmesa,
+}
+
+/// How a scene is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub(crate) enum StyleChoice {
+    /// Brush strokes.
+    RotatingStrokes,
+    /// The plain render that strokes take their colours from.
+    Reference,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct RenderArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame).
+    #[arg(short, long, default_value = "out/frame_####.png")]
+    pub(crate) output: String,
+    /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
+    #[arg(short, long, allow_hyphen_values = true)]
+    pub(crate) frames: Option<String>,
+    /// Width x height in pixels, such as 1280x720; strokes scale with the height.
+    #[arg(long, value_parser = parse_size)]
+    pub(crate) size: Option<[u32; 2]>,
+    /// Which library to take OpenGL from.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) driver: DriverChoice,
+    /// No ground under the paint: PNG with transparency.
+    #[arg(long)]
+    pub(crate) alpha: bool,
+    /// A style in place of the scene's own.
+    #[arg(long, value_enum)]
+    pub(crate) style: Option<StyleChoice>,
+    /// Strokes keep their size in pixels whatever the picture's size.
+    #[arg(long)]
+    pub(crate) keep_stroke_px: bool,
+    /// Leave frames alone that are there already.
+    #[arg(long)]
+    pub(crate) skip_existing: bool,
+    /// Also put small copies of all frames on one sheet, beside the frames.
+    #[arg(long)]
+    pub(crate) contact_sheet: bool,
+    /// Write one animated PNG in place of single frames.
+    #[arg(long, conflicts_with_all = ["contact_sheet", "skip_existing"])]
+    pub(crate) apng: bool,
+    /// Print a line of JSON per frame.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) talk: Talk,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct NewArguments {
+    /// The model.
+    pub(crate) model: PathBuf,
+    /// The scene file to write.
+    #[arg(short, long)]
+    pub(crate) output: PathBuf,
+    /// Replace a file that is there already.
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct CheckArguments {
+    /// Scenes (.ron) or models (.obj).
+    #[arg(required = true)]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Another folder that meshes and textures may come from; may be given again.
+    #[arg(long = "asset-dir", value_name = "DIR")]
+    pub(crate) asset_dirs: Vec<PathBuf>,
+    /// Print a line of JSON per problem.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct InfoArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// How strokes are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StrokeFormat {
+    /// A header and a line per stroke.
+    #[default]
+    Csv,
+    /// One object.
+    Json,
+    /// A rectangle per stroke.
+    Svg,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct StrokesArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Which frame; the timeline's first when left out.
+    #[arg(long, allow_hyphen_values = true)]
+    pub(crate) frame: Option<f64>,
+    /// Width x height in pixels.
+    #[arg(long, value_parser = parse_size)]
+    pub(crate) size: Option<[u32; 2]>,
+    /// How they are written.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: StrokeFormat,
+    /// Where they go; - is standard output.
+    #[arg(short, long, default_value = "-")]
+    pub(crate) output: String,
+    /// Which library to take OpenGL from.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) driver: DriverChoice,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct DoctorArguments {
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Longest side of a picture and most pixels: what a scene file may ask for too.
+const MAX_SIDE_PX: u32 = 16_384;
+const MAX_PX: u64 = 1 << 27;
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X']).ok_or("write it as WIDTHxHEIGHT, such as 1280x720")?;
+    let side = |text: &str| text.trim().parse::<u32>().map_err(|error| format!("{text:?}: {error}"));
+    let size = [side(sides.0)?, side(sides.1)?];
+    if size.contains(&0) {
+        return Err("a picture has at least one pixel each way".to_owned());
+    }
+    if size.iter().any(|&side| side > MAX_SIDE_PX) || u64::from(size[0]) * u64::from(size[1]) > MAX_PX {
+        return Err(format!("the limit is {MAX_SIDE_PX} pixels a side and {MAX_PX} in all"));
+    }
+    Ok(size)
+}

@@ -1,0 +1,58 @@
+//! `impasto check`: every problem, with its place.
+
+use std::io::Write as _;
+
+use impasto_scene::assets::AssetFolders;
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::problem::{Problem, Severity};
+
+use crate::args::CheckArguments;
+use crate::failure::Failure;
+
+pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
+    let options =
+        LoadOptions { folders: AssetFolders { extra: arguments.asset_dirs.clone() }, overrides: Vec::new() };
+    let mut wrong = 0;
+    for path in &arguments.scenes {
+        let problems = match load(path, &options) {
+            Ok(loaded) => loaded.warnings,
+            Err(report) => report.0,
+        };
+        wrong += u32::from(problems.iter().any(|problem| problem.severity.is_fatal()));
+        for problem in &problems {
+            if arguments.json {
+                writeln!(std::io::stdout(), "{}", as_json(problem))?;
+            } else {
+                eprintln!("{problem}");
+            }
+        }
+        if !arguments.json {
+            let count =
+                |fatal: bool| problems.iter().filter(|problem| problem.severity.is_fatal() == fatal).count();
+            let (errors, warnings) = (count(true), count(false));
+            let verdict = if errors > 0 { "bad" } else { "good" };
+            writeln!(
+                std::io::stdout(),
+                "{}: {verdict}, {errors} errors, {warnings} warnings",
+                path.display()
+            )?;
+        }
+    }
+    if wrong > 0 { Err(Failure::Quiet(3)) } else { Ok(()) }
+}
+
+fn as_json(problem: &Problem) -> serde_json::Value {
+    serde_json::json!({
+        "version": 1,
+        "path": problem.path,
+        "line": problem.place.map(|place| place.line),
+        "column": problem.place.map(|place| place.column),
+        "severity": match problem.severity {
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+            Severity::Limit => "limit",
+        },
+        "message": problem.message,
+        "mend": problem.mend,
+    })
+}

@@ -1,0 +1,81 @@
+//! Why a command ends early, and the exit code that says so.
+
+use impasto_gl_render::RenderError;
+use impasto_gl_render::context::ContextError;
+use impasto_scene::problem::Report;
+
+/// The command line is wrong.
+pub(crate) const USAGE: u8 = 2;
+
+/// Why a command ends early.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// Nothing is left to say; this code.
+    Quiet(u8),
+    /// Something went wrong that is not the input's fault.
+    Other(String),
+    /// The command line is wrong.
+    Usage(String),
+    /// A file is wrong.
+    Input(Report),
+    /// What was asked for cannot be done with this input.
+    Refused(String),
+    /// No driver.
+    NoOpenGl(ContextError),
+    /// Some frames failed, the others are done.
+    SomeFrames { failed: u64, done: u64 },
+    /// A signal came; so many frames are done.
+    Interrupted { done: u64 },
+}
+
+impl Failure {
+    pub(crate) fn code(&self) -> u8 {
+        match self {
+            Self::Quiet(code) => *code,
+            Self::Other(_) => 1,
+            Self::Usage(_) => USAGE,
+            Self::Input(_) | Self::Refused(_) => 3,
+            Self::NoOpenGl(_) => 4,
+            Self::SomeFrames { .. } => 5,
+            Self::Interrupted { .. } => 130,
+        }
+    }
+
+    pub(crate) fn words(&self) -> Option<String> {
+        Some(match self {
+            Self::Quiet(_) => return None,
+            Self::Other(words) | Self::Usage(words) | Self::Refused(words) => {
+                format!("impasto: error: {words}")
+            }
+            Self::Input(report) => report.to_string(),
+            Self::NoOpenGl(error) => format!("impasto: error: {error}"),
+            Self::SomeFrames { failed, done } => {
+                format!("impasto: error: {failed} frames failed, {done} are done")
+            }
+            Self::Interrupted { done } => {
+                format!("impasto: interrupted; {done} frames are done and whole (go on with --skip-existing)")
+            }
+        })
+    }
+}
+
+impl From<Report> for Failure {
+    fn from(report: Report) -> Self {
+        Self::Input(report)
+    }
+}
+
+impl From<ContextError> for Failure {
+    fn from(error: ContextError) -> Self {
+        Self::NoOpenGl(error)
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::TooLarge { .. } | RenderError::Empty => Self::Refused(error.to_string()),
+            RenderError::Gl(_) => Self::Other(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! `impasto info`: what is in a scene or a mesh.
+
+use std::io::Write as _;
+
+use impasto_painting::Painting;
+
+use crate::args::InfoArguments;
+use crate::failure::Failure;
+use crate::session;
+
+pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
+    let loaded = session::read_scene(&arguments.scene, false)?;
+    let painting = session::prepare_scene(loaded, false)?;
+    let facts = facts(&painting);
+    let mut out = std::io::stdout();
+    if arguments.json {
+        writeln!(out, "{facts}")?;
+        return Ok(());
+    }
+    let scene = painting.scene();
+    writeln!(out, "{}", painting.loaded().path.display())?;
+    writeln!(
+        out,
+        "size {} x {}, frames {} to {} at {} a second",
+        scene.size.0, scene.size.1, scene.timeline.first, scene.timeline.last, scene.timeline.fps
+    )?;
+    for mesh in facts["meshes"].as_array().into_iter().flatten() {
+        writeln!(
+            out,
+            "mesh {}: {} polygons, {} triangles, {} vertices, {} groups, {} materials, bounds {} to {}",
+            text(&mesh["path"]),
+            mesh["polygons"],
+            mesh["triangles"],
+            mesh["vertices"],
+            mesh["groups"].as_array().map_or(0, Vec::len),
+            mesh["materials"].as_array().map_or(0, Vec::len),
+            mesh["bounds"][0],
+            mesh["bounds"][1],
+        )?;
+    }
+    for object in facts["objects"].as_array().into_iter().flatten() {
+        writeln!(
+            out,
+            "object {}: {} particles, area {:.4}",
+            text(&object["name"]),
+            object["particles"],
+            object["area"].as_f64().unwrap_or(0.0)
+        )?;
+    }
+    let regions: Vec<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
+    writeln!(out, "regions: {}", if regions.is_empty() { "none".to_owned() } else { regions.join(", ") })?;
+    writeln!(
+        out,
+        "{} particles, {:.1} MB of them, {} lights",
+        facts["particles"],
+        painting.particle_bytes() as f64 / 1e6,
+        scene.lights.len()
+    )?;
+    Ok(())
+}
+
+fn text(value: &serde_json::Value) -> &str {
+    value.as_str().unwrap_or_default()
+}
+
+fn facts(painting: &Painting) -> serde_json::Value {
+    let loaded = painting.loaded();
+    let scene = &loaded.scene;
+    let meshes: Vec<serde_json::Value> = loaded
+        .meshes
+        .iter()
+        .map(|(path, file)| {
+            let (low, high) = file.mesh.bounds().unwrap_or_default();
+            serde_json::json!({
+                "path": path,
+                "polygons": file.mesh.polygon_count(),
+                "triangles": file.mesh.triangles.len(),
+                "vertices": file.mesh.positions.len(),
+                "has_uv": !file.mesh.uvs.is_empty(),
+                "groups": file.groups,
+                "materials": file.materials.iter().map(|material| &material.name).collect::<Vec<_>>(),
+                "bounds": [low.to_array(), high.to_array()],
+            })
+        })
+        .collect();
+    let counts = painting.particle_counts();
+    let objects: Vec<serde_json::Value> = scene
+        .objects
+        .iter()
+        .enumerate()
+        .map(|(index, object)| {
+            serde_json::json!({
+                "name": object.name,
+                "mesh": object.mesh,
+                "particles": counts[index],
+                "area": painting.surface_area(index),
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "version": 1,
+        "path": loaded.path,
+        "size": [scene.size.0, scene.size.1],
+        "timeline": { "fps": scene.timeline.fps, "first": scene.timeline.first, "last": scene.timeline.last },
+        "meshes": meshes,
+        "objects": objects,
+        "regions": scene.regions.iter().map(|region| &region.name).collect::<Vec<_>>(),
+        "lights": scene.lights.len(),
+        "particles": counts.iter().sum::<usize>(),
+        "particle_bytes": painting.particle_bytes(),
+    })
+}

@@ -1,0 +1,55 @@
+//! `impasto new`: the scene that `render MODEL.obj` uses, written down.
+
+use std::path::{Component, Path, PathBuf};
+
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::save;
+
+use crate::args::NewArguments;
+use crate::failure::Failure;
+use crate::output;
+
+pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
+    if arguments.output.exists() && !arguments.force {
+        return Err(Failure::Refused(format!(
+            "{} is there already; name another file with -o, or replace it with --force",
+            arguments.output.display()
+        )));
+    }
+    let loaded = load(&arguments.model, &LoadOptions::default())?;
+    for warning in &loaded.warnings {
+        eprintln!("{warning}");
+    }
+    output::not_an_input(&arguments.output, std::slice::from_ref(&arguments.model))?;
+    let folder = output::ready_folder(&arguments.output)?;
+    let mut scene = loaded.scene;
+    let mesh = path_from(&folder, &arguments.model)?;
+    for object in &mut scene.objects {
+        object.mesh.clone_from(&mesh);
+    }
+    save::write(&arguments.output, &scene)?;
+    if mesh.starts_with("..") {
+        eprintln!(
+            "impasto: {} lies outside the scene's folder: render it with --asset-dir {}",
+            arguments.model.display(),
+            arguments.model.parent().unwrap_or(Path::new(".")).display()
+        );
+    }
+    Ok(())
+}
+
+/// How a scene in `folder` names the model: relative, with `/`.
+fn path_from(folder: &Path, model: &Path) -> Result<String, Failure> {
+    let (folder, model) = (folder.canonicalize()?, model.canonicalize()?);
+    let (from, to): (Vec<Component<'_>>, Vec<Component<'_>>) =
+        (folder.components().collect(), model.components().collect());
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        let words = format!("{} and {} have no folder in common", folder.display(), model.display());
+        return Err(Failure::Refused(words));
+    }
+    let up = std::iter::repeat_n("..".to_owned(), from.len() - shared);
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    let path: PathBuf = up.chain(down).collect();
+    Ok(path.to_string_lossy().replace('\\', "/"))
+}

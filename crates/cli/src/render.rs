@@ -1,0 +1,286 @@
+//! `impasto render`: frames of a scene as pictures.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use impasto_gl_render::{Picture, Renderer};
+use impasto_painting::{Frame, FrameOptions, Painting};
+use impasto_scene::document::Style;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::args::{RenderArguments, StyleChoice};
+use crate::failure::Failure;
+use crate::frame_list::FrameList;
+use crate::output::{self, Pattern};
+use crate::picture_file::{self, Provenance};
+use crate::session;
+use crate::sheet::Sheet;
+
+/// Where the pictures go.
+enum Destination {
+    /// A file per frame.
+    Files(Pattern),
+    /// One animated file.
+    Animation(PathBuf),
+    /// One picture, to standard output.
+    Stream,
+}
+
+/// What the command does, after everything was checked.
+struct Plan {
+    painting: Painting,
+    renderer: Renderer,
+    frames: FrameList,
+    options: FrameOptions,
+    destination: Destination,
+    scene_name: String,
+    interrupted: Arc<AtomicBool>,
+}
+
+pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
+    let frames = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
+    let mut plan = plan(arguments, frames)?;
+    match &plan.destination {
+        Destination::Files(pattern) => {
+            let pattern = pattern.clone();
+            plan.files(arguments, &pattern)
+        }
+        Destination::Animation(path) => {
+            let path = path.clone();
+            plan.animation(arguments, &path)
+        }
+        Destination::Stream => plan.stream(),
+    }
+}
+
+fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {
+    let quiet = arguments.talk.quiet;
+    let verbose = arguments.talk.verbose > 0;
+    let mut loaded = session::read_scene(&arguments.scene, quiet)?;
+    match arguments.style {
+        Some(StyleChoice::Reference) => loaded.scene.style = Style::Reference,
+        Some(StyleChoice::RotatingStrokes) if loaded.scene.style == Style::Reference => {
+            loaded.scene.style = Style::default();
+        }
+        Some(StyleChoice::RotatingStrokes) | None => {}
+    }
+    let timeline = &loaded.scene.timeline;
+    let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));
+    let destination = destination(arguments, &frames)?;
+    let inputs = session::inputs(&loaded);
+    match &destination {
+        Destination::Files(pattern) => {
+            for frame in frames.iter() {
+                output::not_an_input(&pattern.path(frame), &inputs)?;
+            }
+            output::ready_folder(&pattern.path(0))?;
+        }
+        Destination::Animation(path) => {
+            output::not_an_input(path, &inputs)?;
+            output::ready_folder(path)?;
+        }
+        Destination::Stream => {}
+    }
+    let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
+    let scene_name =
+        loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let renderer = session::open_renderer(arguments.driver, verbose)?;
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    // A second signal while the frame is finishing changes nothing.
+    ctrlc::set_handler(move || flag.store(true, Ordering::SeqCst))
+        .map_err(|error| Failure::Other(error.to_string()))?;
+    Ok(Plan {
+        painting: session::prepare_scene(loaded, verbose)?,
+        renderer,
+        frames,
+        options: FrameOptions {
+            size_px,
+            keep_stroke_px: arguments.keep_stroke_px,
+            transparent: arguments.alpha,
+        },
+        destination,
+        scene_name,
+        interrupted,
+    })
+}
+
+fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destination, Failure> {
+    if arguments.output == "-" {
+        if frames.count() != 1 || arguments.apng || arguments.contact_sheet {
+            let words = "-o - writes one PNG to standard output: name one frame with --frames";
+            return Err(Failure::Usage(words.to_owned()));
+        }
+        return Ok(Destination::Stream);
+    }
+    if arguments.apng {
+        let has_place = arguments.output.contains('#')
+            || arguments.output.contains('%')
+            || arguments.output.contains("$F");
+        let pattern = Pattern::parse(&arguments.output);
+        return Ok(Destination::Animation(if has_place {
+            pattern.beside("all")
+        } else {
+            PathBuf::from(&arguments.output)
+        }));
+    }
+    Ok(Destination::Files(Pattern::parse(&arguments.output)))
+}
+
+impl Plan {
+    fn files(&mut self, arguments: &RenderArguments, pattern: &Pattern) -> Result<(), Failure> {
+        let verbose = arguments.talk.verbose > 0;
+        let bar = progress_bar(self.frames.count(), arguments);
+        let mut sheet =
+            arguments.contact_sheet.then(|| Sheet::new(self.frames.count(), self.options.size_px));
+        let (mut done, mut failed, start) = (0, 0, Instant::now());
+        for frame_number in self.frames.clone().iter() {
+            if self.interrupted.load(Ordering::SeqCst) {
+                return Err(Failure::Interrupted { done });
+            }
+            let path = pattern.path(frame_number);
+            if arguments.skip_existing && path.exists() {
+                bar.inc(1);
+                continue;
+            }
+            let begun = Instant::now();
+            let drawn = self.draw(frame_number).and_then(|(frame, picture)| {
+                picture_file::write(&path, &picture, &self.provenance(frame_number))
+                    .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
+                Ok((frame, picture))
+            });
+            match drawn {
+                Ok((frame, picture)) => {
+                    done += 1;
+                    if let Some(sheet) = &mut sheet {
+                        sheet.add(&picture);
+                    }
+                    let seconds = begun.elapsed().as_secs_f64();
+                    if verbose {
+                        bar.suspend(|| {
+                            eprintln!(
+                                "frame {frame_number}: {} strokes, {seconds:.2} s, {}",
+                                frame.strokes.len(),
+                                path.display()
+                            );
+                        });
+                    }
+                    if arguments.json {
+                        let line = serde_json::json!({
+                            "version": 1, "frame": frame_number, "path": path, "strokes": frame.strokes.len(), "seconds": seconds,
+                        });
+                        writeln!(std::io::stdout(), "{line}")?;
+                    }
+                }
+                Err(failure) => {
+                    failed += 1;
+                    bar.suspend(|| {
+                        eprintln!("frame {frame_number}: {}", failure.words().unwrap_or_default())
+                    });
+                }
+            }
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        if let Some(sheet) = sheet {
+            let path = pattern.beside("sheet");
+            picture_file::write(&path, &sheet.picture(), &self.provenance_of("sheet"))
+                .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
+        }
+        if failed > 0 {
+            return Err(Failure::SomeFrames { failed, done });
+        }
+        if !arguments.talk.quiet {
+            let seconds = start.elapsed().as_secs_f64();
+            eprintln!(
+                "{done} frames in {seconds:.1} s, {}",
+                pattern.path(0).parent().unwrap_or(&PathBuf::new()).display()
+            );
+        }
+        Ok(())
+    }
+
+    fn animation(&mut self, arguments: &RenderArguments, path: &std::path::Path) -> Result<(), Failure> {
+        let bar = progress_bar(self.frames.count(), arguments);
+        let count = u32::try_from(self.frames.count()).map_err(|error| Failure::Usage(error.to_string()))?;
+        let fps = self.painting.scene().timeline.fps;
+        let provenance = self.provenance_of("all");
+        let size_px = self.options.size_px;
+        let (mut stopped, mut done) = (None, 0);
+        let written = picture_file::whole(path, |file| {
+            let mut encoder = picture_file::encoder(file, size_px, &provenance)?;
+            encoder.set_compression(png::Compression::Fast);
+            encoder.set_animated(count, 0)?;
+            // Milliseconds resolve every common rate.
+            encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
+            let mut writer = encoder.write_header()?;
+            for frame_number in self.frames.clone().iter() {
+                if self.interrupted.load(Ordering::SeqCst) {
+                    stopped = Some(Failure::Interrupted { done: 0 });
+                    anyhow::bail!("interrupted");
+                }
+                match self.draw(frame_number) {
+                    Ok((_, picture)) => writer.write_image_data(&picture.rgba8)?,
+                    Err(failure) => {
+                        stopped = Some(failure);
+                        anyhow::bail!("a frame failed");
+                    }
+                }
+                done += 1;
+                bar.inc(1);
+            }
+            writer.finish()?;
+            Ok(())
+        });
+        bar.finish_and_clear();
+        if let Some(failure) = stopped {
+            return Err(failure);
+        }
+        written.map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
+        if !arguments.talk.quiet {
+            eprintln!("{done} frames in {}", path.display());
+        }
+        Ok(())
+    }
+
+    fn stream(&mut self) -> Result<(), Failure> {
+        let frame_number = self.frames.iter().next().unwrap_or(0);
+        let (_, picture) = self.draw(frame_number)?;
+        let mut bytes = Vec::new();
+        picture_file::encode(&mut bytes, &picture, &self.provenance(frame_number))
+            .map_err(|error| Failure::Other(error.to_string()))?;
+        std::io::stdout().write_all(&bytes)?;
+        Ok(())
+    }
+
+    fn draw(&mut self, frame_number: i64) -> Result<(Frame, Picture), Failure> {
+        let frame = self.painting.at(frame_number as f64, &self.options);
+        let picture = self.renderer.render(&frame)?;
+        Ok((frame, picture))
+    }
+
+    fn provenance(&self, frame_number: i64) -> Provenance {
+        self.provenance_of(&frame_number.to_string())
+    }
+
+    fn provenance_of(&self, frame: &str) -> Provenance {
+        Provenance {
+            scene: self.scene_name.clone(),
+            frame: frame.to_owned(),
+            driver: self.renderer.report().renderer.clone(),
+        }
+    }
+}
+
+fn progress_bar(count: u64, arguments: &RenderArguments) -> ProgressBar {
+    let shown = std::io::stderr().is_terminal() && !arguments.talk.quiet;
+    let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let bar = ProgressBar::with_draw_target(Some(count), target);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} frames, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,85 @@
+//! What the commands that draw have in common: a scene that was read, a painting, a renderer.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use impasto_gl_render::Renderer;
+use impasto_gl_render::context::{Driver, OpenOptions, open};
+use impasto_painting::{Painting, prepare};
+use impasto_scene::assets::AssetFolders;
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::loaded::LoadedScene;
+
+use crate::args::{DriverChoice, SceneArguments};
+use crate::failure::Failure;
+
+/// Reads a scene; warnings go to stderr, once each, unless `quiet`.
+pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<LoadedScene, Failure> {
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.clamp(1, 1024)).build_global();
+        pool.map_err(|error| Failure::Other(error.to_string()))?;
+    }
+    let overrides: Result<Vec<(String, String)>, Failure> = arguments
+        .set
+        .iter()
+        .map(|text| match text.split_once('=') {
+            Some((path, value)) => Ok((path.trim().to_owned(), value.trim().to_owned())),
+            None => Err(Failure::Usage(format!(
+                "--set {text}: write it as PATH=VALUE, such as strokes.width_px=12"
+            ))),
+        })
+        .collect();
+    let options =
+        LoadOptions { folders: AssetFolders { extra: arguments.asset_dirs.clone() }, overrides: overrides? };
+    let loaded = load(&arguments.scene, &options)?;
+    if !quiet {
+        let mut said = std::collections::BTreeSet::new();
+        for warning in &loaded.warnings {
+            let words = warning.to_string();
+            if said.insert(words.clone()) {
+                eprintln!("{words}");
+            }
+        }
+    }
+    Ok(loaded)
+}
+
+/// Prepares a scene; the steps go to stderr where `verbose`.
+pub(crate) fn prepare_scene(loaded: LoadedScene, verbose: bool) -> Result<Painting, Failure> {
+    let painting = prepare(Arc::new(loaded)).map_err(|error| Failure::Refused(error.to_string()))?;
+    if verbose {
+        let total: f64 = painting.steps().iter().map(|step| step.seconds).sum();
+        let particles: usize = painting.particle_counts().iter().sum();
+        eprintln!("prepared {particles} particles in {:.0} ms", total * 1e3);
+        for step in painting.steps() {
+            eprintln!(
+                "  {:<12}{:>8.1} ms {:>5.1} %",
+                step.name,
+                step.seconds * 1e3,
+                100.0 * step.seconds / total
+            );
+        }
+    }
+    Ok(painting)
+}
+
+/// Opens a renderer; which driver, and why, goes to stderr where `verbose`.
+pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Renderer, Failure> {
+    let driver = match driver {
+        DriverChoice::Auto => Driver::Auto,
+        DriverChoice::Egl => Driver::Egl,
+        DriverChoice::Osmesa => Driver::Osmesa,
+    };
+    let context = open(driver, &OpenOptions::default())?;
+    if verbose {
+        eprintln!("driver: {}", context.report());
+    }
+    Ok(Renderer::new(context)?)
+}
+
+/// Every file that a command reads, for not writing over it.
+pub(crate) fn inputs(loaded: &LoadedScene) -> Vec<PathBuf> {
+    let folder = loaded.path.parent().map(PathBuf::from).unwrap_or_default();
+    let named = loaded.meshes.keys().chain(loaded.textures.keys()).map(|name| folder.join(name));
+    std::iter::once(loaded.path.clone()).chain(named).collect()
+}

@@ -1,0 +1,79 @@
+//! A contact sheet: small copies of all frames in rows.
+
+use impasto_gl_render::Picture;
+
+/// Longest side of a small copy, and the gap between two, in pixels.
+const SMALL_PX: u32 = 240;
+const GAP_PX: u32 = 6;
+
+/// The most frames that are put on one sheet; of more, evenly many are taken.
+const MOST: u64 = 144;
+
+/// A sheet that is being filled.
+pub(crate) struct Sheet {
+    stride: u64,
+    seen: u64,
+    columns: u32,
+    small_px: [u32; 2],
+    copies: Vec<Vec<[u8; 4]>>,
+}
+
+impl Sheet {
+    pub(crate) fn new(frames: u64, size_px: [u32; 2]) -> Self {
+        let stride = frames.div_ceil(MOST).max(1);
+        let shown = frames.div_ceil(stride).max(1);
+        let scale = f64::from(SMALL_PX) / f64::from(size_px[0].max(size_px[1]));
+        let small_px = size_px.map(|side| ((f64::from(side) * scale.min(1.0)).round() as u32).max(1));
+        Self { stride, seen: 0, columns: (shown as f64).sqrt().ceil() as u32, small_px, copies: Vec::new() }
+    }
+
+    pub(crate) fn add(&mut self, picture: &Picture) {
+        if self.seen.is_multiple_of(self.stride) {
+            self.copies.push(reduced(picture, self.small_px));
+        }
+        self.seen += 1;
+    }
+
+    pub(crate) fn picture(&self) -> Picture {
+        let [width, height] = self.small_px;
+        let rows = (self.copies.len() as u32).div_ceil(self.columns).max(1);
+        let size_px = [self.columns * (width + GAP_PX) + GAP_PX, rows * (height + GAP_PX) + GAP_PX];
+        let mut pixels = vec![[24u8, 24, 24, 255]; size_px[0] as usize * size_px[1] as usize];
+        for (index, copy) in self.copies.iter().enumerate() {
+            let (column, row) = (index as u32 % self.columns, index as u32 / self.columns);
+            let (left, top) = (GAP_PX + column * (width + GAP_PX), GAP_PX + row * (height + GAP_PX));
+            for (y, line) in copy.chunks(width as usize).enumerate() {
+                let at = (top as usize + y) * size_px[0] as usize + left as usize;
+                pixels[at..at + line.len()].copy_from_slice(line);
+            }
+        }
+        Picture { size_px, rgba8: pixels.concat() }
+    }
+}
+
+/// Mean over the pixels that each small pixel stands for.
+fn reduced(picture: &Picture, small_px: [u32; 2]) -> Vec<[u8; 4]> {
+    let [width, height] = picture.size_px;
+    let span = |at: u32, small: u32, whole: u32| {
+        let first = u64::from(at) * u64::from(whole) / u64::from(small);
+        let last = (u64::from(at + 1) * u64::from(whole) / u64::from(small)).max(first + 1);
+        first as u32..(last as u32).min(whole)
+    };
+    let mut small = Vec::with_capacity(small_px[0] as usize * small_px[1] as usize);
+    for y in 0..small_px[1] {
+        for x in 0..small_px[0] {
+            let (mut sum, mut count) = ([0u32; 4], 0);
+            for py in span(y, small_px[1], height) {
+                for px in span(x, small_px[0], width) {
+                    let at = (py as usize * width as usize + px as usize) * 4;
+                    for (sum, &byte) in sum.iter_mut().zip(&picture.rgba8[at..at + 4]) {
+                        *sum += u32::from(byte);
+                    }
+                    count += 1;
+                }
+            }
+            small.push(sum.map(|sum| (sum / count.max(1)) as u8));
+        }
+    }
+    small
+}
