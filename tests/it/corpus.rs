@@ -16,7 +16,7 @@ const SECONDS: u32 = 10;
 fn corpus() -> Option<PathBuf> {
     let folder = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from);
     if folder.is_none() {
-        println!("not run: IMPASTO_CORPUS names no folder");
+        eprintln!("not run: IMPASTO_CORPUS names no folder");
     }
     folder
 }

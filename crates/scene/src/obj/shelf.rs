@@ -74,7 +74,7 @@ impl<'a> Shelf<'a> {
             let mut material = Material { name: name.clone(), color: GREY, texture: None };
             if let Some((described, mtl)) = self.described.get(name).cloned() {
                 if let Some(picture) = described.picture {
-                    material.texture = self.picture(mtl, picture)?;
+                    material.texture = self.picture(mtl, picture, described.picture_place)?;
                 }
                 // A picture without a colour is shown as it is.
                 let otherwise = if material.texture.is_some() { [1.0; 3] } else { GREY };
@@ -166,7 +166,13 @@ impl<'a> Shelf<'a> {
         self.folders.open(&AssetRequest { beside, root, name, max_bytes: MAX_MTL_BYTES })
     }
 
-    fn picture(&mut self, mtl: Arc<PathBuf>, name: String) -> Result<Option<Arc<Texture>>, Report> {
+    /// The picture of this name; `place` is where the MTL file names it.
+    fn picture(
+        &mut self,
+        mtl: Arc<PathBuf>,
+        name: String,
+        place: Option<Place>,
+    ) -> Result<Option<Arc<Texture>>, Report> {
         let key = (mtl, name);
         if let Some(known) = self.pictures.get(&key) {
             return Ok(known.clone());
@@ -187,8 +193,12 @@ impl<'a> Shelf<'a> {
                 problems.push(problem);
                 return Err(Report(problems));
             }
-            Err(problem) => {
+            Err(mut problem) => {
                 self.unfound += 1;
+                // A problem of the picture itself has no line.
+                if problem.path == *beside {
+                    problem.place = place;
+                }
                 if self.unfound <= MAX_TOLD {
                     self.warnings.push(problem);
                 }
