@@ -34,7 +34,7 @@ void main() {
     if (underpainting > 0.5) {
         // Thin, earthy, a little quieter than what goes over it.
         float grey = dot(paint.rgb, vec3(0.2126, 0.7152, 0.0722));
-        paint.rgb = mix(vec3(grey), paint.rgb, 0.78) * vec3(0.90, 0.84, 0.76);
+        paint.rgb = mix(vec3(grey), paint.rgb, 0.88) * vec3(0.93, 0.88, 0.82);
     }
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     vec2 along = vec2(cos(place.w), sin(place.w));

@@ -48,19 +48,22 @@ vec3 albedo_of(uint bytes) {
 void main() {
     mat2 turn = mat2(cos(place.w), sin(place.w), -sin(place.w), cos(place.w));
     float own_id = float(marks.y);
-    // A box over the middle of the stroke, on its own body only.
+    // A box over the middle of the stroke, on its own body only; a wider one where the middle is behind something.
     vec2 step_px = size.xy * mix(0.16, 0.22, underpainting);
     vec3 sum = vec3(0.0);
     float weight = 0.0;
-    for (int y = -1; y <= 1; y++) {
-        for (int x = -1; x <= 1; x++) {
-            vec2 tap_px = place.xy + turn * (vec2(x, y) * step_px);
-            ivec2 texel = clamp(ivec2(floor(tap_px)), ivec2(0), ivec2(size_px) - 1);
-            if (surface_at(tap_px).y == own_id) {
-                sum += texelFetch(reference_color, texel, 0).rgb;
-                weight += 1.0;
+    for (int widening = 0; widening < 3 && weight == 0.0; widening++) {
+        for (int y = -1; y <= 1; y++) {
+            for (int x = -1; x <= 1; x++) {
+                vec2 tap_px = place.xy + turn * (vec2(x, y) * step_px);
+                ivec2 texel = clamp(ivec2(floor(tap_px)), ivec2(0), ivec2(size_px) - 1);
+                if (surface_at(tap_px).y == own_id) {
+                    sum += texelFetch(reference_color, texel, 0).rgb;
+                    weight += 1.0;
+                }
             }
         }
+        step_px = vec2(max(step_px.x, step_px.y)) * 1.6;
     }
     vec3 color;
     if (weight > 0.0) {

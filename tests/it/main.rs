@@ -1,5 +1,11 @@
 //! The integration tests of Impasto.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a failed step is a failed test, and tests print what they measure"
+)]
+
 mod corpus;
 mod horn;
 mod hostile_scenes;

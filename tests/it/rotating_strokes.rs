@@ -70,7 +70,7 @@ fn a_lone_stroke_lies_at_its_angle() {
         let mut sum = (0.0, 0.0);
         for mark in 0..24u32 {
             let mut one = stroke([158.0, 90.0], angle_deg);
-            one.bits = mark % 12 | (mark / 12) << 16;
+            one.bits = (mark % 12) | ((mark / 12) << 16);
             let picture = renderer.render(&lone_strokes([320, 180], vec![one], WHITE)).unwrap();
             let angle = Grey::of(&picture).streak_angle_rad();
             sum = (sum.0 + (2.0 * angle).cos(), sum.1 + (2.0 * angle).sin());

@@ -213,7 +213,7 @@ pub fn log() -> PolyMesh {
             DVec3::new(at.x + lean, height, -at.y)
         },
         |row, segment| {
-            let outside_bark = row < RINGS || row >= RINGS + BARK;
+            let outside_bark = !(RINGS..RINGS + BARK).contains(&row);
             if outside_bark {
                 let ring = if row < RINGS { row } else { ROWS - 1 - row };
                 let material = match ring {

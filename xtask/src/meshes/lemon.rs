@@ -16,7 +16,7 @@ const LEMON: [[f64; 2]; 13] = [
     [0.160, 0.372],
     [0.250, 0.270],
     [0.312, 0.110],
-    [0.318, -0.050],
+    [0.3185, -0.050],
     [0.275, -0.220],
     [0.185, -0.350],
     [0.095, -0.420],
@@ -52,7 +52,7 @@ pub fn lemon() -> PolyMesh {
             let patch = noise(segment as f64 / SEGMENTS as f64, along * 4.0 + 2.0, 5, 23);
             let material = match along {
                 along if along < -0.435 => "stalk",
-                along if along > 0.44 || along < -0.40 => "green",
+                along if !(-0.40..=0.44).contains(&along) => "green",
                 _ if patch > 0.35 => "ripe",
                 _ => "lemon",
             };
