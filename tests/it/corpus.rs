@@ -4,6 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use impasto_scene::assets::AssetFolders;
+use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::obj;
 use impasto_tests::command::impasto;
 
 /// Address space and time for one file.
@@ -13,7 +16,7 @@ const SECONDS: u32 = 10;
 fn corpus() -> Option<PathBuf> {
     let folder = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from);
     if folder.is_none() {
-        println!("not run: IMPASTO_CORPUS names no folder");
+        eprintln!("not run: IMPASTO_CORPUS names no folder");
     }
     folder
 }
@@ -142,4 +145,79 @@ fn fuzzed_files_neither_crash_nor_hang() {
         }
     }
     assert!(count > 50, "{count} files");
+}
+
+/// Pictures are wrapped in a triangle that wears them: a good one is taken, a bad one is left out with a warning.
+#[test]
+fn real_pictures_are_worn_or_left_out() {
+    let Some(corpus) = corpus() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let mesh = scratch.path().join("case.obj");
+    std::fs::write(&mesh, "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n").unwrap();
+    std::fs::write(scratch.path().join("case.mtl"), "newmtl a\nmap_Kd picture.png\n").unwrap();
+    let mut count = 0;
+    for row in rows(&corpus.join("models.csv")) {
+        if row("class") != "tex" {
+            continue;
+        }
+        count += 1;
+        let picture = std::fs::read(corpus.join(row("file"))).unwrap();
+        std::fs::write(scratch.path().join("picture.png"), picture).unwrap();
+        let output = check(&mesh);
+        let said = String::from_utf8_lossy(&output.stderr);
+        let is_bad = row("verdict") == "bad";
+        assert!(
+            output.status.success() && (!is_bad || said.contains(": warning: ")),
+            "{}: {said}",
+            row("name")
+        );
+        let (file, _) = obj::read(&mesh, scratch.path(), &AssetFolders::default()).unwrap();
+        assert_eq!(file.materials[0].texture.is_none(), is_bad, "{}", row("name"));
+    }
+    assert!(count > 0, "no picture");
+}
+
+/// Whatever mesh is taken keeps every promise of the type.
+#[test]
+fn meshes_that_are_read_are_sound() {
+    let Some(corpus) = corpus() else { return };
+    let mut count = 0;
+    let lists = ["hostile.csv", "models.csv"].map(|list| rows(&corpus.join(list)));
+    let files = lists.iter().flatten().map(|row| corpus.join(row("file")));
+    for path in files.filter(|file| file.extension().is_some_and(|extension| extension == "obj")) {
+        let folder = path.parent().unwrap();
+        if let Ok((file, _)) = obj::read(&path, folder, &AssetFolders::default()) {
+            count += 1;
+            assert_sound(&file, &path);
+        }
+    }
+    assert!(count > 50, "{count} meshes");
+}
+
+fn assert_sound(file: &MeshFile, path: &Path) {
+    let mesh = &file.mesh;
+    let (vertices, triangles) = (mesh.positions.len(), mesh.triangles.len());
+    let path = path.display();
+    assert!(triangles > 0, "{path}");
+    assert!(mesh.positions.iter().all(|at| at.is_finite()), "{path}");
+    assert_eq!(mesh.normals.len(), vertices, "{path}");
+    assert!(mesh.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-3), "{path}");
+    assert!(mesh.uvs.is_empty() || mesh.uvs.len() == vertices, "{path}");
+    assert!(mesh.uvs.iter().all(|uv| uv.is_finite()), "{path}");
+    assert!(mesh.triangles.iter().flatten().all(|&vertex| (vertex as usize) < vertices), "{path}");
+    assert!(mesh.polygon_of_triangle.len() == triangles && mesh.polygon_of_triangle.is_sorted(), "{path}");
+    let is_below = |numbers: &[u32], end: usize| {
+        numbers.len() == triangles && numbers.iter().all(|&number| (number as usize) < end)
+    };
+    assert!(is_below(&mesh.group_of_triangle, file.groups.len()), "{path}");
+    assert!(is_below(&mesh.material_of_triangle, file.materials.len()), "{path}");
+    let area: f32 = (0..triangles)
+        .map(|triangle| {
+            let [a, b, c] = mesh.corners(triangle);
+            (b - a).cross(c - a).length() / 2.0
+        })
+        .sum();
+    assert!(area.is_finite() && area > 0.0, "{path}: area {area}");
+    let mut channels = file.materials.iter().flat_map(|material| material.color);
+    assert!(channels.all(|channel| (0.0..=1.0).contains(&channel)), "{path}");
 }

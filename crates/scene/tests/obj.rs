@@ -12,6 +12,8 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn read(folder: &Path, text: &[u8]) -> Result<(MeshFile, Vec<Problem>), Report> {
     let path = folder.join("model.obj");
+    // A new file each time: some file systems wait for the disk when one is overwritten.
+    fs::remove_file(&path).ok();
     fs::write(&path, text).expect("the temporary folder can be written");
     obj::read(&path, folder, &AssetFolders::default())
 }

@@ -196,7 +196,8 @@ impl Linter<'_, '_> {
         }
     }
 
-    /// Whether the last line, which has no line end, was cut short: then it is left out, with a warning.
+    /// Whether the last line, which has no line end, was cut short: then it is left out, with a warning. A face that only
+    /// has fewer corners than the one before it may be whole: it is kept, with a warning.
     fn drop_cut_line(&mut self, words: &[Word<'_>]) -> bool {
         let arity_before = match self.checked.faces[..] {
             [.., before, last] => last.end - before.end,
@@ -204,14 +205,19 @@ impl Linter<'_, '_> {
             [] => 0,
         };
         let rest = &words[1..];
+        let ends_early = rest.last().is_some_and(|word| is_cut_number(*word));
         let is_cut = match words[0].bytes {
-            b"v" => rest.len() < 3 || rest.iter().any(|word| finite(*word).is_none()),
-            b"f" => rest.len() < arity_before || rest.iter().any(|word| is_cut_corner(*word)),
+            b"v" => rest.len() < 3 || (rest.len() == 3 && ends_early),
+            b"f" => rest.len() < 3 || ends_early,
             _ => false,
         };
         if is_cut {
             let message = "the last line has no end and too few numbers: the file seems cut short";
             self.findings.warning(words[0].offset, message, "the line is left out; get the whole file");
+        } else if words[0].bytes == b"f" && rest.len() < arity_before {
+            let message =
+                "the last line has no end and fewer corners than the one before: the file may be cut short";
+            self.findings.warning(words[0].offset, message, "end the file with a line end if it is whole");
         }
         is_cut
     }
@@ -463,7 +469,7 @@ fn finite(word: Word<'_>) -> Option<f64> {
     std::str::from_utf8(word.bytes).ok()?.parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
-/// Whether a corner ends in the middle: nothing after a sign or a slash.
-fn is_cut_corner(word: Word<'_>) -> bool {
-    matches!(word.bytes.last(), Some(b'/' | b'-' | b'+'))
+/// Whether a number or a corner ends in the middle: nothing after a sign, a slash or an exponent's mark.
+fn is_cut_number(word: Word<'_>) -> bool {
+    matches!(word.bytes.last(), Some(b'/' | b'-' | b'+' | b'e' | b'E'))
 }

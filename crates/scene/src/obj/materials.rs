@@ -1,7 +1,7 @@
 //! MTL files: checked line by line, the colours read through tobj, the pictures through [`crate::texture`].
 
-use super::text::{Findings, Lines, Word, name_of, to_utf8};
-use crate::problem::Problem;
+use super::text::{Findings, Lines, Walk, Word, name_of, to_utf8};
+use crate::problem::{Place, Problem};
 use std::path::Path;
 
 /// The colour (sRGB) of whatever has no material.
@@ -11,9 +11,12 @@ pub(super) const GREY: [f32; 3] = [0.8; 3];
 #[derive(Clone, Debug)]
 pub(super) struct Described {
     pub name: String,
-    pub color: [f32; 3],
+    /// `None` where there is no `Kd` that can be used.
+    pub color: Option<[f32; 3]>,
     /// The picture's name as written.
     pub picture: Option<String>,
+    /// Where its line begins in the MTL file.
+    pub picture_place: Option<Place>,
 }
 
 /// Reads an MTL text. Nothing in it is fatal: what can not be used is left out with a warning.
@@ -28,12 +31,18 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
     let mut plain = String::new();
     let mut lines = Lines::new(&text);
     let mut words = Vec::new();
+    let mut walk = Walk::default();
     while lines.next_into(&mut words) {
         let (keyword, rest) = (words[0], &words[1..]);
         if keyword.bytes == b"newmtl" {
             check_name(keyword, rest, &mut findings);
             plain.push_str(&format!("newmtl m{}\n", materials.len()));
-            materials.push(Described { name: name_of(rest), color: GREY, picture: None });
+            materials.push(Described {
+                name: name_of(rest),
+                color: None,
+                picture: None,
+                picture_place: None,
+            });
             continue;
         }
         let Some(material) = materials.last_mut() else { continue };
@@ -46,6 +55,7 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
             b"d" | b"Tr" => opacity(keyword, rest, &mut findings),
             b"map_Kd" | b"map_kd" => {
                 material.picture = picture_name(rest);
+                material.picture_place = Some(walk.to(&text, keyword.offset));
                 if material.picture.is_none() {
                     findings.warning(keyword.offset, "this texture map names no file", "it is left out");
                 }
@@ -58,7 +68,7 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
     }
     if let Ok((read, _)) = tobj::load_mtl_buf(&mut plain.as_bytes()) {
         for (material, color) in materials.iter_mut().zip(read.iter().map(|material| material.diffuse)) {
-            material.color = color.unwrap_or(GREY);
+            material.color = color;
         }
     }
     let warnings = findings.finish().unwrap_or_else(|report| report.0);

@@ -6,22 +6,21 @@
 mod lint;
 mod materials;
 mod polygon;
+mod shelf;
 mod surface;
 mod text;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
 
-use crate::assets::{self, Asset, AssetError, AssetFolders, AssetRequest};
-use crate::mesh_file::{Material, MeshFile, Texture};
-use crate::problem::{Place, Problem, Report, Severity};
-use crate::texture;
+use crate::assets::{self, AssetError, AssetFolders};
+use crate::mesh_file::MeshFile;
+use crate::problem::{Problem, Report, Severity};
 use lint::{Checked, NONE};
-use materials::{Described, GREY};
+use shelf::Shelf;
 use surface::{Builder, SurfaceCorner};
 use text::Findings;
 
@@ -32,7 +31,7 @@ pub const MAX_FILE_BYTES: u64 = 512 << 20;
 pub const MAX_MTL_BYTES: u64 = 64 << 20;
 
 /// Models smaller than this across are scaled to 1: their areas would vanish in single precision.
-const LEAST_EXTENT: f64 = 1e-9;
+const LEAST_EXTENT: f64 = 1e-6;
 
 /// Reads an OBJ file with the materials and pictures that it names.
 ///
@@ -44,7 +43,7 @@ const LEAST_EXTENT: f64 = 1e-9;
 /// that are wrong, no face or no area at all, or a picture that claims more than the limits.
 pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
     let bytes = assets::read_regular_file(path, MAX_FILE_BYTES)
-        .map_err(|error| Report(vec![error.to_problem(Severity::Error, path, None)]))?;
+        .map_err(|error| Report(vec![unread(path, &error)]))?;
     let (text, was_utf16) = text::to_utf8(bytes);
     let mut findings = Findings::new(path, &text);
     if was_utf16 {
@@ -57,13 +56,23 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     enlarge_tiny(&mut checked, &mut findings);
     let mesh = build(&checked, &mut findings);
     let place_of = |offset: usize| findings.place(offset);
-    let mut shelf = Shelf { path, root, folders, warnings: Vec::new(), pictures: BTreeMap::new() };
+    let mut shelf = Shelf::new(path, root, folders);
     let materials = if mesh.is_some() { shelf.materials(&checked, &place_of)? } else { Vec::new() };
-    let more = shelf.warnings;
+    let more = shelf.finish();
     let mut warnings = findings.finish()?;
     warnings.extend(more);
     let mesh = mesh.ok_or(Report(Vec::new()))?;
     Ok((MeshFile { mesh, groups: checked.groups.list, materials }, warnings))
+}
+
+/// The mesh file itself was not read: no folder was searched for it, so only its path can be mended.
+fn unread(path: &Path, error: &AssetError) -> Problem {
+    let mut problem = error.to_problem(Severity::Error, path, None);
+    if matches!(error, AssetError::Missing { .. }) {
+        problem.message = "there is no such file".to_owned();
+        problem.mend = "check the path".to_owned();
+    }
+    problem
 }
 
 fn enlarge_tiny(checked: &mut Checked, findings: &mut Findings<'_>) {
@@ -190,121 +199,4 @@ fn weld(positions: &[f32]) -> (Vec<Vec3>, Vec<u32>) {
         })
         .collect();
     (places, place_of_position)
-}
-
-/// Where materials and pictures are looked for, and what was found so far.
-struct Shelf<'a> {
-    path: &'a Path,
-    root: &'a Path,
-    folders: &'a AssetFolders,
-    warnings: Vec<Problem>,
-    /// By the MTL file and the name written there, so that each is read, and told of, once.
-    pictures: BTreeMap<String, Option<Arc<Texture>>>,
-}
-
-impl Shelf<'_> {
-    fn materials(
-        &mut self,
-        checked: &Checked,
-        place_of: &dyn Fn(usize) -> Place,
-    ) -> Result<Vec<Material>, Report> {
-        let mut described: HashMap<String, (Described, std::path::PathBuf)> = HashMap::new();
-        let mut is_incomplete = false;
-        for library in &checked.libraries {
-            let whole = self.open(&library.name);
-            let is_split = matches!(whole, Err(AssetError::Missing { .. } | AssetError::Refused { .. }))
-                && library.words.len() > 1;
-            let found = if is_split {
-                library.words.iter().map(|word| self.open(word)).collect()
-            } else {
-                vec![whole]
-            };
-            for asset in found {
-                match asset {
-                    Ok(Asset { path, bytes }) => {
-                        let (list, warnings) = materials::parse(&path, bytes);
-                        self.warnings.extend(warnings);
-                        for material in list {
-                            described
-                                .entry(material.name.clone())
-                                .or_insert_with(|| (material, path.clone()));
-                        }
-                    }
-                    Err(error) => {
-                        is_incomplete = true;
-                        let place = Some(place_of(library.offset));
-                        let mut problem = error.to_problem(Severity::Warning, self.path, place);
-                        problem.severity = Severity::Warning;
-                        problem.message = format!("no materials from here: {}", problem.message);
-                        self.warnings.push(problem);
-                    }
-                }
-            }
-        }
-        let unknown = |name: &&String| !name.is_empty() && !described.contains_key(*name);
-        let missing: Vec<&String> = checked.materials.list.iter().filter(unknown).collect();
-        if let Some(first) = missing.first().filter(|_| !is_incomplete) {
-            let at = checked.materials.list.iter().position(|name| name == *first).unwrap_or(0);
-            let more =
-                if missing.len() > 1 { format!(" (and {} more)", missing.len() - 1) } else { String::new() };
-            self.warnings.push(Problem {
-                severity: Severity::Warning,
-                path: self.path.to_owned(),
-                place: checked.material_offsets.get(at).map(|&offset| place_of(offset)),
-                message: format!("no file describes the material {first:?}{more}; grey is used"),
-                mend: "name its MTL file with mtllib".to_owned(),
-            });
-        }
-        let mut materials = Vec::new();
-        for name in &checked.materials.list {
-            let Some((material, mtl)) = described.get(name) else {
-                materials.push(Material { name: name.clone(), color: GREY, texture: None });
-                continue;
-            };
-            let texture = match &material.picture {
-                Some(picture) => self.picture(mtl, picture)?,
-                None => None,
-            };
-            materials.push(Material { name: name.clone(), color: material.color, texture });
-        }
-        if materials.is_empty() {
-            materials.push(Material { name: String::new(), color: GREY, texture: None });
-        }
-        Ok(materials)
-    }
-
-    fn open(&self, name: &str) -> Result<Asset, AssetError> {
-        let name = name.trim_matches('"');
-        self.folders.open(&AssetRequest {
-            beside: self.path,
-            root: self.root,
-            name,
-            max_bytes: MAX_MTL_BYTES,
-        })
-    }
-
-    fn picture(&mut self, mtl: &Path, name: &str) -> Result<Option<Arc<Texture>>, Report> {
-        let key = format!("{}\n{name}", mtl.display());
-        if let Some(known) = self.pictures.get(&key) {
-            return Ok(known.clone());
-        }
-        let request = AssetRequest { beside: mtl, root: self.root, name, max_bytes: texture::MAX_FILE_BYTES };
-        let texture = match texture::read(self.folders, &request) {
-            Ok(decoded) => {
-                self.warnings.extend(decoded.warnings);
-                Some(Arc::new(decoded.texture))
-            }
-            Err(problem) if problem.severity.is_fatal() => {
-                let mut problems = std::mem::take(&mut self.warnings);
-                problems.push(problem);
-                return Err(Report(problems));
-            }
-            Err(problem) => {
-                self.warnings.push(problem);
-                None
-            }
-        };
-        self.pictures.insert(key, texture.clone());
-        Ok(texture)
-    }
 }

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use glam::{DVec2, DVec3};
 
-/// Work (point in triangle tests) that one polygon may cost before it is cut as a fan.
-const MAX_TESTS: u64 = 300_000_000;
+/// Work (point in triangle tests) that the polygons of one file may cost together; what is left then is cut without care.
+pub(super) const MAX_TESTS: u64 = 300_000_000;
 
 /// The triangles of one polygon, as numbers of its corners.
 #[derive(Debug, Default, PartialEq)]
@@ -21,8 +21,8 @@ pub(super) fn newell(corners: &[DVec3]) -> DVec3 {
     corners.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum()
 }
 
-/// Cuts a polygon of at least three corners; winding is kept.
-pub(super) fn cut(corners: &[DVec3]) -> Cut {
+/// Cuts a polygon of at least three corners; winding is kept. The work is taken from `tests_left`, see [`MAX_TESTS`].
+pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
     let count = corners.len();
     let fan = || (1..count - 1).map(|second| [0, second, second + 1]).collect::<Vec<_>>();
     let normal = newell(corners).normalize_or_zero();
@@ -41,7 +41,7 @@ pub(super) fn cut(corners: &[DVec3]) -> Cut {
     let is_convex = (0..count)
         .all(|at| turn(points[(at + count - 1) % count], points[at], points[(at + 1) % count]) >= 0.0)
         && winds_once(&points);
-    if is_convex { Cut { triangles: fan(), is_rough: false } } else { Ears::new(&points).clip() }
+    if is_convex { Cut { triangles: fan(), is_rough: false } } else { Ears::new(&points, tests_left).clip() }
 }
 
 /// Whether a polygon that only turns left goes round once, and not as a pentagram does.
@@ -64,16 +64,16 @@ struct Ears<'a> {
     is_reflex: Vec<bool>,
     /// Corners that turn right, by x: only these can lie in an ear. Entries that turned convex are skipped.
     reflex_by_x: Vec<usize>,
-    tests: u64,
+    tests_left: &'a mut u64,
 }
 
 impl<'a> Ears<'a> {
-    fn new(points: &'a [DVec2]) -> Self {
+    fn new(points: &'a [DVec2], tests_left: &'a mut u64) -> Self {
         let count = points.len();
         let before = (0..count).map(|at| (at + count - 1) % count).collect();
         let after = (0..count).map(|at| (at + 1) % count).collect();
-        let mut ears =
-            Self { points, before, after, is_reflex: vec![false; count], reflex_by_x: Vec::new(), tests: 0 };
+        let is_reflex = vec![false; count];
+        let mut ears = Self { points, before, after, is_reflex, reflex_by_x: Vec::new(), tests_left };
         for at in 0..count {
             ears.is_reflex[at] = ears.turn_at(at) <= 0.0;
         }
@@ -99,7 +99,7 @@ impl<'a> Ears<'a> {
             if point.x > high {
                 break;
             }
-            self.tests += 1;
+            *self.tests_left = self.tests_left.saturating_sub(1);
             // Corners at the same place as the triangle's own are bridges to holes: they do not block.
             let is_own = point == a || point == b || point == c;
             if self.is_reflex[corner]
@@ -123,8 +123,8 @@ impl<'a> Ears<'a> {
         while left > 3 {
             let next = candidates.pop_front();
             let at = match next {
-                Some(at) if is_gone[at] || (self.tests < MAX_TESTS && !self.is_ear(at)) => continue,
-                Some(at) if self.tests < MAX_TESTS => at,
+                Some(at) if is_gone[at] || (*self.tests_left > 0 && !self.is_ear(at)) => continue,
+                Some(at) if *self.tests_left > 0 => at,
                 // No ear is left, so the polygon crosses itself; or it is too large. Cut on regardless.
                 _ => {
                     let stuck = start;

@@ -50,6 +50,7 @@ pub(super) struct Builder<'a> {
     places: &'a [Vec3],
     triangles: Vec<Triangle>,
     polygons: u32,
+    tests_left: u64,
     pub odd: Oddities,
 }
 
@@ -62,7 +63,13 @@ fn count(tally: &mut (usize, usize), face: usize) {
 
 impl<'a> Builder<'a> {
     pub fn new(places: &'a [Vec3]) -> Self {
-        Self { places, triangles: Vec::new(), polygons: 0, odd: Oddities::default() }
+        Self {
+            places,
+            triangles: Vec::new(),
+            polygons: 0,
+            tests_left: polygon::MAX_TESTS,
+            odd: Oddities::default(),
+        }
     }
 
     fn at(&self, corner: SurfaceCorner) -> DVec3 {
@@ -72,7 +79,7 @@ impl<'a> Builder<'a> {
     /// Cuts one face of at least three corners.
     pub fn add(&mut self, face: usize, corners: &[SurfaceCorner]) {
         let points: Vec<DVec3> = corners.iter().map(|&corner| self.at(corner)).collect();
-        let cut = polygon::cut(&points);
+        let cut = polygon::cut(&points, &mut self.tests_left);
         if corners.len() > 1000 {
             count(&mut self.odd.large_faces, face);
         }

@@ -48,7 +48,11 @@ pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     }
 }
 
-/// The words of the next line that has any: a `\` at the end of a line joins the next one to it, `#` begins a comment.
+/// Lines that end in a name: a `#` in it belongs to the name.
+const NAMING: [&[u8]; 6] = [b"g", b"o", b"usemtl", b"mtllib", b"newmtl", b"map_Kd"];
+
+/// The words of the next line that has any: a `\` at the end of a line joins the next one to it, `#` begins a comment
+/// (but in a name).
 pub(super) struct Lines<'a> {
     text: &'a [u8],
     at: usize,
@@ -69,7 +73,7 @@ impl<'a> Lines<'a> {
                 if !words.is_empty() {
                     return true;
                 }
-            } else if byte == b'#' {
+            } else if byte == b'#' && !words.first().is_some_and(|first| NAMING.contains(&first.bytes)) {
                 self.skip_comment();
             } else if let Some(length) = joint(&self.text[self.at..]) {
                 self.at += length;
@@ -132,18 +136,7 @@ impl<'a> Findings<'a> {
 
     /// Line and column of a byte of the text.
     pub fn place(&self, offset: usize) -> Place {
-        let before = &self.text[..offset.min(self.text.len())];
-        let mut line = 1;
-        let mut line_start = 0;
-        for (index, &byte) in before.iter().enumerate() {
-            let is_pair = byte == b'\r' && before.get(index + 1) == Some(&b'\n');
-            if (byte == b'\n' || byte == b'\r') && !is_pair {
-                line += 1;
-                line_start = index + 1;
-            }
-        }
-        let is_char_start = |byte: &&u8| **byte & 0xc0 != 0x80;
-        Place { line, column: before[line_start..].iter().filter(is_char_start).count() + 1 }
+        Walk::default().to(self.text, offset)
     }
 
     pub fn error(&mut self, offset: usize, message: impl Into<String>, mend: &str) {
@@ -188,5 +181,32 @@ impl<'a> Findings<'a> {
             }
         }
         if self.errors > 0 { Err(Report(self.problems)) } else { Ok(self.problems) }
+    }
+}
+
+/// A walk through a text that counts its lines, so that the places of many words cost one pass.
+#[derive(Default)]
+pub(super) struct Walk {
+    at: usize,
+    lines: usize,
+    line_start: usize,
+}
+
+impl Walk {
+    /// Line and column of a byte at or after the one asked for last.
+    pub fn to(&mut self, text: &[u8], offset: usize) -> Place {
+        let offset = offset.min(text.len());
+        while self.at < offset {
+            let byte = text[self.at];
+            let is_pair = byte == b'\r' && text.get(self.at + 1) == Some(&b'\n');
+            self.at += 1;
+            if (byte == b'\n' || byte == b'\r') && !is_pair {
+                self.lines += 1;
+                self.line_start = self.at;
+            }
+        }
+        let is_char_start = |byte: &&u8| **byte & 0xc0 != 0x80;
+        let column = text[self.line_start.min(offset)..offset].iter().filter(is_char_start).count() + 1;
+        Place { line: self.lines + 1, column }
     }
 }

@@ -1,0 +1,223 @@
+//! The materials of one OBJ file: its MTL files and their pictures, found within limits.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::MAX_MTL_BYTES;
+use super::lint::{Checked, Library};
+use super::materials::{self, Described, GREY};
+use crate::assets::{Asset, AssetError, AssetFolders, AssetRequest};
+use crate::mesh_file::{Material, Texture};
+use crate::problem::{Place, Problem, Report, Severity};
+use crate::texture;
+
+/// How many different names of MTL files are looked for.
+const MAX_LIBRARIES: usize = 256;
+
+/// The most pixels that the pictures of one model keep together: 512 MiB, eight pictures of 4096 x 4096.
+const MAX_KEPT_PIXELS: usize = 1 << 27;
+
+/// How many warnings about files that were not found are told one by one.
+const MAX_TOLD: usize = 20;
+
+/// Line and column of a byte of the OBJ text; it walks the text, so ask only for what is told.
+type PlaceOf<'a> = &'a dyn Fn(usize) -> Place;
+
+/// Where materials and pictures are looked for, and what was found so far.
+pub(super) struct Shelf<'a> {
+    path: &'a Path,
+    root: &'a Path,
+    folders: &'a AssetFolders,
+    warnings: Vec<Problem>,
+    /// Warnings about files that were not found: those told, and those beyond [`MAX_TOLD`].
+    unfound: usize,
+    described: HashMap<String, (Described, Arc<PathBuf>)>,
+    /// By the MTL file and the name written there, so that each is read, and told of, once.
+    pictures: BTreeMap<(Arc<PathBuf>, String), Option<Arc<Texture>>>,
+    kept_pixels: usize,
+}
+
+impl<'a> Shelf<'a> {
+    pub fn new(path: &'a Path, root: &'a Path, folders: &'a AssetFolders) -> Self {
+        Self {
+            path,
+            root,
+            folders,
+            warnings: Vec::new(),
+            unfound: 0,
+            described: HashMap::new(),
+            pictures: BTreeMap::new(),
+            kept_pixels: 0,
+        }
+    }
+
+    /// Every warning, in the order of its finding.
+    pub fn finish(mut self) -> Vec<Problem> {
+        if self.unfound > MAX_TOLD {
+            let message = format!("{} more files like these were not found", self.unfound - MAX_TOLD);
+            let problem = self.warning(None, message, "");
+            self.warnings.push(problem);
+        }
+        self.warnings
+    }
+
+    /// One material for each name that the faces use.
+    ///
+    /// # Errors
+    /// A [`Report`] when a picture claims more than the limits; everything else is a warning and a grey material.
+    pub fn materials(&mut self, checked: &Checked, place_of: PlaceOf<'_>) -> Result<Vec<Material>, Report> {
+        self.read_libraries(&checked.libraries, place_of);
+        self.tell_of_unknown(checked, place_of);
+        let mut materials = Vec::new();
+        for name in &checked.materials.list {
+            let mut material = Material { name: name.clone(), color: GREY, texture: None };
+            if let Some((described, mtl)) = self.described.get(name).cloned() {
+                if let Some(picture) = described.picture {
+                    material.texture = self.picture(mtl, picture, described.picture_place)?;
+                }
+                // A picture without a colour is shown as it is.
+                let otherwise = if material.texture.is_some() { [1.0; 3] } else { GREY };
+                material.color = described.color.unwrap_or(otherwise);
+            }
+            materials.push(material);
+        }
+        if materials.is_empty() {
+            materials.push(Material { name: String::new(), color: GREY, texture: None });
+        }
+        Ok(materials)
+    }
+
+    fn read_libraries(&mut self, libraries: &[Library], place_of: PlaceOf<'_>) {
+        let mut seen: BTreeSet<&str> = BTreeSet::new();
+        for library in libraries {
+            if !seen.insert(&library.name) {
+                continue;
+            }
+            let whole = self.open(&library.name);
+            let is_list = library.words.len() > 1;
+            if is_list && matches!(whole, Err(AssetError::Missing { .. } | AssetError::Refused { .. })) {
+                for word in &library.words {
+                    if seen.len() <= MAX_LIBRARIES && seen.insert(word) {
+                        let found = self.open(word);
+                        self.take_library(found, library.offset, place_of);
+                    }
+                }
+            } else {
+                self.take_library(whole, library.offset, place_of);
+            }
+            if seen.len() > MAX_LIBRARIES {
+                let message = format!("more than {MAX_LIBRARIES} files of materials are named");
+                let place = Some(place_of(library.offset));
+                let problem = self.warning(place, message, "the rest is not read; join them in one file");
+                self.warnings.push(problem);
+                return;
+            }
+        }
+    }
+
+    fn take_library(&mut self, found: Result<Asset, AssetError>, offset: usize, place_of: PlaceOf<'_>) {
+        match found {
+            Ok(Asset { path, bytes }) => {
+                let (list, warnings) = materials::parse(&path, bytes);
+                self.warnings.extend(warnings);
+                let path = Arc::new(path);
+                for material in list {
+                    let name = material.name.clone();
+                    self.described.entry(name).or_insert_with(|| (material, Arc::clone(&path)));
+                }
+            }
+            Err(error) => {
+                self.unfound += 1;
+                if self.unfound <= MAX_TOLD {
+                    let message = format!("no materials from here: {error}");
+                    let problem = self.warning(Some(place_of(offset)), message, error.mend());
+                    self.warnings.push(problem);
+                }
+            }
+        }
+    }
+
+    /// One warning for all the materials that no file describes, where every named file was found.
+    fn tell_of_unknown(&mut self, checked: &Checked, place_of: PlaceOf<'_>) {
+        if self.unfound > 0 {
+            return;
+        }
+        let names = &checked.materials.list;
+        let unknown = |at: &usize| !names[*at].is_empty() && !self.described.contains_key(&names[*at]);
+        let missing: Vec<usize> = (0..names.len()).filter(unknown).collect();
+        let Some(&first) = missing.first() else { return };
+        let more =
+            if missing.len() > 1 { format!(" (and {} more)", missing.len() - 1) } else { String::new() };
+        let message = format!("no file describes the material {:?}{more}; grey is used", names[first]);
+        let place = checked.material_offsets.get(first).map(|&offset| place_of(offset));
+        let problem = self.warning(place, message, "name its MTL file with mtllib");
+        self.warnings.push(problem);
+    }
+
+    fn warning(&self, place: Option<Place>, message: String, mend: &str) -> Problem {
+        let path = self.path.to_owned();
+        Problem { severity: Severity::Warning, path, place, message, mend: mend.to_owned() }
+    }
+
+    fn open(&self, name: &str) -> Result<Asset, AssetError> {
+        let name = name.trim_matches('"');
+        let (beside, root) = (self.path, self.root);
+        self.folders.open(&AssetRequest { beside, root, name, max_bytes: MAX_MTL_BYTES })
+    }
+
+    /// The picture of this name; `place` is where the MTL file names it.
+    fn picture(
+        &mut self,
+        mtl: Arc<PathBuf>,
+        name: String,
+        place: Option<Place>,
+    ) -> Result<Option<Arc<Texture>>, Report> {
+        let key = (mtl, name);
+        if let Some(known) = self.pictures.get(&key) {
+            return Ok(known.clone());
+        }
+        let (beside, name) = (key.0.as_path(), key.1.as_str());
+        let request = AssetRequest { beside, root: self.root, name, max_bytes: texture::MAX_FILE_BYTES };
+        let texture = match texture::read(self.folders, &request) {
+            Ok(decoded) => {
+                self.warnings.extend(decoded.warnings);
+                self.kept_pixels += decoded.texture.rgba8.len();
+                if self.kept_pixels > MAX_KEPT_PIXELS {
+                    return Err(self.too_many_pixels(beside));
+                }
+                Some(Arc::new(decoded.texture))
+            }
+            Err(problem) if problem.severity.is_fatal() => {
+                let mut problems = std::mem::take(&mut self.warnings);
+                problems.push(problem);
+                return Err(Report(problems));
+            }
+            Err(mut problem) => {
+                self.unfound += 1;
+                // A problem of the picture itself has no line.
+                if problem.path == *beside {
+                    problem.place = place;
+                }
+                if self.unfound <= MAX_TOLD {
+                    self.warnings.push(problem);
+                }
+                None
+            }
+        };
+        self.pictures.insert(key, texture.clone());
+        Ok(texture)
+    }
+
+    fn too_many_pixels(&mut self, mtl: &Path) -> Report {
+        let mut problems = std::mem::take(&mut self.warnings);
+        problems.push(Problem {
+            severity: Severity::Limit,
+            path: mtl.to_owned(),
+            place: None,
+            message: format!("the pictures of this model have more than {MAX_KEPT_PIXELS} pixels altogether"),
+            mend: "scale them down: 2048 x 2048 is more than a painting shows".to_owned(),
+        });
+        Report(problems)
+    }
+}
