@@ -50,7 +50,11 @@ fn solving() {
     let mut baked = BakedParticles::default();
     for particle in &particles {
         let normal = particle.normal.as_dvec3();
-        baked.push(particle.position.as_dvec3(), normal, Lift::facing_view(normal, glam::DVec3::Y, 0.0, 300.0));
+        baked.push(
+            particle.position.as_dvec3(),
+            normal,
+            Lift::facing_view(normal, glam::DVec3::Y, 0.0, 300.0),
+        );
     }
     let view = glam::DMat4::from_translation(glam::DVec3::new(0.0, 0.0, -4.0));
     let map = ScreenMap::new(view, glam::DAffine3::IDENTITY, PixelLens::Perspective { focal_px: 1100.0 });
@@ -64,7 +68,9 @@ fn solving() {
     let (from, mut to) = (vec![1.0f32; floats], vec![0.0f32; floats]);
     let copy_secs = median_secs(101, || {
         use rayon::prelude::*;
-        to.par_chunks_mut(1 << 16).zip(from.par_chunks(1 << 16)).for_each(|(to, from)| to.copy_from_slice(from));
+        to.par_chunks_mut(1 << 16)
+            .zip(from.par_chunks(1 << 16))
+            .for_each(|(to, from)| to.copy_from_slice(from));
         black_box(&to);
     });
     println!(
@@ -74,12 +80,20 @@ fn solving() {
     );
 }
 
+/// The source paper's largest scene, whole: what opening it costs before the first frame.
 fn preparing() {
-    let scene = shapes::scene(vec![shapes::object("body", PARTICLES as u64)]);
-    let loaded = shapes::loaded(scene, [shapes::sphere(48, 24)]);
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/simple_objects.ron");
+    let load = || {
+        impasto_scene::load::load(&path, &impasto_scene::load::LoadOptions::default())
+            .expect("the shipped scene is good")
+    };
+    println!("load simple_objects: {:.0} ms", median_secs(5, || drop(black_box(load()))) * 1e3);
+    let loaded = Arc::new(load());
     let mut steps: Vec<(&'static str, Vec<f64>)> = Vec::new();
+    let mut particles = 0;
     let seconds = median_secs(5, || {
         let painting = impasto_painting::prepare(Arc::clone(&loaded)).expect("the scene has its meshes");
+        particles = painting.particle_counts().iter().sum();
         for step in painting.steps() {
             match steps.iter_mut().find(|(name, _)| *name == step.name) {
                 Some((_, seconds)) => seconds.push(step.seconds),
@@ -87,9 +101,17 @@ fn preparing() {
             }
         }
     });
-    println!("prepare {PARTICLES} particles: {:.0} ms", seconds * 1e3);
+    println!("prepare simple_objects ({particles} particles): {:.0} ms", seconds * 1e3);
     for (name, mut times) in steps {
         times.sort_by(f64::total_cmp);
-        println!("  {name}: {:.1} ms", times[times.len() / 2] * 1e3);
+        let median = times[times.len() / 2];
+        println!("  {name:<10} {:>7.1} ms {:>5.1} %", median * 1e3, 100.0 * median / seconds);
     }
+    let painting = impasto_painting::prepare(loaded).expect("the scene has its meshes");
+    let options =
+        impasto_painting::FrameOptions { size_px: [1280, 720], keep_stroke_px: false, transparent: false };
+    let frame_secs = median_secs(21, || {
+        black_box(painting.at(0.0, &options));
+    });
+    println!("one frame of it as data: {:.1} ms", frame_secs * 1e3);
 }
