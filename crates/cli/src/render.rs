@@ -69,8 +69,9 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     }
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));
-    let destination = destination(arguments, &frames)?;
     let inputs = session::inputs(&loaded);
+    output::not_an_input(std::path::Path::new(&arguments.output), &inputs)?;
+    let destination = destination(arguments, &frames)?;
     match &destination {
         Destination::Files(pattern) => {
             for frame in frames.iter() {
@@ -115,6 +116,10 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
             return Err(Failure::Usage(words.to_owned()));
         }
         return Ok(Destination::Stream);
+    }
+    if !arguments.output.to_lowercase().ends_with(".png") {
+        let words = format!("-o {}: pictures are PNG files; let the name end in .png", arguments.output);
+        return Err(Failure::Usage(words));
     }
     if arguments.apng {
         let has_place = arguments.output.contains('#')
