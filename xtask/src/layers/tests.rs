@@ -26,13 +26,13 @@ fn workspace(root: &Path, crates: &[(&str, &str)]) {
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
         std::fs::write(path, text).expect("written");
     };
-    write("Cargo.toml", "[workspace]\nresolver = \"3\"\nmembers = [\"crates/*\"]\n");
+    write("Cargo.toml", "[workspace]\nresolver = \"3\"\nmembers = [\"crates/*\"]\nexclude = [\"outside\"]\n");
     write("ARCHITECTURE.md", ARCHITECTURE);
     // Outside crates stand in as path dependencies that are no members.
     for outside in ["glow", "middle"] {
         let dependencies = if outside == "middle" { "[dependencies]\nglow.path = \"../glow\"" } else { "" };
         let manifest = format!(
-            "[package]\nname = \"{outside}\"\nversion = \"1.0.0\"\nedition = \"2024\"\n{dependencies}\n[workspace]\n"
+            "[package]\nname = \"{outside}\"\nversion = \"1.0.0\"\nedition = \"2024\"\n{dependencies}\n"
         );
         write(&format!("outside/{outside}/Cargo.toml"), &manifest);
         write(&format!("outside/{outside}/src/lib.rs"), "");
