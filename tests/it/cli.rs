@@ -1,0 +1,271 @@
+//! The command line as a user meets it: exit codes, messages, files that are whole or not there.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use impasto_tests::command::impasto;
+
+const CUBE: &str = "\
+v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
+f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
+
+const SCENE: &str = "#![enable(implicit_some)]
+(
+    version: 1,
+    size: (160, 90),
+    timeline: (fps: 24, first: 0, last: 2),
+    camera: (keys: [
+        (frame: 0, eye: (1, 1.5, 6), target: (0, 0, 0)),
+        (frame: 2, eye: (1, 1.5, 6), target: (0, 0, 0), roll_deg: 30),
+    ]),
+    objects: [(name: \"cube, \\\"big\\\"\", mesh: \"cube.obj\")],
+    strokes: (length_px: 12, width_px: 4, angle_jitter_deg: 0),
+)
+";
+
+/// A folder with a cube and a scene of it.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("cube.obj"), CUBE).unwrap();
+        std::fs::write(folder.path().join("scene.ron"), SCENE).unwrap();
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Runs the command in the folder, with no display.
+    fn run(&self, arguments: &[&str]) -> Output {
+        let mut command = Command::new(impasto());
+        command.args(arguments).current_dir(self.0.path());
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
+    }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(self.path(folder)).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap_or(-1)
+}
+
+fn words(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn is_whole_png(path: &Path) -> bool {
+    let bytes = std::fs::read(path).unwrap();
+    bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.ends_with(b"IEND\xaeB`\x82")
+}
+
+#[test]
+fn render_writes_whole_frames_by_their_pattern() {
+    let folder = Folder::new();
+    let output = folder.run(&["render", "scene.ron", "-o", "out/f_##.png", "--contact-sheet"]);
+    assert_eq!(code(&output), 0, "{}", words(&output.stderr));
+    assert_eq!(words(&output.stdout), "", "stdout is for data");
+    assert_eq!(folder.names("out"), ["f_00.png", "f_01.png", "f_02.png", "f_sheet.png"]);
+    for name in folder.names("out") {
+        assert!(is_whole_png(&folder.path("out").join(name)));
+    }
+    // Frames that are there stay; the others are made.
+    std::fs::write(folder.path("out/f_01.png"), "mine").unwrap();
+    std::fs::remove_file(folder.path("out/f_02.png")).unwrap();
+    let output =
+        folder.run(&["render", "scene.ron", "-o", "out/f_##.png", "--skip-existing", "--json", "-q"]);
+    assert_eq!(code(&output), 0);
+    assert_eq!(std::fs::read(folder.path("out/f_01.png")).unwrap(), b"mine");
+    assert!(is_whole_png(&folder.path("out/f_02.png")));
+    let events: Vec<serde_json::Value> =
+        words(&output.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let frames: Vec<_> =
+        events.iter().filter(|event| event["event"] == "frame").map(|event| &event["frame"]).collect();
+    assert_eq!(frames, [2]);
+}
+
+#[test]
+fn a_picture_streams_and_an_animation_is_one_file() {
+    let folder = Folder::new();
+    let output = folder.run(&["render", "scene.ron", "--frames", "1", "-o", "-"]);
+    assert!(output.stdout.starts_with(b"\x89PNG"), "{}", words(&output.stderr));
+    let output = folder.run(&["render", "scene.ron", "--apng", "-o", "all.png"]);
+    assert_eq!(code(&output), 0, "{}", words(&output.stderr));
+    let bytes = std::fs::read(folder.path("all.png")).unwrap();
+    assert!(is_whole_png(&folder.path("all.png")) && bytes.windows(4).any(|word| word == b"acTL"));
+    assert_eq!(
+        code(&folder.run(&["render", "scene.ron", "-o", "-"])),
+        2,
+        "three frames do not fit one stream"
+    );
+}
+
+#[test]
+fn a_new_scene_renders_as_its_model_does() {
+    let folder = Folder::new();
+    assert_eq!(code(&folder.run(&["new", "cube.obj", "-o", "made.ron"])), 0);
+    assert_eq!(code(&folder.run(&["new", "cube.obj", "-o", "made.ron"])), 3, "it is there already");
+    assert_eq!(code(&folder.run(&["new", "cube.obj", "-o", "made.ron", "--force"])), 0);
+    for (from, to) in [("cube.obj", "a.png"), ("made.ron", "b.png")] {
+        let output = folder.run(&["render", from, "-o", to, "--size", "160x90", "--frames", "0"]);
+        assert_eq!(code(&output), 0, "{}", words(&output.stderr));
+    }
+    let pixels = |name: &str| {
+        let decoder =
+            png::Decoder::new(std::io::BufReader::new(std::fs::File::open(folder.path(name)).unwrap()));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut bytes).unwrap();
+        bytes
+    };
+    assert!(pixels("a.png") == pixels("b.png"));
+}
+
+#[test]
+fn wrong_input_ends_with_3_a_place_and_a_mend() {
+    let folder = Folder::new();
+    let typo = SCENE.replace("length_px", "lenght_px");
+    std::fs::write(folder.path("typo.ron"), typo).unwrap();
+    let output = folder.run(&["render", "typo.ron", "-o", "out/x.png"]);
+    assert_eq!(code(&output), 3);
+    let said = words(&output.stderr);
+    assert!(said.contains("typo.ron:11:15: error:") && said.contains("length_px"), "{said}");
+    assert!(!folder.path("out").exists(), "nothing is written");
+
+    let output = folder.run(&["check", "scene.ron", "typo.ron", "--json"]);
+    assert_eq!(code(&output), 3);
+    let problem: serde_json::Value =
+        serde_json::from_str(words(&output.stdout).lines().next().unwrap()).unwrap();
+    assert_eq!((&problem["line"], &problem["severity"]), (&11.into(), &"error".into()));
+    assert_eq!(code(&folder.run(&["check", "scene.ron"])), 0);
+    assert_eq!(code(&folder.run(&["render", "nothere.ron"])), 3);
+}
+
+#[test]
+fn outputs_are_refused_before_anything_is_drawn() {
+    let folder = Folder::new();
+    std::fs::write(folder.path("file"), "in the way").unwrap();
+    let output = folder.run(&["render", "scene.ron", "-o", "file/f_####.png"]);
+    assert_eq!(code(&output), 3, "{}", words(&output.stderr));
+    assert!(words(&output.stderr).contains("-o"), "{}", words(&output.stderr));
+    for input in ["scene.ron", "./cube.obj"] {
+        let output = folder.run(&["render", "scene.ron", "-o", input, "--frames", "0"]);
+        assert_eq!(code(&output), 3, "{input}");
+    }
+    assert_eq!(std::fs::read_to_string(folder.path("scene.ron")).unwrap(), SCENE);
+    assert_eq!(std::fs::read_to_string(folder.path("cube.obj")).unwrap(), CUBE);
+    assert_eq!(folder.names("."), ["cube.obj", "file", "scene.ron"]);
+}
+
+#[test]
+fn a_wrong_command_line_ends_with_2() {
+    let folder = Folder::new();
+    for arguments in [
+        &["render"][..],
+        &["render", "scene.ron", "--frames", "1-"],
+        &["render", "scene.ron", "--frames", "0-1000000000000"],
+        &["render", "scene.ron", "--size", "0x9"],
+        &["render", "scene.ron", "--size", "60000x60000"],
+        &["render", "scene.ron", "-o", "picture.jpg"],
+        &["render", "scene.ron", "--set", "nothing"],
+        &["paint", "scene.ron"],
+    ] {
+        assert_eq!(code(&folder.run(arguments)), 2, "{arguments:?}");
+    }
+    assert_eq!(code(&folder.run(&["--help"])), 0);
+}
+
+/// Angle of each stroke by id and size, from CSV.
+fn angles(text: &str) -> BTreeMap<(String, String), f64> {
+    // The object's name holds a comma and quotes, so fields are counted from the end.
+    let row = |line: &str| -> ((String, String), f64) {
+        let fields: Vec<&str> = line.rsplitn(14, ',').collect();
+        let id = line.split(',').next().unwrap().to_owned();
+        // From the end: rank 0, facing 1, b g r 2-4, kappa 5, alpha 6, width 7, length 8, angle 9.
+        ((id, fields[8].to_owned()), fields[9].parse().unwrap())
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+#[test]
+fn strokes_are_listed_as_they_are_drawn() {
+    let folder = Folder::new();
+    let csv = |frame: &str| words(&folder.run(&["strokes", "scene.ron", "--frame", frame]).stdout);
+    let (before, after) = (csv("0"), csv("2"));
+    let header =
+        "id,object,region,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
+    assert_eq!(before.lines().next(), Some(header));
+    assert!(before.lines().nth(1).unwrap().contains("\"cube, \"\"big\"\"\""));
+    let (before, after) = (angles(&before), angles(&after));
+    let mut shared = 0;
+    for (key, angle) in &before {
+        let Some(turned) = after.get(key) else { continue };
+        let off = (turned - (angle - 30.0)).rem_euclid(360.0);
+        assert!(off.min(360.0 - off) <= 1e-3, "{key:?}: {angle} to {turned}");
+        shared += 1;
+    }
+    assert!(shared >= 100, "{shared} strokes in both");
+
+    let json = folder.run(&["strokes", "scene.ron", "--format", "json", "-o", "s.json"]);
+    assert_eq!(code(&json), 0);
+    let json: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path("s.json")).unwrap()).unwrap();
+    assert_eq!(json["strokes"].as_array().unwrap().len(), csv("0").lines().count() - 1);
+    let svg = words(&folder.run(&["strokes", "scene.ron", "--format", "svg"]).stdout);
+    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+}
+
+#[test]
+fn info_doctor_and_completions_answer() {
+    let folder = Folder::new();
+    let info: serde_json::Value =
+        serde_json::from_slice(&folder.run(&["info", "cube.obj", "--json"]).stdout).unwrap();
+    assert_eq!(info["meshes"][0]["polygons"], 6);
+    assert!(info["particles"].as_u64().unwrap() > 100);
+    let doctor = folder.run(&["doctor", "--json"]);
+    assert_eq!(code(&doctor), 0, "{}", words(&doctor.stdout));
+    for line in words(&doctor.stdout).lines() {
+        let driver: serde_json::Value = serde_json::from_str(line).unwrap();
+        assert_eq!(driver["works"], true, "{line}");
+    }
+    for shell in ["bash", "zsh", "fish"] {
+        assert!(words(&folder.run(&["completions", shell]).stdout).contains("impasto"), "{shell}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_whole_frames_only() {
+    let folder = Folder::new();
+    let long = SCENE.replace("last: 2)", "last: 5000)");
+    std::fs::write(folder.path("long.ron"), long).unwrap();
+    let mut child = Command::new(impasto())
+        .args(["render", "long.ron", "-o", "out/f_####.png", "-q"])
+        .current_dir(folder.0.path())
+        .spawn()
+        .unwrap();
+    // Wait for the first frames, then interrupt.
+    for _ in 0..600 {
+        if folder.path("out/f_0002.png").exists() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let names = folder.names("out");
+    assert!(names.len() >= 3 && names.len() < 5000, "{} frames", names.len());
+    for name in names {
+        assert!(name.starts_with("f_") && is_whole_png(&folder.path("out").join(&name)), "{name}");
+    }
+}
