@@ -1,10 +1,6 @@
 //! The integration tests of Impasto.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a failed step is a failed test, and tests print what they measure"
-)]
+#![expect(clippy::unwrap_used, reason = "a failed step is a failed test")]
 
 mod cli;
 mod corpus;

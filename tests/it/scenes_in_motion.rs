@@ -54,13 +54,14 @@ fn facets_of_the_coarse_apple_do_not_show_in_the_angle() {
     let mesh = apple();
     // The two triangles on either side of every edge, by position.
     let key = |vertex: u32| mesh.positions[vertex as usize].to_array().map(f32::to_bits);
-    let mut edges: HashMap<[[u32; 3]; 2], Vec<(usize, [u32; 2])>> = HashMap::new();
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+    type EdgeSides = HashMap<[[u32; 3]; 2], Vec<[u32; 2]>>;
+    let mut edges = EdgeSides::new();
+    for corners in &mesh.triangles {
         for corner in 0..3 {
             let ends = [corners[corner], corners[(corner + 1) % 3]];
             let mut edge = ends.map(key);
             edge.sort_unstable();
-            edges.entry(edge).or_default().push((triangle, ends));
+            edges.entry(edge).or_default().push(ends);
         }
     }
     let angle = |position: DVec3, normal: DVec3, reference: &ScreenMap, now: &ScreenMap| {
@@ -79,7 +80,7 @@ fn facets_of_the_coarse_apple_do_not_show_in_the_angle() {
         };
         let angles: Vec<f64> = sides
             .iter()
-            .filter_map(|&(_, ends)| {
+            .filter_map(|&ends| {
                 let (position, normal) = middle(ends);
                 angle(position, normal, &reference, &now)
             })
@@ -121,13 +122,11 @@ fn drawn(renderer: &mut Renderer, frame: &Frame) -> HashMap<(u32, bool, u32), (f
     let resolved = renderer.resolved_strokes();
     let mut found = HashMap::new();
     for layer in &frame.layers {
-        for index in layer.first as usize..(layer.first + layer.count) as usize {
-            let stroke = &frame.strokes[index];
-            let key = (stroke.body_id, layer.underpainting, frame.sources[index].particle);
-            found.insert(
-                key,
-                (f64::from(resolved[index].alpha), f64::from(stroke.length_px * stroke.width_px)),
-            );
+        let range = layer.first as usize..(layer.first + layer.count) as usize;
+        let strokes = frame.strokes[range.clone()].iter().zip(&frame.sources[range.clone()]);
+        for ((stroke, source), resolved) in strokes.zip(&resolved[range]) {
+            let key = (stroke.body_id, layer.underpainting, source.particle);
+            found.insert(key, (f64::from(resolved.alpha), f64::from(stroke.length_px * stroke.width_px)));
         }
     }
     found
