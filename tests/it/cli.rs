@@ -260,7 +260,7 @@ fn an_interrupted_run_leaves_whole_frames_only() {
         }
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
-    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let killed = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
     assert!(killed.success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let names = folder.names("out");

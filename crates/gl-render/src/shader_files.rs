@@ -10,7 +10,7 @@ macro_rules! shader_files {
 
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] =
-    shader_files!["shared/screen.vert", "shared/encode.frag", "shared/lens.glsl"];
+    shader_files!["shared/screen.vert", "shared/encode.glsl", "shared/encode.frag", "shared/lens.glsl"];
 
 /// The reference pass.
 pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
@@ -28,4 +28,5 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/resolve.vert",
     "rotating_strokes/paint.vert",
     "rotating_strokes/paint.frag",
+    "rotating_strokes/encode.frag",
 ];

@@ -6,9 +6,8 @@ mod rotating_strokes;
 use impasto_painting::Frame;
 use impasto_painting::frame::FrameStyle;
 
-use crate::gl::{Framebuffer, GlError, Gpu, Program, ProgramSource};
+use crate::gl::{Framebuffer, GlError, Gpu};
 use crate::reference::{LightSetup, ReferenceTargets};
-use crate::shader_files::SHARED;
 
 pub(crate) use rotating_strokes::RotatingStrokes;
 
@@ -36,17 +35,6 @@ pub(crate) fn open(gpu: &Gpu, style: FrameStyle) -> Result<Box<dyn Style>, GlErr
         FrameStyle::RotatingStrokes => Box::new(RotatingStrokes::new(gpu)?),
         FrameStyle::Reference => Box::new(reference::Reference::new(gpu)?),
     })
-}
-
-/// The program of the pass that every style ends with.
-pub(crate) fn encode_program(gpu: &Gpu) -> Result<Program, GlError> {
-    let source = ProgramSource {
-        vertex: "shared/screen.vert",
-        fragment: Some("shared/encode.frag"),
-        captured: &[],
-        uniforms: &["picture", "ground"],
-    };
-    Program::new(gpu, &[SHARED], &source)
 }
 
 /// The ground under the picture, premultiplied.

@@ -1,7 +1,8 @@
 //! The plain render itself. Targets: none of its own. Passes: encode.
 
-use super::{Style, StyleInput, encode_program, ground};
-use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Program, VertexArray, Vertices};
+use super::{Style, StyleInput, ground};
+use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Program, ProgramSource, VertexArray, Vertices};
+use crate::shader_files::SHARED;
 
 /// The style.
 pub(crate) struct Reference {
@@ -12,7 +13,17 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        Ok(Self { gpu: gpu.clone(), encode: encode_program(gpu)?, screen: VertexArray::empty(gpu)? })
+        let encode = ProgramSource {
+            vertex: "shared/screen.vert",
+            fragment: Some("shared/encode.frag"),
+            captured: &[],
+            uniforms: &["picture", "ground"],
+        };
+        Ok(Self {
+            gpu: gpu.clone(),
+            encode: Program::new(gpu, &[SHARED], &encode)?,
+            screen: VertexArray::empty(gpu)?,
+        })
     }
 }
 

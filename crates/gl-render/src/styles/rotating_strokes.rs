@@ -10,7 +10,7 @@ use std::rc::Rc;
 use impasto_painting::Frame;
 use impasto_painting::frame::{LayerRun, Stroke};
 
-use super::{Style, StyleInput, encode_program, ground};
+use super::{Style, StyleInput, ground};
 use crate::gl::{
     Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program,
     ProgramSource, Records, Texture, VertexArray, Vertices,
@@ -20,6 +20,9 @@ use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
 
 /// Paint may run this far past its own body, pixels at the scene's size.
 const OVERRUN_PX: f32 = 2.6;
+
+/// How much of a body's own colour its toned ground carries.
+const WASH: f32 = 0.85;
 
 /// Bytes of what the resolve pass keeps of a stroke: colour and alpha.
 const RESOLVED_BYTES: usize = 16;
@@ -87,12 +90,18 @@ impl RotatingStrokes {
                 "orthographic",
             ],
         };
+        let encode = ProgramSource {
+            vertex: "shared/screen.vert",
+            fragment: Some("rotating_strokes/encode.frag"),
+            captured: &[],
+            uniforms: &["picture", "reference_color", "ground", "wash"],
+        };
         let size = [tip::SIZE[0], tip::SIZE[1], tip::COUNT];
         Ok(Self {
             gpu: gpu.clone(),
             resolve: Program::new(gpu, files, &resolve)?,
             paint: Program::new(gpu, files, &paint)?,
-            encode: encode_program(gpu)?,
+            encode: Program::new(gpu, files, &encode)?,
             tips: Texture::array_with_levels(gpu, Format::Rg8, size, &tip::levels())?,
             strokes: Buffer::new(gpu, BufferUse::Streamed)?,
             resolved: Buffer::new(gpu, BufferUse::ReadBack)?,
@@ -187,7 +196,14 @@ impl Style for RotatingStrokes {
             self.paint(input, layer)?;
         }
         self.gpu.begin_pass(output, DrawState::default());
-        let bound = self.encode.bind().texture("picture", &target.paint).set("ground", ground(input.frame));
+        let toned = input.frame.layers.iter().any(|layer| layer.underpainting);
+        let bound = self
+            .encode
+            .bind()
+            .texture("picture", &target.paint)
+            .texture("reference_color", &input.reference.color)
+            .set("ground", ground(input.frame))
+            .set("wash", if toned { WASH } else { 0.0 });
         self.gpu.draw(bound, &self.screen, Vertices::Screen)
     }
 
