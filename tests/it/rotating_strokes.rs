@@ -320,7 +320,9 @@ fn rolled(roll_deg: f64) -> Scene {
 }
 
 fn roll_pictures(renderer: &mut Renderer, roll_deg: f64, fixed: bool) -> (Picture, Picture, Vec<u32>) {
-    let painting = prepare(shapes::loaded(rolled(roll_deg), [shapes::sphere(48, 24)])).unwrap();
+    // Speckled, so that there are streaks to see: strokes of one plain colour hardly differ from each other.
+    let loaded = shapes::speckled(&shapes::loaded(rolled(roll_deg), [shapes::sphere(48, 24)]));
+    let painting = prepare(loaded).unwrap();
     let before = painting.at(0.0, &options([SIDE as u32; 2]));
     let mut after = painting.at(1.0, &options([SIDE as u32; 2]));
     let first = renderer.render(&before).unwrap();
@@ -400,21 +402,22 @@ fn an_odd_turn_of_the_camera_turns_the_streaks() {
             }
             // Both a little blurred, so that the pixel grid has no say.
             let (turned, after) = (turned.blurred(1.5), after.blurred(1.5));
+            // Well inside the mask, so that the outline has no say either.
+            let inside = |x: usize, y: usize| {
+                let at = |dx: i32, dy: i32| known[(y as i32 + dy) as usize * SIDE + (x as i32 + dx) as usize];
+                (-4..=4).all(|dy| (-4..=4).all(|dx| at(dx, dy)))
+            };
+            let mask: Vec<bool> = (0..SIDE * SIDE)
+                .map(|index| (index % SIDE, index / SIDE))
+                .map(|(x, y)| (5..SIDE - 5).contains(&x) && (5..SIDE - 5).contains(&y) && inside(x, y))
+                .collect();
+            let (first, second) = (turned.tensor_field(&mask, 8.0), after.tensor_field(&mask, 8.0));
             let (mut real, mut imaginary, mut pixels) = (0.0, 0.0, 0);
-            for y in 5..SIDE - 5 {
-                for x in 5..SIDE - 5 {
-                    // Well inside the mask.
-                    let all_known = (-1i32..=1).all(|dy| {
-                        (-1i32..=1)
-                            .all(|dx| known[(y as i32 + dy) as usize * SIDE + (x as i32 + dx) as usize])
-                    });
-                    if all_known {
-                        let (a, b) = (turned.double_angle(x, y), after.double_angle(x, y));
-                        real += a.0 * b.0 + a.1 * b.1;
-                        imaginary += a.0 * b.1 - a.1 * b.0;
-                        pixels += 1;
-                    }
-                }
+            for index in (0..SIDE * SIDE).filter(|&index| mask[index]) {
+                let (a, b) = (first[index], second[index]);
+                real += a.0 * b.0 + a.1 * b.1;
+                imaginary += a.0 * b.1 - a.1 * b.0;
+                pixels += 1;
             }
             assert!(pixels > 5000);
             (0.5 * f64::atan2(imaginary, real)).to_degrees()
@@ -424,7 +427,7 @@ fn an_odd_turn_of_the_camera_turns_the_streaks() {
             "roll {roll_deg}: streaks off by {own:.3} degrees; hanging still they would be off by {fault:.1}"
         );
         assert!(own.abs() <= 0.5, "roll {roll_deg}: streaks off by {own} degrees");
-        assert!(fault.abs() > 0.5, "strokes that do not turn must show: {fault}");
+        assert!(fault.abs() > 2.0, "strokes that do not turn must show: {fault}");
     }
 }
 

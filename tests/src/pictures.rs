@@ -43,6 +43,18 @@ impl Grey {
         (gx * gx - gy * gy, 2.0 * gx * gy)
     }
 
+    /// The structure tensor of every pixel of a mask, its second moments averaged over a Gaussian of this many pixels.
+    pub fn tensor_field(&self, mask: &[bool], sigma_px: f64) -> Vec<(f64, f64)> {
+        let width = self.size_px[0];
+        let moments = mask.iter().enumerate().map(|(index, &known)| {
+            if known { self.double_angle(index % width, index / width) } else { (0.0, 0.0) }
+        });
+        let (real, imaginary): (Vec<f64>, Vec<f64>) = moments.unzip();
+        let [real, imaginary] =
+            [real, imaginary].map(|values| Self { size_px: self.size_px, values }.blurred(sigma_px).values);
+        real.into_iter().zip(imaginary).collect()
+    }
+
     /// The direction of the streaks in the whole picture, radians in (−π/2, π/2], Y up: across the mean gradient.
     pub fn streak_angle_rad(&self) -> f64 {
         let (mut real, mut imaginary) = (0.0, 0.0);

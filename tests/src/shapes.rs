@@ -11,7 +11,7 @@ use impasto_scene::document::{
     StrokeSettings, Style, Timeline,
 };
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::mesh_file::{Material, MeshFile};
+use impasto_scene::mesh_file::{Material, MeshFile, Texture};
 
 /// A unit sphere of `columns` × `rows` quads (triangles at the poles), with its analytic normals.
 pub fn sphere(columns: u32, rows: u32) -> TriangleMesh {
@@ -171,4 +171,24 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
         textures: BTreeMap::new(),
         warnings: Vec::new(),
     })
+}
+
+/// The same scene with every mesh speckled: cells of random greys, so that each stroke differs from its neighbours.
+pub fn speckled(loaded: &LoadedScene) -> Arc<LoadedScene> {
+    let size_px = [128, 64];
+    let cell = |index: u32| {
+        let grey = 40 + (impasto_core::hash::scramble(index) >> 24) as u8 / 2 + 40;
+        [grey, grey, grey, 255]
+    };
+    let texture = Arc::new(Texture { size_px, rgba8: (0..size_px[0] * size_px[1]).map(cell).collect() });
+    let mut speckled = loaded.clone();
+    for file in speckled.meshes.values_mut() {
+        let mut worn = MeshFile::clone(file);
+        for material in &mut worn.materials {
+            material.color = [1.0; 3];
+            material.texture = Some(Arc::clone(&texture));
+        }
+        *file = Arc::new(worn);
+    }
+    Arc::new(speckled)
 }
