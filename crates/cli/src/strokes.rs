@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
+use impasto_core::color::srgb_from_linear;
 use impasto_gl_render::ResolvedStroke;
 use impasto_painting::frame::{Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, Painting};
@@ -104,11 +105,6 @@ fn row<'a>(
         facing: source.facing,
         rank: source.rank,
     }
-}
-
-fn srgb_from_linear(linear: f32) -> f32 {
-    let linear = linear.clamp(0.0, 1.0);
-    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// Quotes a name where CSV needs it (RFC 4180).

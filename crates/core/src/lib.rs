@@ -10,6 +10,7 @@
 //! ```
 
 pub mod angle;
+pub mod color;
 pub mod direction;
 pub mod hash;
 pub mod horn_exact;

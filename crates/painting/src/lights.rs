@@ -1,20 +1,10 @@
 //! From the document's lights to linear light.
 
 use glam::{DAffine3, DVec3, Vec3};
+use impasto_core::color::linear_from_srgb;
 use impasto_scene::document::{Color, LightKind, Scene};
 
 use crate::frame::{FrameLights, PointLight, SunLight};
-
-/// sRGB to linear, one channel (IEC 61966-2-1).
-pub(crate) fn linear_from_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
-
-/// Linear to sRGB, one channel, clamped to 0..=1.
-pub(crate) fn srgb_from_linear(linear: f32) -> f32 {
-    let linear = linear.clamp(0.0, 1.0);
-    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
-}
 
 /// A colour in linear Rec. 709.
 pub(crate) fn linear(color: Color) -> [f32; 3] {
@@ -85,18 +75,4 @@ pub(crate) fn bounds_over(
         return (Vec3::ZERO, 1.0);
     }
     (((low + high) * 0.5).as_vec3(), (((high - low).length() * 0.5) as f32).max(1e-6))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn srgb_goes_there_and_back() {
-        for step in 0..=255u8 {
-            let encoded = f32::from(step) / 255.0;
-            assert!((srgb_from_linear(linear_from_srgb(encoded)) - encoded).abs() < 1e-6);
-        }
-        assert!((linear_from_srgb(0.5) - 0.214_041).abs() < 1e-5);
-    }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use impasto_core::TriangleMesh;
+use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{MeshFile, Texture};
@@ -128,11 +129,10 @@ impl BodySurface {
             let [width, height] = texture.size_px;
             let texel = at(uv.x, width) + (height - 1 - at(uv.y, height)) * width;
             for (channel, byte) in albedo.iter_mut().zip(texture.rgba8[texel as usize]) {
-                *channel *= crate::lights::linear_from_srgb(f32::from(byte) / 255.0);
+                *channel *= linear_from_srgb(f32::from(byte) / 255.0);
             }
         }
-        let [r, g, b] =
-            albedo.map(|channel| (crate::lights::srgb_from_linear(channel) * 255.0).round() as u32);
+        let [r, g, b] = albedo.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u32);
         let lit = if material.unlit { 0 } else { 255 };
         lit << 24 | b << 16 | g << 8 | r
     }
