@@ -97,7 +97,8 @@ fn render_writes_whole_frames_by_their_pattern() {
 fn a_picture_streams_and_an_animation_is_one_file() {
     let folder = Folder::new();
     let output = folder.run(&["render", "scene.ron", "--frames", "1", "-o", "-"]);
-    assert!(output.stdout.starts_with(b"\x89PNG"), "{}", words(&output.stderr));
+    assert_eq!(code(&output), 0, "{}", words(&output.stderr));
+    assert!(output.stdout.starts_with(b"\x89PNG") && output.stdout.ends_with(b"IEND\xaeB`\x82"));
     let output = folder.run(&["render", "scene.ron", "--apng", "-o", "all.png"]);
     assert_eq!(code(&output), 0, "{}", words(&output.stderr));
     let bytes = std::fs::read(folder.path("all.png")).unwrap();
@@ -190,6 +191,10 @@ fn angles(text: &str) -> BTreeMap<(String, String), f64> {
     let row = |line: &str| -> ((String, String), f64) {
         let fields: Vec<&str> = line.rsplitn(14, ',').collect();
         let id = line.split(',').next().unwrap().to_owned();
+        // All numbers but the id stand in the last thirteen fields.
+        for number in &fields[..13] {
+            assert!(number.parse::<f64>().is_ok_and(f64::is_finite), "{number:?} in {line}");
+        }
         // From the end: rank 0, facing 1, b g r 2-4, kappa 5, alpha 6, width 7, length 8, angle 9.
         ((id, fields[8].to_owned()), fields[9].parse().unwrap())
     };
@@ -222,6 +227,9 @@ fn strokes_are_listed_as_they_are_drawn() {
     assert_eq!(json["strokes"].as_array().unwrap().len(), csv("0").lines().count() - 1);
     let svg = words(&folder.run(&["strokes", "scene.ron", "--format", "svg"]).stdout);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    let shapes: Vec<&str> = svg.lines().filter(|line| line.starts_with("<rect ")).collect();
+    assert_eq!(shapes.len(), csv("0").lines().count() - 1, "a shape per stroke");
+    assert!(shapes.iter().all(|shape| shape.ends_with("/>") && shape.matches('"').count() % 2 == 0));
 }
 
 #[test]
