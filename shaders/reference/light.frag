@@ -2,25 +2,30 @@
 #include "shared/lens.glsl"
 #include "reference/lighting.glsl"
 uniform sampler2D albedo_and_lit;
-uniform sampler2D normal;
+uniform sampler2D normal;        // and gloss
 uniform sampler2D depth_and_id;
 uniform sampler2D openness;      // half the size
 
-out vec4 color;
+layout(location = 0) out vec4 color;
+layout(location = 1) out vec4 glint;
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 here = texelFetch(depth_and_id, at, 0).xy;
-    if (here.y == 0.0) {
-        color = vec4(0.0);
-        return;
-    }
+    color = vec4(0.0);
+    glint = vec4(0.0);
+    if (here.y == 0.0) return;
     vec4 surface = texelFetch(albedo_and_lit, at, 0);
     if (surface.a == 0.0) {
         color = vec4(surface.rgb, 1.0);
         return;
     }
-    vec3 position = world_from_px(gl_FragCoord.xy, here.x);
-    float open = texture(openness, gl_FragCoord.xy / size_px).r;
-    color = vec4(lit(surface.rgb, position, normalize(texelFetch(normal, at, 0).xyz), open), 1.0);
+    vec4 normal_and_gloss = texelFetch(normal, at, 0);
+    LitPoint point;
+    point.position = world_from_px(gl_FragCoord.xy, here.x);
+    point.normal = normalize(normal_and_gloss.xyz);
+    point.towards_eye = towards_eye_from_px(gl_FragCoord.xy);
+    point.openness = texture(openness, gl_FragCoord.xy / size_px).r;
+    point.gloss = normal_and_gloss.w;
+    color = vec4(lit(surface.rgb, point, glint.r), 1.0);
 }

@@ -28,17 +28,40 @@ vec3 exposed(vec3 light) {
     return c * (1.0 + luminance / 1.44) / (1.0 + luminance) * 1.25;
 }
 
-vec3 lit(vec3 albedo, vec3 position, vec3 normal, float openness) {
-    vec3 light = mix(ambient_below, ambient_above, 0.5 + 0.5 * normal.y) * openness;
+// A point of a surface, ready to be lit.
+struct LitPoint {
+    vec3 position;               // world space, as the normal
+    vec3 normal;
+    vec3 towards_eye;            // unit
+    float openness;              // 0 crowded in .. 1 open
+    float gloss;                 // 0 matt .. 1 glazed
+};
+
+// Display-linear colour; `glint` is how much of a highlight there is, 0..1.
+vec3 lit(vec3 albedo, LitPoint at, out float glint) {
+    vec3 light = mix(ambient_below, ambient_above, 0.5 + 0.5 * at.normal.y) * at.openness;
+    vec3 highlight = vec3(0.0);
+    glint = 0.0;
+    float sharpness = mix(12.0, 220.0, at.gloss);
     for (int index = 0; index < light_count; index++) {
         vec4 place = texelFetch(lights, ivec2(index, 0), 0);
-        vec3 towards = place.xyz - position * place.w;
+        vec3 radiance = texelFetch(lights, ivec2(index, 1), 0).rgb;
+        vec3 towards = place.xyz - at.position * place.w;
         float squared = place.w > 0.0 ? max(dot(towards, towards), 1e-6) : 1.0;
-        float facing = max(dot(normal, normalize(towards)), 0.0) / squared;
+        vec3 direction = normalize(towards);
+        float facing = max(dot(at.normal, direction), 0.0);
         if (facing <= 0.0) continue;
-        if (index == shadowed_light) facing *= sunlit(position, normal);
+        float arriving = 1.0 / squared;
+        if (index == shadowed_light) arriving *= sunlit(at.position, at.normal);
         // What is crowded in gets a little less of the direct light too.
-        light += texelFetch(lights, ivec2(index, 1), 0).rgb * facing * mix(0.7, 1.0, openness);
+        light += radiance * facing * arriving * mix(0.7, 1.0, at.openness);
+        if (at.gloss > 0.0) {
+            vec3 halfway = normalize(direction + at.towards_eye);
+            float lobe = pow(max(dot(at.normal, halfway), 0.0), sharpness) * smoothstep(0.0, 0.2, facing);
+            float strength = 0.9 * at.gloss * lobe * arriving;
+            highlight += strength * radiance;
+            glint += strength * min(dot(radiance, vec3(0.2126, 0.7152, 0.0722)), 1.0);
+        }
     }
-    return exposed(albedo * light);
+    return exposed(albedo * light + highlight);
 }

@@ -1,18 +1,80 @@
-// Paint over its ground, encoded. Under an underpainting the ground is toned: where a body is, it carries a quiet wash
-// of the body's own colour, so that a chink between strokes never shows bare ground.
+// Paint over its ground, as a body in the light of a room: relief, canvas where paint is thin, furrows, varnish. Then
+// encoded.
 #include "shared/encode.glsl"
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
+uniform sampler2D height;            // of the paint, in brush thicknesses
+uniform sampler2D soft_height;       // half the size
+uniform sampler2D canvas;            // one tile: height, its slope in x and in y, around the middle value
 uniform vec4 ground;                 // premultiplied, display-linear
-uniform float wash;                  // 0 bare ground .. 1 the body's own colour
+uniform vec4 tone;                   // of the ground under paint, and how far it hides a wash of the body's colour
+uniform float wash;                  // 0 bare ground .. 1 toned
+uniform vec3 to_light;               // unit, in the picture's space
+uniform vec4 finish;                 // relief, weave, varnish, output pixels per pixel of the scene's own size
+uniform vec4 canvas_axes;            // canvas tiles per pixel: along x, along y
+uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left corner
 
 out vec4 encoded;
 
+const float THICKNESS_PX = 1.6;      // of paint of height 1
+const float WEAVE_PX = 0.22;
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+vec4 toned_ground(ivec2 at) {
+    vec4 body = texelFetch(reference_color, at, 0);
+    vec3 under = mix(body.rgb * vec3(0.90, 0.85, 0.80), tone.rgb, tone.a);
+    // Ground that is left out (transparent) stays out.
+    return vec4(mix(ground.rgb, under, wash * body.a * ground.a), ground.a);
+}
+
+// What the light of the room makes of the paint's surface.
+vec3 in_room_light(vec3 color) {
+    vec2 texel = 1.0 / vec2(textureSize(height, 0));
+    vec2 at = gl_FragCoord.xy * texel;
+    float step_px = max(0.6 * finish.w, 0.5);
+    vec2 offset = step_px * texel;
+    float right_above = textureLod(height, at + offset, 0.0).r;
+    float left_below = textureLod(height, at - offset, 0.0).r;
+    float left_above = textureLod(height, at + vec2(-offset.x, offset.y), 0.0).r;
+    float right_below = textureLod(height, at + vec2(offset.x, -offset.y), 0.0).r;
+    float mean = 0.25 * (right_above + left_below + left_above + right_below);
+    float wide = textureLod(soft_height, at, 0.0).r;
+    vec2 slope = vec2(right_above + right_below - left_above - left_below,
+                      right_above + left_above - right_below - left_below) / (4.0 * step_px) * finish.w;
+    slope *= THICKNESS_PX * finish.x;
+    vec2 tile = canvas_origin + canvas_axes.xy * gl_FragCoord.x + canvas_axes.zw * gl_FragCoord.y;
+    vec3 weave = texture(canvas, tile).rgb - 0.5;
+    // Thick paint fills the weave.
+    float bare = 0.10 + 0.90 * exp(-wide / 0.35);
+    slope += weave.yz * (4.0 * WEAVE_PX * bare * finish.y);
+
+    const float STRENGTH = 1.25;
+    vec3 n = normalize(vec3(-STRENGTH * slope, 1.0));
+    float shade = clamp(dot(n, to_light) / to_light.z, 0.25, 1.9);
+    vec3 halfway = normalize(to_light + vec3(0.0, 0.0, 1.0));
+    float shine = max(pow(max(dot(n, halfway), 0.0), 42.0) - pow(halfway.z, 42.0), 0.0);
+    float furrow = clamp(THICKNESS_PX * (wide - mean), 0.0, 1.0) * min(finish.x, 1.0);
+    color *= (1.0 + 0.62 * (shade - 1.0)) * (1.0 - 0.28 * furrow);
+    float value = clamp(dot(color, LUMINANCE), 0.0, 1.0);
+    return color + 0.055 * STRENGTH * min(finish.x, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
+}
+
+// Deeper darks, fuller colour, a little warmer; on encoded values, which are nearly even to the eye.
+vec3 varnished(vec3 color) {
+    float value = dot(color, LUMINANCE);
+    float contrast = 0.035 * sin(6.2831853 * (clamp(value, 0.0, 1.0) - 0.5));
+    vec3 chroma = (color - value) * (1.0 + 0.07 * finish.z);
+    return value + contrast * finish.z + chroma + vec3(0.004, 0.001, -0.005) * finish.z;
+}
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec4 body = texelFetch(reference_color, at, 0);
-    vec4 toned = ground;
-    // Ground that is left out (transparent) stays out.
-    toned.rgb = mix(ground.rgb, body.rgb * vec3(0.90, 0.85, 0.80), wash * body.a * ground.a);
-    encoded = encode_over(texelFetch(picture, at, 0), toned);
+    vec4 laid = texelFetch(picture, at, 0);
+    vec4 below = toned_ground(at);
+    vec4 both = laid + (1.0 - laid.a) * below;
+    vec3 straight = both.rgb / max(both.a, 1e-6);
+    if (finish.x > 0.0 || finish.y > 0.0) straight = in_room_light(straight);
+    vec3 display = srgb_from_linear(clamp(straight, 0.0, 1.0));
+    if (finish.z > 0.0) display = varnished(display);
+    encoded = vec4(clamp(display, 0.0, 1.0), both.a);
 }

@@ -1,48 +1,65 @@
-// Paint where the brush mark is, near its own body.
-in vec2 tip_at;
+// Paint where the brush mark is, near its own body: colour and height in one go. Both are laid over what is there.
+in vec2 mark_at;
 in vec2 from_center_px;
 flat in vec4 paint;
-flat in vec3 tip;
+flat in vec3 half_mixed;
+flat in vec4 picked_up;
+flat in vec4 mark;
+flat in vec4 body;
 flat in vec2 own;
 
-uniform sampler2DArray tips;     // height of the mark, half-mixed paint across the hairs
+uniform sampler2DArray brush_marks; // paint, height, tint
 uniform sampler2D depth_and_id;
-uniform float overrun_px;        // how far paint may run past its own body
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
 uniform float orthographic;
 
-out vec4 over;
+layout(location = 0) out vec4 over;
+layout(location = 1) out vec4 height;
 
-const float SOFT = 0.08;
-const float OPACITY = 0.96;
+// As in `core::brush`.
+const float FILL = 0.84;
+const float HEIGHT_SCALE = 1.5;
+const float FREE = 1e6;
 
 vec2 surface_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-void main() {
-    vec2 at = tip.z > 0.0 ? tip_at : vec2(tip_at.x, 1.0 - tip_at.y);
-    vec2 mark = textureLod(tips, vec3(at, tip.x), tip.y).rg;
-    float alpha = smoothstep(paint.a - SOFT, paint.a + SOFT, mark.r);
-    if (alpha <= 0.0) discard;
-    vec2 here = surface_at(gl_FragCoord.xy);
-    if (here.y != own.y) {
-        float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
-        float away = length(from_center_px);
-        vec2 inward = -from_center_px / max(away, 1e-3);
-        // Ragged: loaded hairs run further.
-        float reach = overrun_px * (0.4 + 1.2 * mark.g);
-        // Another body in front of the stroke lets nothing over it; the ground and what lies behind take a little.
-        if (here.y != 0.0 && here.x < own.x - bias) reach = 0.35;
-        float on_own = 0.0;
-        for (int index = 0; index < 4; index++) {
-            float back = clamp(reach + (float(index) - 1.5) * 0.7, 0.0, away);
-            on_own += surface_at(gl_FragCoord.xy + inward * back).y == own.y ? 0.25 : 0.0;
-        }
-        alpha *= on_own;
+// How much paint lies past the stroke's own body: ragged, since loaded hairs run further.
+float past_body(vec2 here, float tint) {
+    float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
+    float away_px = length(from_center_px);
+    vec2 inward = -from_center_px / max(away_px, 1e-3);
+    float reach_px = body.z * (1.0 + 0.7 * tint);
+    // Another body in front of the stroke lets nothing over it; the ground and what lies behind take a little.
+    if (here.y != 0.0 && here.x < own.x - bias) reach_px = 0.35;
+    float on_own = 0.0;
+    for (int index = 0; index < 4; index++) {
+        float back_px = clamp(reach_px + (float(index) - 1.5) * 0.7, 0.0, away_px);
+        on_own += surface_at(gl_FragCoord.xy + inward * back_px).y == own.y ? 0.25 : 0.0;
     }
-    vec3 color = paint.rgb * (1.0 + 0.22 * (mark.g - 0.5));
-    alpha *= OPACITY;
+    return on_own;
+}
+
+void main() {
+    float u = mark_at.x;
+    vec2 at = vec2(u, 0.5 + (mark_at.y - 0.5) * body.w);
+    at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
+    vec3 texel = textureLod(brush_marks, vec3(at, mark.x), mark.y).rgb;
+    float alpha = smoothstep(paint.a - mark.z, paint.a + mark.z, texel.r);
+    if (alpha <= 0.0) discard;
+    float tint = texel.b * 2.0 - 1.0;
+    if (body.z < FREE) {
+        vec2 here = surface_at(gl_FragCoord.xy);
+        if (here.y != own.y) alpha *= past_body(here, tint);
+    }
+    vec3 color = max(paint.rgb + half_mixed * tint, 0.0);
+    // Wet paint from below comes with the stroke, more of it towards its end.
+    color = mix(color, picked_up.rgb, picked_up.a * (0.35 + 0.65 * u));
+    // Thin edges are a little darker.
+    color *= 1.0 - 0.10 * (1.0 - alpha);
+    alpha *= body.x;
     over = vec4(color * alpha, alpha);
+    height = vec4(texel.g * HEIGHT_SCALE * body.y * alpha, 0.0, 0.0, 0.8 * alpha);
 }

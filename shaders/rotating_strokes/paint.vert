@@ -1,24 +1,40 @@
 // Four corners of a stroke: a billboard of constant size on the screen, turned in pixels.
+#include "shared/oklab.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec3 size;           // length and width in px, presence
-layout(location = 2) in uvec3 marks;         // random bits, body id, albedo
-layout(location = 4) in vec4 resolved;       // colour and how much is there
+layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
+layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
+layout(location = 3) in uvec2 bytes;         // paint, mixing
+layout(location = 4) in vec4 normal_and_bend; // world space, half widths
+layout(location = 5) in vec3 reach;          // overrun in px, slow noise of hue and of edges
+layout(location = 6) in vec4 resolved;       // colour and how much is there
+layout(location = 7) in vec4 fitted;         // shift along the stroke and length in px, lightness
 
 uniform vec2 size_px;
-uniform float tip_rows;          // texels across a tip
-uniform float tip_count;
-uniform float underpainting;
+uniform float mark_rows;         // texels across a mark
+uniform sampler2D below;         // the picture before this layer, premultiplied
 
-out vec2 tip_at;
+out vec2 mark_at;
 out vec2 from_center_px;
 flat out vec4 paint;             // colour and the height at which the mark is cut off
-flat out vec3 tip;               // tip number, level of detail, sign of the flip
+flat out vec3 half_mixed;        // what the other paint in the brush adds
+flat out vec4 picked_up;         // colour from below and how much of it
+flat out vec4 mark;              // its number, level of detail, half its soft edge, bend
+flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
 
 const float MARGIN = 1.0 / 0.84;
+const float BYTE = 1.0 / 255.0;
 
-// Half the width of a mark's soft edge, in height. Heights are spread evenly over the mark, so this is a share of it.
-const float SOFT = 0.08;
+// The mean colour below, straight, and how much of it there is.
+vec4 paint_below(vec2 center_px, float spread_px) {
+    vec4 sum = vec4(0.0);
+    for (int index = 0; index < 5; index++) {
+        vec2 offset = index == 4 ? vec2(0.0) : vec2(index & 1, index >> 1) * 2.0 - 1.0;
+        ivec2 texel = ivec2(clamp(center_px + offset * spread_px, vec2(0.0), size_px - 1.0));
+        sum += texelFetch(below, texel, 0);
+    }
+    return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
+}
 
 void main() {
     float there = resolved.a;
@@ -26,26 +42,33 @@ void main() {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }
-    uint bits = marks.x;
-    float dry = float((bits >> 8) & 255u) / 255.0;
+    float opacity = float(bytes.x & 255u) * BYTE;
+    float thickness = float((bytes.x >> 8) & 255u) / 50.0;
+    float pickup = float((bytes.x >> 16) & 255u) * BYTE;
+    float dryness = float(bytes.x >> 24) * BYTE;
+    float length_px = fitted.y;
     // A drier brush leaves less of its mark; as the stroke goes away, what is left of it erodes to its last hairs.
-    float share = mix(0.98, 0.80, dry * dry) * there;
-    paint = vec4(resolved.rgb, mix(1.0 + SOFT, SOFT + 0.02, share));
-    if (underpainting > 0.5) {
-        // Thin, earthy, a little quieter than what goes over it.
-        float grey = dot(paint.rgb, vec3(0.2126, 0.7152, 0.0722));
-        paint.rgb = mix(vec3(grey), paint.rgb, 0.88) * vec3(0.93, 0.88, 0.82);
-    }
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    float share = 0.98 * (1.0 - dryness) * there;
+    // Soft over about a pixel, as a share of the mark.
+    float soft = clamp(0.8 * (length_px + size.y) / (length_px * size.y), 0.02, 0.12);
+    paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
+    vec3 lab = oklab_from_linear(resolved.rgb);
+    half_mixed = linear_from_oklab(lab + vec3(0.040, 0.0, 0.012)) - resolved.rgb;
+
     vec2 along = vec2(cos(place.w), sin(place.w));
-    from_center_px = (along * corner.x * size.x + vec2(-along.y, along.x) * corner.y * size.y) * 0.5 * MARGIN;
-    tip_at = corner * 0.5 + 0.5;
+    vec2 center_px = place.xy + along * fitted.x;
+    vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * length_px), 0.15 * size.y) : vec4(0.0);
+    picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
+
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    from_center_px =
+        (along * corner.x * length_px + vec2(-along.y, along.x) * corner.y * size.y) * 0.5 * MARGIN;
+    mark_at = corner * 0.5 + 0.5;
     // A constant level keeps the mark the same at every angle.
-    tip = vec3(
-        mod(float(bits & 255u), tip_count),
-        max(log2(tip_rows / (size.y * MARGIN)), 0.0),
-        (bits & 65536u) == 0u ? 1.0 : -1.0
-    );
+    float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
+    mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bend.w);
+    float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
+    body = vec4(opacity, thickness * fat, reach.x, (marks.w & 65536u) == 0u ? 1.0 : -1.0);
     own = vec2(place.z, float(marks.y));
-    gl_Position = vec4((place.xy + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -1,30 +1,36 @@
-// One stroke a vertex: its colour, and how much of it is there. What comes out is what is painted, and what
-// `impasto strokes` reads back.
+// One stroke a vertex: its colour, how much of it is there, and how it fits its body. What comes out is what is painted,
+// and what `impasto strokes` reads back.
 #include "shared/lens.glsl"
+#include "shared/oklab.glsl"
 #include "reference/lighting.glsl"
-layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
-layout(location = 1) in vec3 size;           // length and width in px, presence
-layout(location = 2) in uvec3 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit)
-layout(location = 3) in vec3 normal_in_world;
-
-uniform sampler2D reference_color;
-uniform sampler2D depth_and_id;
+#include "rotating_strokes/layers.glsl"
+uniform float px_scale;          // output pixels per pixel of the scene's own size
 uniform mat4 view_from_world;
-uniform float underpainting;
+uniform int kind;                // layer of paint
+#include "rotating_strokes/surroundings.glsl"
+#include "rotating_strokes/mixing.glsl"
+layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
+layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
+layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit), mark
+layout(location = 3) in uvec2 bytes;         // paint, mixing
+layout(location = 4) in vec4 normal_and_bend; // world space, half widths
+layout(location = 5) in vec3 reach;          // overrun in px, slow noise of hue and of edges
 
-out vec4 resolved;
+out vec4 resolved;               // colour and how much is there
+out vec4 fitted;                 // shift along the stroke and length in px, lightness, unused
 
-vec2 surface_at(vec2 at_px) {
-    ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
-    return texelFetch(depth_and_id, texel, 0).xy;
-}
+const float FADE = 1.4;
+const float FREE = 1e6;
+
+// Deviation of the Gaussian that colours come from, in widths of the stroke.
+const float BLUR[6] = float[6](0.33, 0.20, 0.20, 0.22, 0.30, 0.25);
 
 // How far the centre can be seen: taps round it, each compared with where the stroke's own plane would be there.
 float seen(mat2 turn) {
-    vec3 n = mat3(view_from_world) * normal_in_world;
+    vec3 n = mat3(view_from_world) * normal_and_bend.xyz;
     float unit = units_per_px(place.z);
     float slant = max(abs(n.z), 0.2);
-    float radius_px = clamp(0.28 * sqrt(size.x * size.y), 2.0, 14.0);
+    float radius_px = clamp(0.28 * sqrt(size.x * size.y), 2.0, 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
     for (int index = 0; index < 9; index++) {
@@ -39,40 +45,67 @@ float seen(mat2 turn) {
     return sum / 9.0;
 }
 
-vec3 albedo_of(uint bytes) {
-    vec3 encoded = vec3(bytes & 255u, (bytes >> 8) & 255u, (bytes >> 16) & 255u) / 255.0;
+vec3 albedo_of(uint albedo_bytes) {
+    vec3 encoded =
+        vec3(albedo_bytes & 255u, (albedo_bytes >> 8) & 255u, (albedo_bytes >> 16) & 255u) / 255.0;
     vec3 high = pow((encoded + 0.055) / 1.055, vec3(2.4));
     return mix(high, encoded / 12.92, lessThanEqual(encoded, vec3(0.04045)));
 }
 
+// Where nothing of the body shows at the stroke: its albedo, lit.
+vec3 color_of_hidden() {
+    vec3 albedo = albedo_of(marks.z);
+    if ((marks.z >> 24) == 0u) return albedo;
+    LitPoint point;
+    point.position = world_from_px(place.xy, place.z);
+    point.normal = normalize(normal_and_bend.xyz);
+    point.towards_eye = towards_eye_from_px(place.xy);
+    point.openness = 1.0;
+    point.gloss = 0.0;
+    float no_glint;
+    return lit(albedo, point, no_glint);
+}
+
+// How much the layer is wanted here, 0 not at all, 1 as its coverage says. `wide` is the colour round about.
+float wanted(vec3 lab, float grading, out vec3 wide) {
+    float id = float(marks.y);
+    wide = lab;
+    if (kind == BODY) {
+        // Thin in the darks, full in the lights.
+        return mix(1.0, mix(0.62, 1.35, smoothstep(0.15, 0.85, lab.x)), grading);
+    }
+    if (kind == LIGHTS) return smoothstep(0.15, 0.30, glint_at(place.xy, id));
+    if (kind != FORM && kind != ACCENTS) return 1.0;
+    float change;
+    float detail = detail_at(place.xy, id, lab, change, wide);
+    // Edges are lost in places.
+    float rim = rim_at(place.xy, id, place.z) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
+    float inside = kind == FORM ? 1.5 * detail - 0.15 : change / 0.035 * 1.2 - 0.25;
+    return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
+}
+
+// Shift along the stroke and length, so that it ends where its body does, or a little past it.
+vec2 fit(vec2 along, vec2 own) {
+    float half_px = 0.5 * size.x;
+    if (reach.x >= FREE) return vec2(0.0, size.x);
+    float past_px = reach.x + 0.10 * size.x;
+    float forward_px = min(extent_px(place.xy, along, half_px, own) + past_px, half_px);
+    float back_px = min(extent_px(place.xy, -along, half_px, own) + past_px, half_px);
+    return vec2(0.5 * (forward_px - back_px), max(forward_px + back_px, 0.4 * size.x));
+}
+
 void main() {
-    mat2 turn = mat2(cos(place.w), sin(place.w), -sin(place.w), cos(place.w));
-    float own_id = float(marks.y);
-    // A box over the middle of the stroke, on its own body only; a wider one where the middle is behind something.
-    vec2 step_px = size.xy * mix(0.16, 0.22, underpainting);
-    vec3 sum = vec3(0.0);
-    float weight = 0.0;
-    for (int widening = 0; widening < 3 && weight == 0.0; widening++) {
-        for (int y = -1; y <= 1; y++) {
-            for (int x = -1; x <= 1; x++) {
-                vec2 tap_px = place.xy + turn * (vec2(x, y) * step_px);
-                ivec2 texel = clamp(ivec2(floor(tap_px)), ivec2(0), ivec2(size_px) - 1);
-                if (surface_at(tap_px).y == own_id) {
-                    sum += texelFetch(reference_color, texel, 0).rgb;
-                    weight += 1.0;
-                }
-            }
-        }
-        step_px = vec2(max(step_px.x, step_px.y)) * 1.6;
-    }
-    vec3 color;
-    if (weight > 0.0) {
-        color = sum / weight;
-    } else {
-        vec3 albedo = albedo_of(marks.z);
-        vec3 position = world_from_px(place.xy, place.z);
-        color = (marks.z >> 24) == 0u ? albedo : lit(albedo, position, normalize(normal_in_world), 1.0);
-    }
-    resolved = vec4(color, size.z * seen(turn));
+    vec2 along = vec2(cos(place.w), sin(place.w));
+    mat2 turn = mat2(along, vec2(-along.y, along.x));
+    vec2 own = vec2(place.z, float(marks.y));
+    vec4 found = own_color(place.xy, own.y, max(BLUR[kind] * size.y, 0.7));
+    vec3 lab = oklab_from_linear(found.w > 0.0 ? found.rgb : color_of_hidden());
+    Mixing mixing = mixing_of(bytes.y);
+    vec3 wide;
+    float supply = size.w + log(max(wanted(lab, mixing.grading, wide), 1e-6));
+    float there = smoothstep(0.0, 1.0, 0.5 + supply / FADE) * size.z * seen(turn);
+    lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
+    resolved = vec4(linear_from_oklab(lab), there);
+    fitted = vec4(fit(along, own), lab.x, 0.0);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

@@ -16,3 +16,9 @@ vec3 view_from_px(vec2 at_px, float depth) {
 vec3 world_from_px(vec2 at_px, float depth) {
     return (world_from_view * vec4(view_from_px(at_px, depth), 1.0)).xyz;
 }
+
+// Unit vector in world space from what a pixel shows to the eye.
+vec3 towards_eye_from_px(vec2 at_px) {
+    vec3 gaze = mix(view_from_px(at_px, 1.0), vec3(0.0, 0.0, -1.0), orthographic);
+    return -normalize(mat3(world_from_view) * gaze);
+}

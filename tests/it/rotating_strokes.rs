@@ -13,7 +13,7 @@ fn options(size_px: [u32; 2]) -> FrameOptions {
 }
 
 fn unlit(color: [f32; 3]) -> Option<MaterialOverride> {
-    Some(MaterialOverride { color: Some(Color(color)), texture: None, unlit: true })
+    Some(MaterialOverride { color: Some(Color(color)), unlit: true, ..Default::default() })
 }
 
 /// A frame with these strokes and nothing else, on a black ground: body 1, red to white as `colors` say, left of the

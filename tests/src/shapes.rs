@@ -159,7 +159,12 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
             let file = MeshFile {
                 mesh,
                 groups: vec!["whole".to_owned()],
-                materials: vec![Material { name: String::new(), color: [0.7, 0.4, 0.3], texture: None }],
+                materials: vec![Material {
+                    name: String::new(),
+                    color: [0.7, 0.4, 0.3],
+                    texture: None,
+                    gloss: 0.0,
+                }],
             };
             (object.mesh.clone(), Arc::new(file))
         })

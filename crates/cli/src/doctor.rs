@@ -1,10 +1,13 @@
 //! `impasto doctor`: which drivers work here, and whether they draw what they should.
 
 use std::io::Write as _;
+use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{ContextReport, Driver, Mend, OpenOptions, open};
-use impasto_painting::frame::{Frame, FrameLights, FrameStyle, FrameView, LayerRun, Stroke, StrokeSource};
+use impasto_painting::frame::{
+    Brushes, Finish, Frame, FrameLights, FrameStyle, FrameView, LayerKind, LayerRun, Stroke, StrokeSource,
+};
 
 use crate::args::DoctorArguments;
 use crate::failure::Failure;
@@ -97,11 +100,8 @@ fn test_frame() -> Frame {
         angle_rad: 0.5,
         length_px: 44.0,
         width_px: 22.0,
-        presence: 1.0,
-        bits: 0,
-        body_id: 0,
-        albedo_srgb8: 0,
         normal_in_world: [0.0, 0.0, 1.0],
+        ..Stroke::default()
     };
     let source = StrokeSource { particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
     Frame {
@@ -113,7 +113,10 @@ fn test_frame() -> Frame {
         bodies: Vec::new(),
         strokes: vec![stroke],
         sources: vec![source],
-        layers: vec![LayerRun { underpainting: false, first: 0, count: 1 }],
+        layers: vec![LayerRun { kind: LayerKind::Body, first: 0, count: 1 }],
+        brushes: Arc::new(Brushes::of_names(&["flat"])),
+        palettes: Arc::default(),
+        finish: Finish::default(),
         style: FrameStyle::RotatingStrokes,
     }
 }

@@ -49,7 +49,7 @@ pub(crate) fn prepare_scene(loaded: LoadedScene, verbose: bool) -> Result<Painti
     let painting = prepare(Arc::new(loaded)).map_err(|error| Failure::Refused(error.to_string()))?;
     if verbose {
         let total: f64 = painting.steps().iter().map(|step| step.seconds).sum();
-        let particles: usize = painting.particle_counts().iter().sum();
+        let particles = painting.particle_total();
         eprintln!("prepared {particles} particles in {:.0} ms", total * 1e3);
         for step in painting.steps() {
             eprintln!(
@@ -80,6 +80,6 @@ pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Rende
 /// Every file that a command reads, for not writing over it.
 pub(crate) fn inputs(loaded: &LoadedScene) -> Vec<PathBuf> {
     let folder = loaded.path.parent().map(PathBuf::from).unwrap_or_default();
-    let named = loaded.meshes.keys().chain(loaded.textures.keys()).map(|name| folder.join(name));
+    let named = loaded.meshes.keys().chain(loaded.textures.keys()).chain(loaded.brushes.keys()).map(|name| folder.join(name));
     std::iter::once(loaded.path.clone()).chain(named).collect()
 }

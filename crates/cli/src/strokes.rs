@@ -6,7 +6,7 @@ use std::path::Path;
 
 use impasto_core::color::srgb_from_linear;
 use impasto_gl_render::ResolvedStroke;
-use impasto_painting::frame::{Stroke, StrokeSource};
+use impasto_painting::frame::{LayerRun, Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, Painting};
 use serde::Serialize;
 
@@ -20,6 +20,7 @@ struct Row<'a> {
     id: u32,
     object: &'a str,
     region: &'a str,
+    layer: &'static str,
     x_px: f32,
     y_px: f32,
     depth: f32,
@@ -36,7 +37,7 @@ struct Row<'a> {
 }
 
 const HEADER: &str =
-    "id,object,region,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
+    "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
 
 /// What regions are called where none is stated.
 const EVERYTHING_ELSE: &str = "everything else";
@@ -59,8 +60,16 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
         painting.at(frame_number, &FrameOptions { size_px, keep_stroke_px: false, transparent: false });
     renderer.render(&frame)?;
     let resolved = renderer.resolved_strokes();
-    let rows: Vec<Row<'_>> = (0..frame.strokes.len())
-        .map(|index| row(&painting, &frame.strokes[index], &frame.sources[index], &resolved[index]))
+    let of_run = |run: &LayerRun| (run.first as usize..(run.first + run.count) as usize, run.kind);
+    let rows: Vec<Row<'_>> = frame
+        .layers
+        .iter()
+        .map(of_run)
+        .flat_map(|(strokes, kind)| strokes.map(move |index| (index, kind)))
+        .map(|(index, kind)| {
+            let row = row(&painting, &frame.strokes[index], &frame.sources[index], &resolved[index]);
+            Row { layer: kind.name(), ..row }
+        })
         .filter(|row| row.alpha > 0.0)
         .collect();
     let text = match arguments.format {
@@ -91,11 +100,12 @@ fn row<'a>(
             .regions
             .get(source.region as usize)
             .map_or(EVERYTHING_ELSE, |region| region.name.as_str()),
+        layer: "",
         x_px: stroke.center_px[0],
         y_px: stroke.center_px[1],
         depth: stroke.depth,
         angle_deg: f64::from(stroke.angle_rad).to_degrees(),
-        length_px: stroke.length_px,
+        length_px: resolved.length_px,
         width_px: stroke.width_px,
         alpha: resolved.alpha,
         kappa: source.kappa,
@@ -122,10 +132,11 @@ fn csv(rows: &[Row<'_>]) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
             row.id,
             quoted(row.object),
             quoted(row.region),
+            row.layer,
             row.x_px,
             row.y_px,
             row.depth,

@@ -10,6 +10,7 @@
 //! ```
 
 pub mod angle;
+pub mod brush;
 pub mod color;
 pub mod direction;
 pub mod hash;
@@ -17,6 +18,8 @@ pub mod horn_exact;
 pub mod lift;
 pub mod mesh;
 pub mod neighbours;
+pub mod noise;
+pub mod parts;
 pub mod presence;
 pub mod sampling;
 pub mod screen_map;

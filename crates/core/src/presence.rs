@@ -14,7 +14,7 @@ pub fn presence(wanted_over_rank: f32, facing: f32) -> f32 {
 
 /// Width of the fade in ln(D/u). At 1.2, the least that the first measurements found, strokes near the limb of a turning body in
 /// perspective change by up to 0.21 a degree; at 1.4 they stay under 0.2, and the density within 5 % of what is wanted.
-const FADE: f32 = 1.4;
+pub const FADE: f32 = 1.4;
 
 /// At or below this D/u a particle is absent: e^−0.7.
 pub const LEAST_WANTED_OVER_RANK: f32 = 0.496_585_3;

@@ -77,6 +77,11 @@ impl<'mesh> Surface<'mesh> {
         surface
     }
 
+    /// The mesh that these are the sides of.
+    pub fn mesh(&self) -> &TriangleMesh {
+        self.mesh
+    }
+
     /// Sum of the areas of all visible sides, model units squared; a sheet counts twice.
     pub fn area(&self) -> f64 {
         self.area_up_to.last().copied().unwrap_or(0.0)

@@ -1,4 +1,5 @@
-//! Which side of a surface can be seen: closed shells from outside only, open sheets from both sides.
+//! Shells: parts of a mesh that hang together, and which side of them can be seen (of closed ones the outside only, of
+//! open sheets both).
 
 use std::collections::HashMap;
 
@@ -23,6 +24,35 @@ pub enum Side {
 /// seams do not open a shell). A shell is closed when every edge is run as often forwards as backwards; it is inside
 /// out when its signed volume is negative.
 pub fn sides(mesh: &TriangleMesh) -> Vec<Side> {
+    let (mut shells, open) = find(mesh);
+    let mut volume = vec![0.0f64; mesh.triangles.len()];
+    for triangle in 0..mesh.triangles.len() {
+        let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
+        volume[shells.root(triangle)] += a.dot(b.cross(c));
+    }
+    (0..mesh.triangles.len())
+        .map(|triangle| match shells.root(triangle) {
+            root if open[root] || volume[root] == 0.0 => Side::Both,
+            root if volume[root] < 0.0 => Side::Back,
+            _ => Side::Front,
+        })
+        .collect()
+}
+
+/// For each triangle the number of its shell, counted from 0 in the order in which shells begin.
+pub fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
+    let (mut shells, _) = find(mesh);
+    let mut number_of_root: HashMap<usize, u32> = HashMap::new();
+    (0..mesh.triangles.len())
+        .map(|triangle| {
+            let next = number_of_root.len() as u32;
+            *number_of_root.entry(shells.root(triangle)).or_insert(next)
+        })
+        .collect()
+}
+
+/// The shells, and for each root whether its shell has a border.
+fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
     let point_of_vertex = weld(&mesh.positions);
     let mut shells = Shells::new(mesh.triangles.len());
     // Edge -> (a triangle on it, times run from the lower to the higher point minus times run back).
@@ -46,18 +76,7 @@ pub fn sides(mesh: &TriangleMesh) -> Vec<Side> {
             open[shells.root(triangle as usize)] = true;
         }
     }
-    let mut volume = vec![0.0f64; mesh.triangles.len()];
-    for triangle in 0..mesh.triangles.len() {
-        let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
-        volume[shells.root(triangle)] += a.dot(b.cross(c));
-    }
-    (0..mesh.triangles.len())
-        .map(|triangle| match shells.root(triangle) {
-            root if open[root] || volume[root] == 0.0 => Side::Both,
-            root if volume[root] < 0.0 => Side::Back,
-            _ => Side::Front,
-        })
-        .collect()
+    (shells, open)
 }
 
 /// Gives vertices at the same position the same number.

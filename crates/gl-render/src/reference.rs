@@ -26,6 +26,7 @@ pub(crate) struct ReferenceTargets {
     pub(crate) color: Rc<Texture>,
     pub(crate) normal: Rc<Texture>,
     pub(crate) depth_and_id: Rc<Texture>,
+    pub(crate) glint: Rc<Texture>,
     albedo: Rc<Texture>,
     openness: Rc<Texture>,
     surface_pass: Framebuffer,
@@ -124,6 +125,7 @@ impl ReferenceTargets {
         };
         let half = size_px.map(|side| side.div_ceil(2));
         let color = target(Format::Rgba16F, size_px, Filter::Nearest)?;
+        let glint = target(Format::R16F, size_px, Filter::Nearest)?;
         let albedo = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let normal = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let depth_and_id = target(Format::Rg32F, size_px, Filter::Nearest)?;
@@ -133,8 +135,9 @@ impl ReferenceTargets {
             size_px,
             surface_pass: Framebuffer::new(gpu, &[&albedo, &normal, &depth_and_id], Some(&depth))?,
             openness_pass: Framebuffer::new(gpu, &[&openness], None)?,
-            light_pass: Framebuffer::new(gpu, &[&color], None)?,
+            light_pass: Framebuffer::new(gpu, &[&color, &glint], None)?,
             color,
+            glint,
             normal,
             depth_and_id,
             albedo,
@@ -190,6 +193,7 @@ impl ReferencePass {
                     "albedo_texture",
                     "is_lit",
                     "body_id",
+                    "gloss",
                     "eye",
                 ],
             )?,
@@ -233,7 +237,9 @@ impl ReferencePass {
         let bodies = self.bodies(frame)?;
         let lights = self.lights(frame)?;
         self.draw_shadow(&bodies, &lights)?;
+        self.gpu.lap("shadow");
         self.draw_surfaces(frame, &bodies, targets)?;
+        self.gpu.lap("surface");
 
         self.gpu.begin_pass(&targets.openness_pass, DrawState::default());
         let bound = lens
@@ -242,6 +248,7 @@ impl ReferencePass {
             .texture("depth_and_id", &targets.depth_and_id)
             .set("view_from_world", frame.view.view_from_world);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        self.gpu.lap("openness");
 
         self.gpu.begin_pass(&targets.light_pass, DrawState::default());
         let bound = lights
@@ -251,6 +258,7 @@ impl ReferencePass {
             .texture("depth_and_id", &targets.depth_and_id)
             .texture("openness", &targets.openness);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        self.gpu.lap("light");
         Ok(lights)
     }
 
@@ -343,6 +351,7 @@ impl ReferencePass {
                     .texture("albedo_texture", &part.texture)
                     .set("is_lit", f32::from(is_lit))
                     .set("body_id", (index + 1) as f32)
+                    .set("gloss", material.map_or(0.0, |material| material.gloss))
                     .set("eye", eye);
                 let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
                 self.gpu.draw(bound, &mesh.array, vertices)?;

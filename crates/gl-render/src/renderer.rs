@@ -27,6 +27,17 @@ pub struct ResolvedStroke {
     pub color_linear: [f32; 3],
     /// Presence times what can be seen of the stroke's centre, 0..=1.
     pub alpha: f32,
+    /// Length in output pixels, fitted to its body.
+    pub length_px: f32,
+}
+
+/// How long a pass took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassTime {
+    /// The pass, or the layer of paint.
+    pub name: &'static str,
+    /// Wall clock seconds.
+    pub seconds: f64,
 }
 
 /// The reference picture as numbers, top row first.
@@ -127,11 +138,24 @@ impl Renderer {
         };
         style.draw(&StyleInput { frame, reference: &targets, lights: &lights }, &output)?;
         let rgba8 = top_row_first(&output.read_bytes(0), width as usize * 4);
+        gpu.lap("read back");
         gpu.complaints()?;
         self.targets = Some(targets);
         self.output = Some(output);
         self.last_style = frame.style;
         Ok(Picture { size_px: frame.size_px, rgba8 })
+    }
+
+    /// As [`Renderer::render`], with the seconds of each pass. Waits for the driver after each, so the whole is slower.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_timed(&mut self, frame: &Frame) -> Result<(Picture, Vec<PassTime>), RenderError> {
+        self.context.gpu().start_clock();
+        let picture = self.render(frame);
+        let laps = self.context.gpu().stop_clock();
+        let times = laps.into_iter().map(|(name, seconds)| PassTime { name, seconds }).collect();
+        Ok((picture?, times))
     }
 
     /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.
@@ -140,7 +164,11 @@ impl Renderer {
         let resolved = strokes.read_resolved();
         resolved
             .into_iter()
-            .map(|[r, g, b, alpha]| ResolvedStroke { color_linear: [r, g, b], alpha })
+            .map(|[r, g, b, alpha, _, length_px, ..]| ResolvedStroke {
+                color_linear: [r, g, b],
+                alpha,
+                length_px,
+            })
             .collect()
     }
 

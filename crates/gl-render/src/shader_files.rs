@@ -10,7 +10,13 @@ macro_rules! shader_files {
 
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] =
-    shader_files!["shared/screen.vert", "shared/encode.glsl", "shared/encode.frag", "shared/lens.glsl"];
+    shader_files![
+        "shared/screen.vert",
+        "shared/encode.glsl",
+        "shared/encode.frag",
+        "shared/lens.glsl",
+        "shared/oklab.glsl",
+    ];
 
 /// The reference pass.
 pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
@@ -25,8 +31,12 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
 
 /// Brush strokes.
 pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
+    "rotating_strokes/layers.glsl",
+    "rotating_strokes/surroundings.glsl",
+    "rotating_strokes/mixing.glsl",
     "rotating_strokes/resolve.vert",
     "rotating_strokes/paint.vert",
     "rotating_strokes/paint.frag",
+    "rotating_strokes/soften.frag",
     "rotating_strokes/encode.frag",
 ];

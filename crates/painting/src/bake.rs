@@ -8,6 +8,7 @@ use impasto_core::direction;
 use impasto_core::hash;
 use impasto_core::lift::{Lift, turntable_axes};
 use impasto_core::neighbours::Neighbours;
+use impasto_core::noise;
 use impasto_core::presence::smoothstep;
 use impasto_core::sampling::Particle;
 use impasto_core::screen_map::facing;
@@ -15,6 +16,7 @@ use impasto_core::solve::BakedParticles;
 use impasto_scene::document::{Direction, Solver};
 use rayon::prelude::*;
 
+use crate::parts::{BodyParts, px_per_unit};
 use crate::regions::RegionRule;
 
 /// The reference view as one body sees it.
@@ -25,6 +27,8 @@ pub(crate) struct BodyReference {
     pub(crate) roll_rad: f64,
     /// The world's up in model space, at the reference pose.
     pub(crate) up_in_model: DVec3,
+    /// Width and height of the scene's picture.
+    pub(crate) size_px: [u32; 2],
 }
 
 /// All that the lifts of a body depend on.
@@ -37,10 +41,11 @@ pub(crate) struct BakeInputs {
     /// Region of each triangle.
     pub(crate) region_of_triangle: Vec<u16>,
     pub(crate) rules: Vec<RegionRule>,
-    /// Hash of the object's name and the scene's seed.
+    /// Hash of the object's name, the scene's seed and the layer.
     pub(crate) name_hash: u32,
     /// Centre and length of the diagonal of the body's bounds, model space.
     pub(crate) extent: (DVec3, f64),
+    pub(crate) parts: Arc<BodyParts>,
 }
 
 impl PartialEq for BakeInputs {
@@ -57,6 +62,7 @@ impl PartialEq for BakeInputs {
             && self.rules == other.rules
             && self.name_hash == other.name_hash
             && self.extent == other.extent
+            && Arc::ptr_eq(&self.parts, &other.parts)
     }
 }
 
@@ -69,18 +75,52 @@ pub(crate) struct BakedBody {
     pub(crate) base_angle_rad: Vec<f32>,
     /// Random bits of each particle, for ever.
     pub(crate) bits: Vec<u32>,
+    /// Slow noise per particle: of hue and value, and of how firm edges are.
+    pub(crate) drift: Vec<[f32; 2]>,
+    /// Part of each particle.
+    pub(crate) part: Vec<u32>,
 }
 
 /// Which random number of a particle.
 pub(crate) const ANGLE_JITTER: u32 = 1;
 pub(crate) const LENGTH_JITTER: u32 = 2;
 pub(crate) const WIDTH_JITTER: u32 = 3;
+pub(crate) const SIZE_JITTER: u32 = 4;
+pub(crate) const BEND: u32 = 5;
+pub(crate) const THICKNESS_JITTER: u32 = 6;
+pub(crate) const DRYNESS_JITTER: u32 = 7;
+const RANK_BREAKING: u32 = 8;
+const FAMILY: u32 = 9;
+
+/// One cycle of slow noise, pixels of a picture 720 high at the reference pose: of angle and hue, of a backdrop's angle, of
+/// edges.
+const SWING_PX: f64 = 170.0;
+const BACKDROP_SWING_PX: f64 = 260.0;
+const EDGE_PX: f64 = 60.0;
+
+/// A share of the strokes breaks rank by this, where the angle's own jitter is [`USUAL_JITTER_DEG`].
+const RANK_BREAKERS: f32 = 0.08;
+const RANK_BREAKING_DEG: f64 = 38.0;
+pub(crate) const USUAL_JITTER_DEG: f64 = 7.0;
+
+/// Crossing families swing and scatter this much more than one family does, and this share belongs to the second.
+const CROSSING_SWING: f64 = 26.0 / 6.0;
+const CROSSING_JITTER: f64 = 13.0 / 7.0;
+const SECOND_FAMILY: f32 = 0.42;
 
 impl BakeInputs {
     pub(crate) fn bake(&self) -> BakedBody {
         let count = self.particles.len();
-        let lifts: Vec<(Lift, f64)> =
-            (0..count).into_par_iter().with_min_len(2048).map(|particle| self.lift(particle)).collect();
+        let scales = self.scales();
+        let directions = self.parts.directions(&self.reference, self.reference.size_px);
+        let lifts: Vec<(Lift, f64)> = (0..count)
+            .into_par_iter()
+            .with_min_len(2048)
+            .map(|particle| {
+                let part = self.part_of(particle);
+                self.lift(particle, &directions[part], scales[part])
+            })
+            .collect();
         let mut baked = BakedParticles::default();
         for (particle, (lift, _)) in self.particles.iter().zip(&lifts) {
             baked.push(particle.position.as_dvec3(), particle.normal.as_dvec3(), *lift);
@@ -98,31 +138,81 @@ impl BakeInputs {
             baked,
             region,
             base_angle_rad: lifts.iter().map(|&(_, base)| base as f32).collect(),
-            bits: (0..count as u32).map(|particle| hash::combine(self.name_hash, particle)).collect(),
+            bits: (0..count).map(|particle| self.bits_of(particle)).collect(),
+            drift: (0..count)
+                .into_par_iter()
+                .with_min_len(2048)
+                .map(|particle| {
+                    let at = self.particles[particle].position.as_dvec3() * scales[self.part_of(particle)];
+                    let noise = |which: u32, px: f64| noise::slow(hash::combine(self.name_hash, which), at / px);
+                    [noise(1, SWING_PX), noise(2, EDGE_PX)]
+                })
+                .collect(),
+            part: (0..count).map(|particle| self.part_of(particle) as u32).collect(),
         }
     }
 
-    /// N' of a particle, and its base angle in the reference picture.
-    fn lift(&self, index: usize) -> (Lift, f64) {
+    fn part_of(&self, particle: usize) -> usize {
+        self.parts.of_triangle[self.particles[particle].triangle as usize] as usize
+    }
+
+    fn bits_of(&self, particle: usize) -> u32 {
+        hash::combine(self.name_hash, particle as u32)
+    }
+
+    /// For each part, pixels of a picture 720 high per model unit, at the reference pose.
+    fn scales(&self) -> Vec<f64> {
+        let scale = 720.0 / f64::from(self.reference.size_px[1]);
+        self.parts.parts.iter().map(|part| px_per_unit(&self.reference.map, part) * scale).collect()
+    }
+
+    /// What chance and slow noise add to a base angle, radians.
+    fn stray(&self, index: usize, rule: &RegionRule, crossing: bool, scale: f64) -> f64 {
+        let bits = self.bits_of(index);
+        let normal = |which: u32| f64::from(hash::normal(hash::combine(bits, which)));
+        let (swing, jitter, cycle_px) = if crossing {
+            (CROSSING_SWING, CROSSING_JITTER, BACKDROP_SWING_PX)
+        } else {
+            (1.0, 1.0, SWING_PX)
+        };
+        let jitter_rad = f64::from(rule.strokes.angle_jitter_rad);
+        let mut stray = jitter_rad * jitter * normal(ANGLE_JITTER);
+        if hash::unit(hash::combine(bits, RANK_BREAKING)) < RANK_BREAKERS {
+            stray += jitter_rad * (RANK_BREAKING_DEG / USUAL_JITTER_DEG) * normal(hash::combine(RANK_BREAKING, 1));
+        }
+        if rule.strokes.swing_rad > 0.0 {
+            let at = self.particles[index].position.as_dvec3() * (scale / cycle_px);
+            // The same swing in every layer.
+            stray += f64::from(rule.strokes.swing_rad) * swing * f64::from(noise::slow(3, at));
+        }
+        stray
+    }
+
+    /// N' of a particle, and its base angle in the reference picture. `automatic` is the direction of its part where its
+    /// region states none, `scale` the part's own.
+    fn lift(&self, index: usize, automatic: &Direction, scale: f64) -> (Lift, f64) {
         let particle = &self.particles[index];
         let rule = &self.rules[self.region_of_triangle[particle.triangle as usize] as usize];
         let (position, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
-        let jitter = f64::from(rule.strokes.angle_jitter_rad)
-            * f64::from(hash::normal(hash::combine(
-                hash::combine(self.name_hash, index as u32),
-                ANGLE_JITTER,
-            )));
-        let tangent = match rule.direction {
-            Direction::Angle(_) => DVec3::ZERO,
+        let direction = if rule.direction == Direction::Auto { automatic } else { &rule.direction };
+        let crossing = matches!(direction, Direction::Crossing(..));
+        let jitter = self.stray(index, rule, crossing, scale);
+        let tangent = match *direction {
+            Direction::Auto | Direction::Angle(_) | Direction::Crossing(..) => DVec3::ZERO,
             Direction::Around(axis) => {
                 let (center, size) = self.extent;
                 direction::around(DVec3::from(axis), normal, position - center, size)
             }
+            Direction::Along(axis) => direction::towards(DVec3::from(axis), normal),
             Direction::Up => direction::towards(DVec3::Y, normal),
         };
-        let stated_rad = match rule.direction {
+        let stated_rad = match *direction {
             Direction::Angle(degrees) => degrees.to_radians(),
-            Direction::Around(_) | Direction::Up => 0.0,
+            Direction::Crossing(first, second) => {
+                let in_second = hash::unit(hash::combine(self.bits_of(index), FAMILY)) < SECOND_FAMILY;
+                if in_second { second.to_radians() } else { first.to_radians() }
+            }
+            Direction::Auto | Direction::Along(_) | Direction::Around(_) | Direction::Up => 0.0,
         };
         // A base direction on the surface shows at another angle in each view; a stated angle is the same in all.
         let angle_in = |axes: [DVec3; 2]| {

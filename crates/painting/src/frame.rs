@@ -2,10 +2,15 @@
 
 use std::sync::Arc;
 
-use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3};
+use glam::{Affine2, Mat4, Vec3};
 use impasto_core::TriangleMesh;
+use impasto_core::brush::Mark;
 use impasto_scene::mesh_file::Texture;
+
+mod stroke;
+
+pub use impasto_scene::presets::LayerKind;
+pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource};
 
 /// One picture, ready to draw.
 #[derive(Clone, Debug)]
@@ -22,12 +27,18 @@ pub struct Frame {
     pub lights: FrameLights,
     /// What stands in the scene, in the order of the scene file. Body `i` has id `i + 1` in the id target.
     pub bodies: Vec<FrameBody>,
-    /// Strokes in painting order: layer, then rank from high to low.
+    /// Strokes in painting order: the regions' layers, the layers of paint, then rank from high to low.
     pub strokes: Vec<Stroke>,
     /// Where each stroke comes from, parallel to `strokes`.
     pub sources: Vec<StrokeSource>,
     /// Runs of `strokes` that belong to one layer, in painting order.
     pub layers: Vec<LayerRun>,
+    /// The marks of all brushes; shared between frames.
+    pub brushes: Arc<Brushes>,
+    /// Pigments of each palette, linear Rec. 709; at most 16 a palette.
+    pub palettes: Arc<Vec<Vec<[f32; 3]>>>,
+    /// Canvas, relief and varnish.
+    pub finish: Finish,
     /// How to draw.
     pub style: FrameStyle,
 }
@@ -118,56 +129,56 @@ pub struct BodyMaterial {
     pub texture: Option<Arc<Texture>>,
     /// Shown as it is, without light or shadow.
     pub unlit: bool,
+    /// Strength of highlights, 0 matt .. 1 glazed.
+    pub gloss: f32,
 }
 
-/// One brush stroke, as it goes to the GPU. Pixels, origin at the lower left, Y up.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Stroke {
-    /// Centre in pixels, origin at the lower left corner of the picture.
-    pub center_px: [f32; 2],
-    /// Depth along the gaze, world units, positive in front.
-    pub depth: f32,
-    /// Counter-clockwise from +X, radians in (−π, π].
-    pub angle_rad: f32,
-    /// Length in output pixels.
-    pub length_px: f32,
-    /// Width in output pixels.
-    pub width_px: f32,
-    /// 0 absent .. 1 whole: erodes the brush mask.
-    pub presence: f32,
-    /// Random bits that belong to the stroke for ever: brush variant, flip, dryness.
-    pub bits: u32,
-    /// Id of the body in the id target (index in `Frame::bodies` plus 1).
-    pub body_id: u32,
-    /// Linear albedo at the stroke, 8 bits a channel, sRGB encoded, as 0xAABBGGRR; A is 0 where unlit.
-    pub albedo_srgb8: u32,
-    /// Unit surface normal in world space.
-    pub normal_in_world: [f32; 3],
+/// The marks of the brushes in use.
+#[derive(Debug, Default, PartialEq)]
+pub struct Brushes {
+    /// Names, as the scene has them.
+    pub names: Vec<String>,
+    /// [`impasto_core::brush::VARIANTS`] marks for each.
+    pub marks: Vec<Arc<Vec<Mark>>>,
 }
 
-/// What a stroke is and how far it can be trusted.
+/// The paint as a body, and what it lies on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StrokeSource {
-    /// Index of the particle in its body's progressive order.
-    pub particle: u32,
-    /// Index of the region in the scene; `regions.len()` for the implicit one.
-    pub region: u32,
-    /// κ in 0..=1: how well a turn describes what the picture of the surface has done (1 = wholly).
-    pub kappa: f32,
-    /// Cosine between the surface normal and the direction to the eye.
-    pub facing: f32,
-    /// Rank in (0, 1): low ranks stay longest when strokes thin out.
-    pub rank: f32,
+pub struct Finish {
+    /// The tone under the first layer where a body is; `None` leaves the background bare.
+    pub ground: Option<Ground>,
+    /// How much the canvas is felt where paint is thin; 0 for a board.
+    pub weave: f32,
+    /// From pixels of the picture at the scene's size, origin in the middle, to pixels of the canvas.
+    pub canvas_from_px: Affine2,
+    /// How much the paint stands up; 1 is oil.
+    pub relief: f32,
+    /// Unit vector towards the light on the relief, in the picture's space (X right, Y up, Z towards the eye). The same in
+    /// every frame: the picture hangs in a room.
+    pub to_relief_light: [f32; 3],
+    /// Strength of the varnish.
+    pub varnish: f32,
 }
 
-/// A run of strokes of one layer.
+/// A toned ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LayerRun {
-    /// The underpainting is drawn thinner and takes its colour from a wider neighbourhood.
-    pub underpainting: bool,
-    /// First stroke.
-    pub first: u32,
-    /// How many.
-    pub count: u32,
+pub struct Ground {
+    /// Linear Rec. 709.
+    pub color: [f32; 3],
+    /// How far the tone hides the wash of each body's own colour, 0..=1.
+    pub hides: f32,
+}
+
+impl Default for Finish {
+    /// Flat paint on a bare board.
+    fn default() -> Self {
+        Self {
+            ground: None,
+            weave: 0.0,
+            canvas_from_px: Affine2::IDENTITY,
+            relief: 0.0,
+            to_relief_light: [0.0, 0.0, 1.0],
+            varnish: 0.0,
+        }
+    }
 }

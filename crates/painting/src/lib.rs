@@ -8,12 +8,17 @@
 
 mod at;
 mod bake;
+mod brushes;
+mod coat;
+mod finish;
 pub mod frame;
 mod lights;
 mod paper;
 mod particle_count;
+mod parts;
 mod prepare;
 mod regions;
+mod stroke;
 mod surface;
 mod view;
 

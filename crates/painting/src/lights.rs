@@ -55,9 +55,9 @@ pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights 
 }
 
 /// A sphere round all bodies in all of these poses: centre and radius, world space.
-pub(crate) fn bounds_over(
+pub(crate) fn bounds_over<'a>(
     bodies: &[Option<(Vec3, Vec3)>],
-    poses: impl Iterator<Item = Vec<DAffine3>>,
+    poses: impl Iterator<Item = &'a [DAffine3]>,
 ) -> (Vec3, f32) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for poses in poses {

@@ -3,7 +3,9 @@
 use glam::{DVec2, DVec3, Vec3};
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
-use impasto_core::{ScreenMap, TriangleMesh};
+use impasto_core::ScreenMap;
+
+use crate::parts::Cap;
 
 /// Bounds of the number found.
 const LEAST: f64 = 64.0;
@@ -15,17 +17,18 @@ const FACES: usize = 20_000;
 /// A pose in which the object is seen, at the scene's own size.
 pub(crate) struct Sighting {
     pub(crate) map: ScreenMap,
+    /// Of each part.
+    pub(crate) caps: Vec<Cap>,
     pub(crate) half_size_px: DVec2,
     pub(crate) near: f64,
 }
 
 /// The count at which nine tenths of the picture of this surface, in its nearest sighting, get all the strokes that they
-/// want. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
+/// want. `wanted_per_px` gives the strokes per pixel wanted on a triangle in a sighting.
 pub(crate) fn find(
     surface: &Surface<'_>,
-    mesh: &TriangleMesh,
     sightings: &[Sighting],
-    wanted_per_px: impl Fn(usize) -> f32,
+    wanted_per_px: impl Fn(usize, &Sighting) -> f32,
 ) -> usize {
     let faces: Vec<(u32, bool, f64)> = surface.faces().collect();
     let stride = faces.len().div_ceil(FACES).max(1);
@@ -33,7 +36,7 @@ pub(crate) fn find(
     for sighting in sightings {
         let mut seen: Vec<(f64, f64)> = Vec::new();
         for &(triangle, flipped, area) in faces.iter().step_by(stride) {
-            let [a, b, c] = mesh.corners(triangle as usize).map(Vec3::as_dvec3);
+            let [a, b, c] = surface.mesh().corners(triangle as usize).map(Vec3::as_dvec3);
             let across = (b - a).cross(c - a).normalize_or_zero();
             let normal: DVec3 = if flipped { -across } else { across };
             let center = (a + b + c) / 3.0;
@@ -44,7 +47,7 @@ pub(crate) fn find(
             let jacobian = sighting.map.jacobian(center);
             let px_per_area = area_px(jacobian, normal);
             if px_per_area.is_finite() && facing(jacobian, normal) > 0.0 {
-                seen.push((px_per_area * f64::from(wanted_per_px(triangle as usize)), px_per_area * area));
+                seen.push((px_per_area * f64::from(wanted_per_px(triangle as usize, sighting)), px_per_area * area));
             }
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));

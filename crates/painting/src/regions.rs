@@ -4,18 +4,14 @@ use impasto_scene::document::{Direction, Scene, Selector};
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::presets::{self, ResolvedStrokes};
 
+use crate::frame::ANY_COLOR;
+use crate::lights::linear;
+
 /// What holds in a region.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RegionRule {
     pub(crate) direction: Direction,
     pub(crate) strokes: ResolvedStrokes,
-}
-
-impl RegionRule {
-    /// Strokes wanted per pixel of the picture at the scene's size.
-    pub(crate) fn wanted_per_px(&self) -> f32 {
-        self.strokes.coverage / (self.strokes.length_px * self.strokes.width_px)
-    }
 }
 
 /// One rule per region of the scene, and last the implicit one for everything else.
@@ -29,6 +25,28 @@ pub(crate) fn rules(scene: &Scene) -> Vec<RegionRule> {
         })
         .chain([everything_else])
         .collect()
+}
+
+/// The palettes of all rules, linear, and for each rule the number of its own ([`ANY_COLOR`] where it has none).
+pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
+    let mut palettes: Vec<Vec<[f32; 3]>> = Vec::new();
+    let of_rule = rules
+        .iter()
+        .map(|rule| {
+            let palette: Vec<[f32; 3]> = rule.strokes.palette.iter().map(|&color| linear(color)).collect();
+            if palette.is_empty() {
+                return ANY_COLOR;
+            }
+            let known = palettes.iter().position(|other| *other == palette);
+            let index = known.unwrap_or_else(|| {
+                palettes.push(palette);
+                palettes.len() - 1
+            });
+            // More palettes than a byte counts: the last ones are shared.
+            index.min(usize::from(ANY_COLOR) - 1) as u8
+        })
+        .collect();
+    (palettes, of_rule)
 }
 
 /// For each triangle of an object, the last region that covers it; the implicit one where none does.

@@ -1,7 +1,13 @@
 //! The scene document: every field of a scene file, with its default. Degrees, frames and sRGB colours, as a
 //! person writes them; nothing here is solved or resolved.
 
+mod paint;
+
 use serde::{Deserialize, Serialize};
+
+pub use paint::{
+    BrushMix, Canvas, CanvasFollows, Edges, LayerSettings, RotatingStrokes, Solver, StrokeSettings, Style,
+};
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -257,6 +263,9 @@ pub struct MaterialOverride {
     pub texture: Option<String>,
     /// Shown as it is, without light or shadow.
     pub unlit: bool,
+    /// Strength of highlights, 0 matt .. 1 glazed; left out, what the mesh file says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gloss: Option<f64>,
 }
 
 /// One rigid pose of an object in its parent's space.
@@ -274,39 +283,6 @@ pub struct ObjectKey {
     /// How the pose leaves this key.
     #[serde(default)]
     pub ease: Ease,
-}
-
-/// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct StrokeSettings {
-    /// A named set of values to start from.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub preset: Option<String>,
-    /// Brush tip by name.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub brush: Option<String>,
-    /// Length in pixels at the scene's size.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length_px: Option<f64>,
-    /// Width in pixels at the scene's size.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub width_px: Option<f64>,
-    /// Strokes per pixel × length × width.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub coverage: Option<f64>,
-    /// 1 keeps strokes flat on the picture (the paper's similarity), 0 lets their direction follow the surface.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flatness: Option<f64>,
-    /// Standard deviation of the angle, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub angle_jitter_deg: Option<f64>,
-    /// Standard deviation of the size, as a share of it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub size_jitter: Option<f64>,
-    /// Higher layers are painted over lower ones.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layer: Option<i32>,
 }
 
 /// A part of the scene with settings of its own.
@@ -340,48 +316,22 @@ pub enum Selector {
 }
 
 /// Base direction of strokes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Direction {
+    /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops.
+    #[default]
+    Auto,
     /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
     Angle(f64),
+    /// Two families of strokes that cross: degrees of either, as with `Angle`.
+    Crossing(f64, f64),
+    /// Along this axis of the object's own space, on the surface.
+    Along([f64; 3]),
     /// Round this axis of the object's own space, along the surface.
     Around([f64; 3]),
     /// Up the surface, towards the object's own +Y.
     Up,
-}
-
-/// How the scene is drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Style {
-    /// Brush strokes that turn with what they lie on.
-    RotatingStrokes {
-        /// How the turn is found.
-        #[serde(default)]
-        solver: Solver,
-        /// Large thin strokes under the body layer, so that no hole shows the ground.
-        #[serde(default = "yes")]
-        underpainting: bool,
-    },
-    /// The plain render that strokes take their colours from.
-    Reference,
-}
-
-fn yes() -> bool {
-    true
-}
-
-/// How the turn of a stroke is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Solver {
-    /// From the surface's tangent plane, in closed form.
-    #[default]
-    Tangent,
-    /// The source paper's estimate over neighbours, depth-weighted, baked once.
-    Horn,
-    /// The source paper's full sum over neighbours in every frame.
-    HornExact,
 }
 
 impl Color {
@@ -419,17 +369,5 @@ impl Default for Reference {
 impl Default for Lens {
     fn default() -> Self {
         Self::Perspective { fov_y_deg: default_fov_y_deg(), near: default_near(), far: default_far() }
-    }
-}
-
-impl Default for Direction {
-    fn default() -> Self {
-        Self::Angle(0.0)
-    }
-}
-
-impl Default for Style {
-    fn default() -> Self {
-        Self::RotatingStrokes { solver: Solver::default(), underpainting: true }
     }
 }

@@ -54,6 +54,21 @@ pub const MAX_STROKE_PX: f64 = 4096.0;
 /// Strokes per pixel × length × width.
 pub const MAX_COVERAGE: f64 = 20.0;
 
+/// Factors that have no natural end: jitter of colour, temperature, relief, weave, varnish.
+pub const MAX_STRENGTH: f64 = 10.0;
+
+/// Thickness of a layer of paint.
+pub const MAX_THICKNESS: f64 = 5.0;
+
+/// Colours of a palette.
+pub const MAX_PALETTE: usize = 16;
+
+/// Brushes of a mix.
+pub const MAX_BRUSHES: usize = 64;
+
+/// Different brushes of a scene that are pictures.
+pub const MAX_BRUSH_PICTURES: usize = 16;
+
 /// Distance of a layer from 0.
 pub const MAX_LAYER: i32 = 1000;
 

@@ -105,6 +105,7 @@ fn finish(
             }
         },
         texture: &|name| read_texture(path, name, &options.folders),
+        brush: &|name| read_brush(path, name, &options.folders),
     };
     let files = Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
     let in_meshes = check::check_names_in_meshes(&scene, &files.meshes);
@@ -113,8 +114,8 @@ fn finish(
     if problems.iter().any(|problem| problem.severity.is_fatal()) {
         return Err(Report(problems));
     }
-    let Files { meshes, textures, .. } = files;
-    Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, warnings: problems })
+    let Files { meshes, textures, brushes, .. } = files;
+    Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, brushes, warnings: problems })
 }
 
 /// Gives findings their place: in the file, or on the command line where that set the field.
@@ -186,6 +187,22 @@ fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead
         Ok(decoded) => Ok((decoded.texture, decoded.warnings)),
         Err(problem) => Err(Problem { severity: problem.severity.max(Severity::Error), ..problem }),
     }
+}
+
+/// A picture that serves as a brush: one that cannot be used is an error, and so is one without a mark.
+fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead {
+    let (texture, warnings) = read_texture(scene, name, folders).map_err(|problem| {
+        let mend = problem.mend.replace("it is left out; ", "");
+        Problem { mend, ..problem }
+    })?;
+    if impasto_core::brush::has_mark(texture.size_px, &texture.rgba8) {
+        return Ok((texture, warnings));
+    }
+    let mend = "paint a light mark on a dark ground, or a mark with transparency round it";
+    Err(Problem {
+        severity: Severity::Error,
+        ..error_in(scene, None, format!("{name}: the picture is of one grey; it holds no brush mark"), mend)
+    })
 }
 
 /// The folder that a file is in.

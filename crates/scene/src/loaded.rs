@@ -20,6 +20,8 @@ pub struct LoadedScene {
     pub meshes: BTreeMap<String, Arc<MeshFile>>,
     /// Override textures, by the path written in the document.
     pub textures: BTreeMap<String, Arc<Texture>>,
+    /// Pictures that serve as brushes, by the path written in the document.
+    pub brushes: BTreeMap<String, Arc<Texture>>,
     /// Everything that was odd and could be mended on the way.
     pub warnings: Vec<Problem>,
 }

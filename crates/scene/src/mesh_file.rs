@@ -24,6 +24,8 @@ pub struct Material {
     pub color: [f32; 3],
     /// Multiplies `color` where the mesh has texture coordinates.
     pub texture: Option<Arc<Texture>>,
+    /// Strength of highlights, 0 matt .. 1 glazed.
+    pub gloss: f32,
 }
 
 /// A decoded picture: 8 bits a channel, sRGB, straight alpha, first row on top.

@@ -1,106 +1,132 @@
 //! Named stroke settings, and what holds for a region once the preset, the scene and the region have spoken.
 
-use crate::document::{Scene, StrokeSettings};
+mod table;
+
+use crate::document::{BrushMix, Color, Edges, LayerSettings, Scene, StrokeSettings};
+
+use table::{PRESETS, Preset};
 
 /// The preset of a scene that names none.
 pub const DEFAULT_PRESET: &str = "oil study";
 
 /// The source paper's own rule, whole: equal counts per polygon at random places, count by facing, one brush, the full
-/// neighbour sum in every frame, no jitter and no underpainting. It holds for a scene, not for a region.
+/// neighbour sum in every frame, no jitter and no other layer. It holds for a scene, not for a region.
 pub const PAPER_PRESET: &str = "paper";
 
-/// The brushes that this build has.
-pub const BRUSHES: [&str; 1] = ["filbert"];
+/// The name of the tone under all layers in a scene's list of layers.
+pub const GROUND: &str = "ground";
 
-/// A complete set of values under a name.
-#[derive(Clone, Copy, Debug)]
-struct Preset {
-    name: &'static str,
-    brush: &'static str,
-    length_px: f64,
-    width_px: f64,
-    coverage: f64,
-    flatness: f64,
-    angle_jitter_deg: f64,
-    size_jitter: f64,
-    layer: i32,
+/// A layer of paint, in the order in which they are laid on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LayerKind {
+    /// Large, thin and earthy, under everything.
+    Underpainting,
+    /// The bulk of the paint.
+    Body,
+    /// Smaller strokes where the form turns.
+    Form,
+    /// Broken, dry strokes in patches.
+    Scumble,
+    /// Small strokes where colours meet.
+    Accents,
+    /// A few thick ones on highlights.
+    Lights,
 }
 
-/// The default first.
-const PRESETS: [Preset; 4] = [
-    // Strokes about three times as long as wide: they show their direction and still close over the form.
-    Preset {
-        name: DEFAULT_PRESET,
-        brush: "filbert",
-        length_px: 34.0,
-        width_px: 11.0,
-        coverage: 3.0,
-        flatness: 1.0,
-        angle_jitter_deg: 7.0,
-        size_jitter: 0.16,
-        layer: 0,
-    },
-    // Blocking in: large, wide, loosely held.
-    Preset {
-        name: "broad",
-        brush: "filbert",
-        length_px: 64.0,
-        width_px: 22.0,
-        coverage: 2.5,
-        flatness: 1.0,
-        angle_jitter_deg: 10.0,
-        size_jitter: 0.2,
-        layer: 0,
-    },
-    // Small, steady strokes, for what the eye should rest on.
-    Preset {
-        name: "detail",
-        brush: "filbert",
-        length_px: 16.0,
-        width_px: 5.0,
-        coverage: 3.0,
-        flatness: 1.0,
-        angle_jitter_deg: 4.0,
-        size_jitter: 0.12,
-        layer: 0,
-    },
-    Preset {
-        name: PAPER_PRESET,
-        brush: "filbert",
-        length_px: 24.0,
-        width_px: 8.0,
-        coverage: 3.0,
-        flatness: 1.0,
-        angle_jitter_deg: 0.0,
-        size_jitter: 0.0,
-        layer: 0,
-    },
-];
+impl LayerKind {
+    /// All, from the first laid on to the last.
+    pub const ALL: [Self; 6] =
+        [Self::Underpainting, Self::Body, Self::Form, Self::Scumble, Self::Accents, Self::Lights];
+
+    /// The name in a scene's list of layers.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Underpainting => "underpainting",
+            Self::Body => "body",
+            Self::Form => "form",
+            Self::Scumble => "scumble",
+            Self::Accents => "accents",
+            Self::Lights => "lights",
+        }
+    }
+}
 
 /// Stroke settings with nothing left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResolvedStrokes {
-    /// Brush tip by name, one of [`BRUSHES`].
-    pub brush: String,
+    /// The layers, in the order of [`LayerKind::ALL`].
+    pub layers: [ResolvedLayer; 6],
+    /// 1 keeps strokes flat on the picture, 0 lets their direction follow the surface.
+    pub flatness: f32,
+    /// Standard deviation of the angle from stroke to stroke, radians.
+    pub angle_jitter_rad: f32,
+    /// Standard deviation of the slow swing of the angle, radians.
+    pub swing_rad: f32,
+    /// How far strokes near the limb lie along the contour, 0..=1.
+    pub contour: f32,
+    /// Standard deviation of the size, as a share of it.
+    pub size_jitter: f32,
+    /// How paint ends at its body's border.
+    pub edges: Edges,
+    /// Factor on the difference of colour from stroke to stroke.
+    pub color_jitter: f32,
+    /// Factor on the difference of temperature between light and shadow.
+    pub temperature: f32,
+    /// How far colours are pulled to a painter's values, 0..=1.
+    pub grading: f32,
+    /// Pigments; empty means any colour.
+    pub palette: Vec<Color>,
+    /// Higher layers are painted over lower ones.
+    pub layer: i32,
+}
+
+/// One layer of paint with nothing left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResolvedLayer {
+    /// Brushes by name; one named twice is taken twice as often. At least one.
+    pub brushes: Vec<String>,
     /// Length in pixels at the scene's size.
     pub length_px: f32,
     /// Width in pixels at the scene's size.
     pub width_px: f32,
-    /// Strokes per pixel × length × width.
+    /// Strokes per pixel × length × width where the layer is wanted.
     pub coverage: f32,
-    /// 1 keeps strokes flat on the picture, 0 lets their direction follow the surface.
-    pub flatness: f32,
-    /// Standard deviation of the angle, radians.
-    pub angle_jitter_rad: f32,
-    /// Standard deviation of the size, as a share of it.
-    pub size_jitter: f32,
-    /// Higher layers are painted over lower ones.
-    pub layer: i32,
+    /// How much of what lies under it a stroke hides, 0..=1.
+    pub opacity: f32,
+    /// Height of the paint; 1 is the lights' full brush.
+    pub thickness: f32,
+    /// Share of its mark that a brush leaves out.
+    pub dryness: f32,
+    /// How much wet paint it picks up, 0..=1.
+    pub pickup: f32,
+    /// How far past its body paint runs where the body layer runs one pixel.
+    pub overrun: f32,
+}
+
+impl ResolvedLayer {
+    /// Strokes wanted per pixel of the picture at the scene's size.
+    pub fn wanted_per_px(&self) -> f32 {
+        self.coverage / (self.length_px * self.width_px)
+    }
+}
+
+/// The tone under all layers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResolvedGround {
+    /// The tone.
+    pub color: Color,
+    /// How far the tone hides the wash of each body's own colour, 0..=1.
+    pub opacity: f32,
 }
 
 /// The names of all presets, the default first.
 pub fn names() -> impl Iterator<Item = &'static str> {
     PRESETS.iter().map(|preset| preset.name)
+}
+
+/// Whether a brush is a picture of the user's own: its name has an ending.
+pub fn is_picture(brush: &str) -> bool {
+    std::path::Path::new(brush).extension().is_some()
 }
 
 /// Whether the scene is painted by the source paper's own rule ([`PAPER_PRESET`]).
@@ -113,52 +139,104 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
 /// default preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
-    let mut strokes = ResolvedStrokes::from(&PRESETS[0]);
-    strokes.apply(&scene.strokes);
+    // Presets are meant for a picture 720 high.
+    let size = scene.size.1 as f32 / 720.0;
+    let mut strokes = ResolvedStrokes::of_preset(&PRESETS[0], size);
+    strokes.apply(&scene.strokes, size);
     if let Some(region) = region {
-        strokes.apply(&scene.regions[region].strokes);
+        strokes.apply(&scene.regions[region].strokes, size);
     }
     strokes
 }
 
+/// The tone under the scene's layers: an earthy brown that lets most of each body's own colour through.
+pub fn ground(scene: &Scene) -> ResolvedGround {
+    let stated = scene.strokes.layers.iter().rfind(|layer| layer.name == GROUND);
+    ResolvedGround {
+        color: stated.and_then(|layer| layer.color).unwrap_or(Color([0.447, 0.341, 0.227])),
+        opacity: stated.and_then(|layer| layer.opacity).unwrap_or(0.2) as f32,
+    }
+}
+
 impl ResolvedStrokes {
-    /// Takes over what `settings` state: their preset first, then their own values.
-    fn apply(&mut self, settings: &StrokeSettings) {
+    /// One layer.
+    pub fn layer_of(&self, kind: LayerKind) -> &ResolvedLayer {
+        &self.layers[kind as usize]
+    }
+
+    /// The body layer.
+    pub fn body(&self) -> &ResolvedLayer {
+        self.layer_of(LayerKind::Body)
+    }
+
+    /// Takes over what `settings` state: their preset first, then the sizes, then single layers.
+    fn apply(&mut self, settings: &StrokeSettings, preset_size: f32) {
         let named = |preset: &&Preset| Some(preset.name) == settings.preset.as_deref();
         if let Some(preset) = PRESETS.iter().find(named) {
-            *self = Self::from(preset);
+            *self = Self::of_preset(preset, preset_size);
         }
-        if let Some(brush) = &settings.brush {
-            self.brush.clone_from(brush);
+        self.resize(settings);
+        let body = &mut self.layers[LayerKind::Body as usize];
+        replace(&mut body.coverage, settings.coverage);
+        if let Some(BrushMix(names)) = &settings.brush {
+            body.brushes.clone_from(names);
+        }
+        replace(&mut self.flatness, settings.flatness);
+        replace(&mut self.angle_jitter_rad, settings.angle_jitter_deg.map(f64::to_radians));
+        replace(&mut self.swing_rad, settings.swing_deg.map(f64::to_radians));
+        replace(&mut self.contour, settings.contour);
+        replace(&mut self.size_jitter, settings.size_jitter);
+        replace(&mut self.color_jitter, settings.color_jitter);
+        replace(&mut self.temperature, settings.temperature);
+        replace(&mut self.grading, settings.grading);
+        self.edges = settings.edges.unwrap_or(self.edges);
+        if let Some(palette) = &settings.palette {
+            self.palette.clone_from(palette);
+        }
+        self.layer = settings.layer.unwrap_or(self.layer);
+        for stated in &settings.layers {
+            if let Some(kind) = LayerKind::ALL.iter().find(|kind| kind.name() == stated.name) {
+                self.layers[*kind as usize].apply(stated);
+            }
+        }
+    }
+
+    /// The body layer takes the stated size; the other layers keep their proportion to it.
+    fn resize(&mut self, settings: &StrokeSettings) {
+        let body = self.body();
+        let before = body.length_px * body.width_px;
+        let length_px = settings.length_px.map_or(body.length_px, |length| length as f32);
+        let width_px = settings.width_px.map_or(body.width_px, |width| width as f32);
+        let scale = settings.scale.map_or(1.0, |scale| scale as f32);
+        let factor = (length_px * width_px / before).sqrt() * scale;
+        for kind in LayerKind::ALL {
+            let layer = &mut self.layers[kind as usize];
+            (layer.length_px, layer.width_px) = match kind {
+                LayerKind::Body => (length_px * scale, width_px * scale),
+                _ => (layer.length_px * factor, layer.width_px * factor),
+            };
+        }
+    }
+}
+
+impl ResolvedLayer {
+    fn apply(&mut self, settings: &LayerSettings) {
+        if let Some(BrushMix(names)) = &settings.brush {
+            self.brushes.clone_from(names);
         }
         replace(&mut self.length_px, settings.length_px);
         replace(&mut self.width_px, settings.width_px);
         replace(&mut self.coverage, settings.coverage);
-        replace(&mut self.flatness, settings.flatness);
-        replace(&mut self.angle_jitter_rad, settings.angle_jitter_deg.map(f64::to_radians));
-        replace(&mut self.size_jitter, settings.size_jitter);
-        self.layer = settings.layer.unwrap_or(self.layer);
+        replace(&mut self.opacity, settings.opacity);
+        replace(&mut self.thickness, settings.thickness);
+        replace(&mut self.dryness, settings.dryness);
+        replace(&mut self.pickup, settings.pickup);
     }
 }
 
 fn replace(value: &mut f32, stated: Option<f64>) {
     if let Some(stated) = stated {
         *value = stated as f32;
-    }
-}
-
-impl From<&Preset> for ResolvedStrokes {
-    fn from(preset: &Preset) -> Self {
-        Self {
-            brush: preset.brush.to_owned(),
-            length_px: preset.length_px as f32,
-            width_px: preset.width_px as f32,
-            coverage: preset.coverage as f32,
-            flatness: preset.flatness as f32,
-            angle_jitter_rad: preset.angle_jitter_deg.to_radians() as f32,
-            size_jitter: preset.size_jitter as f32,
-            layer: preset.layer,
-        }
     }
 }
 

@@ -4,8 +4,9 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::document::{
-    Camera, CameraKey, Color, Direction, Ease, Lens, Light, MaterialOverride, Object, ObjectKey, Reference,
-    Region, Scale, Scene, Selector, StrokeSettings, Style, Timeline, Up,
+    BrushMix, Camera, CameraKey, Color, Direction, Ease, Edges, LayerSettings, Lens, Light, MaterialOverride,
+    Object, ObjectKey, Reference, Region, RotatingStrokes, Scale, Scene, Selector, StrokeSettings, Style,
+    Timeline, Up,
 };
 
 mod layout;
@@ -165,6 +166,7 @@ fn material(material: &MaterialOverride) -> Value {
         .maybe("color", material.color.map(color))
         .maybe("texture", material.texture.as_deref().map(text))
         .unless(!material.unlit, "unlit", || flag(true))
+        .maybe("gloss", material.gloss.map(number))
         .done()
 }
 
@@ -180,15 +182,58 @@ fn object_key(key: &ObjectKey) -> Value {
 fn strokes(settings: &StrokeSettings) -> Value {
     Fields::new()
         .maybe("preset", settings.preset.as_deref().map(text))
-        .maybe("brush", settings.brush.as_deref().map(text))
+        .maybe("brush", settings.brush.as_ref().map(brush))
         .maybe("length_px", settings.length_px.map(number))
         .maybe("width_px", settings.width_px.map(number))
+        .maybe("scale", settings.scale.map(number))
         .maybe("coverage", settings.coverage.map(number))
         .maybe("flatness", settings.flatness.map(number))
         .maybe("angle_jitter_deg", settings.angle_jitter_deg.map(number))
+        .maybe("swing_deg", settings.swing_deg.map(number))
+        .maybe("contour", settings.contour.map(number))
         .maybe("size_jitter", settings.size_jitter.map(number))
+        .maybe("edges", settings.edges.map(edges))
+        .maybe("color_jitter", settings.color_jitter.map(number))
+        .maybe("temperature", settings.temperature.map(number))
+        .maybe("grading", settings.grading.map(number))
+        .maybe(
+            "palette",
+            settings.palette.as_ref().map(|colors| Value::List(colors.iter().copied().map(color).collect())),
+        )
         .maybe("layer", settings.layer.map(|layer| Value::Word(layer.to_string())))
+        .unless(settings.layers.is_empty(), "layers", || {
+            Value::List(settings.layers.iter().map(layer).collect())
+        })
         .done()
+}
+
+fn layer(layer: &LayerSettings) -> Value {
+    Fields::new()
+        .with("name", text(&layer.name))
+        .maybe("brush", layer.brush.as_ref().map(brush))
+        .maybe("length_px", layer.length_px.map(number))
+        .maybe("width_px", layer.width_px.map(number))
+        .maybe("coverage", layer.coverage.map(number))
+        .maybe("opacity", layer.opacity.map(number))
+        .maybe("thickness", layer.thickness.map(number))
+        .maybe("dryness", layer.dryness.map(number))
+        .maybe("pickup", layer.pickup.map(number))
+        .maybe("color", layer.color.map(color))
+        .done()
+}
+
+fn brush(BrushMix(names): &BrushMix) -> Value {
+    match &names[..] {
+        [name] => text(name),
+        names => Value::List(names.iter().map(|name| text(name)).collect()),
+    }
+}
+
+fn edges(edges: Edges) -> Value {
+    match edges {
+        Edges::Overrun(px) => Value::Named("Overrun", vec![number(px)]),
+        Edges::Clip | Edges::Free => word(edges),
+    }
 }
 
 fn region(region: &Region) -> Value {
@@ -213,18 +258,32 @@ fn selector(selector: &Selector) -> Value {
 fn direction(direction: &Direction) -> Value {
     match direction {
         Direction::Angle(angle_deg) => Value::Named("Angle", vec![number(*angle_deg)]),
+        Direction::Crossing(first_deg, second_deg) => {
+            Value::Named("Crossing", vec![number(*first_deg), number(*second_deg)])
+        }
+        Direction::Along(axis) => Value::Named("Along", vec![vector(*axis)]),
         Direction::Around(axis) => Value::Named("Around", vec![vector(*axis)]),
-        Direction::Up => Value::Word("Up".to_owned()),
+        Direction::Auto | Direction::Up => word(direction),
     }
 }
 
 fn style(style: &Style) -> Value {
     match style {
         Style::Reference => Value::Word("Reference".to_owned()),
-        Style::RotatingStrokes { solver, underpainting } => Fields::new()
-            .with("solver", word(solver))
-            .unless(*underpainting, "underpainting", || flag(false))
-            .named("RotatingStrokes"),
+        Style::RotatingStrokes(style) => {
+            let usual = RotatingStrokes::default();
+            Fields::new()
+                .with("solver", word(style.solver))
+                .unless(style.underpainting, "underpainting", || flag(false))
+                .unless(style.canvas == usual.canvas, "canvas", || word(style.canvas))
+                .unless(style.weave == usual.weave, "weave", || number(style.weave))
+                .unless(style.canvas_follows == usual.canvas_follows, "canvas_follows", || {
+                    word(style.canvas_follows)
+                })
+                .unless(style.relief == usual.relief, "relief", || number(style.relief))
+                .unless(style.varnish == usual.varnish, "varnish", || number(style.varnish))
+                .named("RotatingStrokes")
+        }
     }
 }
 

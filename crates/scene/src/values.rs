@@ -1,11 +1,12 @@
-//! How small values are written in a scene file: colours as `"#rrggbb"`, scales as one number or three.
+//! How small values are written in a scene file: colours as `"#rrggbb"`, scales as one number or three, brushes as one
+//! name or a list.
 
 use std::fmt;
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use crate::document::{Color, Scale};
+use crate::document::{BrushMix, Color, Scale};
 
 impl Color {
     /// Reads `#rgb` or `#rrggbb`; `None` for anything else.
@@ -98,5 +99,37 @@ impl<'de> Deserialize<'de> for Scale {
             }
         }
         deserializer.deserialize_any(ScaleVisitor)
+    }
+}
+
+impl Serialize for BrushMix {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [name] => serializer.serialize_str(name),
+            names => serializer.collect_seq(names),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for BrushMix {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct MixVisitor;
+        impl<'de> Visitor<'de> for MixVisitor {
+            type Value = BrushMix;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a brush such as \"filbert\", or a list of brushes")
+            }
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<BrushMix, E> {
+                Ok(BrushMix(vec![text.to_owned()]))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<BrushMix, A::Error> {
+                let mut names = Vec::new();
+                while let Some(name) = sequence.next_element()? {
+                    names.push(name);
+                }
+                Ok(BrushMix(names))
+            }
+        }
+        deserializer.deserialize_any(MixVisitor)
     }
 }

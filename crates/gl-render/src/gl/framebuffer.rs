@@ -69,12 +69,24 @@ impl Framebuffer {
         self.size_px
     }
 
-    /// Reads one colour texture as bytes, bottom row first, four (or two) channels a pixel.
+    /// Copies the first colour texture into that of another framebuffer of the same size and format.
+    pub(crate) fn copy_to(&self, other: &Framebuffer) {
+        let gl = self.gpu.gl();
+        let [width, height] = self.size_px.map(|side| side as i32);
+        let all = glow::COLOR_BUFFER_BIT;
+        // SAFETY: the context is current; both framebuffers were made in it.
+        unsafe {
+            gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(self.id));
+            gl.read_buffer(glow::COLOR_ATTACHMENT0);
+            gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(other.id));
+            gl.blit_framebuffer(0, 0, width, height, 0, 0, width, height, all, glow::NEAREST);
+        }
+    }
+
+    /// Reads one colour texture as bytes, bottom row first, four channels a pixel.
     pub(crate) fn read_bytes(&self, color: usize) -> Vec<u8> {
-        let channels = if self.colors[color].format() == Format::Rg8 { 2 } else { 4 };
-        let mut bytes = vec![0; self.pixels() * channels];
-        let format = if channels == 2 { glow::RG } else { glow::RGBA };
-        self.read(color, (format, glow::UNSIGNED_BYTE), &mut bytes);
+        let mut bytes = vec![0; self.pixels() * 4];
+        self.read(color, (glow::RGBA, glow::UNSIGNED_BYTE), &mut bytes);
         bytes
     }
 

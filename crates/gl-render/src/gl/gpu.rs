@@ -1,7 +1,9 @@
 //! A shared handle on one OpenGL context.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::Instant;
 
 use glow::HasContext as _;
 
@@ -16,9 +18,16 @@ pub(crate) struct Gpu {
 
 struct Shared {
     gl: Arc<glow::Context>,
+    clock: RefCell<Option<PassClock>>,
     messages: Option<DriverMessages>,
     limits: Limits,
     platform: Box<dyn Platform>,
+}
+
+/// Times passes from one lap to the next.
+struct PassClock {
+    since: Instant,
+    laps: Vec<(&'static str, f64)>,
 }
 
 /// What the driver says of itself.
@@ -30,6 +39,8 @@ pub(crate) struct Limits {
     pub shading_language: String,
     /// Longest side of a texture that can also be drawn into.
     pub max_side_px: u32,
+    /// Layers of a texture array.
+    pub max_array_layers: u32,
 }
 
 impl Limits {
@@ -50,6 +61,7 @@ impl Limits {
                 version: gl.get_parameter_string(glow::VERSION),
                 shading_language: gl.get_parameter_string(glow::SHADING_LANGUAGE_VERSION),
                 max_side_px: u32::try_from(side).unwrap_or(0),
+                max_array_layers: u32::try_from(gl.get_parameter_i32(glow::MAX_ARRAY_TEXTURE_LAYERS)).unwrap_or(0),
             }
         }
     }
@@ -62,7 +74,7 @@ impl Gpu {
         messages: Option<DriverMessages>,
         limits: Limits,
     ) -> Self {
-        Self { shared: Rc::new(Shared { gl, messages, limits, platform }) }
+        Self { shared: Rc::new(Shared { gl, clock: RefCell::new(None), messages, limits, platform }) }
     }
 
     pub(super) fn gl(&self) -> &glow::Context {
@@ -71,6 +83,26 @@ impl Gpu {
 
     pub(crate) fn limits(&self) -> &Limits {
         &self.shared.limits
+    }
+
+    /// Starts timing passes. Each lap waits for the driver, so a timed frame is slower than one that is not.
+    pub(crate) fn start_clock(&self) {
+        *self.shared.clock.borrow_mut() = Some(PassClock { since: Instant::now(), laps: Vec::new() });
+    }
+
+    /// What was drawn since the last lap was this; nothing unless passes are timed.
+    pub(crate) fn lap(&self, pass: &'static str) {
+        if let Some(clock) = self.shared.clock.borrow_mut().as_mut() {
+            // SAFETY: the context is current.
+            unsafe { self.gl().finish() };
+            clock.laps.push((pass, clock.since.elapsed().as_secs_f64()));
+            clock.since = Instant::now();
+        }
+    }
+
+    /// Stops timing: passes with their seconds, in order.
+    pub(crate) fn stop_clock(&self) -> Vec<(&'static str, f64)> {
+        self.shared.clock.borrow_mut().take().map(|clock| clock.laps).unwrap_or_default()
     }
 
     /// Whether the driver's debug output is being kept.

@@ -7,10 +7,10 @@ use super::{GlError, Gpu};
 /// How texels are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    Rg8,
     Rgba8,
     /// sRGB encoded colour that is decoded when it is read.
     SrgbAlpha8,
+    R16F,
     Rg32F,
     Rgba16F,
     Rgba32F,
@@ -21,9 +21,9 @@ impl Format {
     /// Internal format, format and type of OpenGL.
     fn names(self) -> (u32, u32, u32) {
         match self {
-            Format::Rg8 => (glow::RG8, glow::RG, glow::UNSIGNED_BYTE),
             Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
             Format::SrgbAlpha8 => (glow::SRGB8_ALPHA8, glow::RGBA, glow::UNSIGNED_BYTE),
+            Format::R16F => (glow::R16F, glow::RED, glow::HALF_FLOAT),
             Format::Rg32F => (glow::RG32F, glow::RG, glow::FLOAT),
             Format::Rgba16F => (glow::RGBA16F, glow::RGBA, glow::HALF_FLOAT),
             Format::Rgba32F => (glow::RGBA32F, glow::RGBA, glow::FLOAT),

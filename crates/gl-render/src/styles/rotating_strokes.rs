@@ -1,12 +1,16 @@
 //! Brush strokes that turn with what they lie on.
 //!
-//! Targets: `paint` (premultiplied, linear). Passes: resolve (a colour and a presence per stroke), paint (a billboard
-//! per stroke, one layer after the other), encode.
+//! Targets: `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a layer), `soft height`.
+//! Passes: resolve (a colour, a presence and a fit per stroke), paint (a billboard per stroke, one layer after the other),
+//! soften, encode.
 
-mod tip;
+mod canvas;
+mod marks;
 
 use std::rc::Rc;
 
+use glam::{Vec2, Vec4};
+use impasto_core::brush;
 use impasto_painting::Frame;
 use impasto_painting::frame::{LayerRun, Stroke};
 
@@ -17,99 +21,86 @@ use crate::gl::{
 };
 use crate::reference::{LENS_UNIFORMS, LensSetup, LightSetup};
 use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
-
-/// Paint may run this far past its own body, pixels at the scene's size.
-const OVERRUN_PX: f32 = 2.6;
+use marks::Marks;
 
 /// How much of a body's own colour its toned ground carries.
 const WASH: f32 = 0.85;
 
-/// Bytes of what the resolve pass keeps of a stroke: colour and alpha.
-const RESOLVED_BYTES: usize = 16;
+/// Bytes of what the resolve pass keeps of a stroke: colour and presence, then its fit.
+const RESOLVED_BYTES: usize = 32;
+
+/// Texels in a row of palettes.
+const PALETTE: usize = 16;
 
 /// The style.
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
     resolve: Program,
     paint: Program,
+    soften: Program,
     encode: Program,
-    tips: Texture,
+    canvas: Texture,
+    marks: Option<Marks>,
     strokes: Buffer,
     resolved: Buffer,
     stroke_count: usize,
     stroke_points: VertexArray,
     stroke_quads: VertexArray,
     screen: VertexArray,
-    target: Option<Target>,
+    targets: Option<Targets>,
 }
 
-struct Target {
+struct Targets {
     paint: Rc<Texture>,
-    pass: Framebuffer,
+    height: Rc<Texture>,
+    below: Rc<Texture>,
+    soft_height: Rc<Texture>,
+    paint_pass: Framebuffer,
+    below_pass: Framebuffer,
+    soften_pass: Framebuffer,
+}
+
+impl Targets {
+    fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GlError> {
+        let target = |format: Format, size_px: [u32; 2], filter: Filter| {
+            Texture::target(gpu, format, size_px, filter).map(Rc::new)
+        };
+        let paint = target(Format::Rgba16F, size_px, Filter::Nearest)?;
+        let height = target(Format::R16F, size_px, Filter::LinearInLevel)?;
+        let below = target(Format::Rgba16F, size_px, Filter::Nearest)?;
+        let half = size_px.map(|side| side.div_ceil(2));
+        let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;
+        Ok(Self {
+            paint_pass: Framebuffer::new(gpu, &[&paint, &height], None)?,
+            below_pass: Framebuffer::new(gpu, &[&below], None)?,
+            soften_pass: Framebuffer::new(gpu, &[&soft_height], None)?,
+            paint,
+            height,
+            below,
+            soft_height,
+        })
+    }
 }
 
 impl RotatingStrokes {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
         let files = &[SHARED, REFERENCE, ROTATING_STROKES];
-        let resolve = ProgramSource {
-            vertex: "rotating_strokes/resolve.vert",
-            fragment: None,
-            captured: &["resolved"],
-            uniforms: &[
-                LENS_UNIFORMS[0],
-                LENS_UNIFORMS[1],
-                LENS_UNIFORMS[2],
-                LENS_UNIFORMS[3],
-                LightSetup::UNIFORMS[0],
-                LightSetup::UNIFORMS[1],
-                LightSetup::UNIFORMS[2],
-                LightSetup::UNIFORMS[3],
-                LightSetup::UNIFORMS[4],
-                LightSetup::UNIFORMS[5],
-                LightSetup::UNIFORMS[6],
-                LightSetup::UNIFORMS[7],
-                "reference_color",
-                "depth_and_id",
-                "view_from_world",
-                "underpainting",
-            ],
-        };
-        let paint = ProgramSource {
-            vertex: "rotating_strokes/paint.vert",
-            fragment: Some("rotating_strokes/paint.frag"),
-            captured: &[],
-            uniforms: &[
-                "size_px",
-                "tip_rows",
-                "tip_count",
-                "underpainting",
-                "tips",
-                "depth_and_id",
-                "overrun_px",
-                "units_per_px_at_1",
-                "orthographic",
-            ],
-        };
-        let encode = ProgramSource {
-            vertex: "shared/screen.vert",
-            fragment: Some("rotating_strokes/encode.frag"),
-            captured: &[],
-            uniforms: &["picture", "reference_color", "ground", "wash"],
-        };
-        let size = [tip::SIZE[0], tip::SIZE[1], tip::COUNT];
+        let side = canvas::SIDE;
         Ok(Self {
             gpu: gpu.clone(),
-            resolve: Program::new(gpu, files, &resolve)?,
-            paint: Program::new(gpu, files, &paint)?,
-            encode: Program::new(gpu, files, &encode)?,
-            tips: Texture::array_with_levels(gpu, Format::Rg8, size, &tip::levels())?,
+            resolve: Program::new(gpu, files, &RESOLVE)?,
+            paint: Program::new(gpu, files, &PAINT)?,
+            soften: Program::new(gpu, files, &SOFTEN)?,
+            encode: Program::new(gpu, files, &ENCODE)?,
+            canvas: Texture::with_driver_levels(gpu, Format::Rgba8, [side, side], &canvas::tile())?,
+            marks: None,
             strokes: Buffer::new(gpu, BufferUse::Streamed)?,
             resolved: Buffer::new(gpu, BufferUse::ReadBack)?,
             stroke_count: 0,
             stroke_points: VertexArray::empty(gpu)?,
             stroke_quads: VertexArray::empty(gpu)?,
             screen: VertexArray::empty(gpu)?,
-            target: None,
+            targets: None,
         })
     }
 
@@ -119,6 +110,7 @@ impl RotatingStrokes {
         self.strokes.upload(bytemuck::cast_slice(&frame.strokes))?;
         self.resolved.reserve((self.stroke_count * RESOLVED_BYTES).max(RESOLVED_BYTES))?;
         self.stroke_points.set(&stroke_inputs(&self.strokes, 0, false), None);
+        let palettes = palettes(&self.gpu, frame)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
         for layer in &frame.layers {
             let bound = input
@@ -126,8 +118,11 @@ impl RotatingStrokes {
                 .set(lens.set(self.resolve.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
                 .texture("depth_and_id", &input.reference.depth_and_id)
+                .texture("glint", &input.reference.glint)
+                .texture("palettes", &palettes)
                 .set("view_from_world", frame.view.view_from_world)
-                .set("underpainting", f32::from(layer.underpainting));
+                .set("px_scale", frame.px_scale)
+                .set("kind", layer.kind as i32);
             let records =
                 Records { first: layer.first, count: layer.count, record_bytes: RESOLVED_BYTES as u32 };
             self.gpu.capture(bound, &self.stroke_points, &self.resolved, records)?;
@@ -136,80 +131,138 @@ impl RotatingStrokes {
     }
 
     fn paint(&self, input: &StyleInput<'_>, layer: LayerRun) -> Result<(), GlError> {
+        let (Some(targets), Some(marks)) = (&self.targets, &self.marks) else { return Ok(()) };
         let frame = input.frame;
         let first = layer.first as i32;
         let mut inputs = stroke_inputs(&self.strokes, first, true);
-        inputs.push(Attribute {
-            location: 4,
-            buffer: &self.resolved,
-            components: 4,
-            integer: false,
-            stride_bytes: RESOLVED_BYTES as i32,
-            offset_bytes: first * RESOLVED_BYTES as i32,
-            per_instance: true,
-        });
+        for (location, offset) in [(6, 0), (7, 16)] {
+            inputs.push(Attribute {
+                location,
+                buffer: &self.resolved,
+                components: 4,
+                integer: false,
+                stride_bytes: RESOLVED_BYTES as i32,
+                offset_bytes: first * RESOLVED_BYTES as i32 + offset,
+                per_instance: true,
+            });
+        }
         self.stroke_quads.set(&inputs, None);
+        let strokes = &frame.strokes[first as usize..][..layer.count as usize];
+        if strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
+            targets.paint_pass.copy_to(&targets.below_pass);
+        }
+        self.gpu.begin_pass(
+            &targets.paint_pass,
+            DrawState { blend: Blend::Over, ..DrawState::default() },
+        );
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let bound = lens
             .set(self.paint.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
-            .set("tip_rows", tip::SIZE[1] as f32)
-            .set("tip_count", tip::COUNT as f32)
-            .set("underpainting", f32::from(layer.underpainting))
-            .texture("tips", &self.tips)
-            .texture("depth_and_id", &input.reference.depth_and_id)
-            .set("overrun_px", OVERRUN_PX * frame.px_scale);
-        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })
-    }
-
-    fn target(&mut self, frame: &Frame) -> Result<(), GlError> {
-        if self.target.as_ref().is_none_or(|target| target.pass.size_px() != frame.size_px) {
-            let paint = Rc::new(Texture::target(&self.gpu, Format::Rgba16F, frame.size_px, Filter::Nearest)?);
-            let pass = Framebuffer::new(&self.gpu, &[&paint], None)?;
-            self.target = Some(Target { paint, pass });
-        }
+            .set("mark_rows", brush::SIZE[1] as f32)
+            .texture("below", &targets.below)
+            .texture("brush_marks", &marks.texture)
+            .texture("depth_and_id", &input.reference.depth_and_id);
+        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })?;
+        self.gpu.lap(layer.kind.name());
         Ok(())
     }
 
-    /// Colour and alpha of every stroke of the last frame, four floats each.
-    pub(crate) fn read_resolved(&self) -> Vec<[f32; 4]> {
+    fn encode(&self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let frame = input.frame;
+        let finish = &frame.finish;
+        self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
+        let bound = self
+            .soften
+            .bind()
+            .texture("height", &targets.height)
+            .set("step_px", frame.px_scale.max(0.5));
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        self.gpu.lap("soften");
+
+        self.gpu.begin_pass(output, DrawState::default());
+        let (tone, wash) = match finish.ground {
+            Some(ground) => (Vec4::from((glam::Vec3::from(ground.color), ground.hides)), WASH),
+            None => (Vec4::ZERO, 0.0),
+        };
+        // Pixels of the picture, then of the scene's own size with the origin in the middle, then of the canvas.
+        let scale = 1.0 / frame.px_scale;
+        let tiles = 1.0 / canvas::SIDE as f32;
+        let half_px = glam::UVec2::from(frame.size_px).as_vec2() * 0.5;
+        let axes = finish.canvas_from_px.matrix2;
+        let origin: Vec2 = finish.canvas_from_px.transform_point2(-half_px * scale) * tiles;
+        let axes = Vec4::from((axes.x_axis, axes.y_axis)) * (scale * tiles);
+        let bound = self
+            .encode
+            .bind()
+            .texture("picture", &targets.paint)
+            .texture("reference_color", &input.reference.color)
+            .texture("height", &targets.height)
+            .texture("soft_height", &targets.soft_height)
+            .texture("canvas", &self.canvas)
+            .set("ground", ground(frame))
+            .set("tone", tone)
+            .set("wash", wash)
+            .set("to_light", glam::Vec3::from(finish.to_relief_light))
+            .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale))
+            .set("canvas_axes", axes)
+            .set("canvas_origin", origin);
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        self.gpu.lap("encode");
+        Ok(())
+    }
+
+    /// Colour and alpha of every stroke of the last frame, then its fit, eight floats each.
+    pub(crate) fn read_resolved(&self) -> Vec<[f32; 8]> {
         bytemuck::pod_collect_to_vec(&self.resolved.read(self.stroke_count * RESOLVED_BYTES))
     }
 
     /// The paint of the last frame, premultiplied and linear, without ground; bottom row first.
     pub(crate) fn read_paint(&self) -> Vec<[f32; 4]> {
-        let target = self.target.as_ref();
-        target.map_or_else(Vec::new, |target| bytemuck::pod_collect_to_vec(&target.pass.read_floats(0)))
+        let targets = self.targets.as_ref();
+        targets.map_or_else(Vec::new, |targets| bytemuck::pod_collect_to_vec(&targets.paint_pass.read_floats(0)))
     }
 }
 
 impl Style for RotatingStrokes {
     fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
-        self.target(input.frame)?;
+        let frame = input.frame;
+        if self.targets.as_ref().is_none_or(|targets| targets.paint_pass.size_px() != frame.size_px) {
+            self.targets = Some(Targets::new(&self.gpu, frame.size_px)?);
+        }
+        self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
         self.resolve(input)?;
-        let Some(target) = &self.target else { return Ok(()) };
-        self.gpu.begin_pass(
-            &target.pass,
-            DrawState { blend: Blend::Over, clear: Some([0.0; 4]), ..DrawState::default() },
-        );
-        for &layer in input.frame.layers.iter().filter(|layer| layer.count > 0) {
+        self.gpu.lap("resolve");
+        if let Some(targets) = &self.targets {
+            let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
+            self.gpu.begin_pass(&targets.paint_pass, clear);
+        }
+        for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
             self.paint(input, layer)?;
         }
-        self.gpu.begin_pass(output, DrawState::default());
-        let toned = input.frame.layers.iter().any(|layer| layer.underpainting);
-        let bound = self
-            .encode
-            .bind()
-            .texture("picture", &target.paint)
-            .texture("reference_color", &input.reference.color)
-            .set("ground", ground(input.frame))
-            .set("wash", if toned { WASH } else { 0.0 });
-        self.gpu.draw(bound, &self.screen, Vertices::Screen)
+        self.encode(input, output)
     }
 
     fn as_strokes(&self) -> Option<&RotatingStrokes> {
         Some(self)
     }
+}
+
+/// Palettes as a texture, a row each; one empty row where there are none.
+fn palettes(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
+    let mut texels: Vec<[f32; 4]> = Vec::new();
+    for palette in frame.palettes.iter() {
+        let pigments = palette.iter().take(PALETTE).map(|&color| {
+            let [lightness, a, b] = impasto_core::color::oklab_from_linear(color);
+            [lightness, a, b, 1.0]
+        });
+        texels.extend(pigments);
+        texels.resize(texels.len().next_multiple_of(PALETTE), [0.0; 4]);
+    }
+    texels.resize(texels.len().max(PALETTE), [0.0; 4]);
+    let size_px = [PALETTE as u32, (texels.len() / PALETTE) as u32];
+    Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))
 }
 
 /// The fields of [`Stroke`] as shader inputs, from stroke `first` on.
@@ -226,8 +279,79 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
     };
     vec![
         input(0, 4, std::mem::offset_of!(Stroke, center_px), false),
-        input(1, 3, std::mem::offset_of!(Stroke, length_px), false),
-        input(2, 3, std::mem::offset_of!(Stroke, bits), true),
-        input(3, 3, std::mem::offset_of!(Stroke, normal_in_world), false),
+        input(1, 4, std::mem::offset_of!(Stroke, length_px), false),
+        input(2, 4, std::mem::offset_of!(Stroke, bits), true),
+        input(3, 2, std::mem::offset_of!(Stroke, paint), true),
+        input(4, 4, std::mem::offset_of!(Stroke, normal_in_world), false),
+        input(5, 3, std::mem::offset_of!(Stroke, overrun_px), false),
     ]
 }
+
+const RESOLVE: ProgramSource = ProgramSource {
+    vertex: "rotating_strokes/resolve.vert",
+    fragment: None,
+    captured: &["resolved", "fitted"],
+    uniforms: &[
+        LENS_UNIFORMS[0],
+        LENS_UNIFORMS[1],
+        LENS_UNIFORMS[2],
+        LENS_UNIFORMS[3],
+        LightSetup::UNIFORMS[0],
+        LightSetup::UNIFORMS[1],
+        LightSetup::UNIFORMS[2],
+        LightSetup::UNIFORMS[3],
+        LightSetup::UNIFORMS[4],
+        LightSetup::UNIFORMS[5],
+        LightSetup::UNIFORMS[6],
+        LightSetup::UNIFORMS[7],
+        "reference_color",
+        "depth_and_id",
+        "glint",
+        "palettes",
+        "view_from_world",
+        "px_scale",
+        "kind",
+    ],
+};
+
+const PAINT: ProgramSource = ProgramSource {
+    vertex: "rotating_strokes/paint.vert",
+    fragment: Some("rotating_strokes/paint.frag"),
+    captured: &[],
+    uniforms: &[
+        "size_px",
+        "mark_rows",
+        "below",
+        "brush_marks",
+        "depth_and_id",
+        "units_per_px_at_1",
+        "orthographic",
+    ],
+};
+
+const SOFTEN: ProgramSource = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("rotating_strokes/soften.frag"),
+    captured: &[],
+    uniforms: &["height", "step_px"],
+};
+
+const ENCODE: ProgramSource = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("rotating_strokes/encode.frag"),
+    captured: &[],
+    uniforms: &[
+        "picture",
+        "reference_color",
+        "height",
+        "soft_height",
+        "canvas",
+        "ground",
+        "tone",
+        "wash",
+        "to_light",
+        "finish",
+        "canvas_axes",
+        "canvas_origin",
+    ],
+};

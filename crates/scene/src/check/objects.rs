@@ -21,6 +21,9 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
     if let Some(texture) = object.material.as_ref().and_then(|material| material.texture.as_deref()) {
         findings.name(&format!("{object_path}.material.texture"), texture);
     }
+    if let Some(gloss) = object.material.as_ref().and_then(|material| material.gloss) {
+        findings.number(&format!("{object_path}.material.gloss"), gloss, 0.0..=1.0);
+    }
     check_scale(&format!("{object_path}.scale"), object.scale.0, findings);
     findings.frames(&format!("{object_path}.keys"), object.keys.iter().map(|key| key.frame));
     for (index, key) in object.keys.iter().enumerate() {

@@ -3,14 +3,22 @@
 use std::collections::HashSet;
 
 use super::{Findings, did_you_mean, short, shown};
-use crate::document::{Direction, Scene, Selector, Solver, StrokeSettings, Style};
+use crate::document::{
+    BrushMix, Direction, Edges, LayerSettings, RotatingStrokes, Scene, Selector, Solver, StrokeSettings,
+    Style,
+};
 use crate::limits;
-use crate::presets::{self, BRUSHES, PAPER_PRESET};
+use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};
 use crate::problem::Severity;
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_settings("strokes", &scene.strokes, findings);
     check_flatness("strokes", scene, None, findings);
+    if let Style::RotatingStrokes(style) = &scene.style {
+        for (field, value) in [("weave", style.weave), ("relief", style.relief), ("varnish", style.varnish)] {
+            findings.number(&format!("style.{field}"), value, 0.0..=limits::MAX_STRENGTH);
+        }
+    }
     findings.unique("regions", scene.regions.iter().map(|region| region.name.as_str()));
     let object_names: HashSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
     for (index, region) in scene.regions.iter().enumerate() {
@@ -40,8 +48,13 @@ fn check_region(region_path: &str, scene: &Scene, index: usize, findings: &mut F
             let turn = limits::MAX_ANGLE_DEG;
             findings.number(&direction_path, angle_deg, -turn..=turn);
         }
-        Direction::Around(axis) => findings.direction(&direction_path, axis),
-        Direction::Up => {}
+        Direction::Crossing(first_deg, second_deg) => {
+            let turn = limits::MAX_ANGLE_DEG;
+            findings.number(&direction_path, first_deg, -turn..=turn);
+            findings.number(&direction_path, second_deg, -turn..=turn);
+        }
+        Direction::Along(axis) | Direction::Around(axis) => findings.direction(&direction_path, axis),
+        Direction::Auto | Direction::Up => {}
     }
     let strokes_path = format!("{region_path}.strokes");
     check_settings(&strokes_path, &region.strokes, findings);
@@ -58,10 +71,13 @@ fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, find
     let Some(flatness) = stated.filter(|flatness| (0.0..1.0).contains(flatness)) else { return };
     let needs = match &scene.style {
         _ if presets::is_paper(scene) => format!("the preset \"{PAPER_PRESET}\""),
-        Style::RotatingStrokes { solver: solver @ (Solver::Horn | Solver::HornExact), .. } => {
+        Style::RotatingStrokes(RotatingStrokes {
+            solver: solver @ (Solver::Horn | Solver::HornExact),
+            ..
+        }) => {
             format!("the solver {solver:?}")
         }
-        Style::RotatingStrokes { solver: Solver::Tangent, .. } | Style::Reference => return,
+        Style::RotatingStrokes(_) | Style::Reference => return,
     };
     let message = format!("a flatness of {} does not go with {needs}", short(flatness));
     findings.error(format!("{strokes_path}.flatness"), message, "use the solver Tangent, or a flatness of 1");
@@ -76,32 +92,158 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
         let message = format!("there is no preset \"{}\"", shown(preset));
         findings.error(path("preset"), message, did_you_mean(preset, known.iter().copied()));
     }
-    if let Some(brush) = settings.brush.as_deref().filter(|brush| !BRUSHES.contains(brush)) {
-        let message = format!("there is no brush \"{}\"", shown(brush));
-        findings.error(path("brush"), message, did_you_mean(brush, BRUSHES.iter().copied()));
-    }
-    for (field, value, most) in [
-        ("length_px", settings.length_px, limits::MAX_STROKE_PX),
-        ("width_px", settings.width_px, limits::MAX_STROKE_PX),
-        ("coverage", settings.coverage, limits::MAX_COVERAGE),
-    ] {
-        // A thousandth of a pixel is below anything that can be seen, and still a number in 32 bits.
-        if let Some(value) = value.filter(|value| !(1e-3..=most).contains(value)) {
-            let mend = format!("give a number above 0 (from 0.001), at most {most}");
-            findings.error(path(field), format!("{} is out of range", short(value)), mend);
-        }
-    }
+    check_marks(strokes_path, &Marks::from(settings), findings);
     for (field, value, most) in [
         ("flatness", settings.flatness, 1.0),
         ("angle_jitter_deg", settings.angle_jitter_deg, 180.0),
+        ("swing_deg", settings.swing_deg, 180.0),
+        ("contour", settings.contour, 1.0),
         ("size_jitter", settings.size_jitter, 1.0),
+        ("color_jitter", settings.color_jitter, limits::MAX_STRENGTH),
+        ("temperature", settings.temperature, limits::MAX_STRENGTH),
+        ("grading", settings.grading, 1.0),
     ] {
         if let Some(value) = value {
             findings.number(&path(field), value, 0.0..=most);
         }
     }
+    if let Some(scale) = settings.scale.filter(|scale| !(0.01..=100.0).contains(scale)) {
+        findings.error(
+            path("scale"),
+            format!("{} is out of range", short(scale)),
+            "give a number from 0.01 to 100",
+        );
+    }
+    if let Some(Edges::Overrun(overrun_px)) = settings.edges {
+        findings.number(&path("edges"), overrun_px, 0.0..=limits::MAX_STROKE_PX);
+    }
+    if let Some(colors) = settings.palette.as_ref().filter(|colors| colors.len() > limits::MAX_PALETTE) {
+        let message = format!("a palette of {} colours", colors.len());
+        findings.error(path("palette"), message, format!("give at most {}", limits::MAX_PALETTE));
+    }
     if let Some(layer) = settings.layer {
         let most = f64::from(limits::MAX_LAYER);
         findings.number(&path("layer"), f64::from(layer), -most..=most);
+    }
+    check_layers(strokes_path, &settings.layers, findings);
+}
+
+/// What the settings of strokes and of one layer have in common.
+struct Marks<'a> {
+    brush: Option<&'a BrushMix>,
+    length_px: Option<f64>,
+    width_px: Option<f64>,
+    coverage: Option<f64>,
+    /// A layer may be left out; all of them may not.
+    least_coverage: f64,
+}
+
+impl<'a> From<&'a StrokeSettings> for Marks<'a> {
+    fn from(settings: &'a StrokeSettings) -> Self {
+        Self {
+            brush: settings.brush.as_ref(),
+            length_px: settings.length_px,
+            width_px: settings.width_px,
+            coverage: settings.coverage,
+            least_coverage: 1e-3,
+        }
+    }
+}
+
+impl<'a> From<&'a LayerSettings> for Marks<'a> {
+    fn from(settings: &'a LayerSettings) -> Self {
+        Self {
+            brush: settings.brush.as_ref(),
+            length_px: settings.length_px,
+            width_px: settings.width_px,
+            coverage: settings.coverage,
+            least_coverage: 0.0,
+        }
+    }
+}
+
+fn check_marks(settings_path: &str, marks: &Marks<'_>, findings: &mut Findings) {
+    let path = |field: &str| format!("{settings_path}.{field}");
+    if let Some(BrushMix(names)) = marks.brush {
+        if names.is_empty() || names.len() > limits::MAX_BRUSHES {
+            let message = format!("a mix of {} brushes", names.len());
+            let mend = format!("name from 1 to {} brushes", limits::MAX_BRUSHES);
+            findings.error(path("brush"), message, mend);
+        }
+        // A name with an ending is a picture; whoever reads it says what is wrong with it.
+        for name in names.iter().filter(|name| !presets::is_picture(name)) {
+            if !impasto_core::brush::NAMES.contains(&name.as_str()) {
+                let message = format!("there is no brush \"{}\"", shown(name));
+                let mend = did_you_mean(name, impasto_core::brush::NAMES.iter().copied());
+                findings.error(path("brush"), message, mend);
+            }
+        }
+    }
+    // A thousandth of a pixel is below anything that can be seen, and still a number in 32 bits.
+    for (field, value, least, most) in [
+        ("length_px", marks.length_px, 1e-3, limits::MAX_STROKE_PX),
+        ("width_px", marks.width_px, 1e-3, limits::MAX_STROKE_PX),
+        ("coverage", marks.coverage, marks.least_coverage, limits::MAX_COVERAGE),
+    ] {
+        if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
+            let mend = match least {
+                0.0 => format!("give a number from 0 to {most}"),
+                least => format!("give a number above 0 (from {least}), at most {most}"),
+            };
+            findings.error(path(field), format!("{} is out of range", short(value)), mend);
+        }
+    }
+}
+
+fn check_layers(strokes_path: &str, layers: &[LayerSettings], findings: &mut Findings) {
+    let list_path = format!("{strokes_path}.layers");
+    findings.unique(&list_path, layers.iter().map(|layer| layer.name.as_str()));
+    let known = LayerKind::ALL.map(LayerKind::name).into_iter().chain([GROUND]);
+    for (index, layer) in layers.iter().enumerate() {
+        let layer_path = format!("{list_path}[{index}]");
+        let path = |field: &str| format!("{layer_path}.{field}");
+        if known.clone().all(|name| name != layer.name) {
+            let message = format!("there is no layer \"{}\"", shown(&layer.name));
+            findings.error(path("name"), message, did_you_mean(&layer.name, known.clone()));
+        }
+        check_marks(&layer_path, &Marks::from(layer), findings);
+        for (field, value, most) in [
+            ("opacity", layer.opacity, 1.0),
+            ("thickness", layer.thickness, limits::MAX_THICKNESS),
+            ("dryness", layer.dryness, 1.0),
+            ("pickup", layer.pickup, 1.0),
+        ] {
+            if let Some(value) = value {
+                findings.number(&path(field), value, 0.0..=most);
+            }
+        }
+        check_ground(&layer_path, layer, strokes_path == "strokes", findings);
+    }
+}
+
+/// The ground has a tone and no strokes, and there is one for the scene.
+fn check_ground(layer_path: &str, layer: &LayerSettings, of_scene: bool, findings: &mut Findings) {
+    let is_ground = layer.name == GROUND;
+    if is_ground && !of_scene {
+        findings.error(
+            format!("{layer_path}.name"),
+            "a region has no ground of its own",
+            "state it in the scene's own strokes",
+        );
+    }
+    if !is_ground && layer.color.is_some() {
+        let message = format!("the layer \"{}\" takes its colours from the scene", shown(&layer.name));
+        findings.error(
+            format!("{layer_path}.color"),
+            message,
+            "only the ground has a color; use a palette instead",
+        );
+    }
+    let has_marks = layer.brush.is_some()
+        || [layer.length_px, layer.width_px, layer.coverage, layer.thickness, layer.dryness, layer.pickup]
+            .iter()
+            .any(Option::is_some);
+    if is_ground && has_marks {
+        findings.error(layer_path, "the ground has no strokes", "give it only color and opacity");
     }
 }

@@ -218,7 +218,7 @@ fn groups_and_materials_are_looked_for_in_the_mesh() {
     let mesh = MeshFile {
         mesh: TriangleMesh::default(),
         groups: vec!["skin".to_owned(), "leaf".to_owned()],
-        materials: vec![Material { name: "wax".to_owned(), color: [0.5; 3], texture: None }],
+        materials: vec![Material { name: "wax".to_owned(), color: [0.5; 3], texture: None, gloss: 0.0 }],
     };
     let meshes = BTreeMap::from([("cube.obj".to_owned(), Arc::new(mesh))]);
     let scene = scene(

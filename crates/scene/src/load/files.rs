@@ -5,7 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::document::Scene;
+use crate::limits;
 use crate::mesh_file::{MeshFile, Texture};
+use crate::presets;
 use crate::problem::{Problem, Report};
 
 pub(super) type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
@@ -15,6 +17,7 @@ pub(super) type TextureRead = Result<(Texture, Vec<Problem>), Problem>;
 pub(super) struct Readers<'a> {
     pub(super) mesh: &'a dyn Fn(&str) -> MeshRead,
     pub(super) texture: &'a dyn Fn(&str) -> TextureRead,
+    pub(super) brush: &'a dyn Fn(&str) -> TextureRead,
 }
 
 /// What was read, and what there was to say.
@@ -22,6 +25,7 @@ pub(super) struct Readers<'a> {
 pub(super) struct Files {
     pub(super) meshes: BTreeMap<String, Arc<MeshFile>>,
     pub(super) textures: BTreeMap<String, Arc<Texture>>,
+    pub(super) brushes: BTreeMap<String, Arc<Texture>>,
     pub(super) problems: Vec<Problem>,
 }
 
@@ -57,8 +61,44 @@ impl Files {
                 Err(problem) => files.problems.push(at(problem, &field_path)),
             }
         }
+        for (name, field_path) in brush_pictures(scene) {
+            match (readers.brush)(name) {
+                Ok((texture, warnings)) => {
+                    files.problems.extend(warnings);
+                    files.brushes.insert(name.to_owned(), Arc::new(texture));
+                }
+                Err(problem) => files.problems.push(at(problem, &field_path)),
+            }
+        }
         files
     }
+}
+
+/// Each brush that is a picture, with the field that names it first; no more than a scene may have.
+fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
+    let of_regions = scene
+        .regions
+        .iter()
+        .enumerate()
+        .map(|(index, region)| (format!("regions[{index}].strokes"), &region.strokes));
+    let mut seen = std::collections::HashSet::new();
+    let mut found = Vec::new();
+    for (path, settings) in [("strokes".to_owned(), &scene.strokes)].into_iter().chain(of_regions) {
+        let of_layers = settings
+            .layers
+            .iter()
+            .enumerate()
+            .map(|(index, layer)| (format!("{path}.layers[{index}].brush"), layer.brush.as_ref()));
+        let mixes = [(format!("{path}.brush"), settings.brush.as_ref())].into_iter().chain(of_layers);
+        for (field_path, mix) in mixes {
+            let names = mix.into_iter().flat_map(|mix| &mix.0).map(String::as_str);
+            for name in names.filter(|name| presets::is_picture(name) && seen.insert(name.to_owned())) {
+                found.push((name, field_path.clone()));
+            }
+        }
+    }
+    found.truncate(limits::MAX_BRUSH_PICTURES);
+    found
 }
 
 /// Each name that objects give, with the field that gives it first, in the order of the file.

@@ -88,7 +88,7 @@ fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
 
 fn from_ron(text: &str) -> Result<Scene, SpannedError> {
     ron::Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME)
+        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
         .with_recursion_limit(2 * limits::MAX_NESTING)
         .from_str(text)
 }
@@ -269,22 +269,26 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
         "fps" | "frame" | "roll_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
-        | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter" => {
-            "one number, as in 2.5"
-        }
+        | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter"
+        | "swing_deg" | "contour" | "color_jitter" | "temperature" | "grading" | "opacity" | "thickness"
+        | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" => "one number, as in 2.5",
         "eye" | "target" | "position" | "translation" | "rotation_deg" => "three numbers, as in (0, 1.5, -2)",
         "scale" => "one number, or three as in (1, 2, 1)",
         "background" | "color" | "ground" => "a colour, as in \"#b3262a\"",
-        "name" | "mesh" | "group" | "parent" | "texture" | "preset" | "brush" => {
-            "text in quotes, as in \"apple\""
-        }
+        "name" | "mesh" | "group" | "parent" | "texture" | "preset" => "text in quotes, as in \"apple\"",
+        "brush" => "a brush such as \"filbert\", a picture such as \"mark.png\", or a list of them",
+        "palette" => "a list of colours, as in [\"#b3262a\", \"#e3b62c\"]",
+        "layers" => "a list of layers, as in [(name: \"scumble\", coverage: 0)]",
+        "edges" => "Clip, Overrun(3) or Free",
+        "canvas" => "Linen or Board",
+        "canvas_follows" => "Picture or Camera",
         "unlit" | "underpainting" => "true or false",
         "keys" => "a list of keys, as in [(frame: 0, …), (frame: 24, …)]",
         "objects" | "lights" | "regions" => "a list, as in [(name: \"apple\", …)]",
         "timeline" => "frames and their rate, as in (fps: 24, first: 0, last: 119)",
         "camera" => "a lens and keys, as in (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
         "lens" => "Perspective(fov_y_deg: 35) or Orthographic(height: 2)",
-        "strokes" => "stroke settings, as in (length_px: 34, width_px: 11)",
+        "strokes" => "stroke settings, as in (length_px: 78, width_px: 25)",
         "material" => "a colour or a texture, as in (color: \"#b3262a\")",
         "style" => "RotatingStrokes() or Reference",
         "solver" => "Tangent, Horn or HornExact",
@@ -292,7 +296,9 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "kind" => "Sun, Point or Ambient",
         "up" => "Y or Z",
         "on" => "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\") or Material(\"apple\", \"wood\")",
-        "direction" => "a direction: Angle(35), Around((0, 1, 0)) or Up in a region, (x, y, z) in a light",
+        "direction" => {
+            "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)) or Up in a region, (x, y, z) in a light"
+        }
         _ => return None,
     })
 }

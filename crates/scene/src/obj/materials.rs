@@ -17,6 +17,18 @@ pub(super) struct Described {
     pub picture: Option<String>,
     /// Where its line begins in the MTL file.
     pub picture_place: Option<Place>,
+    /// Mean of `Ks`, 0..=1.
+    highlight: f32,
+    /// `Ns`, 0..=1000.
+    exponent: f32,
+}
+
+impl Described {
+    /// Strength of highlights, 0 matt .. 1 glazed. What common exporters write for a plain surface (Ks 0.5, Ns 250) is
+    /// a quarter.
+    pub(super) fn gloss(&self) -> f32 {
+        self.highlight * (self.exponent / 1000.0).sqrt()
+    }
 }
 
 /// Reads an MTL text. Nothing in it is fatal: what can not be used is left out with a warning.
@@ -42,6 +54,8 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
                 color: None,
                 picture: None,
                 picture_place: None,
+                highlight: 0.0,
+                exponent: 0.0,
             });
             continue;
         }
@@ -52,6 +66,8 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
                     plain.push_str(&format!("Kd {r} {g} {b}\n"));
                 }
             }
+            b"Ks" => material.highlight = mean(rest).clamp(0.0, 1.0),
+            b"Ns" => material.exponent = mean(rest).clamp(0.0, 1000.0),
             b"d" | b"Tr" => opacity(keyword, rest, &mut findings),
             b"map_Kd" | b"map_kd" => {
                 material.picture = picture_name(rest);
@@ -114,6 +130,17 @@ fn color(keyword: Word<'_>, rest: &[Word<'_>], findings: &mut Findings<'_>) -> O
         findings.warning(keyword.offset, "this colour is outside of 0 to 1; it is brought inside", mend);
     }
     Some(channels.map(|channel| channel.clamp(0.0, 1.0)))
+}
+
+/// Mean of the numbers of a line; 0 where there is none that can be used. Highlights are not worth a warning.
+fn mean(rest: &[Word<'_>]) -> f32 {
+    let numbers: Vec<f32> = rest
+        .iter()
+        .take(3)
+        .map_while(|word| word.text().parse::<f32>().ok())
+        .filter(|n| n.is_finite())
+        .collect();
+    if numbers.is_empty() { 0.0 } else { numbers.iter().sum::<f32>() / numbers.len() as f32 }
 }
 
 fn opacity(keyword: Word<'_>, rest: &[Word<'_>], findings: &mut Findings<'_>) {

@@ -71,19 +71,21 @@ impl<'a> Shelf<'a> {
         self.tell_of_unknown(checked, place_of);
         let mut materials = Vec::new();
         for name in &checked.materials.list {
-            let mut material = Material { name: name.clone(), color: GREY, texture: None };
+            let mut material = Material { name: name.clone(), color: GREY, texture: None, gloss: 0.0 };
             if let Some((described, mtl)) = self.described.get(name).cloned() {
+                let gloss = described.gloss();
                 if let Some(picture) = described.picture {
                     material.texture = self.picture(mtl, picture, described.picture_place)?;
                 }
                 // A picture without a colour is shown as it is.
                 let otherwise = if material.texture.is_some() { [1.0; 3] } else { GREY };
                 material.color = described.color.unwrap_or(otherwise);
+                material.gloss = gloss;
             }
             materials.push(material);
         }
         if materials.is_empty() {
-            materials.push(Material { name: String::new(), color: GREY, texture: None });
+            materials.push(Material { name: String::new(), color: GREY, texture: None, gloss: 0.0 });
         }
         Ok(materials)
     }

@@ -1,0 +1,88 @@
+//! Brush marks, made by code: what one stroke of a brush leaves on the canvas.
+//!
+//! A mark is three fields over a rectangle, `u` along the stroke from its loaded start, `v` across it:
+//!
+//! * **paint**: not a mask but a height that is cut off at a level. Cut low it is a wet stroke, higher a dry one, and at
+//!   last a few hairs. Its values are spread evenly, so that cutting at `1 − s` leaves the share `s` of the mark.
+//! * **height** of the paint's body: furrows, paint pushed aside along the edges, a ridge where the brush lifts.
+//! * **tint**: half-mixed paint across the hairs, around the middle value.
+
+mod lattice;
+mod marks;
+mod picture;
+
+pub use picture::{has_mark, marks_of_picture};
+
+/// The brushes, by name.
+pub const NAMES: [&str; 7] = ["flat", "filbert", "round", "fan", "dry", "knife", "rigger"];
+
+/// Texels along and across a mark.
+pub const SIZE: [usize; 2] = [256, 96];
+
+/// How many different marks a brush makes.
+pub const VARIANTS: u32 = 12;
+
+/// A mark fills this share of its rectangle each way; the rest is room for ragged ends.
+pub const FILL: f32 = 0.84;
+
+/// What a texel's height byte is multiplied by, over 255, to give the height of the paint in brush thicknesses.
+pub const HEIGHT_SCALE: f32 = 1.5;
+
+/// One mark: paint, height and tint of every texel, row by row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mark {
+    /// `SIZE[0] × SIZE[1]` texels: paint 0..=255, height in `HEIGHT_SCALE`/255 brush thicknesses, tint around 128.
+    pub texels: Vec<[u8; 3]>,
+}
+
+/// All marks of a brush by name, the same on every machine; `None` for a name that is not in [`NAMES`].
+pub fn marks_of(name: &str) -> Option<Vec<Mark>> {
+    let index = NAMES.iter().position(|known| *known == name)?;
+    Some(marks::of_brush(index))
+}
+
+/// One texel before it is stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Texel {
+    paint: f32,
+    /// In brush thicknesses.
+    height: f32,
+    /// −1..1.
+    tint: f32,
+}
+
+impl Mark {
+    /// Where a texel lies: u in the mark's 0..1, v in half widths −1..1, both a little beyond at the border.
+    fn place(index: usize) -> [f32; 2] {
+        let (column, row) = (index % SIZE[0], index / SIZE[0]);
+        let u = ((column as f32 + 0.5) / SIZE[0] as f32 - 0.5) / FILL + 0.5;
+        let v = ((row as f32 + 0.5) / SIZE[1] as f32 * 2.0 - 1.0) / FILL;
+        [u, v]
+    }
+
+    /// Stores texels, their paint replaced by its place among all paint of the mark.
+    fn store(texels: &[Texel]) -> Self {
+        let mut inked: Vec<u32> =
+            (0..texels.len() as u32).filter(|&index| texels[index as usize].paint > 0.02).collect();
+        inked.sort_unstable_by(|&a, &b| {
+            texels[a as usize].paint.total_cmp(&texels[b as usize].paint).then(a.cmp(&b))
+        });
+        let mut paint = vec![0.0f32; texels.len()];
+        let count = inked.len() as f32;
+        for (place, index) in inked.into_iter().enumerate() {
+            paint[index as usize] = (place as f32 + 0.5) / count;
+        }
+        let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let stored = texels
+            .iter()
+            .zip(paint)
+            .map(|(texel, paint)| {
+                [byte(paint), byte(texel.height / HEIGHT_SCALE), byte(texel.tint * 0.5 + 0.5)]
+            })
+            .collect();
+        Self { texels: stored }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,85 @@
+use super::*;
+
+#[test]
+fn marks_differ_and_end_inside_their_rectangles() {
+    let mut all: Vec<Mark> = Vec::new();
+    for name in NAMES {
+        let marks = marks_of(name).unwrap();
+        assert_eq!(marks.len(), VARIANTS as usize);
+        for (variant, mark) in marks.iter().enumerate() {
+            assert!(!all.contains(mark), "{name} {variant} is a mark that was there before");
+            let border = mark.texels.iter().enumerate().filter(|(index, _)| {
+                let (x, y) = (index % SIZE[0], index / SIZE[0]);
+                x == 0 || y == 0 || x == SIZE[0] - 1 || y == SIZE[1] - 1
+            });
+            assert!(border.map(|(_, texel)| texel[0]).max() == Some(0), "{name} {variant} is cut off");
+            let inked = mark.texels.iter().filter(|texel| texel[0] > 50).count() as f32;
+            let share = inked / mark.texels.len() as f32;
+            assert!((0.15..0.75).contains(&share), "{name} {variant} fills {share} of its rectangle");
+        }
+        all.extend(marks);
+    }
+    assert!(marks_of("broom").is_none());
+}
+
+#[test]
+fn paint_is_spread_evenly() {
+    for name in NAMES {
+        for mark in marks_of(name).unwrap() {
+            let paint: Vec<u8> = mark.texels.iter().map(|texel| texel[0]).collect();
+            let whole = paint.iter().filter(|&&value| value > 0).count() as f32;
+            for share in [0.1f32, 0.5, 0.9] {
+                let above =
+                    paint.iter().filter(|&&value| f32::from(value) / 255.0 > 1.0 - share).count() as f32;
+                assert!((above / whole - share).abs() < 0.01, "{name}: {} for {share}", above / whole);
+            }
+        }
+    }
+}
+
+#[test]
+fn hairs_run_along_the_stroke() {
+    // Along the middle of a mark the height changes less than across it.
+    for name in ["flat", "filbert", "dry"] {
+        let mark = &marks_of(name).unwrap()[0];
+        let at = |x: usize, y: usize| f32::from(mark.texels[y * SIZE[0] + x][1]);
+        let (mut along, mut across) = (0.0, 0.0);
+        for y in 30..66 {
+            for x in 60..180 {
+                along += (at(x + 3, y) - at(x, y)).abs();
+                across += (at(x, y + 3) - at(x, y)).abs();
+            }
+        }
+        assert!(across > 2.0 * along, "{name}: {along} along, {across} across");
+    }
+}
+
+#[test]
+fn a_picture_is_a_brush_if_there_is_a_mark_in_it() {
+    let disc = |inside: [u8; 4], outside: [u8; 4]| -> Vec<[u8; 4]> {
+        (0..64 * 32)
+            .map(|index| {
+                let (x, y) = (index % 64, index / 64);
+                let (dx, dy) = ((x as f32 - 32.0) / 28.0, (y as f32 - 16.0) / 13.0);
+                if dx * dx + dy * dy < 1.0 { inside } else { outside }
+            })
+            .collect()
+    };
+    let (white, black, clear) = ([255; 4], [0, 0, 0, 255], [255, 255, 255, 0]);
+    let light = disc(white, black);
+    assert!(has_mark([64, 32], &light));
+    assert!(!has_mark([64, 32], &[white; 64 * 32]));
+    assert!(!has_mark([64, 32], &[clear; 64 * 32]));
+    let marks = marks_of_picture([64, 32], &light);
+    assert_eq!(marks.len(), VARIANTS as usize);
+    let is_disc = |mark: &Mark| {
+        let at = |x: usize, y: usize| mark.texels[y * SIZE[0] + x][0];
+        at(128, 48) > 0 && at(30, 15) == 0 && at(225, 80) == 0
+    };
+    assert!(marks.iter().all(is_disc));
+    assert!(marks_of_picture([64, 32], &disc(white, clear)).iter().all(is_disc));
+    assert!(marks_of_picture([64, 32], &disc(black, white)).iter().all(is_disc), "dark on light");
+    // One texel, and fewer texels than the size claims.
+    assert_eq!(marks_of_picture([1, 1], &[white]).len(), VARIANTS as usize);
+    assert!(marks_of_picture([64, 32], &light[..10]).is_empty());
+}

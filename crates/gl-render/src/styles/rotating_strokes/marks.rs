@@ -1,0 +1,103 @@
+//! Brush marks on the GPU: every mark of every brush a layer of one array, with levels, so that small strokes show no comb.
+
+use std::sync::Arc;
+
+use impasto_core::brush::{SIZE, VARIANTS};
+use impasto_painting::frame::Brushes;
+use rayon::prelude::*;
+
+use crate::gl::{Format, GlError, Gpu, Texture};
+
+/// The marks of the brushes of some frame, kept while frames use the same.
+pub(super) struct Marks {
+    brushes: Arc<Brushes>,
+    pub(super) texture: Texture,
+}
+
+/// Paint, height, tint, unused.
+type Texel = [u8; 4];
+
+impl Marks {
+    /// Those of `brushes`; uploads them unless `kept` already are.
+    pub(super) fn of(gpu: &Gpu, kept: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
+        if let Some(kept) = kept
+            && (Arc::ptr_eq(&kept.brushes, brushes) || kept.brushes.names == brushes.names && kept.brushes == *brushes)
+        {
+            return Ok(kept);
+        }
+        let layers: Vec<Vec<Texel>> = brushes
+            .marks
+            .iter()
+            .flat_map(|marks| marks.iter())
+            .map(|mark| mark.texels.iter().map(|&[paint, height, tint]| [paint, height, tint, 0]).collect())
+            .collect();
+        let count = layers.len().max(1);
+        let limit = gpu.limits().max_array_layers as usize;
+        if count > limit {
+            let what = format!("{} brushes of {VARIANTS} marks", brushes.names.len());
+            return Err(GlError::Resource { what, reason: format!("this driver's limit is {limit} marks") });
+        }
+        let size = [SIZE[0] as u32, SIZE[1] as u32, count as u32];
+        let texture = Texture::array_with_levels(gpu, Format::Rgba8, size, &levels(layers))?;
+        Ok(Self { brushes: Arc::clone(brushes), texture })
+    }
+}
+
+/// All marks of a level behind each other, finest level first.
+fn levels(mut layers: Vec<Vec<Texel>>) -> Vec<Vec<u8>> {
+    if layers.is_empty() {
+        layers.push(vec![[0; 4]; SIZE[0] * SIZE[1]]);
+    }
+    let mut size = SIZE;
+    let mut levels = Vec::new();
+    loop {
+        levels.push(layers.iter().flatten().flatten().copied().collect());
+        if size == [1, 1] {
+            return levels;
+        }
+        let half = size.map(|side| (side / 2).max(1));
+        layers = layers.par_iter().map(|texels| halved(texels, size, half)).collect();
+        size = half;
+    }
+}
+
+/// Box filter to the next level.
+fn halved(texels: &[Texel], size: [usize; 2], half: [usize; 2]) -> Vec<Texel> {
+    let mut smaller = Vec::with_capacity(half[0] * half[1]);
+    for y in 0..half[1] {
+        for x in 0..half[0] {
+            let mut sum = [2u16; 4];
+            for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                let at = [(2 * x + dx).min(size[0] - 1), (2 * y + dy).min(size[1] - 1)];
+                for (sum, value) in sum.iter_mut().zip(texels[at[1] * size[0] + at[0]]) {
+                    *sum += u16::from(value);
+                }
+            }
+            smaller.push(sum.map(|value| (value / 4) as u8));
+        }
+    }
+    smaller
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impasto_core::brush::marks_of;
+
+    #[test]
+    fn levels_halve_down_to_one_texel_and_keep_the_mean() {
+        let mark = &marks_of("filbert").unwrap()[0];
+        let texels: Vec<Texel> = mark.texels.iter().map(|&[a, b, c]| [a, b, c, 0]).collect();
+        let mean = |bytes: &[u8], channel: usize| {
+            let values: Vec<f64> = bytes.chunks_exact(4).map(|texel| f64::from(texel[channel])).collect();
+            values.iter().sum::<f64>() / values.len() as f64
+        };
+        let levels = levels(vec![texels]);
+        assert_eq!(levels.len(), 9);
+        assert_eq!(levels.last().map(Vec::len), Some(4));
+        for channel in 0..3 {
+            let finest = mean(&levels[0], channel);
+            assert!(levels.iter().take(5).all(|level| (mean(level, channel) - finest).abs() < 2.0), "{channel}");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The brushes that a scene's layers use, and their marks.
+
+use std::sync::{Arc, OnceLock};
+
+use impasto_core::brush::{self, Mark};
+use impasto_core::hash;
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::presets::{LayerKind, ResolvedLayer};
+use rayon::prelude::*;
+
+use crate::frame::Brushes;
+use crate::regions::RegionRule;
+
+/// Marks of the brushes that come with Impasto are made once, whatever is painted with them.
+static MARKS: [OnceLock<Arc<Vec<Mark>>>; brush::NAMES.len()] = 
+    [const { OnceLock::new() }; brush::NAMES.len()];
+
+/// The brushes of all layers that lay paint.
+pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
+    let mut names: Vec<String> = rules
+        .iter()
+        .flat_map(|rule| LayerKind::ALL.map(|kind| rule.strokes.layer_of(kind)))
+        .filter(|layer| layer.coverage > 0.0)
+        .flat_map(|layer| layer.brushes.iter().cloned())
+        .collect();
+    names.sort();
+    names.dedup();
+    let marks = names.par_iter().map(|name| marks_of(loaded, name)).collect();
+    Brushes { names, marks }
+}
+
+/// The marks of a brush that comes with Impasto.
+fn of_house(name: &str) -> Option<Arc<Vec<Mark>>> {
+    let index = brush::NAMES.iter().position(|known| *known == name)?;
+    let make = || Arc::new(brush::marks_of(name).unwrap_or_default());
+    Some(Arc::clone(MARKS[index].get_or_init(make)))
+}
+
+fn marks_of(loaded: &LoadedScene, name: &str) -> Arc<Vec<Mark>> {
+    if let Some(marks) = of_house(name) {
+        return marks;
+    }
+    let marks = loaded.brushes.get(name).map(|picture| brush::marks_of_picture(picture.size_px, &picture.rgba8));
+    match marks.filter(|marks| !marks.is_empty()) {
+        Some(marks) => Arc::new(marks),
+        // A scene that was not checked; any mark will do.
+        None => marks_of(loaded, brush::NAMES[0]),
+    }
+}
+
+impl Brushes {
+    /// Brushes that come with Impasto, by name; names that do not exist are left out.
+    pub fn of_names(names: &[&str]) -> Self {
+        let mut names: Vec<String> =
+            names.iter().filter(|name| brush::NAMES.contains(*name)).map(|&name| name.to_owned()).collect();
+        names.sort();
+        names.dedup();
+        let marks = names.iter().filter_map(|name| of_house(name)).collect();
+        Self { names, marks }
+    }
+
+    /// The marks of one layer, as numbers over all brushes: `[first mark of the brush]`, one entry per mention.
+    pub(crate) fn first_marks(&self, layer: &ResolvedLayer) -> Vec<u32> {
+        let index = |name: &String| self.names.binary_search(name).unwrap_or(0) as u32;
+        layer.brushes.iter().map(|name| index(name) * brush::VARIANTS).collect()
+    }
+}
+
+/// The mark of a stroke: which brush, which of its marks, and whether it is flipped. Golden-ratio steps over the order keep
+/// neighbours in rank from taking the same one.
+pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
+    let step = |ratio: f64, count: u32| {
+        ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract() * f64::from(count))
+            as u32
+    };
+    let variant = step(0.618_033_988_75, brush::VARIANTS).min(brush::VARIANTS - 1);
+    let count = first_marks.len() as u32;
+    let brush = step(0.754_877_666_25, count).min(count.saturating_sub(1));
+    let flip = hash::combine(bits, 12) & 1;
+    first_marks.get(brush as usize).copied().unwrap_or(0) + variant | flip << 16
+}

@@ -1,0 +1,243 @@
+//! A coat: the particles of one object that carry one layer of paint. Each layer has particles of its own, so that a small
+//! stroke does not sit in the middle of each large one.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec3};
+use impasto_core::hash;
+use impasto_core::neighbours::{Neighbours, full_list_radius};
+use impasto_core::sampling::{self, Particle, Surface};
+use impasto_scene::document::Solver;
+use impasto_scene::presets::LayerKind;
+
+use crate::bake::{BakeInputs, BakedBody, BodyReference};
+use crate::frame::BodySurface;
+use crate::paper::PolygonCounts;
+use crate::particle_count::{self, Sighting};
+use crate::parts::BodyParts;
+use crate::prepare::Context;
+use crate::surface::SurfaceInputs;
+
+/// One coat, prepared.
+pub(crate) struct Coat {
+    /// Index of the object in the scene.
+    pub(crate) object: usize,
+    pub(crate) kind: LayerKind,
+    pub(crate) sampled: Arc<Sampled>,
+    pub(crate) inputs: BakeInputs,
+    pub(crate) baked: Arc<BakedBody>,
+    /// For each region, the marks that its brushes begin with.
+    pub(crate) first_marks: Vec<Vec<u32>>,
+}
+
+/// The particles of a coat.
+pub(crate) struct Sampled {
+    pub(crate) particles: Arc<Vec<Particle>>,
+    pub(crate) albedo_srgb8: Vec<u32>,
+    pub(crate) area: f64,
+    pub(crate) polygons: Option<PolygonCounts>,
+}
+
+/// What is kept of one object, each with the inputs that it was made from.
+#[derive(Default)]
+pub(crate) struct KeptObject {
+    surface: Option<(SurfaceInputs, Arc<BodySurface>, Arc<BodyParts>)>,
+    coats: [KeptCoat; LayerKind::ALL.len()],
+}
+
+#[derive(Default)]
+struct KeptCoat {
+    sampled: Option<(SampleInputs, Arc<Sampled>)>,
+    neighbours: Option<(Arc<Vec<Particle>>, Arc<Neighbours>)>,
+    baked: Option<(BakeInputs, Arc<BakedBody>)>,
+}
+
+#[derive(Clone, PartialEq)]
+struct SampleInputs {
+    surface: SurfaceInputs,
+    count: usize,
+    name_hash: u32,
+    per_polygon: bool,
+}
+
+/// One object while it is prepared.
+#[derive(Clone, Copy)]
+pub(crate) struct ObjectInputs<'a> {
+    pub(crate) index: usize,
+    pub(crate) surface: &'a SurfaceInputs,
+    /// Region of each triangle.
+    pub(crate) regions: &'a [u16],
+}
+
+impl KeptObject {
+    pub(crate) fn build_surface(&mut self, inputs: &SurfaceInputs) {
+        if self.surface.as_ref().is_none_or(|(before, ..)| before != inputs) {
+            let surface = inputs.build();
+            let parts = BodyParts::of(&surface.mesh);
+            self.surface = Some((inputs.clone(), Arc::new(surface), Arc::new(parts)));
+        }
+    }
+
+    pub(crate) fn surface(&self) -> Arc<BodySurface> {
+        Arc::clone(&self.surface.as_ref().expect("the surface step ran before").1)
+    }
+
+    pub(crate) fn parts(&self) -> Arc<BodyParts> {
+        Arc::clone(&self.surface.as_ref().expect("the surface step ran before").2)
+    }
+
+    /// Samples the particles of every coat.
+    pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+        let (body, parts) = (self.surface(), self.parts());
+        let surface = Surface::new(&body.mesh, |_| true);
+        let sightings = context.sightings(object.index, &parts);
+        for kind in LayerKind::ALL {
+            let count = count(context, object, kind, (&surface, &parts, &sightings));
+            let name_hash = name_hash(context, object.index, kind);
+            let now = SampleInputs { surface: object.surface.clone(), count, name_hash, per_polygon: context.paper };
+            let kept = &mut self.coats[kind as usize];
+            if kept.sampled.as_ref().is_some_and(|(before, _)| *before == now) {
+                continue;
+            }
+            let (particles, polygons) = if context.paper && count > 0 {
+                let entries = sampling::per_polygon(&surface, count, name_hash);
+                let polygons = PolygonCounts::new(&surface, &body.mesh, &entries);
+                (entries.into_iter().map(|entry| entry.particle).collect(), Some(polygons))
+            } else {
+                (sampling::progressive(&surface, count, name_hash), None)
+            };
+            let albedo_srgb8 =
+                particles.iter().map(|particle: &Particle| body.albedo_srgb8(particle)).collect();
+            let sampled =
+                Sampled { particles: Arc::new(particles), albedo_srgb8, area: surface.area(), polygons };
+            kept.sampled = Some((now, Arc::new(sampled)));
+        }
+    }
+
+    pub(crate) fn find_neighbours(&mut self) {
+        for coat in &mut self.coats {
+            let sampled = coat.sampled_now();
+            if coat.neighbours.as_ref().is_some_and(|(before, _)| Arc::ptr_eq(before, &sampled.particles)) {
+                continue;
+            }
+            let positions: Vec<Vec3> = sampled.particles.iter().map(|particle| particle.position).collect();
+            let normals: Vec<Vec3> = sampled.particles.iter().map(|particle| particle.normal).collect();
+            let radius = full_list_radius(sampled.area, positions.len()) as f32;
+            let found = Neighbours::find(&positions, &normals, radius);
+            coat.neighbours = Some((Arc::clone(&sampled.particles), Arc::new(found)));
+        }
+    }
+
+    /// The coats that have particles; the body's layer always counts as one.
+    pub(crate) fn bake(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) -> Vec<Arc<Coat>> {
+        let (surface, parts) = (self.surface(), self.parts());
+        let (low, high) = surface.mesh.bounds().unwrap_or_default();
+        let pose = context.reference.poses[object.index];
+        let view = &context.reference.view;
+        let wanted = |kind: LayerKind| {
+            kind == LayerKind::Body || !self.coats[kind as usize].sampled_now().particles.is_empty()
+        };
+        let kinds: Vec<LayerKind> = LayerKind::ALL.into_iter().filter(|&kind| wanted(kind)).collect();
+        kinds
+            .into_iter()
+            .map(|kind| {
+                let kept = &mut self.coats[kind as usize];
+                let inputs = BakeInputs {
+                    particles: Arc::clone(&kept.sampled_now().particles),
+                    neighbours: match context.solver {
+                        Solver::Tangent => None,
+                        Solver::Horn | Solver::HornExact => {
+                            kept.neighbours.as_ref().map(|(_, lists)| Arc::clone(lists))
+                        }
+                    },
+                    reference: BodyReference {
+                        map: view.screen_map(pose),
+                        near: view.near(),
+                        roll_rad: view.pose.roll_rad,
+                        up_in_model: pose.matrix3.transpose() * DVec3::Y,
+                        size_px: view.size_px,
+                    },
+                    solver: context.solver,
+                    region_of_triangle: object.regions.to_vec(),
+                    rules: context.rules.to_vec(),
+                    name_hash: name_hash(context, object.index, kind),
+                    extent: (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length())),
+                    parts: Arc::clone(&parts),
+                };
+                Arc::new(kept.coat(context, object.index, kind, inputs))
+            })
+            .collect()
+    }
+}
+
+impl KeptCoat {
+    fn sampled_now(&self) -> Arc<Sampled> {
+        Arc::clone(&self.sampled.as_ref().expect("the sampling step ran before").1)
+    }
+
+    fn coat(&mut self, context: &Context<'_>, object: usize, kind: LayerKind, inputs: BakeInputs) -> Coat {
+        if self.baked.as_ref().is_none_or(|(before, _)| *before != inputs) {
+            self.baked = Some((inputs.clone(), Arc::new(inputs.bake())));
+        }
+        let baked = Arc::clone(&self.baked.as_ref().expect("it was just baked").1);
+        let first_marks =
+            context.rules.iter().map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind))).collect();
+        Coat { object, kind, sampled: self.sampled_now(), inputs, baked, first_marks }
+    }
+}
+
+/// How many particles a coat has: as the object states for its body layer, else as its sightings ask for.
+fn count(
+    context: &Context<'_>,
+    object: ObjectInputs<'_>,
+    kind: LayerKind,
+    (surface, parts, sightings): (&Surface<'_>, &BodyParts, &[Sighting]),
+) -> usize {
+    let layer = |triangle: usize| context.rules[object.regions[triangle] as usize].strokes.layer_of(kind);
+    let left_out = kind == LayerKind::Underpainting && !context.underpainting
+        || context.paper && kind != LayerKind::Body
+        || (0..object.regions.len()).all(|triangle| layer(triangle).coverage <= 0.0);
+    if kind == LayerKind::Body
+        && let Some(count) = context.scene.objects[object.index].particles
+    {
+        return count as usize;
+    }
+    if left_out {
+        return 0;
+    }
+    particle_count::find(surface, sightings, |triangle, sighting| {
+        let cap = sighting.caps[parts.of_triangle[triangle] as usize];
+        let layer = layer(triangle);
+        let [length, width] = cap.apply(layer.length_px, layer.width_px);
+        layer.coverage / (length * width) * most_wanted(kind)
+    })
+}
+
+/// The most that a layer is wanted anywhere, where its coverage says 1.
+pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
+    if kind == LayerKind::Body { 1.35 } else { 1.0 }
+}
+
+/// What all chances of a coat come from. The body's is the object's own.
+fn name_hash(context: &Context<'_>, object: usize, kind: LayerKind) -> u32 {
+    let of_object = hash::combine(context.scene.seed, hash::of_name(&context.scene.objects[object].name));
+    if kind == LayerKind::Body { of_object } else { hash::combine(of_object, hash::of_name(kind.name())) }
+}
+
+impl Context<'_> {
+    fn sightings(&self, object: usize, parts: &BodyParts) -> Vec<Sighting> {
+        let size_px = [self.scene.size.0, self.scene.size.1];
+        self.views
+            .iter()
+            .map(|(view, poses)| {
+                let map = view.screen_map(poses[object]);
+                Sighting {
+                    map,
+                    caps: parts.caps(&map),
+                    half_size_px: DVec2::new(f64::from(size_px[0]), f64::from(size_px[1])) * 0.5,
+                    near: view.near(),
+                }
+            })
+            .collect()
+    }
+}

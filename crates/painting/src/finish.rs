@@ -1,0 +1,123 @@
+//! The paint as a body and what it lies on, from the document to a frame.
+
+use glam::{Affine2, DAffine3, DMat2, DVec2, DVec3};
+use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, Scene};
+use impasto_scene::presets;
+
+use crate::frame::{Finish, Ground};
+use crate::lights;
+use crate::view::PictureView;
+
+/// Light on the relief where the scene has no sun: from the upper left, as in most studios.
+const STUDIO_LIGHT: DVec3 = DVec3::new(-0.55, 0.62, 0.56);
+
+/// The relief's light stands at least this high over the canvas (sine), so that relief is always read as such.
+const LEAST_HEIGHT: f64 = 0.45;
+
+/// A scene's finish before it is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FinishRule {
+    finish: Finish,
+    /// Where the camera looked in the reference pose, world space, for a canvas that follows it.
+    anchor: Option<DVec3>,
+    reference: PictureView,
+}
+
+impl FinishRule {
+    pub(crate) fn new(scene: &Scene, settings: &RotatingStrokes, reference: &PictureView) -> Self {
+        let paper = presets::is_paper(scene);
+        let ground = presets::ground(scene);
+        let toned = settings.underpainting && !paper;
+        let strength = |value: f64| if paper { 0.0 } else { value as f32 };
+        let finish = Finish {
+            ground: toned
+                .then(|| Ground { color: lights::linear(ground.color), hides: ground.opacity }),
+            weave: if settings.canvas == Canvas::Linen { strength(settings.weave) } else { 0.0 },
+            canvas_from_px: Affine2::IDENTITY,
+            relief: strength(settings.relief),
+            to_relief_light: relief_light(scene, reference),
+            varnish: strength(settings.varnish),
+        };
+        let follows = settings.canvas_follows == CanvasFollows::Camera;
+        let anchor = follows.then_some(reference.pose.target);
+        Self { finish, anchor, reference: reference.clone() }
+    }
+
+    /// The finish of a picture of the scene's own size in this view.
+    pub(crate) fn at(&self, view: &PictureView) -> Finish {
+        let canvas_from_px = self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view));
+        Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
+    }
+
+    /// Slides, turns and scales with what the camera looked at in the reference pose; `None` when that is behind the eye.
+    fn canvas_from_px(&self, anchor: DVec3, view: &PictureView) -> Option<Affine2> {
+        let (before, now) =
+            (self.reference.screen_map(DAffine3::IDENTITY), view.screen_map(DAffine3::IDENTITY));
+        let scale_of = |map: &impasto_core::ScreenMap| {
+            let [x, y] = map.jacobian(anchor);
+            x.cross(y).length().sqrt()
+        };
+        let (from, to) = (now.project(anchor), before.project(anchor));
+        let scale = scale_of(&before) / scale_of(&now);
+        let seen = now.depth(anchor) > view.near() && before.depth(anchor) > self.reference.near();
+        let size_px = f64::from(self.reference.size_px[1]) / f64::from(view.size_px[1]);
+        if !seen || !scale.is_finite() || scale <= 0.0 || !from.is_finite() || !to.is_finite() {
+            return None;
+        }
+        // A camera rolled by +a turns the picture by −a.
+        let turn = DMat2::from_angle(view.pose.roll_rad - self.reference.pose.roll_rad) * (scale / size_px);
+        let shift: DVec2 = to - turn * (from * size_px);
+        let map = Affine2::from_mat2_translation(turn.as_mat2(), shift.as_vec2());
+        Some(map).filter(Affine2::is_finite)
+    }
+}
+
+/// Towards the first sun as the reference pose sees it, lifted off the canvas.
+fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
+    let lights = lights::resolve(scene, (glam::Vec3::ZERO, 1.0));
+    let view = reference.pose.view_from_world();
+    let seen = lights.suns.first().map(|sun| view.transform_vector3(sun.to_light.as_dvec3()));
+    let flat = seen.map(|light| light.truncate()).filter(|flat| flat.length() > 1e-3);
+    let Some(flat) = flat else { return STUDIO_LIGHT.normalize().as_vec3().to_array() };
+    let height = seen.map_or(0.0, |light| light.z).clamp(LEAST_HEIGHT, 0.7);
+    let flat = flat.normalize() * (1.0 - height * height).sqrt();
+    flat.extend(height).as_vec3().to_array()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impasto_scene::document::Lens;
+    use impasto_scene::motion::CameraPose;
+
+    fn view(eye: DVec3, roll_rad: f64) -> PictureView {
+        let pose = CameraPose {
+            eye,
+            target: DVec3::new(0.2, -0.1, 0.0),
+            roll_rad,
+            lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 50.0 },
+        };
+        PictureView { pose, size_px: [640, 360] }
+    }
+
+    #[test]
+    fn a_canvas_that_follows_moves_as_what_is_looked_at() {
+        let reference = view(DVec3::new(0.0, 0.0, 5.0), 0.0);
+        let anchor = reference.pose.target;
+        let rule = FinishRule { finish: Finish::default(), anchor: Some(anchor), reference: reference.clone() };
+        // A point beside the anchor, in the plane that faces the reference camera.
+        let beside = anchor + DVec3::new(0.05, 0.03, 0.0);
+        for other in [view(DVec3::new(0.0, 0.0, 3.0), 0.0), view(DVec3::new(0.0, 0.0, 5.0), 0.4)] {
+            let map = rule.at(&other).canvas_from_px;
+            let before = reference.screen_map(DAffine3::IDENTITY);
+            let now = other.screen_map(DAffine3::IDENTITY);
+            for point in [anchor, beside] {
+                let on_canvas = map.transform_point2(now.project(point).as_vec2());
+                let difference = (on_canvas.as_dvec2() - before.project(point)).length();
+                assert!(difference < 0.1, "{difference}");
+            }
+        }
+        let still = rule.at(&reference).canvas_from_px;
+        assert!((still.transform_point2(Vec2::new(50.0, -20.0)) - Vec2::new(50.0, -20.0)).length() < 1e-3);
+    }
+}

@@ -1,0 +1,138 @@
+//! Strokes of a frame, as they go to the GPU.
+
+use bytemuck::{Pod, Zeroable};
+use impasto_core::presence::smoothstep;
+use impasto_scene::presets::LayerKind;
+
+/// The palette number of strokes that may take any colour.
+pub const ANY_COLOR: u8 = 255;
+
+/// One brush stroke. Pixels, origin at the lower left, Y up.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Stroke {
+    /// Centre in pixels, origin at the lower left corner of the picture.
+    pub center_px: [f32; 2],
+    /// Depth along the gaze, world units, positive in front.
+    pub depth: f32,
+    /// Counter-clockwise from +X, radians in (−π, π].
+    pub angle_rad: f32,
+    /// Length in output pixels.
+    pub length_px: f32,
+    /// Width in output pixels.
+    pub width_px: f32,
+    /// Fades strokes out before their surface turns away: 0 edge-on .. 1.
+    pub facing_fade: f32,
+    /// ln(D/u): strokes wanted per pixel over particles per pixel, over rank, where the layer is wanted in full. Half of
+    /// the stroke is there at 0.
+    pub supply_ln: f32,
+    /// Random bits that belong to the stroke for ever.
+    pub bits: u32,
+    /// Id of the body in the id target (index in `Frame::bodies` plus 1).
+    pub body_id: u32,
+    /// Linear albedo at the stroke, 8 bits a channel, sRGB encoded, as 0xAABBGGRR; A is 0 where unlit.
+    pub albedo_srgb8: u32,
+    /// Index of the mark in [`super::Frame::brushes`], counted over all brushes; bit 16 flips it across.
+    pub mark: u32,
+    /// The paint.
+    pub paint: Paint,
+    /// How the colour is mixed.
+    pub mixing: Mixing,
+    /// Unit surface normal in world space.
+    pub normal_in_world: [f32; 3],
+    /// How far the stroke bends to its left in the middle, in half widths.
+    pub bend: f32,
+    /// How far paint may run past its own body, output pixels; at or over [`Stroke::FREE`], as far as it likes.
+    pub overrun_px: f32,
+    /// Slow drifts over the surface, of hue and of how firm the body's edge is; mean 0, standard deviation 1.
+    pub drift: [f32; 2],
+}
+
+/// What the paint of a stroke is like, a byte each.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct Paint {
+    /// Opacity times 255.
+    pub opacity: u8,
+    /// Thickness times [`Paint::THICKNESS_SCALE`].
+    pub thickness: u8,
+    /// How much wet paint is picked up, times 255.
+    pub pickup: u8,
+    /// Share of the mark that is left out, times 255.
+    pub dryness: u8,
+}
+
+/// How the colour of a stroke is mixed, a byte each.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct Mixing {
+    /// Factor on the difference from stroke to stroke, times [`Mixing::SCALE`].
+    pub jitter: u8,
+    /// Factor on the temperature, times [`Mixing::SCALE`].
+    pub temperature: u8,
+    /// How far colours are pulled to a painter's values, times 255.
+    pub grading: u8,
+    /// Row of [`super::Frame::palettes`], or [`ANY_COLOR`].
+    pub palette: u8,
+}
+
+impl Paint {
+    /// Bytes per brush thickness.
+    pub const THICKNESS_SCALE: f32 = 50.0;
+}
+
+impl Mixing {
+    /// Bytes per unit.
+    pub const SCALE: f32 = 25.5;
+}
+
+impl Default for Stroke {
+    /// A whole, opaque stroke of the first brush, of no size and mixed without chance.
+    fn default() -> Self {
+        Self {
+            facing_fade: 1.0,
+            supply_ln: 8.0,
+            paint: Paint { opacity: 255, ..Paint::default() },
+            mixing: Mixing { palette: ANY_COLOR, ..Mixing::zeroed() },
+            ..Self::zeroed()
+        }
+    }
+}
+
+impl Stroke {
+    /// The overrun of strokes that end where they end.
+    pub const FREE: f32 = 1e6;
+
+    /// How much of the stroke is there, 0..=1, where the layer is wanted by this factor (0 not at all, 1 in full):
+    /// `S(½ + ln(D/u · wanted)/1.4)` times the fade of its facing. The resolve shader computes the same.
+    pub fn presence(&self, wanted: f32) -> f32 {
+        let supply = self.supply_ln + wanted.max(1e-6).ln();
+        smoothstep(0.5 + supply / impasto_core::presence::FADE) * self.facing_fade
+    }
+}
+
+/// What a stroke is and how far it can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrokeSource {
+    /// Index of the particle in the progressive order of its object's layer.
+    pub particle: u32,
+    /// Index of the region in the scene; `regions.len()` for the implicit one.
+    pub region: u32,
+    /// κ in 0..=1: how well a turn describes what the picture of the surface has done (1 = wholly).
+    pub kappa: f32,
+    /// Cosine between the surface normal and the direction to the eye.
+    pub facing: f32,
+    /// Rank in (0, 1): low ranks stay longest when strokes thin out.
+    pub rank: f32,
+}
+
+/// A run of strokes of one layer of paint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LayerRun {
+    /// Which.
+    pub kind: LayerKind,
+    /// First stroke.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+}

@@ -1,0 +1,236 @@
+//! From a particle in a view to its stroke: size, presence, mark, paint.
+
+use glam::{DVec2, DVec3};
+use impasto_core::angle::wrap_pi;
+use impasto_core::hash;
+use impasto_core::lift::PixelMap2;
+use impasto_core::presence::smoothstep;
+use impasto_core::screen_map::facing;
+use impasto_scene::document::{Edges, Solver};
+use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
+
+use crate::at::{Look, SeenCoat};
+use crate::bake::{
+    BEND, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
+};
+use crate::brushes;
+use crate::coat::most_wanted;
+use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
+use crate::prepare::OrderEntry;
+
+/// Deviations of length and width beside that of the whole size, as shares of it.
+const LENGTH_SHARE: f32 = 1.1;
+const WIDTH_SHARE: f32 = 0.75;
+
+/// Deviation of a stroke's thickness, as a share of it.
+const THICKNESS_DEVIATION: f32 = 0.2;
+
+/// Deviation of the bend in half widths, where angles have their usual jitter.
+const BEND_DEVIATION: f32 = 0.35;
+const MOST_BEND: f32 = 0.9;
+
+/// Of the edges' slow noise, how far it carries paint past its body.
+const EDGE_SWING: f32 = 0.6;
+
+/// ln(D/u) of a stroke that is there whatever the rank.
+const WHOLE: f32 = 8.0;
+
+/// At or below this ln(D/u) nothing of a stroke is left.
+const ABSENT: f32 = -0.5 * impasto_core::presence::FADE;
+
+impl Look<'_> {
+    /// The stroke of a particle, unless it is absent whatever its layer is wanted for.
+    pub(crate) fn stroke(&self, entry: OrderEntry) -> Option<(Stroke, StrokeSource)> {
+        let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
+        let (coat, solved) = (seen.coat, &seen.solved);
+        let region = self.region(entry);
+        let strokes = &self.painting.rules[region as usize].strokes;
+        let layer = strokes.layer_of(coat.kind);
+        if layer.coverage <= 0.0 {
+            return None;
+        }
+        let size_px = seen.caps[coat.baked.part[index] as usize].apply(layer.length_px, layer.width_px);
+        let drift = coat.baked.drift[index];
+        let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
+        let supply_ln = match (&seen.shown, &coat.sampled.polygons) {
+            (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
+            (Some(_), _) => return None,
+            _ => self.supply_ln(seen, index, layer.coverage * patches / (size_px[0] * size_px[1])),
+        };
+        if supply_ln + most_wanted(coat.kind).ln() <= ABSENT {
+            return None;
+        }
+        let position = coat.baked.baked.position_of(index);
+        let normal = coat.baked.baked.normal_of(index);
+        let jacobian = seen.map.jacobian(position);
+        let facing = facing(jacobian, normal) as f32;
+        if facing <= 0.0 {
+            return None;
+        }
+        // The paper's count knows no fading.
+        let facing_fade = if seen.shown.is_some() { 1.0 } else { smoothstep(facing * 5.0) };
+        let lift = match self.painting.solver {
+            Solver::Tangent => coat.baked.baked.lift_of(index),
+            Solver::Horn | Solver::HornExact => coat.inputs.surface_lift(index),
+        };
+        let map: PixelMap2 = lift.map(jacobian);
+        let angle_rad = along_contour(seen.angle_rad(index), strokes.contour, normal, (&seen.map, facing));
+        let chance = Chance { seen, index };
+        let [length_px, width_px] = chance.size_px(size_px, strokes.size_jitter);
+        let bits = coat.baked.bits[index];
+        let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
+        let stroke = Stroke {
+            center_px: [solved.x_px[index] + self.half_px[0], solved.y_px[index] + self.half_px[1]],
+            depth: solved.depth[index],
+            angle_rad,
+            length_px: length_px * self.px_scale,
+            width_px: width_px * self.px_scale,
+            facing_fade,
+            supply_ln,
+            bits,
+            body_id: coat.object as u32 + 1,
+            albedo_srgb8: coat.sampled.albedo_srgb8[index],
+            mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
+            paint: chance.paint(layer, strokes.size_jitter > 0.0),
+            mixing: mixing(strokes, self.painting.palette_of_rule[region as usize]),
+            normal_in_world: (seen.world_from_model.matrix3 * normal).as_vec3().to_array(),
+            bend: (BEND_DEVIATION * jitter_share * hash::normal(seen.bits(index, BEND)))
+                .clamp(-MOST_BEND, MOST_BEND),
+            overrun_px: self.overrun_px(strokes.edges, layer.overrun, drift[1]),
+            drift,
+        };
+        let count = coat.sampled.particles.len() as f32;
+        let source = StrokeSource {
+            particle: entry.particle,
+            region: u32::from(region),
+            kappa: map.kappa() as f32,
+            facing,
+            rank: (entry.particle as f32 + 0.5) / count,
+        };
+        Some((stroke, source))
+    }
+
+    /// ln of ρ*·A/(order + ½): strokes wanted per pixel over particles per pixel, over rank. How many particles there are
+    /// cancels out, so twice as many leave the first half as they were.
+    fn supply_ln(&self, seen: &SeenCoat<'_>, index: usize, wanted_per_px: f32) -> f32 {
+        let area_px = seen.solved.area_px[index] / (self.px_scale * self.px_scale);
+        let wanted = f64::from(wanted_per_px * area_px) * seen.coat.sampled.area / (index as f64 + 0.5);
+        wanted.ln() as f32
+    }
+
+    fn overrun_px(&self, edges: Edges, of_layer: f32, noise: f32) -> f32 {
+        match edges {
+            Edges::Clip => 0.0,
+            Edges::Overrun(px) => {
+                (px as f32 * of_layer * (1.0 + EDGE_SWING * noise)).clamp(0.0, Stroke::FREE * 0.5) * self.px_scale
+            }
+            Edges::Free => Stroke::FREE,
+        }
+    }
+}
+
+/// Scumble lies in patches: how much of it, for slow noise of mean 0 and deviation 1.
+fn patch(noise: f32) -> f32 {
+    smoothstep(0.5 + 0.45 * noise).max(0.02)
+}
+
+fn mixing(strokes: &ResolvedStrokes, palette: u8) -> Mixing {
+    let byte = |value: f32, scale: f32| (value * scale).round() as u8;
+    Mixing {
+        jitter: byte(strokes.color_jitter, Mixing::SCALE),
+        temperature: byte(strokes.temperature, Mixing::SCALE),
+        grading: byte(strokes.grading, 255.0),
+        palette,
+    }
+}
+
+/// Turns a stroke near the limb to lie along its body's contour, by the share `contour`; of two directions of the contour,
+/// towards the nearer.
+fn along_contour(
+    angle_rad: f32,
+    contour: f32,
+    normal: DVec3,
+    (map, facing): (&impasto_core::ScreenMap, f32),
+) -> f32 {
+    let weight = contour * 0.9 * (1.0 - smoothstep((facing - 0.10) / 0.50));
+    let in_picture = DVec2::new(
+        normal.dot(map.row_x.truncate().normalize_or_zero()),
+        normal.dot(map.row_y.truncate().normalize_or_zero()),
+    );
+    if weight <= 0.0 || in_picture.length_squared() < 1e-12 {
+        return angle_rad;
+    }
+    let contour_rad = in_picture.perp().to_angle() as f32;
+    let twice = |angle: f32| DVec2::from_angle(2.0 * f64::from(angle));
+    let mixed = twice(angle_rad) * f64::from(1.0 - weight) + twice(contour_rad) * f64::from(weight);
+    let turned = 0.5 * mixed.to_angle();
+    // The stroke keeps its start where it was.
+    let half_turns = ((f64::from(angle_rad) - turned) / std::f64::consts::PI).round();
+    wrap_pi(turned + half_turns * std::f64::consts::PI) as f32
+}
+
+/// The chances of one particle.
+struct Chance<'a> {
+    seen: &'a SeenCoat<'a>,
+    index: usize,
+}
+
+impl Chance<'_> {
+    fn normal(&self, which: u32) -> f32 {
+        hash::normal(self.seen.bits(self.index, which))
+    }
+
+    fn size_px(&self, [length, width]: [f32; 2], jitter: f32) -> [f32; 2] {
+        let size = jitter * self.normal(SIZE_JITTER);
+        [
+            length * (size + jitter * LENGTH_SHARE * self.normal(LENGTH_JITTER)).exp(),
+            width * (size + jitter * WIDTH_SHARE * self.normal(WIDTH_JITTER)).exp(),
+        ]
+    }
+
+    fn paint(&self, layer: &ResolvedLayer, lively: bool) -> Paint {
+        let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
+        let (thickness, dryness) = if lively {
+            let dryness = hash::unit(self.seen.bits(self.index, DRYNESS_JITTER));
+            ((THICKNESS_DEVIATION * self.normal(THICKNESS_JITTER)).exp(), 0.4 + 1.2 * dryness)
+        } else {
+            (1.0, 1.0)
+        };
+        Paint {
+            opacity: byte(layer.opacity * 255.0),
+            thickness: byte(layer.thickness * thickness * Paint::THICKNESS_SCALE),
+            pickup: byte(layer.pickup * 255.0),
+            dryness: byte((layer.dryness * dryness).min(1.0) * 255.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DAffine3, DMat4};
+    use impasto_core::ScreenMap;
+    use impasto_core::screen_map::PixelLens;
+
+    #[test]
+    fn strokes_at_the_limb_lie_along_the_contour_and_the_others_stay() {
+        let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
+        let lens = PixelLens::Orthographic { px_per_unit: 100.0 };
+        let map = ScreenMap::new(view, DAffine3::IDENTITY, lens);
+        let at = |contour: f32, tilt_deg: f64, angle_deg: f32| {
+            let normal = DVec3::new(tilt_deg.to_radians().sin(), 0.0, tilt_deg.to_radians().cos());
+            let facing = normal.z as f32;
+            along_contour(angle_deg.to_radians(), contour, normal, (&map, facing)).to_degrees()
+        };
+        // The contour of a normal that leans to +x runs along y.
+        assert!((at(1.0, 85.0, 40.0) - 88.0).abs() < 4.0, "{}", at(1.0, 85.0, 40.0));
+        assert!((at(1.0, 85.0, -137.0) + 92.0).abs() < 4.0, "{}", at(1.0, 85.0, -137.0));
+        assert_eq!(at(1.0, 30.0, 7.0), 7.0f32.to_radians().to_degrees());
+        assert_eq!(at(0.0, 85.0, 7.0), 7.0f32.to_radians().to_degrees());
+    }
+
+    #[test]
+    fn scumble_lies_in_patches_and_leaves_the_rest() {
+        assert!(patch(-1.5) < 0.05 && (patch(0.0) - 0.5).abs() < 1e-6 && patch(1.5) > 0.95);
+    }
+}

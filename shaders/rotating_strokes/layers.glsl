@@ -1,0 +1,7 @@
+// The layers of paint, in the order in which they are laid on.
+const int UNDERPAINTING = 0;
+const int BODY = 1;
+const int FORM = 2;
+const int SCUMBLE = 3;
+const int ACCENTS = 4;
+const int LIGHTS = 5;
