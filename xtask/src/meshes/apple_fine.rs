@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::curve::{Profile, bump, noise, smoothstep};
+use super::curve::{Profile, bump, hash, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
 /// Half of an apple cut from the stem cavity to the calyx: distance from the axis, height.
@@ -19,45 +19,69 @@ const OUTLINE: [[f64; 2]; 17] = [
     [0.498, 0.625],
     [0.500, 0.490],
     [0.466, 0.340],
-    [0.402, 0.195],
-    [0.325, 0.080],
-    [0.240, 0.016],
+    [0.430, 0.195],
+    [0.362, 0.086],
+    [0.262, 0.018],
     [0.170, 0.010],
     [0.105, 0.045],
     [0.050, 0.090],
     [0.0, 0.100],
 ];
 
-/// The skin's colours, from the shaded side of the blush to the sunny one.
-const SKIN: [&str; 10] =
-    ["yellow", "gold", "amber", "orange", "coral", "vermilion", "red", "carmine", "crimson", "deep"];
+/// The skin's colours, from yellow to crimson: so many that no two neighbours show a border.
+const SKIN: [&str; 28] = [
+    "skin_01", "skin_02", "skin_03", "skin_04", "skin_05", "skin_06", "skin_07", "skin_08", "skin_09",
+    "skin_10", "skin_11", "skin_12", "skin_13", "skin_14", "skin_15", "skin_16", "skin_17", "skin_18",
+    "skin_19", "skin_20", "skin_21", "skin_22", "skin_23", "skin_24", "skin_25", "skin_26", "skin_27",
+    "skin_28",
+];
 
 /// Height of the apple's middle above its foot.
 pub const MIDDLE: f64 = 0.44;
 
-/// An apple with its skin (48 × 96 faces), a curved stem (16 × 12) and one leaf (2 × 12 × 22), its leaf towards −X.
+/// An apple with its skin (52 × 144 faces), a curved stem (16 × 12) and one leaf (2 × 12 × 22), its leaf towards −X.
 /// Its middle is the origin, about which it can be keyed to roll.
 pub fn apple_fine() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "apple_fine",
         "An apple with stem and leaf; the origin is its middle, its foot is at y = -0.44.",
         &[
-            ("yellow", "#d8a743"),
-            ("gold", "#d6953e"),
-            ("amber", "#d2823a"),
-            ("orange", "#cc6d35"),
-            ("coral", "#c65a31"),
-            ("vermilion", "#bf472d"),
-            ("red", "#b5352b"),
-            ("carmine", "#aa282a"),
-            ("crimson", "#9b2029"),
-            ("deep", "#881a27"),
+            ("skin_01", "#d8a743"),
+            ("skin_02", "#d7a141"),
+            ("skin_03", "#d79b40"),
+            ("skin_04", "#d6953e"),
+            ("skin_05", "#d58f3d"),
+            ("skin_06", "#d3883b"),
+            ("skin_07", "#d2823a"),
+            ("skin_08", "#d07b38"),
+            ("skin_09", "#ce7437"),
+            ("skin_10", "#cc6d35"),
+            ("skin_11", "#ca6734"),
+            ("skin_12", "#c86032"),
+            ("skin_13", "#c65a31"),
+            ("skin_14", "#c45430"),
+            ("skin_15", "#c14d2e"),
+            ("skin_16", "#bf472d"),
+            ("skin_17", "#bc412c"),
+            ("skin_18", "#b83b2c"),
+            ("skin_19", "#b5352b"),
+            ("skin_20", "#b1312b"),
+            ("skin_21", "#ae2c2a"),
+            ("skin_22", "#aa282a"),
+            ("skin_23", "#a5252a"),
+            ("skin_24", "#a02329"),
+            ("skin_25", "#9b2029"),
+            ("skin_26", "#951e28"),
+            ("skin_27", "#8e1c28"),
+            ("skin_28", "#881a27"),
             ("stem", "#6a4526"),
             ("leaf", "#557f2c"),
             ("leaf_shade", "#47702a"),
             ("rib", "#7d9a45"),
         ],
     );
+    mesh.polish(&SKIN, 0.5, 120.0);
+    mesh.polish(&["leaf", "leaf_shade", "rib"], 0.2, 40.0);
     skin(&mut mesh);
     stem(&mut mesh);
     leaf(&mut mesh);
@@ -69,8 +93,8 @@ pub fn apple_fine() -> PolyMesh {
 }
 
 fn skin(mesh: &mut PolyMesh) {
-    const SEGMENTS: usize = 96;
-    const ROWS: usize = 48;
+    const SEGMENTS: usize = 144;
+    const ROWS: usize = 52;
     let outline = Profile::through(&OUTLINE).spread(ROWS, 0.4);
     mesh.lathe(
         [ROWS, SEGMENTS],
@@ -87,8 +111,8 @@ fn skin_point(radius: f64, height: f64, angle: f64) -> DVec3 {
     // Five bumps round the calyx, fading out towards the belly.
     let five = (5.0 * angle + 0.4).cos();
     let low = (1.0 - smoothstep(0.02, 0.45, height)) * smoothstep(0.04, 0.16, radius);
-    let lobes = 1.0 + 0.038 * five * low;
-    let foot = -0.012 * five * bump(0.20, 0.17, radius) * (1.0 - smoothstep(0.1, 0.3, height));
+    let lobes = 1.0 + 0.012 * five * low;
+    let foot = -0.009 * five * bump(0.20, 0.17, radius) * (1.0 - smoothstep(0.1, 0.3, height));
     // One shoulder higher than the other, one cheek fuller.
     let cheek = 1.0 + 0.018 * (angle - 0.7).cos() + 0.020 * (2.0 * angle + 1.1).cos();
     let shoulder = 0.044 * radius * (angle + 2.2).cos() * smoothstep(0.35, 0.85, height)
@@ -101,15 +125,34 @@ fn skin_point(radius: f64, height: f64, angle: f64) -> DVec3 {
 /// Streaks from the stem to the calyx: yellow in the cavity and about the calyx, orange on one cheek, crimson on the
 /// other. `round` is a share of a turn, `down` a share of the way from the stem.
 fn blush(round: f64, down: f64) -> &'static str {
-    // Streaks bend a little, and are finest at the shoulder.
-    let bent = round + 0.012 * (9.0 * down).sin();
-    let broad = noise(bent, 0.8 * down, 15, 3);
-    let fine = noise(bent, 1.6 * down + 0.7, 48, 8);
+    let broad = noise(round + 0.010 * (5.0 * down).sin(), 0.7 * down, 11, 3);
     let cheek = -(TAU * (round - 0.58)).cos();
-    let cavity = 4.5 * smoothstep(0.24 + 0.07 * broad, 0.08, down);
-    let calyx = 2.5 * smoothstep(0.78 + 0.06 * broad, 0.97, down);
-    let redness = 5.4 + 2.6 * cheek + 1.7 * broad + 0.9 * fine - cavity - calyx;
-    SKIN[redness.round().clamp(0.0, 9.0) as usize]
+    let cavity = 13.0 * smoothstep(0.26 + 0.05 * broad, 0.05, down);
+    let calyx = 7.5 * smoothstep(0.72 + 0.05 * broad, 1.0, down);
+    let redness = 17.5 + 8.0 * cheek + 3.6 * broad + streaks(round, down) - cavity - calyx;
+    SKIN[redness.round().clamp(0.0, (SKIN.len() - 1) as f64) as usize]
+}
+
+/// What the streaks add to the redness: long threads, each as broad as a few faces in its middle and tapering to both
+/// of its ends, some redder than the skin under them, some yellower.
+fn streaks(round: f64, down: f64) -> f64 {
+    const COUNT: u32 = 46;
+    (0..COUNT)
+        .map(|index| {
+            let random = |number: u32| hash([index, number, 61]);
+            let middle = 0.46 + 0.20 * random(1);
+            let reach = 0.30 + 0.12 * random(2);
+            let along = (down - middle) / reach;
+            let taper = (1.0 - along * along).max(0.0);
+            let place = (f64::from(index) + 0.7 * random(3)) / f64::from(COUNT)
+                + 0.006 * (4.0 * down + random(4)).sin();
+            // The shorter way round.
+            let off = (round - place + 0.5).rem_euclid(1.0) - 0.5;
+            let half_width = (0.017 + 0.006 * random(5)) * taper.sqrt() + 1e-4;
+            let strength = 4.2 * random(6) + 0.8;
+            strength * taper.sqrt() * (1.0 - (off / half_width).abs()).max(0.0)
+        })
+        .sum()
 }
 
 /// A tilted stem that leans over and thickens where it was cut.
@@ -155,7 +198,9 @@ fn leaf(mesh: &mut PolyMesh) {
         [ACROSS, ALONG],
         |column, row| {
             let t = row as f64 / ALONG as f64;
-            let s = column as f64 / ACROSS as f64 * 2.0 - 1.0;
+            let even = column as f64 / ACROSS as f64 * 2.0 - 1.0;
+            // The columns are closer together at the midrib, which is narrow.
+            let s = even * (0.5 + 0.5 * even * even);
             // A stalk, then the blade, widest before its middle, drawn out to a tip.
             let blade = ((t - 0.12) / 0.88).max(0.0);
             let half_width =
@@ -172,9 +217,9 @@ fn leaf(mesh: &mut PolyMesh) {
             let thick = 0.005 * (1.0 - s * s) + 0.006 * bump(0.0, 0.25, s) * (1.0 - 0.7 * t);
             [middle + DVec3::Y * thick, middle - DVec3::Y * thick]
         },
-        |column, row| {
+        |column, _| {
             let material = match column {
-                5 | 6 if row < 17 => "rib",
+                5 | 6 => "rib",
                 0..=5 => "leaf_shade",
                 _ => "leaf",
             };

@@ -1,22 +1,22 @@
 //! The cloth of the still life: linen that lies on a table and hangs over its front edge in pipes.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec2, DVec3};
 
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-const COLUMNS: usize = 120;
-const ROWS: usize = 96;
+const COLUMNS: usize = 160;
+const ROWS: usize = 80;
 /// So many of the rows hang; the others lie on the table.
-const HANGING: usize = 44;
+const HANGING: usize = 38;
 /// How far above the table, and before its edge, the flat cloth lies.
 const CLEARANCE: f64 = 0.008;
 /// With what radius the cloth goes round the table's edge.
 const BEND: f64 = 0.03;
 /// With what radius the turned corner is folded over.
-const TURN: f64 = 0.011;
+const TURN: f64 = 0.016;
 
 /// A fold: a pipe where the cloth hangs, and a ridge that runs back onto the table and dies away.
 struct Fold {
@@ -37,27 +37,25 @@ const fn fold(crest: [f64; 3], [width, height]: [f64; 2], reach: f64, lean: f64)
 }
 
 /// From the left selvage to the right one; they start under the fruit and fan out.
-const FOLDS: [Fold; 11] = [
-    fold([-0.01, 0.02, 0.06], [0.055, 0.050], 0.16, -0.5),
-    fold([0.105, 0.130, 0.19], [0.060, 0.062], 0.26, 0.7),
-    fold([0.215, 0.225, 0.25], [0.036, 0.034], 0.07, 0.3),
-    fold([0.300, 0.330, 0.43], [0.058, 0.078], 0.42, 0.8),
-    fold([0.430, 0.425, 0.42], [0.040, 0.040], 0.12, 0.4),
-    fold([0.515, 0.520, 0.54], [0.052, 0.064], 0.39, 0.6),
-    fold([0.610, 0.600, 0.58], [0.034, 0.030], 0.09, -0.3),
-    fold([0.705, 0.675, 0.61], [0.060, 0.084], 0.44, 0.7),
-    fold([0.800, 0.770, 0.72], [0.038, 0.038], 0.15, 0.5),
-    fold([0.905, 0.865, 0.70], [0.062, 0.076], 0.46, 0.6),
-    fold([1.010, 0.985, 0.94], [0.050, 0.046], 0.22, 0.5),
+const FOLDS: [Fold; 9] = [
+    fold([0.010, 0.030, 0.07], [0.052, 0.046], 0.14, -0.4),
+    fold([0.125, 0.140, 0.19], [0.064, 0.078], 0.27, 0.7),
+    fold([0.235, 0.240, 0.26], [0.044, 0.030], 0.08, 0.3),
+    fold([0.335, 0.350, 0.43], [0.066, 0.092], 0.42, 0.8),
+    fold([0.470, 0.470, 0.48], [0.056, 0.046], 0.20, 0.4),
+    fold([0.600, 0.585, 0.56], [0.062, 0.088], 0.43, 0.6),
+    fold([0.720, 0.695, 0.65], [0.046, 0.036], 0.12, -0.3),
+    fold([0.835, 0.810, 0.70], [0.068, 0.094], 0.45, 0.7),
+    fold([0.965, 0.945, 0.90], [0.052, 0.056], 0.20, 0.4),
 ];
 
-/// A linen cloth with two woven stripes (120 × 96 faces). Its origin is the middle of the table's edge: the table's
+/// A linen cloth with two woven stripes (160 × 80 faces). Its origin is the middle of the table's edge: the table's
 /// top is y = 0 for z < 0, and its front is z = 0.
 pub fn cloth() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "cloth",
         "A cloth on a table's top (y = 0, z < 0) that hangs over its front edge (z = 0); open at its rim.",
-        &[("linen", "#d9d2c2"), ("worn", "#d1c8b4"), ("stripe", "#7f8fa3"), ("hem", "#dfd9cb")],
+        &[("linen", "#d9d2c2"), ("worn", "#d6cebd"), ("stripe", "#7f8fa3"), ("hem", "#dfd9cb")],
     );
     let back = Profile::through(&[[0.0, 0.50], [0.25, 0.60], [0.55, 0.74], [0.80, 0.76], [1.0, 0.70]]);
     mesh.sheet(
@@ -67,10 +65,10 @@ pub fn cloth() -> PolyMesh {
             draped(DVec2::new(across, along(row, across, back.height_at(across))))
         },
         |column, row| {
-            let patch = noise(column as f64 / COLUMNS as f64 * 0.5, row as f64 * 0.06, 9, 41);
+            let patch = noise(column as f64 / COLUMNS as f64 * 0.5, row as f64 * 0.07, 9, 41);
             let material = match row {
                 0..=1 => "hem",
-                8..=12 | 15 => "stripe",
+                7..=10 | 13 => "stripe",
                 _ if patch > 0.3 => "worn",
                 _ => "linen",
             };
@@ -83,12 +81,12 @@ pub fn cloth() -> PolyMesh {
 /// How far behind the table's edge, along the cloth, a row lies; negative where it hangs.
 fn along(row: usize, across: f64, back: f64) -> f64 {
     if row < HANGING {
-        let drop = 0.225 - 0.030 * across + 0.012 * (TAU * across * 1.5 + 0.5).sin();
+        let drop = 0.222 - 0.024 * across;
         -drop * (1.0 - row as f64 / HANGING as f64)
     } else {
         let share = (row - HANGING) as f64 / (ROWS - HANGING) as f64;
-        // The edge at the back runs in slack waves.
-        let wave = 0.010 * noise(across * 0.5, 0.0, 12, 9);
+        // The edge at the back is slack.
+        let wave = 0.004 * noise(across * 0.5, 0.0, 6, 9);
         share * (back + wave)
     }
 }
@@ -100,8 +98,8 @@ fn draped(flat: DVec2) -> DVec3 {
     // Towards the back the cloth is gathered, and it lies a little askew.
     let lying = place.y.max(0.0);
     let hanging = (-place.y).max(0.0);
-    let width = 1.12 - 0.26 * smoothstep(0.0, 0.75, lying) + 0.10 * hanging;
-    let selvage = 0.014 * (17.0 * place.y + 4.0 * place.x).sin() * bump(0.5, 0.5, (place.x - 0.5).abs());
+    let width = 1.16 - 0.16 * smoothstep(0.0, 0.75, lying) + 0.10 * hanging;
+    let selvage = 0.005 * (6.0 * place.y + 4.0 * place.x).sin() * bump(0.5, 0.5, (place.x - 0.5).abs());
     let x = (place.x - 0.5 + sideways) * width + 0.14 * lying + selvage;
     let (over, normal) = over_edge(place.y);
     let point = DVec3::new(x, over.y, over.x);
@@ -124,7 +122,7 @@ fn over_edge(along: f64) -> (DVec2, DVec2) {
 fn turned(flat: DVec2) -> (DVec2, f64) {
     // In true lengths, from the left selvage.
     let point = DVec2::new(flat.x * 0.9, flat.y);
-    let (from, to) = (DVec2::new(0.0, 0.27), DVec2::new(0.25, 0.62));
+    let (from, to) = (DVec2::new(0.0, 0.20), DVec2::new(0.25, 0.56));
     let line = (to - from).normalize();
     let beyond_line = DVec2::new(-line.y, line.x);
     let past = (point - from).dot(beyond_line);
@@ -158,15 +156,15 @@ fn folded(place: DVec2) -> (f64, f64) {
         // The side that it falls to is the steep one.
         let off = (place.x - crest) / width;
         let off = off
-            * if off * fold.lean > 0.0 { 1.0 + 0.5 * fold.lean.abs() } else { 1.0 - 0.25 * fold.lean.abs() };
+            * if off * fold.lean > 0.0 { 1.0 + 0.22 * fold.lean.abs() } else { 1.0 - 0.25 * fold.lean.abs() };
         let profile = bump(0.0, 1.0, off);
         let stands =
-            fold.height * (0.62 + 0.38 * hanging) * (1.0 - lying * lying * (3.0 - 2.0 * lying)) * profile;
+            fold.height * (0.62 + 0.50 * hanging) * (1.0 - lying * lying * (3.0 - 2.0 * lying)) * profile;
         height += stands;
-        sideways += 0.45 * fold.lean * stands * profile;
+        sideways += 0.22 * fold.lean * stands * profile;
     }
     // Between the folds it is never quite flat, but under the fruit it is.
     let slack =
-        0.007 * (0.5 + 0.5 * noise(place.x * 0.5, place.y * 6.0, 14, 3)) * smoothstep(0.42, 0.2, place.y);
+        0.007 * (0.5 + 0.5 * noise(place.x * 0.5, place.y * 6.0, 14, 3)) * smoothstep(0.27, 0.12, place.y);
     (height + slack, sideways)
 }

@@ -42,8 +42,9 @@ pub fn jug() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "jug",
         "A glazed clay jug, its lip towards -X, its handle towards +X.",
-        &[("glaze", "#3f6673"), ("rim", "#2f4b57"), ("clay", "#b98a62"), ("inside", "#4a4038")],
+        &[("glaze", "#3f6673"), ("rim", "#2f4b57"), ("clay", "#b08d6c"), ("inside", "#4a4038")],
     );
+    mesh.polish(&["glaze"], 0.9, 300.0);
     body(&mut mesh);
     handle(&mut mesh);
     mesh
@@ -54,7 +55,7 @@ fn body(mesh: &mut PolyMesh) {
     const SEGMENTS: usize = 72;
     const FINE: usize = 24;
     /// About how high the glaze ends.
-    const GLAZE: f64 = 0.275;
+    const GLAZE: f64 = 0.245;
     // Finer than the rows, so that rows can be drawn along the wavy border of the glaze.
     let mut outline = Profile::through(&OUTLINE).spread(ROWS * FINE, 0.45);
     // The lathe runs from the upper pole to the lower one; here that is from the inside floor to the foot.
@@ -101,7 +102,7 @@ fn body(mesh: &mut PolyMesh) {
 /// How much higher than usual the glaze ends: a wavy line with a few runs.
 fn glaze_run(angle: f64) -> f64 {
     let round = angle / TAU;
-    0.020 * (3.0 * angle + 2.2).sin() + 0.024 * noise(round, 0.0, 11, 5) + 0.010 * noise(round, 0.0, 23, 6)
+    0.026 * (3.0 * angle + 0.6).sin() + 0.036 * noise(round, 0.0, 11, 5) + 0.012 * noise(round, 0.0, 23, 6)
 }
 
 /// A point of the outline turned round the axis, with the lip pulled out towards −X, and faint throwing rings.

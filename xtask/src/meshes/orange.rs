@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::curve::{Profile, bump, hash, noise, smoothstep};
+use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
 /// Half of an orange, from the stalk to the blossom end: distance from the axis, height.
@@ -28,6 +28,12 @@ const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.006],
 ];
 
+/// The skin's colours, from the pale shoulder to the ripe foot: so close that no two neighbours show a border.
+const SKIN: [&str; 12] = [
+    "skin_01", "skin_02", "skin_03", "skin_04", "skin_05", "skin_06", "skin_07", "skin_08", "skin_09",
+    "skin_10", "skin_11", "skin_12",
+];
+
 /// An orange of one unit across, its stalk up (44 × 60 faces).
 pub fn orange() -> PolyMesh {
     const ROWS: usize = 44;
@@ -35,8 +41,23 @@ pub fn orange() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "orange",
         "An orange, its stalk up.",
-        &[("orange", "#d7842b"), ("ripe", "#d07627"), ("light", "#dc9336"), ("stalk", "#4a4a26")],
+        &[
+            ("skin_01", "#dd9435"),
+            ("skin_02", "#dc9133"),
+            ("skin_03", "#db8e31"),
+            ("skin_04", "#da8b30"),
+            ("skin_05", "#d9882e"),
+            ("skin_06", "#d8852c"),
+            ("skin_07", "#d6832b"),
+            ("skin_08", "#d5812a"),
+            ("skin_09", "#d47f29"),
+            ("skin_10", "#d37c28"),
+            ("skin_11", "#d17a28"),
+            ("skin_12", "#d07827"),
+            ("stalk", "#4a4a26"),
+        ],
     );
+    mesh.polish(&SKIN, 0.25, 40.0);
     let outline = Profile::through(&OUTLINE).spread(ROWS, 0.45);
     mesh.lathe(
         [ROWS, SEGMENTS],
@@ -56,19 +77,12 @@ pub fn orange() -> PolyMesh {
         |row, segment| {
             let (radius, height) = (outline[row].x, outline[row].y);
             let round = segment as f64 / SEGMENTS as f64;
-            // Paler about the stalk, riper below; the border between two hues is freckled.
-            let freckle = 0.30 * hash([row as u32, segment as u32, 5]);
-            let ripeness = 1.2 * (0.45 - height) + 0.5 * noise(round, height * 3.0, 6, 23) + freckle;
-            let material = if height > 0.7 && radius < 0.043 {
-                "stalk"
-            } else if ripeness > 0.32 {
-                "ripe"
-            } else if ripeness < -0.35 {
-                "light"
-            } else {
-                "orange"
-            };
-            Look { group: if material == "stalk" { "stalk" } else { "skin" }, material }
+            // Paler about the stalk, riper below, and clouded.
+            let clouds = 1.6 * noise(round, height * 2.2, 5, 23) + 0.8 * noise(round, height * 5.0, 11, 29);
+            let ripeness = 5.5 + 8.0 * (0.5 - height) + clouds;
+            let stalk = height > 0.7 && radius < 0.043;
+            let material = if stalk { "stalk" } else { SKIN[ripeness.round().clamp(0.0, 11.0) as usize] };
+            Look { group: if stalk { "stalk" } else { "skin" }, material }
         },
     );
     mesh.rest_on_ground();
