@@ -42,8 +42,9 @@ pub fn jug() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "jug",
         "A glazed clay jug, its lip towards -X, its handle towards +X.",
-        &[("glaze", "#3f6673"), ("rim", "#2f4b57"), ("clay", "#b98a62"), ("inside", "#4a4038")],
+        &[("glaze", "#3f6673"), ("rim", "#2f4b57"), ("clay", "#b08d6c"), ("inside", "#4a4038")],
     );
+    mesh.polish(&["glaze"], 0.9, 300.0);
     body(&mut mesh);
     handle(&mut mesh);
     mesh
@@ -52,23 +53,43 @@ pub fn jug() -> PolyMesh {
 fn body(mesh: &mut PolyMesh) {
     const ROWS: usize = 64;
     const SEGMENTS: usize = 72;
-    let mut outline = Profile::through(&OUTLINE).spread(ROWS, 0.45);
+    const FINE: usize = 24;
+    /// About how high the glaze ends.
+    const GLAZE: f64 = 0.245;
+    // Finer than the rows, so that rows can be drawn along the wavy border of the glaze.
+    let mut outline = Profile::through(&OUTLINE).spread(ROWS * FINE, 0.45);
     // The lathe runs from the upper pole to the lower one; here that is from the inside floor to the foot.
     outline.reverse();
-    let rim = (0..=ROWS).max_by(|&a, &b| outline[a].y.total_cmp(&outline[b].y)).unwrap_or(0);
+    let rim = (0..=ROWS).max_by(|&a, &b| outline[a * FINE].y.total_cmp(&outline[b * FINE].y)).unwrap_or(0);
+    let below = |height: f64| (rim..=ROWS).find(|&row| outline[row * FINE].y < height).unwrap_or(ROWS);
+    let (border, lowest) = (below(GLAZE), ROWS - 4);
+    let outline_at = |row: usize, segment: usize| {
+        let angle = TAU * segment as f64 / SEGMENTS as f64;
+        // Where the glaze ends here; rows near it move with it.
+        let wanted = GLAZE + glaze_run(angle);
+        let found = (rim * FINE..=ROWS * FINE).find(|&fine| outline[fine].y < wanted).unwrap_or(ROWS * FINE);
+        let shift = found as f64 - (border * FINE) as f64;
+        let share = if row <= border {
+            smoothstep((border - 16) as f64, border as f64, row as f64)
+        } else {
+            smoothstep(lowest as f64, border as f64, row as f64)
+        };
+        let fine = ((row * FINE) as f64 + shift * share).round() as usize;
+        (outline[fine.min(ROWS * FINE)], angle)
+    };
     mesh.lathe(
         [ROWS, SEGMENTS],
-        |row, segment| body_point(outline[row].x, outline[row].y, TAU * segment as f64 / SEGMENTS as f64),
         |row, segment| {
-            let height = outline[row].y;
-            let round = segment as f64 / SEGMENTS as f64;
-            // The glaze ends in a wavy line with a few runs.
-            let border = 0.215 + 0.030 * (TAU * round * 3.0 + 0.6).sin() + 0.028 * noise(round, 0.0, 14, 5);
+            let (point, angle) = outline_at(row, segment);
+            body_point(point.x, point.y, angle)
+        },
+        |row, _| {
+            let height = outline[row * FINE].y;
             let (group, material) = if row + 2 < rim && height < 0.975 {
                 ("inside", "inside")
             } else if height > 0.962 {
                 ("body", "rim")
-            } else if height > border {
+            } else if row < border {
                 ("body", "glaze")
             } else {
                 ("body", "clay")
@@ -76,6 +97,12 @@ fn body(mesh: &mut PolyMesh) {
             Look { group, material }
         },
     );
+}
+
+/// How much higher than usual the glaze ends: a wavy line with a few runs.
+fn glaze_run(angle: f64) -> f64 {
+    let round = angle / TAU;
+    0.026 * (3.0 * angle + 0.6).sin() + 0.036 * noise(round, 0.0, 11, 5) + 0.012 * noise(round, 0.0, 23, 6)
 }
 
 /// A point of the outline turned round the axis, with the lip pulled out towards −X, and faint throwing rings.
@@ -95,13 +122,13 @@ fn handle(mesh: &mut PolyMesh) {
     const ALONG: usize = 34;
     const SIDES: usize = 16;
     let path = Profile::through(&[
-        [0.176, 0.892],
-        [0.270, 0.935],
-        [0.405, 0.925],
-        [0.485, 0.820],
-        [0.495, 0.680],
-        [0.440, 0.540],
-        [0.350, 0.440],
+        [0.180, 0.925],
+        [0.275, 0.962],
+        [0.405, 0.945],
+        [0.492, 0.845],
+        [0.508, 0.695],
+        [0.450, 0.545],
+        [0.345, 0.430],
     ])
     .spread(ALONG - 2, 0.4);
     let last = path.len() - 1;
@@ -118,7 +145,7 @@ fn handle(mesh: &mut PolyMesh) {
                 return centre;
             }
             let swell = 0.014 * bump(0.0, 0.16, t) + 0.020 * bump(1.0, 0.22, t);
-            let (thick, wide) = (0.027 + swell * 0.7, 0.043 + swell);
+            let (thick, wide) = (0.032 + swell * 0.7, 0.050 + swell);
             let angle = TAU * side as f64 / SIDES as f64;
             centre + flat * (thick * angle.cos()) + DVec3::Z * (wide * angle.sin())
         },

@@ -31,8 +31,9 @@ pub fn lemon() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "lemon",
         "A lemon lying along X, its nipple towards +X.",
-        &[("lemon", "#e3b62c"), ("ripe", "#e8a526"), ("green", "#a9a53a"), ("stalk", "#6d6a35")],
+        &[("lemon", "#e3b62c"), ("ripe", "#e4ae2a"), ("green", "#a9a53a"), ("stalk", "#6d6a35")],
     );
+    mesh.polish(&["lemon", "ripe", "green"], 0.25, 40.0);
     let outline = Profile::through(&LEMON).spread(ROWS, 0.5);
     mesh.lathe(
         [ROWS, SEGMENTS],

@@ -1,11 +1,14 @@
 //! The shipped meshes, made by code: `cargo xtask meshes` writes them to `scenes/meshes`.
 
 mod apple;
+mod apple_fine;
 mod blocks;
+mod cloth;
 mod curve;
 mod fish;
 mod jug;
 mod lemon;
+mod orange;
 mod poly_mesh;
 mod room;
 
@@ -38,11 +41,14 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
 fn shipped() -> Vec<PolyMesh> {
     vec![
         apple::apple(),
+        apple_fine::apple_fine(),
+        cloth::cloth(),
         blocks::cube(),
         fish::fish(),
         jug::jug(),
         lemon::lemon(),
         blocks::log(),
+        orange::orange(),
         lemon::pear(),
         room::plane(),
         blocks::simple_objects(),
@@ -81,10 +87,13 @@ mod tests {
         }
     }
 
+    /// The meshes that are no bodies.
+    const OPEN_SHEETS: [&str; 2] = ["cloth", "wall"];
+
     /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
     #[test]
     fn bodies_are_closed_and_wind_outwards() {
-        for mesh in shipped().into_iter().filter(|mesh| mesh.name != "wall") {
+        for mesh in shipped().into_iter().filter(|mesh| !OPEN_SHEETS.contains(&mesh.name)) {
             let mut edges = HashMap::new();
             let mut volume = 0.0;
             for face in &mesh.faces {

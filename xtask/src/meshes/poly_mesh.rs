@@ -26,6 +26,17 @@ pub struct Face {
 /// A named base colour, sRGB as `#rrggbb`.
 pub type Pigment = (&'static str, &'static str);
 
+/// How the surface of a material shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shine {
+    /// Name of the material in the palette.
+    pub material: &'static str,
+    /// Strength of the highlight, 0..=1: the MTL file's `Ks`, a grey.
+    pub strength: f64,
+    /// How small and sharp the highlight is, 0..=1000: the MTL file's `Ns`.
+    pub sharpness: f64,
+}
+
 /// A mesh of polygons, in units of about one object's size, Y up.
 #[derive(Clone, Debug)]
 pub struct PolyMesh {
@@ -35,6 +46,8 @@ pub struct PolyMesh {
     pub about: &'static str,
     /// The materials, in the order of the MTL file.
     pub palette: &'static [Pigment],
+    /// The materials that shine; every other one is matt.
+    pub shines: Vec<Shine>,
     /// One point per vertex.
     pub positions: Vec<DVec3>,
     /// The polygons, in the order in which they were made.
@@ -44,7 +57,12 @@ pub struct PolyMesh {
 impl PolyMesh {
     /// An empty mesh.
     pub fn new(name: &'static str, about: &'static str, palette: &'static [Pigment]) -> Self {
-        Self { name, about, palette, positions: Vec::new(), faces: Vec::new() }
+        Self { name, about, palette, shines: Vec::new(), positions: Vec::new(), faces: Vec::new() }
+    }
+
+    /// Makes some materials of the palette shine, all alike.
+    pub fn polish(&mut self, materials: &[&'static str], strength: f64, sharpness: f64) {
+        self.shines.extend(materials.iter().map(|&material| Shine { material, strength, sharpness }));
     }
 
     /// Weaves a closed skin round an axis out of `rows` bands of `segments` faces each, from one pole to the other.
@@ -190,7 +208,7 @@ impl PolyMesh {
         Ok(text)
     }
 
-    /// The material file's text: one base colour per material of the palette.
+    /// The material file's text: one base colour per material of the palette, and the highlight of those that shine.
     pub fn to_mtl(&self) -> anyhow::Result<String> {
         let mut text = String::new();
         for (name, hex) in self.palette {
@@ -198,6 +216,10 @@ impl PolyMesh {
                 .with_context(|| format!("{}: {hex} is no colour", self.name))?;
             let channel = |shift: u32| decimal(f64::from(value >> shift & 0xff) / 255.0);
             writeln!(text, "newmtl {name}\nKd {} {} {}", channel(16), channel(8), channel(0))?;
+            if let Some(shine) = self.shines.iter().find(|shine| shine.material == *name) {
+                let strength = decimal(shine.strength);
+                writeln!(text, "Ks {strength} {strength} {strength}\nNs {}", decimal(shine.sharpness))?;
+            }
         }
         Ok(text)
     }

@@ -1,0 +1,170 @@
+//! The cloth of the still life: linen that lies on a table and hangs over its front edge in pipes.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DVec2, DVec3};
+
+use super::curve::{Profile, bump, noise, smoothstep};
+use super::poly_mesh::{Look, PolyMesh};
+
+const COLUMNS: usize = 160;
+const ROWS: usize = 80;
+/// So many of the rows hang; the others lie on the table.
+const HANGING: usize = 38;
+/// How far above the table, and before its edge, the flat cloth lies.
+const CLEARANCE: f64 = 0.008;
+/// With what radius the cloth goes round the table's edge.
+const BEND: f64 = 0.03;
+/// With what radius the turned corner is folded over.
+const TURN: f64 = 0.016;
+
+/// A fold: a pipe where the cloth hangs, and a ridge that runs back onto the table and dies away.
+struct Fold {
+    /// Where its crest is, as a share of the cloth's width: at the hem, at the table's edge, and at its end.
+    crest: [f64; 3],
+    /// Half its width at the table's edge.
+    width: f64,
+    /// How far it stands out at the hem.
+    height: f64,
+    /// How far it runs back onto the table.
+    reach: f64,
+    /// To which side it falls over: its steep side, positive to the right.
+    lean: f64,
+}
+
+const fn fold(crest: [f64; 3], [width, height]: [f64; 2], reach: f64, lean: f64) -> Fold {
+    Fold { crest, width, height, reach, lean }
+}
+
+/// From the left selvage to the right one; they start under the fruit and fan out.
+const FOLDS: [Fold; 9] = [
+    fold([0.010, 0.030, 0.07], [0.052, 0.046], 0.14, -0.4),
+    fold([0.125, 0.140, 0.19], [0.064, 0.078], 0.27, 0.7),
+    fold([0.235, 0.240, 0.26], [0.044, 0.030], 0.08, 0.3),
+    fold([0.335, 0.350, 0.43], [0.066, 0.092], 0.42, 0.8),
+    fold([0.470, 0.470, 0.48], [0.056, 0.046], 0.20, 0.4),
+    fold([0.600, 0.585, 0.56], [0.062, 0.088], 0.43, 0.6),
+    fold([0.720, 0.695, 0.65], [0.046, 0.036], 0.12, -0.3),
+    fold([0.835, 0.810, 0.70], [0.068, 0.094], 0.45, 0.7),
+    fold([0.965, 0.945, 0.90], [0.052, 0.056], 0.20, 0.4),
+];
+
+/// A linen cloth with two woven stripes (160 × 80 faces). Its origin is the middle of the table's edge: the table's
+/// top is y = 0 for z < 0, and its front is z = 0.
+pub fn cloth() -> PolyMesh {
+    let mut mesh = PolyMesh::new(
+        "cloth",
+        "A cloth on a table's top (y = 0, z < 0) that hangs over its front edge (z = 0); open at its rim.",
+        &[("linen", "#d9d2c2"), ("worn", "#d6cebd"), ("stripe", "#7f8fa3"), ("hem", "#dfd9cb")],
+    );
+    let back = Profile::through(&[[0.0, 0.50], [0.25, 0.60], [0.55, 0.74], [0.80, 0.76], [1.0, 0.70]]);
+    mesh.sheet(
+        [COLUMNS, ROWS],
+        |column, row| {
+            let across = column as f64 / COLUMNS as f64;
+            draped(DVec2::new(across, along(row, across, back.height_at(across))))
+        },
+        |column, row| {
+            let patch = noise(column as f64 / COLUMNS as f64 * 0.5, row as f64 * 0.07, 9, 41);
+            let material = match row {
+                0..=1 => "hem",
+                7..=10 | 13 => "stripe",
+                _ if patch > 0.3 => "worn",
+                _ => "linen",
+            };
+            Look { group: "cloth", material }
+        },
+    );
+    mesh
+}
+
+/// How far behind the table's edge, along the cloth, a row lies; negative where it hangs.
+fn along(row: usize, across: f64, back: f64) -> f64 {
+    if row < HANGING {
+        let drop = 0.222 - 0.024 * across;
+        -drop * (1.0 - row as f64 / HANGING as f64)
+    } else {
+        let share = (row - HANGING) as f64 / (ROWS - HANGING) as f64;
+        // The edge at the back is slack.
+        let wave = 0.004 * noise(across * 0.5, 0.0, 6, 9);
+        share * (back + wave)
+    }
+}
+
+/// Where a point of the flat cloth comes to lie: `flat.x` is its share of the width, `flat.y` its way behind the edge.
+fn draped(flat: DVec2) -> DVec3 {
+    let (place, lift) = turned(flat);
+    let (height, sideways) = folded(place);
+    // Towards the back the cloth is gathered, and it lies a little askew.
+    let lying = place.y.max(0.0);
+    let hanging = (-place.y).max(0.0);
+    let width = 1.16 - 0.16 * smoothstep(0.0, 0.75, lying) + 0.10 * hanging;
+    let selvage = 0.005 * (6.0 * place.y + 4.0 * place.x).sin() * bump(0.5, 0.5, (place.x - 0.5).abs());
+    let x = (place.x - 0.5 + sideways) * width + 0.14 * lying + selvage;
+    let (over, normal) = over_edge(place.y);
+    let point = DVec3::new(x, over.y, over.x);
+    point + DVec3::new(0.0, normal.y, normal.x) * (height + lift)
+}
+
+/// The path over the table's edge, as z and y, and the way out of the cloth there.
+fn over_edge(along: f64) -> (DVec2, DVec2) {
+    let centre = DVec2::new(CLEARANCE - BEND, CLEARANCE - BEND);
+    if along >= 0.0 {
+        return (centre + DVec2::new(-along, BEND), DVec2::Y);
+    }
+    let angle = (-along / BEND).min(FRAC_PI_2);
+    let out = DVec2::new(angle.sin(), angle.cos());
+    let below = (-along - FRAC_PI_2 * BEND).max(0.0);
+    (centre + out * BEND - DVec2::Y * below, out)
+}
+
+/// Folds the left corner at the back over onto the cloth: the new place, and how far above the cloth that is.
+fn turned(flat: DVec2) -> (DVec2, f64) {
+    // In true lengths, from the left selvage.
+    let point = DVec2::new(flat.x * 0.9, flat.y);
+    let (from, to) = (DVec2::new(0.0, 0.20), DVec2::new(0.25, 0.56));
+    let line = (to - from).normalize();
+    let beyond_line = DVec2::new(-line.y, line.x);
+    let past = (point - from).dot(beyond_line);
+    if past <= 0.0 {
+        return (flat, 0.0);
+    }
+    let (step, lift) = if past < PI * TURN {
+        let angle = past / TURN;
+        (TURN * angle.sin(), TURN * (1.0 - angle.cos()))
+    } else {
+        let lying = past - PI * TURN;
+        // The flap springs open a little towards its tip.
+        (-lying, 2.0 * TURN + 0.6 * lying * lying - 0.006 * smoothstep(0.0, 0.05, lying))
+    };
+    let place = point + beyond_line * (step - past);
+    (DVec2::new(place.x / 0.9, place.y), lift)
+}
+
+/// How far the cloth stands out in its folds, and how far it is pushed sideways, as a share of the width.
+fn folded(place: DVec2) -> (f64, f64) {
+    let hanging = smoothstep(-0.01, -0.24, place.y);
+    // The folds wander a little on their way.
+    let wander = 0.008 * (13.0 * place.y + 5.0 * place.x).sin();
+    let mut height = 0.0;
+    let mut sideways = 0.0;
+    for fold in &FOLDS {
+        let lying = (place.y / fold.reach).clamp(0.0, 1.0);
+        let [hem, edge, end] = fold.crest;
+        let crest = edge + (hem - edge) * hanging + (end - edge) * lying + wander;
+        let width = fold.width * (1.0 + 0.25 * hanging - 0.45 * lying);
+        // The side that it falls to is the steep one.
+        let off = (place.x - crest) / width;
+        let off = off
+            * if off * fold.lean > 0.0 { 1.0 + 0.22 * fold.lean.abs() } else { 1.0 - 0.25 * fold.lean.abs() };
+        let profile = bump(0.0, 1.0, off);
+        let stands =
+            fold.height * (0.62 + 0.50 * hanging) * (1.0 - lying * lying * (3.0 - 2.0 * lying)) * profile;
+        height += stands;
+        sideways += 0.22 * fold.lean * stands * profile;
+    }
+    // Between the folds it is never quite flat, but under the fruit it is.
+    let slack =
+        0.007 * (0.5 + 0.5 * noise(place.x * 0.5, place.y * 6.0, 14, 3)) * smoothstep(0.27, 0.12, place.y);
+    (height + slack, sideways)
+}
