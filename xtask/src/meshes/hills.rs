@@ -6,22 +6,22 @@ use super::curve::{Profile, noise, smoothstep};
 use super::poly_mesh::{Look, Pigment, PolyMesh};
 
 const PALETTE: [Pigment; 16] = [
-    ("near_1", "#7f8f4c"),
-    ("near_2", "#99a058"),
-    ("near_3", "#637a48"),
-    ("near_4", "#b3a860"),
-    ("middle_1", "#83967a"),
-    ("middle_2", "#98a780"),
-    ("middle_3", "#6f8878"),
-    ("middle_4", "#aaae88"),
-    ("blue_1", "#8499a6"),
-    ("blue_2", "#93a5ab"),
-    ("blue_3", "#788fa3"),
-    ("blue_4", "#9fadac"),
-    ("far_1", "#93a8c4"),
-    ("far_2", "#9eb1c8"),
-    ("far_3", "#8aa1c1"),
-    ("far_4", "#a8b8ca"),
+    ("near_1", "#7f9150"),
+    ("near_2", "#97a25a"),
+    ("near_3", "#5f7a4a"),
+    ("near_4", "#aea65f"),
+    ("middle_1", "#7d9a86"),
+    ("middle_2", "#93aa90"),
+    ("middle_3", "#658a85"),
+    ("middle_4", "#a6b094"),
+    ("blue_1", "#7899b8"),
+    ("blue_2", "#88a6bc"),
+    ("blue_3", "#688ab0"),
+    ("blue_4", "#96b0bb"),
+    ("far_1", "#86a6da"),
+    ("far_2", "#93b0dd"),
+    ("far_3", "#7b9dd6"),
+    ("far_4", "#a0b8dc"),
 ];
 
 /// A range of hills: its foot stands at `foot`, its ridge `deep` behind that.

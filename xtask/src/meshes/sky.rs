@@ -135,5 +135,6 @@ fn billow(across: f64, cloud: &Cloud) -> f64 {
         let dome = (1.0 - off * off).max(0.0).sqrt();
         (lift - 0.22) * smoothstep(0.0, 0.30, dome) + 0.24 * dome
     });
-    rounds.fold(0.0, f64::max)
+    // Both ends run out to nothing.
+    rounds.fold(0.0, f64::max) * smoothstep(1.0, 0.86, across.abs()).sqrt()
 }

@@ -42,7 +42,7 @@ struct Clump {
 pub fn tree() -> PolyMesh {
     let mut mesh = PolyMesh::new("tree", "A spreading tree about 4 units high.", &PALETTE);
     let limbs = [
-        ([[0.0, -0.15, 0.0], [-0.14, 0.8, 0.02], [0.06, 1.75, 0.0]], [0.21, 0.12], 0.75),
+        ([[0.0, -0.15, 0.0], [-0.14, 0.8, 0.02], [0.06, 1.75, 0.0]], [0.17, 0.10], 0.8),
         ([[0.0, 1.15, 0.0], [0.10, 1.65, 0.08], [0.85, 2.05, 0.25]], [0.105, 0.045], 0.3),
         ([[-0.04, 1.0, 0.0], [-0.25, 1.5, 0.1], [-0.95, 1.95, 0.05]], [0.10, 0.04], 0.3),
         ([[0.05, 1.6, 0.0], [0.05, 2.2, -0.05], [-0.15, 3.0, -0.1]], [0.115, 0.03], 0.1),
@@ -53,40 +53,52 @@ pub fn tree() -> PolyMesh {
     }
     // Centre, half size, how light.
     let clumps = [
-        ([-0.10, 3.35, -0.05], [0.72, 0.55, 0.68], 0.16),
-        ([0.62, 2.95, 0.15], [0.70, 0.50, 0.66], 0.04),
-        ([-0.78, 2.85, 0.10], [0.66, 0.50, 0.62], 0.12),
-        ([0.00, 2.62, 0.52], [0.66, 0.46, 0.52], 0.0),
-        ([1.12, 2.30, 0.25], [0.60, 0.38, 0.55], -0.04),
-        ([-1.22, 2.20, 0.05], [0.56, 0.36, 0.52], 0.06),
-        ([0.10, 2.70, -0.62], [0.75, 0.55, 0.55], -0.1),
-        ([0.52, 2.06, 0.48], [0.48, 0.30, 0.42], -0.12),
-        ([-0.58, 2.02, 0.42], [0.44, 0.30, 0.40], -0.06),
+        ([-0.12, 3.52, -0.05], [0.56, 0.42, 0.54], 0.16),
+        ([0.42, 3.24, 0.10], [0.54, 0.42, 0.52], 0.08),
+        ([-0.62, 3.16, 0.12], [0.52, 0.42, 0.50], 0.12),
+        ([-0.05, 3.02, 0.46], [0.54, 0.42, 0.46], 0.06),
+        ([0.02, 3.00, -0.52], [0.62, 0.46, 0.50], -0.02),
+        ([0.88, 2.86, 0.22], [0.54, 0.38, 0.50], 0.0),
+        ([-1.06, 2.72, 0.02], [0.52, 0.38, 0.50], 0.08),
+        ([0.42, 2.66, 0.58], [0.50, 0.36, 0.42], -0.04),
+        ([-0.52, 2.62, 0.56], [0.50, 0.36, 0.42], 0.04),
+        ([1.26, 2.42, 0.12], [0.48, 0.32, 0.46], -0.06),
+        ([-1.36, 2.26, 0.10], [0.44, 0.30, 0.42], 0.02),
+        ([0.74, 2.34, -0.42], [0.62, 0.38, 0.46], -0.12),
+        ([-0.70, 2.36, -0.44], [0.62, 0.38, 0.46], -0.10),
+        ([0.86, 2.14, 0.50], [0.44, 0.28, 0.40], -0.10),
+        ([-0.82, 2.06, 0.42], [0.44, 0.28, 0.38], -0.06),
+        ([0.02, 2.26, 0.20], [0.56, 0.30, 0.50], -0.20),
     ];
     for (index, (centre, half, light)) in clumps.into_iter().enumerate() {
         let (centre, half) = (DVec3::from_array(centre), DVec3::from_array(half));
-        let seed = index as u32 * 7 + 1;
-        add_clump(&mut mesh, &Clump { centre, half, rows: 20, segments: 28, seed, light });
-        // Tufts that break the clump's outline.
-        for tuft in 0..4 {
-            let chance = |number: u32| hash([seed, tuft, number]);
-            let angle = TAU * (f64::from(tuft) + 0.5 * chance(1)) / 4.0;
-            let lift = 0.25 + 0.55 * chance(2);
-            let round = (1.0 - lift * lift).max(0.0).sqrt();
-            let out = DVec3::new(round * angle.cos(), lift, round * angle.sin());
-            let size = half * (0.34 + 0.10 * chance(3));
-            let clump = Clump {
-                centre: centre + half * out * 0.92,
-                half: size,
-                rows: 9,
-                segments: 13,
-                seed: seed * 31 + tuft,
-                light: light + 0.1 * lift,
-            };
-            add_clump(&mut mesh, &clump);
-        }
+        let clump = Clump { centre, half, rows: 16, segments: 22, seed: index as u32 * 7 + 1, light };
+        add_clump(&mut mesh, &clump);
+        add_tufts(&mut mesh, &clump, 5);
     }
     mesh
+}
+
+/// Small clumps on a clump, which break its outline.
+fn add_tufts(mesh: &mut PolyMesh, clump: &Clump, count: u32) {
+    for tuft in 0..count {
+        let chance = |number: u32| hash([clump.seed, tuft, number]);
+        let angle =
+            TAU * (f64::from(tuft) + 0.4 * chance(1)) / f64::from(count) + 0.37 * f64::from(clump.seed);
+        let lift = 0.15 + 0.60 * chance(2);
+        let round = (1.0 - lift * lift).max(0.0).sqrt();
+        let out = DVec3::new(round * angle.cos(), lift, round * angle.sin());
+        let size = 0.40 + 0.10 * chance(3);
+        let small = Clump {
+            centre: clump.centre + clump.half * out * 0.84,
+            half: clump.half * size,
+            rows: 8,
+            segments: 11,
+            seed: clump.seed * 31 + tuft,
+            light: clump.light + 0.14 * lift,
+        };
+        add_clump(mesh, &small);
+    }
 }
 
 /// A poplar about 4 units high and 0.8 wide.
@@ -94,26 +106,31 @@ pub fn poplar() -> PolyMesh {
     let mut mesh = PolyMesh::new("poplar", "A slender poplar about 4 units high.", &PALETTE);
     let trunk = [[0.0, -0.15, 0.0], [0.03, 0.9, 0.0], [0.02, 2.4, 0.0]];
     add_limb(&mut mesh, &Limb { path: trunk, radius: [0.10, 0.03], flare: 0.5 });
-    // Clumps stacked round the axis, long and upright: height of the middle, half height, half width.
-    let stack = [
-        (0.98, 0.42, 0.22),
-        (1.38, 0.60, 0.34),
-        (1.85, 0.66, 0.39),
-        (2.35, 0.66, 0.37),
-        (2.85, 0.60, 0.31),
-        (3.30, 0.52, 0.23),
-        (3.66, 0.42, 0.14),
-    ];
-    for (index, (height, tall, wide)) in stack.into_iter().enumerate() {
-        let angle = 2.4 * index as f64;
-        let off = 0.26 * wide;
+    let core = Clump {
+        centre: DVec3::new(0.0, 2.28, 0.0),
+        half: DVec3::new(0.34, 1.66, 0.34),
+        rows: 34,
+        segments: 22,
+        seed: 200,
+        light: 0.06,
+    };
+    add_clump(&mut mesh, &core);
+    // Upright tufts up the core, in a spiral.
+    const TUFTS: u32 = 34;
+    for tuft in 0..TUFTS {
+        let up = (f64::from(tuft) + 0.5) / f64::from(TUFTS);
+        let height = 0.80 + 2.90 * up;
+        let off = (height - core.centre.y) / core.half.y;
+        let round = core.half.x * (1.0 - off * off).max(0.0).sqrt() * 0.86;
+        let angle = 2.4 * f64::from(tuft);
+        let size = 1.0 - 0.45 * up + 0.15 * hash([tuft, 5, 5]);
         let clump = Clump {
-            centre: DVec3::new(off * angle.cos(), height, off * angle.sin()),
-            half: DVec3::new(wide, tall, wide),
-            rows: 20,
-            segments: 22,
-            seed: 200 + index as u32,
-            light: 0.05 * (index as f64 - 3.0),
+            centre: DVec3::new(round * angle.cos(), height, round * angle.sin()),
+            half: DVec3::new(0.17, 0.34, 0.17) * size,
+            rows: 10,
+            segments: 11,
+            seed: 210 + tuft,
+            light: 0.10 + 0.25 * (up - 0.4),
         };
         add_clump(&mut mesh, &clump);
     }
@@ -140,6 +157,7 @@ pub fn bush() -> PolyMesh {
             light: 0.05 * (2.0 - index as f64),
         };
         add_clump(&mut mesh, &clump);
+        add_tufts(&mut mesh, &clump, 5);
     }
     mesh
 }
@@ -186,7 +204,7 @@ fn add_clump(mesh: &mut PolyMesh, clump: &Clump) {
             let sway = (0.10 * noise(round, 0.0, 5, seed) + 0.05 * noise(round, 3.0, 9, seed + 1)) * inside;
             let (slope, angle) = (PI * (down + sway).clamp(0.0, 1.0), TAU * round);
             let lumps =
-                0.17 * noise(round, 3.2 * down, 6, seed + 2) + 0.09 * noise(round, 6.0 * down, 11, seed + 3);
+                0.20 * noise(round, 3.2 * down, 6, seed + 2) + 0.13 * noise(round, 6.0 * down, 11, seed + 3);
             let swell = 1.0 + lumps * smoothstep(0.0, 0.4, inside);
             let unit = DVec3::new(slope.sin() * angle.cos(), slope.cos(), -slope.sin() * angle.sin());
             clump.centre + clump.half * unit * swell
