@@ -46,7 +46,7 @@ struct Cloud {
     seed: u32,
 }
 
-/// A sky 34 wide, from y = −1 to 11, hollow towards +Z, with seven clouds; open, to be shown unlit.
+/// A sky 34 wide, from y = 1.8 to 11.4, hollow towards +Z, with eight clouds; open, to be shown unlit.
 pub fn sky() -> PolyMesh {
     let mut mesh =
         PolyMesh::new("sky", "A sky in bands, with clouds before it; open, shown unlit.", &PALETTE);
@@ -69,7 +69,7 @@ pub fn sky() -> PolyMesh {
 
 /// A point of the hollow, `before` it by so much.
 fn hollow(x: f64, y: f64, before: f64) -> DVec3 {
-    DVec3::new(x, y, before - DEPTH + 0.011 * x * x)
+    DVec3::new(x, y, before - DEPTH + 0.006 * x * x)
 }
 
 fn sheet(mesh: &mut PolyMesh) {
@@ -84,7 +84,7 @@ fn sheet(mesh: &mut PolyMesh) {
             // Bands bow over the light on the left, and sway.
             let bow = 0.9 * (1.0 - (across + 0.45) * (across + 0.45)) - 0.4;
             let sway = 0.35 * noise(0.5 * across + 0.5, 2.2 * up, 9, 71);
-            hollow(17.0 * across, -1.0 + 12.0 * up.powf(1.15) + (bow + sway) * inner, 0.0)
+            hollow(17.0 * across, 1.8 + 9.6 * up.powf(1.1) + (bow + sway) * inner, 0.0)
         },
         |_, row| Look { group: "sky", material: PALETTE[row / 2].0 },
     );

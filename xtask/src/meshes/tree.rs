@@ -9,11 +9,11 @@ use super::poly_mesh::{Look, Pigment, PolyMesh};
 
 /// Leaves from the lit crown to the shade under it, then bark.
 const PALETTE: [Pigment; 7] = [
-    ("sunlit", "#c3b44a"),
+    ("sunlit", "#b9b04c"),
     ("light", "#93a03f"),
     ("middle", "#637f38"),
-    ("dark", "#3f5f38"),
-    ("deep", "#2c4434"),
+    ("dark", "#4a6c42"),
+    ("deep", "#3c5a4c"),
     ("bark", "#6b5140"),
     ("bark_dark", "#4a3a35"),
 ];
