@@ -17,11 +17,11 @@ const PALETTE: [Pigment; 16] = [
     ("blue_1", "#7899b8"),
     ("blue_2", "#88a6bc"),
     ("blue_3", "#688ab0"),
-    ("blue_4", "#96b0bb"),
+    ("blue_4", "#8faabb"),
     ("far_1", "#86a6da"),
-    ("far_2", "#93b0dd"),
-    ("far_3", "#7b9dd6"),
-    ("far_4", "#a0b8dc"),
+    ("far_2", "#8fadda"),
+    ("far_3", "#7d9fd7"),
+    ("far_4", "#97b3dd"),
 ];
 
 /// A range of hills: its foot stands at `foot`, its ridge `deep` behind that.

@@ -13,6 +13,7 @@ mod room;
 mod sky;
 mod tree;
 mod valley;
+mod walker;
 
 use std::path::Path;
 
@@ -61,6 +62,7 @@ fn shipped() -> Vec<PolyMesh> {
         sky::sky(),
         valley::valley(),
         valley::water(),
+        walker::walker(),
     ]
 }
 

@@ -14,8 +14,8 @@ const PALETTE: [Pigment; 7] = [
     ("middle", "#637f38"),
     ("dark", "#4a6c42"),
     ("deep", "#3c5a4c"),
-    ("bark", "#6b5140"),
-    ("bark_dark", "#4a3a35"),
+    ("bark", "#8f7058"),
+    ("bark_dark", "#6a5448"),
 ];
 
 /// A limb: its axis is the quadratic curve through the first and the last point, pulled towards the middle one.
