@@ -145,7 +145,7 @@ fn fittings(mesh: &mut PolyMesh) {
             mesh,
             &Block {
                 half,
-                cells: [6, 8, 4],
+                cells: [4, 4, 3],
                 rounding: 0.15 * half.min_element(),
                 turn: DMat3::IDENTITY,
                 centre: DVec3::from_array(centre),

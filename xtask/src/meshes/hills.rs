@@ -110,14 +110,13 @@ pub fn hills() -> PolyMesh {
     for range in &ranges {
         add_range(&mut mesh, range);
     }
+    mesh.round_to_thousandths();
     mesh
 }
 
 fn add_range(mesh: &mut PolyMesh, range: &Range) {
-    const COLUMNS: usize = 84;
-    const ROWS: usize = 18;
-    // The last rows run down behind the ridge.
-    const RIDGE: f64 = 0.86;
+    const COLUMNS: usize = 64;
+    const ROWS: usize = 14;
     let ridge = Profile::through(range.ridge);
     let (first, last) = (range.ridge[0][0], range.ridge[range.ridge.len() - 1][0]);
     mesh.sheet(
@@ -130,7 +129,7 @@ fn add_range(mesh: &mut PolyMesh, range: &Range) {
             let slant = 0.03 * inner * (9.0 * across + 3.0 * up + f64::from(range.seed)).sin();
             let sway = 0.055 * inner * noise(across, 2.0 * up, 9, range.seed + 9);
             let x = first + (last - first) * (across + slant).clamp(0.0, 1.0);
-            let along = ((up + sway) / RIDGE).max(0.0);
+            let along = (up + sway).max(0.0);
             let top = ridge.height_at(x) + 0.5;
             let rise = smoothstep(-0.25, 1.0, along) - smoothstep(-0.25, 1.0, 0.0);
             let rise = rise / (1.0 - smoothstep(-0.25, 1.0, 0.0));
@@ -138,8 +137,7 @@ fn add_range(mesh: &mut PolyMesh, range: &Range) {
                 * (noise(0.5 * across, 1.5 * along, 30, range.seed)
                     + 0.6 * noise(across, 2.5 * along, 31, range.seed + 4));
             let spurs = range.roughness * 1.6 * ((1.1 * x + f64::from(range.seed)).sin() * inner);
-            let behind = 0.5 * smoothstep(1.0, 1.25, along);
-            let y = -0.5 + top * rise * (1.0 + 0.3 * folds) - behind;
+            let y = -0.5 + top * rise * (1.0 + 0.3 * folds);
             DVec3::new(x, y, range.foot - range.deep * along + spurs)
         },
         |column, row| {

@@ -5,31 +5,48 @@ use glam::DVec3;
 use super::curve::{hash, noise, smoothstep};
 use super::poly_mesh::{Look, Pigment, PolyMesh};
 
-const PALETTE: [Pigment; 21] = [
+const PALETTE: [Pigment; 35] = [
     ("sky_01", "#f6dfb4"),
-    ("sky_02", "#f5e0b9"),
-    ("sky_03", "#f2e1c0"),
-    ("sky_04", "#ece0c6"),
-    ("sky_05", "#e4decb"),
-    ("sky_06", "#dadbcf"),
-    ("sky_07", "#ced6d2"),
-    ("sky_08", "#c1d0d4"),
-    ("sky_09", "#b4c9d5"),
-    ("sky_10", "#a7c1d5"),
-    ("sky_11", "#9ab8d3"),
-    ("sky_12", "#8dafd0"),
-    ("sky_13", "#82a6cc"),
-    ("sky_14", "#789dc7"),
-    ("sky_15", "#6f95c1"),
-    ("sky_16", "#668dbb"),
-    ("crest", "#fff4dc"),
-    ("cream", "#fbe8cb"),
-    ("flank", "#ecd7c4"),
-    ("shade", "#cfc3c6"),
-    ("belly", "#b3b2c3"),
+    ("sky_02", "#f5e0b7"),
+    ("sky_03", "#f4e0ba"),
+    ("sky_04", "#f3e1bf"),
+    ("sky_05", "#f0e1c2"),
+    ("sky_06", "#ece0c6"),
+    ("sky_07", "#e7dfc9"),
+    ("sky_08", "#e2ddcc"),
+    ("sky_09", "#dcdcce"),
+    ("sky_10", "#d5d9d0"),
+    ("sky_11", "#ced6d2"),
+    ("sky_12", "#c6d2d3"),
+    ("sky_13", "#becfd4"),
+    ("sky_14", "#b7cad5"),
+    ("sky_15", "#afc6d5"),
+    ("sky_16", "#a7c1d5"),
+    ("sky_17", "#9fbcd4"),
+    ("sky_18", "#97b6d2"),
+    ("sky_19", "#90b1d1"),
+    ("sky_20", "#89abce"),
+    ("sky_21", "#82a6cc"),
+    ("sky_22", "#7ca1c9"),
+    ("sky_23", "#769bc6"),
+    ("sky_24", "#7197c2"),
+    ("sky_25", "#6b92bf"),
+    ("sky_26", "#668dbb"),
+    ("cloud_1", "#b6b5c5"),
+    ("cloud_2", "#c2bdc8"),
+    ("cloud_3", "#cec6cb"),
+    ("cloud_4", "#dacfcd"),
+    ("cloud_5", "#e5d8ce"),
+    ("cloud_6", "#efe1d0"),
+    ("cloud_7", "#f6e9d2"),
+    ("cloud_8", "#fbefd6"),
+    ("cloud_9", "#fff5de"),
 ];
 
-const BANDS: usize = 16;
+const BANDS: usize = 26;
+
+/// Tones of the clouds, after the sky's in the palette: from the belly to the crest.
+const TONES: usize = 9;
 
 /// How far back the sheet stands in its middle.
 const DEPTH: f64 = 15.5;
@@ -64,6 +81,7 @@ pub fn sky() -> PolyMesh {
     for (index, (foot, size, before, billows)) in clouds.into_iter().enumerate() {
         cloud(&mut mesh, &Cloud { foot, size, before, billows, seed: 500 + 3 * index as u32 });
     }
+    mesh.round_to_thousandths();
     mesh
 }
 
@@ -73,52 +91,44 @@ fn hollow(x: f64, y: f64, before: f64) -> DVec3 {
 }
 
 fn sheet(mesh: &mut PolyMesh) {
-    const COLUMNS: usize = 48;
-    const ROWS: usize = 2 * BANDS;
+    const COLUMNS: usize = 34;
     mesh.sheet(
-        [COLUMNS, ROWS],
+        [COLUMNS, BANDS],
         |column, row| {
             let across = column as f64 / COLUMNS as f64 * 2.0 - 1.0;
-            let up = row as f64 / ROWS as f64;
+            let up = row as f64 / BANDS as f64;
             let inner = (4.0 * up * (1.0 - up)).min(1.0);
             // Bands bow over the light on the left, and sway.
             let bow = 0.9 * (1.0 - (across + 0.45) * (across + 0.45)) - 0.4;
             let sway = 0.35 * noise(0.5 * across + 0.5, 2.2 * up, 9, 71);
             hollow(17.0 * across, 1.8 + 9.6 * up.powf(1.1) + (bow + sway) * inner, 0.0)
         },
-        |_, row| Look { group: "sky", material: PALETTE[row / 2].0 },
+        |_, row| Look { group: "sky", material: PALETTE[row].0 },
     );
 }
 
 fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
-    const COLUMNS: usize = 72;
-    const ROWS: usize = 12;
     let ([foot_x, foot_y], [half, height]) = (cloud.foot, cloud.size);
-    let span = |column: usize| column as f64 / COLUMNS as f64 * 2.0 - 1.0;
+    let columns = 24 + (12.0 * half) as usize;
+    // The rounds before those of the outline.
+    let front = Cloud { seed: cloud.seed + 1, billows: cloud.billows + 2, ..*cloud };
     mesh.sheet(
-        [COLUMNS, ROWS],
+        [columns, TONES],
         |column, row| {
-            let across = span(column);
-            let up = row as f64 / ROWS as f64;
+            let across = column as f64 / columns as f64 * 2.0 - 1.0;
+            let up = row as f64 / TONES as f64;
             let rim = (1.0 - across * across).max(0.0).sqrt();
             let under =
                 0.05 * height * noise(0.5 * across + 0.5, 0.0, 7, cloud.seed + 1) - 0.10 * height * rim;
-            let top = (height * billow(across, cloud)).max(under + 0.012);
-            // Inner rows bulge and sag: borders between lights are billows too, smaller ones.
-            let roll = 0.40 * noise(0.5 * across + 0.5, 2.0 * up, 13, cloud.seed + 2) * up * (1.0 - up);
+            // Borders between tones are billows too: further down they follow the rounds in front.
+            let crest = billow(across, cloud);
+            let inner = 0.25 * crest + 0.75 * crest.min(billow(across - 0.05, &front));
+            let top = (height * (inner + (crest - inner) * up * up)).max(under + 0.012);
+            let roll = 0.22 * noise(0.5 * across + 0.5, 2.5 * up, 17, cloud.seed + 2) * up * (1.0 - up);
             let share = (up + roll).clamp(0.0, 1.0);
             hollow(foot_x + half * across, foot_y + under + (top - under) * share, cloud.before)
         },
-        |_, row| {
-            let material = match row {
-                0..2 => "belly",
-                2..4 => "shade",
-                4..6 => "flank",
-                6..9 => "cream",
-                _ => "crest",
-            };
-            Look { group: "clouds", material }
-        },
+        |_, row| Look { group: "clouds", material: PALETTE[BANDS + row].0 },
     );
 }
 

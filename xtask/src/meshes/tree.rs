@@ -1,19 +1,19 @@
-//! Trees of the landscape: a spreading oak, a poplar and a bush, each of lumpy leaf clumps round its wood.
+//! Trees of the landscape: a spreading oak, a poplar and a bush, each of clumps of leafy sprays round its wood.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::curve::{bump, hash, noise, smoothstep};
+use super::curve::{bump, hash, noise};
 use super::poly_mesh::{Look, Pigment, PolyMesh};
 
 /// Leaves from the lit crown to the shade under it, then bark.
 const PALETTE: [Pigment; 7] = [
-    ("sunlit", "#b9b04c"),
-    ("light", "#93a03f"),
-    ("middle", "#637f38"),
-    ("dark", "#4a6c42"),
-    ("deep", "#3c5a4c"),
+    ("sunlit", "#a9a94b"),
+    ("light", "#8c9b43"),
+    ("middle", "#72893f"),
+    ("dark", "#5a7840"),
+    ("deep", "#456544"),
     ("bark", "#8f7058"),
     ("bark_dark", "#6a5448"),
 ];
@@ -27,14 +27,26 @@ struct Limb {
     flare: f64,
 }
 
-/// A clump of leaves: a lumpy ellipsoid.
+/// A clump of leaves: a shaded core that sprays of leaves stand out of.
+#[derive(Clone, Copy)]
 struct Clump {
     centre: DVec3,
     half: DVec3,
-    rows: usize,
-    segments: usize,
+    /// How many sprays, before those inside other clumps are left out.
+    sprays: u32,
     seed: u32,
-    /// Moves the greens: positive is lighter, one unit is the clump's height.
+    /// Moves the greens: positive is lighter, one unit is the whole range.
+    light: f64,
+}
+
+/// One spray: a small ragged star of leaves.
+struct Spray {
+    centre: DVec3,
+    /// Where its top looks.
+    axis: DVec3,
+    /// Half its size along the axis, and across.
+    half: [f64; 2],
+    seed: u32,
     light: f64,
 }
 
@@ -70,35 +82,19 @@ pub fn tree() -> PolyMesh {
         ([-0.82, 2.06, 0.42], [0.44, 0.28, 0.38], -0.06),
         ([0.02, 2.26, 0.20], [0.56, 0.30, 0.50], -0.20),
     ];
-    for (index, (centre, half, light)) in clumps.into_iter().enumerate() {
-        let (centre, half) = (DVec3::from_array(centre), DVec3::from_array(half));
-        let clump = Clump { centre, half, rows: 16, segments: 22, seed: index as u32 * 7 + 1, light };
-        add_clump(&mut mesh, &clump);
-        add_tufts(&mut mesh, &clump, 5);
-    }
+    let clumps: Vec<Clump> = (0..)
+        .zip(clumps)
+        .map(|(index, (centre, half, light))| Clump {
+            centre: DVec3::from_array(centre),
+            half: DVec3::from_array(half),
+            sprays: 62,
+            seed: index * 7 + 1,
+            light,
+        })
+        .collect();
+    add_crown(&mut mesh, &clumps);
+    mesh.round_to_thousandths();
     mesh
-}
-
-/// Small clumps on a clump, which break its outline.
-fn add_tufts(mesh: &mut PolyMesh, clump: &Clump, count: u32) {
-    for tuft in 0..count {
-        let chance = |number: u32| hash([clump.seed, tuft, number]);
-        let angle =
-            TAU * (f64::from(tuft) + 0.4 * chance(1)) / f64::from(count) + 0.37 * f64::from(clump.seed);
-        let lift = 0.15 + 0.60 * chance(2);
-        let round = (1.0 - lift * lift).max(0.0).sqrt();
-        let out = DVec3::new(round * angle.cos(), lift, round * angle.sin());
-        let size = 0.40 + 0.10 * chance(3);
-        let small = Clump {
-            centre: clump.centre + clump.half * out * 0.84,
-            half: clump.half * size,
-            rows: 8,
-            segments: 11,
-            seed: clump.seed * 31 + tuft,
-            light: clump.light + 0.14 * lift,
-        };
-        add_clump(mesh, &small);
-    }
 }
 
 /// A poplar about 4 units high and 0.8 wide.
@@ -109,31 +105,31 @@ pub fn poplar() -> PolyMesh {
     let core = Clump {
         centre: DVec3::new(0.0, 2.28, 0.0),
         half: DVec3::new(0.34, 1.66, 0.34),
-        rows: 34,
-        segments: 22,
+        sprays: 0,
         seed: 200,
-        light: 0.06,
+        light: 0.0,
     };
-    add_clump(&mut mesh, &core);
-    // Upright tufts up the core, in a spiral.
-    const TUFTS: u32 = 34;
-    for tuft in 0..TUFTS {
-        let up = (f64::from(tuft) + 0.5) / f64::from(TUFTS);
-        let height = 0.80 + 2.90 * up;
+    add_core(&mut mesh, &core, [18, 11]);
+    // Upright sprays up the core, in a spiral.
+    const SPRAYS: u32 = 150;
+    for spray in 0..SPRAYS {
+        let up = (f64::from(spray) + 0.5) / f64::from(SPRAYS);
+        let height = 0.76 + 3.18 * up;
         let off = (height - core.centre.y) / core.half.y;
-        let round = core.half.x * (1.0 - off * off).max(0.0).sqrt() * 0.86;
-        let angle = 2.4 * f64::from(tuft);
-        let size = 1.0 - 0.45 * up + 0.15 * hash([tuft, 5, 5]);
-        let clump = Clump {
-            centre: DVec3::new(round * angle.cos(), height, round * angle.sin()),
-            half: DVec3::new(0.17, 0.34, 0.17) * size,
-            rows: 10,
-            segments: 11,
-            seed: 210 + tuft,
-            light: 0.10 + 0.25 * (up - 0.4),
+        let round = core.half.x * (1.0 - off * off).max(0.0).sqrt() * (0.96 - 0.38 * up);
+        let angle = 2.4 * f64::from(spray);
+        let out = DVec3::new(angle.cos(), 0.0, angle.sin());
+        let size = 1.08 - 0.50 * up + 0.22 * hash([spray, 5, 5]);
+        let leaves = Spray {
+            centre: out * round + DVec3::Y * height,
+            axis: (out * 0.35 + DVec3::Y).normalize(),
+            half: [0.26 * size, 0.125 * size],
+            seed: 210 + spray,
+            light: 0.45 + 0.20 * (up - 0.5) + 0.16 * hash([spray, 6, 6]),
         };
-        add_clump(&mut mesh, &clump);
+        add_spray(&mut mesh, &leaves);
     }
+    mesh.round_to_thousandths();
     mesh
 }
 
@@ -147,18 +143,18 @@ pub fn bush() -> PolyMesh {
         ([-0.18, 0.28, 0.34], [0.40, 0.32, 0.32]),
         ([0.24, 0.66, -0.22], [0.36, 0.34, 0.34]),
     ];
-    for (index, (centre, half)) in clumps.into_iter().enumerate() {
-        let clump = Clump {
+    let clumps: Vec<Clump> = (0..)
+        .zip(clumps)
+        .map(|(index, (centre, half))| Clump {
             centre: DVec3::from_array(centre),
             half: DVec3::from_array(half),
-            rows: 16,
-            segments: 22,
-            seed: 300 + index as u32,
-            light: 0.05 * (2.0 - index as f64),
-        };
-        add_clump(&mut mesh, &clump);
-        add_tufts(&mut mesh, &clump, 5);
-    }
+            sprays: 58,
+            seed: 300 + index,
+            light: 0.05 * (2.0 - f64::from(index)),
+        })
+        .collect();
+    add_crown(&mut mesh, &clumps);
+    mesh.round_to_thousandths();
     mesh
 }
 
@@ -192,33 +188,92 @@ fn add_limb(mesh: &mut PolyMesh, limb: &Limb) {
     );
 }
 
-fn add_clump(mesh: &mut PolyMesh, clump: &Clump) {
-    let (rows, segments, seed) = (clump.rows, clump.segments, clump.seed);
+/// Adds clumps that make a crown: of their sprays only those which show.
+fn add_crown(mesh: &mut PolyMesh, clumps: &[Clump]) {
+    for clump in clumps {
+        add_core(mesh, clump, [8, 10]);
+        for spray in sprays(clump) {
+            let inside = |other: &Clump| ((spray.centre - other.centre) / other.half).length() < 0.74;
+            if !clumps.iter().any(inside) {
+                add_spray(mesh, &spray);
+            }
+        }
+    }
+}
+
+/// The sprays of a clump: spread evenly over all but its underside, on a spiral from the top down.
+fn sprays(clump: &Clump) -> impl Iterator<Item = Spray> {
+    (0..clump.sprays).map(move |index| {
+        let chance = |number: u32| hash([clump.seed, index, number]);
+        let share = (f64::from(index) + 0.5 + 0.4 * chance(1)) / f64::from(clump.sprays);
+        let lift = 1.0 - 1.62 * share;
+        let round = (1.0 - lift * lift).max(0.0).sqrt();
+        let angle = 2.4 * f64::from(index) + 0.5 * chance(2) + f64::from(clump.seed);
+        let out = DVec3::new(round * angle.cos(), lift, round * angle.sin());
+        let size = (0.30 + 0.12 * chance(3)) * clump.half.x.min(clump.half.z);
+        Spray {
+            centre: clump.centre + clump.half * out * (0.88 + 0.14 * chance(4)),
+            axis: (out + DVec3::new(0.46 * chance(5), 0.22, 0.46 * chance(6))).normalize(),
+            half: [0.34 * size, size],
+            seed: clump.seed * 37 + index,
+            light: 0.46 + 1.2 * clump.light + 0.24 * lift + 0.12 * chance(7),
+        }
+    })
+}
+
+/// The core of a clump: a lumpy ellipsoid in the darker greens.
+fn add_core(mesh: &mut PolyMesh, clump: &Clump, [rows, segments]: [usize; 2]) {
     mesh.lathe(
         [rows, segments],
         |row, segment| {
             let round = (segment % segments) as f64 / segments as f64;
             let down = row as f64 / rows as f64;
-            let inside = (PI * down).sin();
-            // The rows sway, so that the borders of the greens, which follow them, are scalloped.
-            let sway = (0.10 * noise(round, 0.0, 5, seed) + 0.05 * noise(round, 3.0, 9, seed + 1)) * inside;
-            let (slope, angle) = (PI * (down + sway).clamp(0.0, 1.0), TAU * round);
-            let lumps =
-                0.20 * noise(round, 3.2 * down, 6, seed + 2) + 0.13 * noise(round, 6.0 * down, 11, seed + 3);
-            let swell = 1.0 + lumps * smoothstep(0.0, 0.4, inside);
+            let (slope, angle) = (PI * down, TAU * round);
+            let lumps = 0.12 * noise(round, 4.0 * down, 6, clump.seed + 2) * (PI * down).sin();
             let unit = DVec3::new(slope.sin() * angle.cos(), slope.cos(), -slope.sin() * angle.sin());
-            clump.centre + clump.half * unit * swell
+            clump.centre + clump.half * unit * (0.80 + lumps)
         },
-        |row, _| {
-            let down = (row as f64 + 0.5) / rows as f64 - clump.light;
-            let material = match down {
-                down if down < 0.13 => "sunlit",
-                down if down < 0.32 => "light",
-                down if down < 0.54 => "middle",
-                down if down < 0.76 => "dark",
-                _ => "deep",
-            };
-            Look { group: "leaves", material }
+        |row, segment| {
+            let down = (row as f64 + 0.5) / rows as f64;
+            let light = 0.52 + clump.light - 0.45 * down;
+            Look {
+                group: "leaves",
+                material: green(light + 0.06 * hash([clump.seed, row as u32, segment as u32])),
+            }
         },
     );
+}
+
+/// A shallow star of leaves, the middle green below.
+fn add_spray(mesh: &mut PolyMesh, spray: &Spray) {
+    const SIDES: usize = 8;
+    let aside = if spray.axis.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
+    let right = aside.cross(spray.axis).normalize();
+    let back = right.cross(spray.axis);
+    let [along, across] = spray.half;
+    mesh.lathe(
+        [2, SIDES],
+        |row, side| {
+            let chance = |number: u32| hash([spray.seed, number, (side % SIDES) as u32]);
+            let angle = TAU * (side as f64 + 0.5 * chance(1)) / SIDES as f64 + f64::from(spray.seed);
+            let tip = if side % 2 == 0 { 1.0 + 0.20 * chance(2) } else { 0.74 + 0.12 * chance(2) };
+            let (level, reach) = match row {
+                0 => (1.0, 0.0),
+                1 => (0.22 * chance(3) - 0.1 * tip, tip),
+                _ => (-0.45, 0.0),
+            };
+            let flat = (right * angle.cos() - back * angle.sin()) * across * reach;
+            spray.centre + spray.axis * along * level + flat
+        },
+        |row, side| {
+            let sprinkle = 0.07 * hash([spray.seed, 4, side as u32 / 4]);
+            Look { group: "leaves", material: green(if row == 0 { spray.light + sprinkle } else { 0.5 }) }
+        },
+    );
+}
+
+/// The green of a lightness, 0 to 1.
+fn green(light: f64) -> &'static str {
+    const GREENS: [&str; 5] = ["deep", "dark", "middle", "light", "sunlit"];
+    GREENS[((light * 5.0).max(0.0) as usize).min(4)]
 }

@@ -105,7 +105,7 @@ const SPANS: [usize; 9] = [16, 2, 5, 2, 9, 1, 3, 1, 16];
 
 /// The meadow: banks, river bed and path follow its columns, so that their borders are smooth. Open.
 pub fn valley() -> PolyMesh {
-    const ROWS: usize = 96;
+    const ROWS: usize = 70;
     let mut mesh =
         PolyMesh::new("valley", "A meadow with a river bed and a path; open at its edges.", &GROUND);
     let plan = Plan::new();
@@ -131,6 +131,7 @@ pub fn valley() -> PolyMesh {
             ground_look(span, far, NEAR + (FAR - NEAR) * far.powf(0.85))
         },
     );
+    mesh.round_to_thousandths();
     mesh
 }
 
@@ -202,7 +203,7 @@ const WATER: [Pigment; 5] = [
 /// right. Open, to be shown unlit.
 pub fn water() -> PolyMesh {
     const COLUMNS: usize = 14;
-    const ROWS: usize = 110;
+    const ROWS: usize = 90;
     let mut mesh = PolyMesh::new("water", "The river's water, in streaks along it; open.", &WATER);
     let plan = Plan::new();
     mesh.sheet(
@@ -229,5 +230,6 @@ pub fn water() -> PolyMesh {
             Look { group: "water", material }
         },
     );
+    mesh.round_to_thousandths();
     mesh
 }

@@ -53,8 +53,8 @@ pub fn walker() -> PolyMesh {
 }
 
 fn body(mesh: &mut PolyMesh) {
-    const ROWS: usize = 46;
-    const SEGMENTS: usize = 28;
+    const ROWS: usize = 42;
+    const SEGMENTS: usize = 24;
     let outline = Profile::through(&OUTLINE).spread(ROWS, 0.4);
     mesh.lathe(
         [ROWS, SEGMENTS],
