@@ -9,16 +9,23 @@ use super::poly_mesh::{Face, Look, PolyMesh};
 
 /// A box with slightly rounded edges. `half` is half its size, `cells` the faces along each axis (at least 3: the
 /// outermost are the rounding), `turn` and `centre` place it.
-struct Block {
-    half: DVec3,
-    cells: [usize; 3],
-    rounding: f64,
-    turn: DMat3,
-    centre: DVec3,
-    look: Look,
+pub struct Block {
+    /// Half its size, before it is turned.
+    pub half: DVec3,
+    /// Faces along each axis, at least 3.
+    pub cells: [usize; 3],
+    /// Radius of the edges.
+    pub rounding: f64,
+    /// From the block's axes to the mesh's.
+    pub turn: DMat3,
+    /// Its middle.
+    pub centre: DVec3,
+    /// Group and material.
+    pub look: Look,
 }
 
-fn add_block(mesh: &mut PolyMesh, block: &Block) {
+/// Adds a block.
+pub fn add_block(mesh: &mut PolyMesh, block: &Block) {
     let mut index = std::collections::HashMap::new();
     let mut vertex = |mesh: &mut PolyMesh, cell: [usize; 3]| {
         *index.entry(cell).or_insert_with(|| {

@@ -174,6 +174,13 @@ impl PolyMesh {
         }
     }
 
+    /// Rounds every coordinate to thousandths: enough for what is seen from afar, and a shorter file.
+    pub fn round_to_thousandths(&mut self) {
+        for point in &mut self.positions {
+            *point = (*point * 1000.0).round() / 1000.0;
+        }
+    }
+
     /// The mesh file's text: faces sorted by group, then by material, in the order in which each first appears.
     /// Positions are rounded to 5 decimals.
     pub fn to_obj(&self) -> anyhow::Result<String> {
