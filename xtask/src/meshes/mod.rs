@@ -4,6 +4,7 @@ mod apple;
 mod blocks;
 mod curve;
 mod fish;
+mod head;
 mod jug;
 mod lemon;
 mod poly_mesh;
@@ -39,7 +40,9 @@ fn shipped() -> Vec<PolyMesh> {
     vec![
         apple::apple(),
         blocks::cube(),
+        head::bust(),
         fish::fish(),
+        head::head(),
         jug::jug(),
         lemon::lemon(),
         blocks::log(),

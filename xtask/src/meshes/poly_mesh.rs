@@ -26,6 +26,9 @@ pub struct Face {
 /// A named base colour, sRGB as `#rrggbb`.
 pub type Pigment = (&'static str, &'static str);
 
+/// Materials that shine alike: their names, and `Ks` (0 matt ..= 1 mirror) and `Ns` (0 wide ..= 1000 narrow).
+pub type Shine = (&'static [&'static str], [f64; 2]);
+
 /// A mesh of polygons, in units of about one object's size, Y up.
 #[derive(Clone, Debug)]
 pub struct PolyMesh {
@@ -35,6 +38,8 @@ pub struct PolyMesh {
     pub about: &'static str,
     /// The materials, in the order of the MTL file.
     pub palette: &'static [Pigment],
+    /// The highlights of its materials; one that is not named has none.
+    pub shine: &'static [Shine],
     /// One point per vertex.
     pub positions: Vec<DVec3>,
     /// The polygons, in the order in which they were made.
@@ -44,7 +49,7 @@ pub struct PolyMesh {
 impl PolyMesh {
     /// An empty mesh.
     pub fn new(name: &'static str, about: &'static str, palette: &'static [Pigment]) -> Self {
-        Self { name, about, palette, positions: Vec::new(), faces: Vec::new() }
+        Self { name, about, palette, shine: &[], positions: Vec::new(), faces: Vec::new() }
     }
 
     /// Weaves a closed skin round an axis out of `rows` bands of `segments` faces each, from one pole to the other.
@@ -190,7 +195,7 @@ impl PolyMesh {
         Ok(text)
     }
 
-    /// The material file's text: one base colour per material of the palette.
+    /// The material file's text: one base colour per material of the palette, and its highlight where one is given.
     pub fn to_mtl(&self) -> anyhow::Result<String> {
         let mut text = String::new();
         for (name, hex) in self.palette {
@@ -198,6 +203,10 @@ impl PolyMesh {
                 .with_context(|| format!("{}: {hex} is no colour", self.name))?;
             let channel = |shift: u32| decimal(f64::from(value >> shift & 0xff) / 255.0);
             writeln!(text, "newmtl {name}\nKd {} {} {}", channel(16), channel(8), channel(0))?;
+            if let Some((_, [ks, ns])) = self.shine.iter().find(|(names, _)| names.contains(name)) {
+                let (ks, ns) = (decimal(*ks), decimal(*ns));
+                writeln!(text, "Ks {ks} {ks} {ks}\nNs {ns}")?;
+            }
         }
         Ok(text)
     }
