@@ -80,6 +80,11 @@ pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Rende
 /// Every file that a command reads, for not writing over it.
 pub(crate) fn inputs(loaded: &LoadedScene) -> Vec<PathBuf> {
     let folder = loaded.path.parent().map(PathBuf::from).unwrap_or_default();
-    let named = loaded.meshes.keys().chain(loaded.textures.keys()).chain(loaded.brushes.keys()).map(|name| folder.join(name));
+    let named = loaded
+        .meshes
+        .keys()
+        .chain(loaded.textures.keys())
+        .chain(loaded.brushes.keys())
+        .map(|name| folder.join(name));
     std::iter::once(loaded.path.clone()).chain(named).collect()
 }

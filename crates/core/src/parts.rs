@@ -182,9 +182,12 @@ mod tests {
     fn torn_triangles_are_one_part() {
         let mut mesh = brick(DVec3::new(0.2, 1.0, 0.5), DQuat::IDENTITY, DVec3::ZERO);
         let torn: Vec<Vec3> = (0..mesh.triangles.len())
-            .flat_map(|triangle| mesh.corners(triangle).map(|corner| corner + Vec3::X * triangle as f32 * 0.01))
+            .flat_map(|triangle| {
+                mesh.corners(triangle).map(|corner| corner + Vec3::X * triangle as f32 * 0.01)
+            })
             .collect();
-        mesh.triangles = (0..torn.len() as u32 / 3).map(|triangle| [0, 1, 2].map(|k| 3 * triangle + k)).collect();
+        mesh.triangles =
+            (0..torn.len() as u32 / 3).map(|triangle| [0, 1, 2].map(|k| 3 * triangle + k)).collect();
         mesh.positions = torn;
         assert_eq!(parts(&mesh).0.len(), 1);
     }

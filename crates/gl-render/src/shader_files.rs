@@ -9,14 +9,13 @@ macro_rules! shader_files {
 }
 
 /// What every style may include.
-pub(crate) const SHARED: &[ShaderFile] =
-    shader_files![
-        "shared/screen.vert",
-        "shared/encode.glsl",
-        "shared/encode.frag",
-        "shared/lens.glsl",
-        "shared/oklab.glsl",
-    ];
+pub(crate) const SHARED: &[ShaderFile] = shader_files![
+    "shared/screen.vert",
+    "shared/encode.glsl",
+    "shared/encode.frag",
+    "shared/lens.glsl",
+    "shared/oklab.glsl",
+];
 
 /// The reference pass.
 pub(crate) const REFERENCE: &[ShaderFile] = shader_files![

@@ -144,7 +144,8 @@ impl BakeInputs {
                 .with_min_len(2048)
                 .map(|particle| {
                     let at = self.particles[particle].position.as_dvec3() * scales[self.part_of(particle)];
-                    let noise = |which: u32, px: f64| noise::slow(hash::combine(self.name_hash, which), at / px);
+                    let noise =
+                        |which: u32, px: f64| noise::slow(hash::combine(self.name_hash, which), at / px);
                     [noise(1, SWING_PX), noise(2, EDGE_PX)]
                 })
                 .collect(),
@@ -178,7 +179,8 @@ impl BakeInputs {
         let jitter_rad = f64::from(rule.strokes.angle_jitter_rad);
         let mut stray = jitter_rad * jitter * normal(ANGLE_JITTER);
         if hash::unit(hash::combine(bits, RANK_BREAKING)) < RANK_BREAKERS {
-            stray += jitter_rad * (RANK_BREAKING_DEG / USUAL_JITTER_DEG) * normal(hash::combine(RANK_BREAKING, 1));
+            stray +=
+                jitter_rad * (RANK_BREAKING_DEG / USUAL_JITTER_DEG) * normal(hash::combine(RANK_BREAKING, 1));
         }
         if rule.strokes.swing_rad > 0.0 {
             let at = self.particles[index].position.as_dvec3() * (scale / cycle_px);

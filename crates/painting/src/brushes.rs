@@ -12,7 +12,7 @@ use crate::frame::Brushes;
 use crate::regions::RegionRule;
 
 /// Marks of the brushes that come with Impasto are made once, whatever is painted with them.
-static MARKS: [OnceLock<Arc<Vec<Mark>>>; brush::NAMES.len()] = 
+static MARKS: [OnceLock<Arc<Vec<Mark>>>; brush::NAMES.len()] =
     [const { OnceLock::new() }; brush::NAMES.len()];
 
 /// The brushes of all layers that lay paint.
@@ -40,7 +40,8 @@ fn marks_of(loaded: &LoadedScene, name: &str) -> Arc<Vec<Mark>> {
     if let Some(marks) = of_house(name) {
         return marks;
     }
-    let marks = loaded.brushes.get(name).map(|picture| brush::marks_of_picture(picture.size_px, &picture.rgba8));
+    let marks =
+        loaded.brushes.get(name).map(|picture| brush::marks_of_picture(picture.size_px, &picture.rgba8));
     match marks.filter(|marks| !marks.is_empty()) {
         Some(marks) => Arc::new(marks),
         // A scene that was not checked; any mark will do.
@@ -70,8 +71,8 @@ impl Brushes {
 /// neighbours in rank from taking the same one.
 pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let step = |ratio: f64, count: u32| {
-        ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract() * f64::from(count))
-            as u32
+        ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract()
+            * f64::from(count)) as u32
     };
     let variant = step(0.618_033_988_75, brush::VARIANTS).min(brush::VARIANTS - 1);
     let count = first_marks.len() as u32;

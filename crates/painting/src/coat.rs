@@ -94,7 +94,12 @@ impl KeptObject {
         for kind in LayerKind::ALL {
             let count = count(context, object, kind, (&surface, &parts, &sightings));
             let name_hash = name_hash(context, object.index, kind);
-            let now = SampleInputs { surface: object.surface.clone(), count, name_hash, per_polygon: context.paper };
+            let now = SampleInputs {
+                surface: object.surface.clone(),
+                count,
+                name_hash,
+                per_polygon: context.paper,
+            };
             let kept = &mut self.coats[kind as usize];
             if kept.sampled.as_ref().is_some_and(|(before, _)| *before == now) {
                 continue;
@@ -180,8 +185,11 @@ impl KeptCoat {
             self.baked = Some((inputs.clone(), Arc::new(inputs.bake())));
         }
         let baked = Arc::clone(&self.baked.as_ref().expect("it was just baked").1);
-        let first_marks =
-            context.rules.iter().map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind))).collect();
+        let first_marks = context
+            .rules
+            .iter()
+            .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
+            .collect();
         Coat { object, kind, sampled: self.sampled_now(), inputs, baked, first_marks }
     }
 }

@@ -30,8 +30,7 @@ impl FinishRule {
         let toned = settings.underpainting && !paper;
         let strength = |value: f64| if paper { 0.0 } else { value as f32 };
         let finish = Finish {
-            ground: toned
-                .then(|| Ground { color: lights::linear(ground.color), hides: ground.opacity }),
+            ground: toned.then(|| Ground { color: lights::linear(ground.color), hides: ground.opacity }),
             weave: if settings.canvas == Canvas::Linen { strength(settings.weave) } else { 0.0 },
             canvas_from_px: Affine2::IDENTITY,
             relief: strength(settings.relief),
@@ -104,7 +103,8 @@ mod tests {
     fn a_canvas_that_follows_moves_as_what_is_looked_at() {
         let reference = view(DVec3::new(0.0, 0.0, 5.0), 0.0);
         let anchor = reference.pose.target;
-        let rule = FinishRule { finish: Finish::default(), anchor: Some(anchor), reference: reference.clone() };
+        let rule =
+            FinishRule { finish: Finish::default(), anchor: Some(anchor), reference: reference.clone() };
         // A point beside the anchor, in the plane that faces the reference camera.
         let beside = anchor + DVec3::new(0.05, 0.03, 0.0);
         for other in [view(DVec3::new(0.0, 0.0, 3.0), 0.0), view(DVec3::new(0.0, 0.0, 5.0), 0.4)] {

@@ -1,9 +1,9 @@
 //! How many particles an object needs when its scene does not say.
 
 use glam::{DVec2, DVec3, Vec3};
+use impasto_core::ScreenMap;
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
-use impasto_core::ScreenMap;
 
 use crate::parts::Cap;
 
@@ -47,7 +47,10 @@ pub(crate) fn find(
             let jacobian = sighting.map.jacobian(center);
             let px_per_area = area_px(jacobian, normal);
             if px_per_area.is_finite() && facing(jacobian, normal) > 0.0 {
-                seen.push((px_per_area * f64::from(wanted_per_px(triangle as usize, sighting)), px_per_area * area));
+                seen.push((
+                    px_per_area * f64::from(wanted_per_px(triangle as usize, sighting)),
+                    px_per_area * area,
+                ));
             }
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -54,10 +54,7 @@ impl BodyParts {
         let of_part = |part: &Part| {
             let scale = px_per_unit(map, part);
             let cap = |share: f64, extent: f64| (share * extent * scale).max(LEAST_CAP_PX) as f32;
-            Cap {
-                length_px: cap(LENGTH_SHARE, part.extents[0]),
-                width_px: cap(WIDTH_SHARE, part.extents[1]),
-            }
+            Cap { length_px: cap(LENGTH_SHARE, part.extents[0]), width_px: cap(WIDTH_SHARE, part.extents[1]) }
         };
         self.parts.iter().map(of_part).collect()
     }

@@ -154,14 +154,14 @@ impl Preparer {
         let inputs = surface_inputs(&loaded)?;
         kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
         clock.lap("surfaces");
-        let bodies: Vec<PreparedBody> = kept
-            .iter()
-            .map(|kept| PreparedBody { surface: kept.surface(), parts: kept.parts() })
-            .collect();
+        let bodies: Vec<PreparedBody> =
+            kept.iter().map(|kept| PreparedBody { surface: kept.surface(), parts: kept.parts() }).collect();
         let regions: Vec<Vec<u16>> = inputs
             .iter()
             .zip(&bodies)
-            .map(|(inputs, body)| regions::of_triangles(scene, &inputs.name, inputs.file(), &body.surface.mesh))
+            .map(|(inputs, body)| {
+                regions::of_triangles(scene, &inputs.name, inputs.file(), &body.surface.mesh)
+            })
             .collect();
         let objects: Vec<ObjectInputs<'_>> = (0..kept.len())
             .map(|index| ObjectInputs { index, surface: &inputs[index], regions: &regions[index] })

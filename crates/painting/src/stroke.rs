@@ -122,7 +122,8 @@ impl Look<'_> {
         match edges {
             Edges::Clip => 0.0,
             Edges::Overrun(px) => {
-                (px as f32 * of_layer * (1.0 + EDGE_SWING * noise)).clamp(0.0, Stroke::FREE * 0.5) * self.px_scale
+                (px as f32 * of_layer * (1.0 + EDGE_SWING * noise)).clamp(0.0, Stroke::FREE * 0.5)
+                    * self.px_scale
             }
             Edges::Free => Stroke::FREE,
         }

@@ -95,7 +95,10 @@ impl SurfaceInputs {
                 albedo: linear(Color(from_file.color)),
                 texture: from_file.texture.clone(),
                 unlit: over.as_ref().is_some_and(|over| over.unlit),
-                gloss: over.as_ref().and_then(|over| over.gloss).map_or(from_file.gloss, |gloss| gloss as f32),
+                gloss: over
+                    .as_ref()
+                    .and_then(|over| over.gloss)
+                    .map_or(from_file.gloss, |gloss| gloss as f32),
             },
         }
     }

@@ -61,7 +61,8 @@ impl Limits {
                 version: gl.get_parameter_string(glow::VERSION),
                 shading_language: gl.get_parameter_string(glow::SHADING_LANGUAGE_VERSION),
                 max_side_px: u32::try_from(side).unwrap_or(0),
-                max_array_layers: u32::try_from(gl.get_parameter_i32(glow::MAX_ARRAY_TEXTURE_LAYERS)).unwrap_or(0),
+                max_array_layers: u32::try_from(gl.get_parameter_i32(glow::MAX_ARRAY_TEXTURE_LAYERS))
+                    .unwrap_or(0),
             }
         }
     }

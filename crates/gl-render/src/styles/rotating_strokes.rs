@@ -151,10 +151,7 @@ impl RotatingStrokes {
         if strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
             targets.paint_pass.copy_to(&targets.below_pass);
         }
-        self.gpu.begin_pass(
-            &targets.paint_pass,
-            DrawState { blend: Blend::Over, ..DrawState::default() },
-        );
+        self.gpu.begin_pass(&targets.paint_pass, DrawState { blend: Blend::Over, ..DrawState::default() });
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let bound = lens
             .set(self.paint.bind(), &["size_px", "orthographic"])
@@ -173,11 +170,8 @@ impl RotatingStrokes {
         let frame = input.frame;
         let finish = &frame.finish;
         self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
-        let bound = self
-            .soften
-            .bind()
-            .texture("height", &targets.height)
-            .set("step_px", frame.px_scale.max(0.5));
+        let bound =
+            self.soften.bind().texture("height", &targets.height).set("step_px", frame.px_scale.max(0.5));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         self.gpu.lap("soften");
 
@@ -221,7 +215,8 @@ impl RotatingStrokes {
     /// The paint of the last frame, premultiplied and linear, without ground; bottom row first.
     pub(crate) fn read_paint(&self) -> Vec<[f32; 4]> {
         let targets = self.targets.as_ref();
-        targets.map_or_else(Vec::new, |targets| bytemuck::pod_collect_to_vec(&targets.paint_pass.read_floats(0)))
+        targets
+            .map_or_else(Vec::new, |targets| bytemuck::pod_collect_to_vec(&targets.paint_pass.read_floats(0)))
     }
 }
 

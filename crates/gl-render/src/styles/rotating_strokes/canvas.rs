@@ -45,7 +45,10 @@ fn height(x: usize, y: usize) -> f32 {
         (1.0 - (across / thickness.clamp(0.6, 1.4)).powi(2)).max(0.0).sqrt()
     };
     // Each thread goes over every other one.
-    let over = 0.5 + 0.5 * (std::f32::consts::PI * (warp_at - 0.5)).sin() * (std::f32::consts::PI * (weft_at - 0.5)).sin();
+    let over = 0.5
+        + 0.5
+            * (std::f32::consts::PI * (warp_at - 0.5)).sin()
+            * (std::f32::consts::PI * (weft_at - 0.5)).sin();
     let (warp, weft) = (thread(warp_at, 3) * (0.35 + 0.65 * over), thread(weft_at, 4) * (1.0 - 0.65 * over));
     warp.max(weft)
 }
@@ -72,7 +75,8 @@ mod tests {
     fn the_tile_repeats_and_has_no_slope_on_the_whole() {
         let tile = tile();
         let side = SIDE as usize;
-        let texel = |x: usize, y: usize, channel: usize| f32::from(tile[(y * side + x) * 4 + channel]) - 127.5;
+        let texel =
+            |x: usize, y: usize, channel: usize| f32::from(tile[(y * side + x) * 4 + channel]) - 127.5;
         for channel in 0..3 {
             let mean = (0..side * side).map(|index| texel(index % side, index / side, channel)).sum::<f32>()
                 / (side * side) as f32;
@@ -82,6 +86,9 @@ mod tests {
         let step = |x: usize, y: usize| (texel(x, y, 0) - texel((x + 1) % side, y, 0)).abs();
         let border = (0..side).map(|y| step(side - 1, y)).sum::<f32>();
         let middle = (0..side).map(|y| step(side / 2 - 1, y)).sum::<f32>();
-        assert!(border < 1.5 * middle && middle < 1.5 * border, "{border} at the border, {middle} in the middle");
+        assert!(
+            border < 1.5 * middle && middle < 1.5 * border,
+            "{border} at the border, {middle} in the middle"
+        );
     }
 }

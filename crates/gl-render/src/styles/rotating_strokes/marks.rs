@@ -21,7 +21,8 @@ impl Marks {
     /// Those of `brushes`; uploads them unless `kept` already are.
     pub(super) fn of(gpu: &Gpu, kept: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
         if let Some(kept) = kept
-            && (Arc::ptr_eq(&kept.brushes, brushes) || kept.brushes.names == brushes.names && kept.brushes == *brushes)
+            && (Arc::ptr_eq(&kept.brushes, brushes)
+                || kept.brushes.names == brushes.names && kept.brushes == *brushes)
         {
             return Ok(kept);
         }
@@ -97,7 +98,10 @@ mod tests {
         assert_eq!(levels.last().map(Vec::len), Some(4));
         for channel in 0..3 {
             let finest = mean(&levels[0], channel);
-            assert!(levels.iter().take(5).all(|level| (mean(level, channel) - finest).abs() < 2.0), "{channel}");
+            assert!(
+                levels.iter().take(5).all(|level| (mean(level, channel) - finest).abs() < 2.0),
+                "{channel}"
+            );
         }
     }
 }
