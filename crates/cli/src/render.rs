@@ -1,12 +1,13 @@
 //! `impasto render`: frames of a scene as pictures.
 
+use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use impasto_gl_render::{Picture, Renderer};
+use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting};
 use impasto_scene::document::Style;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -38,6 +39,19 @@ struct Plan {
     destination: Destination,
     scene_name: String,
     interrupted: Arc<AtomicBool>,
+    verbose: bool,
+    /// Of the last frame, where `verbose`.
+    cost: Cost,
+}
+
+/// Strokes that are less than this there are not painted.
+const LEAST_ALPHA: f32 = 0.004;
+
+/// The most memory that this process has held, where the system says so.
+fn peak_memory_mib() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? / 1024)
 }
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
@@ -106,6 +120,8 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         destination,
         scene_name,
         interrupted,
+        verbose,
+        cost: Cost::default(),
     })
 }
 
@@ -170,12 +186,9 @@ impl Plan {
                     }
                     let seconds = begun.elapsed().as_secs_f64();
                     if verbose {
+                        let told = self.told(&frame);
                         bar.suspend(|| {
-                            eprintln!(
-                                "frame {frame_number}: {} strokes, {seconds:.2} s, {}",
-                                frame.strokes.len(),
-                                path.display()
-                            );
+                            eprintln!("frame {frame_number}: {seconds:.2} s, {}\n{told}", path.display());
                         });
                     }
                     if arguments.json {
@@ -267,9 +280,40 @@ impl Plan {
     }
 
     fn draw(&mut self, frame_number: i64) -> Result<(Frame, Picture), Failure> {
+        let begun = Instant::now();
         let frame = self.painting.at(frame_number as f64, &self.options);
-        let picture = self.renderer.render(&frame)?;
+        let picture = if self.verbose {
+            let solved = begun.elapsed().as_secs_f64();
+            let (picture, mut cost) = self.renderer.render_timed(&frame)?;
+            cost.passes.insert(0, PassTime { name: "solve", seconds: solved });
+            self.cost = cost;
+            picture
+        } else {
+            self.renderer.render(&frame)?
+        };
         Ok((frame, picture))
+    }
+
+    /// What the last frame was made of: strokes, overdraw, memory, seconds of each pass.
+    fn told(&self, frame: &Frame) -> String {
+        let resolved = self.renderer.resolved_strokes();
+        let strokes = resolved.iter().filter(|stroke| stroke.alpha > LEAST_ALPHA).count();
+        let overdraw = self.cost.overdraw;
+        let memory = peak_memory_mib().map_or(String::new(), |mib| format!(", {mib} MiB at most so far"));
+        let mut text =
+            format!("  {strokes} strokes of {} in question, overdraw {overdraw:.1}{memory}", frame.strokes.len());
+        let mut passes: Vec<PassTime> = Vec::new();
+        for pass in &self.cost.passes {
+            match passes.iter_mut().find(|known| known.name == pass.name) {
+                Some(known) => known.seconds += pass.seconds,
+                None => passes.push(*pass),
+            }
+        }
+        for pass in passes {
+            // Writing to a String cannot fail.
+            let _ = write!(text, "\n  {:<14}{:>8.1} ms", pass.name, pass.seconds * 1e3);
+        }
+        text
     }
 
     fn provenance(&self, frame_number: i64) -> Provenance {

@@ -15,4 +15,4 @@ mod shader_files;
 mod styles;
 
 pub use gl::GlError;
-pub use renderer::{PassTime, Picture, ReferencePixels, RenderError, Renderer, ResolvedStroke};
+pub use renderer::{Cost, PassTime, Picture, ReferencePixels, RenderError, Renderer, ResolvedStroke};

@@ -31,6 +31,15 @@ pub struct ResolvedStroke {
     pub length_px: f32,
 }
 
+/// What a picture cost to draw.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// The passes, in order; a layer of paint that is laid in several runs is there several times.
+    pub passes: Vec<PassTime>,
+    /// How many strokes laid paint on a pixel, on average.
+    pub overdraw: f64,
+}
+
 /// How long a pass took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassTime {
@@ -146,16 +155,17 @@ impl Renderer {
         Ok(Picture { size_px: frame.size_px, rgba8 })
     }
 
-    /// As [`Renderer::render`], with the seconds of each pass. Waits for the driver after each, so the whole is slower.
+    /// As [`Renderer::render`], with what it cost. Waits for the driver after each, so the whole is slower.
     ///
     /// # Errors
     /// As [`Renderer::render`].
-    pub fn render_timed(&mut self, frame: &Frame) -> Result<(Picture, Vec<PassTime>), RenderError> {
+    pub fn render_timed(&mut self, frame: &Frame) -> Result<(Picture, Cost), RenderError> {
         self.context.gpu().start_clock();
         let picture = self.render(frame);
-        let laps = self.context.gpu().stop_clock();
-        let times = laps.into_iter().map(|(name, seconds)| PassTime { name, seconds }).collect();
-        Ok((picture?, times))
+        let (laps, fragments) = self.context.gpu().stop_clock();
+        let passes = laps.into_iter().map(|(name, seconds)| PassTime { name, seconds }).collect();
+        let pixels = frame.size_px.map(f64::from);
+        Ok((picture?, Cost { passes, overdraw: fragments as f64 / (pixels[0] * pixels[1]) }))
     }
 
     /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.

@@ -1,12 +1,13 @@
 //! How small values are written in a scene file: colours as `"#rrggbb"`, scales as one number or three, brushes as one
-//! name or a list.
+//! name or a list, a style as its name with its fields.
 
 use std::fmt;
 
-use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use crate::document::{BrushMix, Color, Scale};
+use crate::document::{BrushMix, Color, RotatingStrokes, Scale, Style};
 
 impl Color {
     /// Reads `#rgb` or `#rrggbb`; `None` for anything else.
@@ -131,5 +132,51 @@ impl<'de> Deserialize<'de> for BrushMix {
             }
         }
         deserializer.deserialize_any(MixVisitor)
+    }
+}
+
+impl Serialize for Style {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::RotatingStrokes(settings) => settings.serialize(serializer),
+            Self::Reference => serializer.serialize_unit_struct("Reference"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Style {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        #[serde(variant_identifier)]
+        enum Name {
+            RotatingStrokes,
+            Reference,
+        }
+        struct FieldsVisitor;
+        impl<'de> Visitor<'de> for FieldsVisitor {
+            type Value = RotatingStrokes;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("the fields of a style, as in (relief: 0.5)")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RotatingStrokes, A::Error> {
+                RotatingStrokes::deserialize(MapAccessDeserializer::new(map))
+            }
+        }
+        struct StyleVisitor;
+        impl<'de> Visitor<'de> for StyleVisitor {
+            type Value = Style;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a style such as RotatingStrokes()")
+            }
+            fn visit_enum<A: EnumAccess<'de>>(self, style: A) -> Result<Style, A::Error> {
+                match style.variant()? {
+                    (Name::RotatingStrokes, fields) => {
+                        fields.struct_variant(RotatingStrokes::FIELDS, FieldsVisitor).map(Style::RotatingStrokes)
+                    }
+                    (Name::Reference, nothing) => nothing.unit_variant().map(|()| Style::Reference),
+                }
+            }
+        }
+        deserializer.deserialize_enum("Style", &["RotatingStrokes", "Reference"], StyleVisitor)
     }
 }

@@ -28,6 +28,7 @@ struct Shared {
 struct PassClock {
     since: Instant,
     laps: Vec<(&'static str, f64)>,
+    fragments: u64,
 }
 
 /// What the driver says of itself.
@@ -88,7 +89,7 @@ impl Gpu {
 
     /// Starts timing passes. Each lap waits for the driver, so a timed frame is slower than one that is not.
     pub(crate) fn start_clock(&self) {
-        *self.shared.clock.borrow_mut() = Some(PassClock { since: Instant::now(), laps: Vec::new() });
+        *self.shared.clock.borrow_mut() = Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
     }
 
     /// What was drawn since the last lap was this; nothing unless passes are timed.
@@ -101,9 +102,25 @@ impl Gpu {
         }
     }
 
-    /// Stops timing: passes with their seconds, in order.
-    pub(crate) fn stop_clock(&self) -> Vec<(&'static str, f64)> {
-        self.shared.clock.borrow_mut().take().map(|clock| clock.laps).unwrap_or_default()
+    /// While passes are timed, counts the fragments that `draw` lays down.
+    pub(super) fn counting_fragments(&self, draw: impl FnOnce()) {
+        let mut clock = self.shared.clock.borrow_mut();
+        let Some(clock) = clock.as_mut() else { return draw() };
+        let gl = self.gl();
+        // SAFETY: the context is current; the query is ended before it is read and deleted.
+        unsafe {
+            let Ok(query) = gl.create_query() else { return draw() };
+            gl.begin_query(glow::SAMPLES_PASSED, query);
+            draw();
+            gl.end_query(glow::SAMPLES_PASSED);
+            clock.fragments += u64::from(gl.get_query_parameter_u32(query, glow::QUERY_RESULT));
+            gl.delete_query(query);
+        }
+    }
+
+    /// Stops timing: passes with their seconds, in order, and how many fragments strokes laid down.
+    pub(crate) fn stop_clock(&self) -> (Vec<(&'static str, f64)>, u64) {
+        self.shared.clock.borrow_mut().take().map(|clock| (clock.laps, clock.fragments)).unwrap_or_default()
     }
 
     /// Whether the driver's debug output is being kept.

@@ -92,20 +92,22 @@ impl Gpu {
     ) -> Result<(), GlError> {
         bound.finish()?;
         let gl = self.gl();
-        // SAFETY: the context is current; the array's buffers hold at least what the caller asks to draw.
-        unsafe {
-            gl.bind_vertex_array(Some(array.id()));
-            match vertices {
-                Vertices::Screen => gl.draw_arrays(glow::TRIANGLES, 0, 3),
-                Vertices::Indexed { first, count } => {
-                    gl.draw_elements(glow::TRIANGLES, count as i32, glow::UNSIGNED_INT, first as i32 * 4);
-                }
-                Vertices::Quads { instances } => {
-                    gl.draw_arrays_instanced(glow::TRIANGLE_STRIP, 0, 4, instances as i32);
-                }
-            }
-            gl.bind_vertex_array(None);
+        // SAFETY: the context is current.
+        unsafe { gl.bind_vertex_array(Some(array.id())) };
+        match vertices {
+            // SAFETY: the context is current; no buffer is read.
+            Vertices::Screen => unsafe { gl.draw_arrays(glow::TRIANGLES, 0, 3) },
+            // SAFETY: the context is current; the array's buffers hold at least what the caller asks to draw.
+            Vertices::Indexed { first, count } => unsafe {
+                gl.draw_elements(glow::TRIANGLES, count as i32, glow::UNSIGNED_INT, first as i32 * 4);
+            },
+            // SAFETY: likewise.
+            Vertices::Quads { instances } => self.counting_fragments(|| unsafe {
+                gl.draw_arrays_instanced(glow::TRIANGLE_STRIP, 0, 4, instances as i32);
+            }),
         }
+        // SAFETY: the context is current.
+        unsafe { gl.bind_vertex_array(None) };
         Ok(())
     }
 

@@ -116,8 +116,7 @@ pub enum Edges {
 }
 
 /// How the scene is drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Style {
     /// Brush strokes that turn with what they lie on.
     RotatingStrokes(RotatingStrokes),
@@ -195,4 +194,10 @@ impl Default for RotatingStrokes {
             varnish: 1.0,
         }
     }
+}
+
+impl RotatingStrokes {
+    /// The names of the fields in a scene file.
+    pub(crate) const FIELDS: &'static [&'static str] =
+        &["solver", "underpainting", "canvas", "weave", "canvas_follows", "relief", "varnish"];
 }

@@ -88,7 +88,7 @@ fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
 
 fn from_ron(text: &str) -> Result<Scene, SpannedError> {
     ron::Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
+        .with_default_extension(Extensions::IMPLICIT_SOME)
         .with_recursion_limit(2 * limits::MAX_NESTING)
         .from_str(text)
 }
