@@ -7,7 +7,7 @@ layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bend; // world space, half widths
 layout(location = 5) in vec3 reach;          // overrun in px, slow noise of hue and of edges
 layout(location = 6) in vec4 resolved;       // colour and how much is there
-layout(location = 7) in vec4 fitted;         // shift along the stroke and length in px, lightness
+layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness
 
 uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
@@ -46,23 +46,22 @@ void main() {
     float thickness = float((bytes.x >> 8) & 255u) / 50.0;
     float pickup = float((bytes.x >> 16) & 255u) * BYTE;
     float dryness = float(bytes.x >> 24) * BYTE;
-    float length_px = fitted.y;
     // A drier brush leaves less of its mark; as the stroke goes away, what is left of it erodes to its last hairs.
     float share = 0.98 * (1.0 - dryness) * there;
     // Soft over about a pixel, as a share of the mark.
-    float soft = clamp(0.8 * (length_px + size.y) / (length_px * size.y), 0.02, 0.12);
+    float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
     vec3 lab = oklab_from_linear(resolved.rgb);
     half_mixed = linear_from_oklab(lab + vec3(0.040, 0.0, 0.012)) - resolved.rgb;
 
     vec2 along = vec2(cos(place.w), sin(place.w));
-    vec2 center_px = place.xy + along * fitted.x;
-    vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * length_px), 0.15 * size.y) : vec4(0.0);
+    vec2 center_px = fitted.xy;
+    vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * size.x), 0.15 * size.y) : vec4(0.0);
     picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
 
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     from_center_px =
-        (along * corner.x * length_px + vec2(-along.y, along.x) * corner.y * size.y) * 0.5 * MARGIN;
+        (along * corner.x * size.x + vec2(-along.y, along.x) * corner.y * size.y) * 0.5 * MARGIN;
     mark_at = corner * 0.5 + 0.5;
     // A constant level keeps the mark the same at every angle.
     float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);

@@ -1,4 +1,4 @@
-// One stroke a vertex: its colour, how much of it is there, and how it fits its body. What comes out is what is painted,
+// One stroke a vertex: its colour, how much of it is there, and where it lies on its body. What comes out is what is painted,
 // and what `impasto strokes` reads back.
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
@@ -7,20 +7,21 @@
 uniform float px_scale;          // output pixels per pixel of the scene's own size
 uniform mat4 view_from_world;
 uniform int kind;                // layer of paint
-#include "rotating_strokes/surroundings.glsl"
-#include "rotating_strokes/mixing.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit), mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bend; // world space, half widths
 layout(location = 5) in vec3 reach;          // overrun in px, slow noise of hue and of edges
+#include "rotating_strokes/surroundings.glsl"
+#include "rotating_strokes/mixing.glsl"
 
 out vec4 resolved;               // colour and how much is there
-out vec4 fitted;                 // shift along the stroke and length in px, lightness, unused
+out vec4 fitted;                 // centre in px where it lies on its body, lightness, unused
 
-const float FADE = 1.4;
 const float FREE = 1e6;
+const float MOST_FULL = 1.35;
+const float LEAST = 0.004;       // of a stroke that is painted
 
 // Deviation of the Gaussian that colours come from, in widths of the stroke.
 const float BLUR[6] = float[6](0.33, 0.20, 0.20, 0.22, 0.30, 0.25);
@@ -66,46 +67,56 @@ vec3 color_of_hidden() {
     return lit(albedo, point, no_glint);
 }
 
-// How much the layer is wanted here, 0 not at all, 1 as its coverage says. `wide` is the colour round about.
-float wanted(vec3 lab, float grading, out vec3 wide) {
-    float id = float(marks.y);
-    wide = lab;
-    if (kind == BODY) {
-        // Thin in the darks, full in the lights.
-        return mix(1.0, mix(0.62, 1.35, smoothstep(0.15, 0.85, lab.x)), grading);
-    }
-    if (kind == LIGHTS) return smoothstep(0.15, 0.30, glint_at(place.xy, id));
-    if (kind != FORM && kind != ACCENTS) return 1.0;
-    float change;
-    float detail = detail_at(place.xy, id, lab, change, wide);
+// How much of the stroke is there for its rank, as in `core::presence`.
+float presence(float supply_ln) {
+    return max(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4) - 0.1, 0.0) / 0.9 * size.z;
+}
+
+// How full the body layer is, 1 as its coverage says: thin in the darks, full in the lights.
+float fullness(float lightness, float grading) {
+    return mix(1.0, mix(0.62, MOST_FULL, smoothstep(0.15, 0.85, lightness)), grading);
+}
+
+// How much a layer of small strokes is wanted here, 0..1.
+float wanted(vec3 detail) {
+    if (kind == LIGHTS) return smoothstep(0.04, 0.22, detail.b);
     // Edges are lost in places.
-    float rim = rim_at(place.xy, id, place.z) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
-    float inside = kind == FORM ? 1.5 * detail - 0.15 : change / 0.035 * 1.2 - 0.25;
+    float rim = min(1.8 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
+    float inside = kind == FORM ? 1.7 * detail.r - 0.10 : 1.7 * detail.r - 0.32;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
-// Shift along the stroke and length, so that it ends where its body does, or a little past it.
-vec2 fit(vec2 along, vec2 own) {
+// Shift along the stroke, so that it lies on its body as far as it can. Its size stays.
+float shift(vec2 along, vec2 own) {
+    if (reach.x >= FREE) return 0.0;
     float half_px = 0.5 * size.x;
-    if (reach.x >= FREE) return vec2(0.0, size.x);
-    float past_px = reach.x + 0.10 * size.x;
+    float past_px = reach.x + 0.2 * size.x;
     float forward_px = min(extent_px(place.xy, along, half_px, own) + past_px, half_px);
     float back_px = min(extent_px(place.xy, -along, half_px, own) + past_px, half_px);
-    return vec2(0.5 * (forward_px - back_px), max(forward_px + back_px, 0.4 * size.x));
+    return 0.5 * (forward_px - back_px);
 }
 
 void main() {
     vec2 along = vec2(cos(place.w), sin(place.w));
-    mat2 turn = mat2(along, vec2(-along.y, along.x));
     vec2 own = vec2(place.z, float(marks.y));
+    resolved = vec4(0.0);
+    fitted = vec4(place.xy, 0.0, 0.0);
+    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+    // Most strokes in question are absent; they cost little.
+    bool small = kind == FORM || kind == ACCENTS || kind == LIGHTS;
+    float there = presence(size.w + (kind == BODY ? log(MOST_FULL) : 0.0));
+    if (small && there > LEAST) there *= wanted(detail_at(place.xy, own.y));
+    if (there > LEAST) there *= seen(mat2(along, vec2(-along.y, along.x)));
+    if (there <= LEAST) return;
+
     vec4 found = own_color(place.xy, own.y, max(BLUR[kind] * size.y, 0.7));
     vec3 lab = oklab_from_linear(found.w > 0.0 ? found.rgb : color_of_hidden());
     Mixing mixing = mixing_of(bytes.y);
-    vec3 wide;
-    float supply = size.w + log(max(wanted(lab, mixing.grading, wide), 1e-6));
-    float there = smoothstep(0.0, 1.0, 0.5 + supply / FADE) * size.z * seen(turn);
+    if (kind == BODY) {
+        there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
+    }
+    vec3 wide = kind == ACCENTS ? wide_mean(place.xy, own.y, lab) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
     resolved = vec4(linear_from_oklab(lab), there);
-    fitted = vec4(fit(along, own), lab.x, 0.0);
-    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+    fitted = vec4(place.xy + along * shift(along, own), lab.x, 0.0);
 }

@@ -2,7 +2,8 @@
 // what is decided by it fades and never switches.
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
-uniform sampler2D glint;
+uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id
+uniform float block_px;          // side of a block
 
 vec2 surface_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
@@ -14,8 +15,9 @@ vec3 color_at(vec2 at_px) {
     return texelFetch(reference_color, texel, 0).rgb;
 }
 
+// Directions all round, counted from the stroke's own, so that a picture that is turned is looked at the same way.
 vec2 direction(int index, int count) {
-    float angle = 6.2831853 * (float(index) + 0.5) / float(count);
+    float angle = place.w + 6.2831853 * (float(index) + 0.5) / float(count);
     return vec2(cos(angle), sin(angle));
 }
 
@@ -43,50 +45,34 @@ vec4 own_color(vec2 center_px, float id, float sigma_px) {
     return weight > 0.0 ? vec4(sum / weight, 1.0) : vec4(0.0);
 }
 
-// How much happens round the stroke on its own body, 0..1: change of colour from pixel to pixel of a picture 720 high, and
-// difference of lightness from a wider mean. `change` is the former alone, Oklab per pixel; `wide` the wider mean.
-float detail_at(vec2 center_px, float id, vec3 lab, out float change, out vec3 wide) {
-    const float NEAR_PX = 4.0;
-    const float WIDE_PX = 10.0;
-    vec3 slope_x = vec3(0.0);
-    vec3 slope_y = vec3(0.0);
-    wide = vec3(0.0);
-    for (int index = 0; index < 8; index++) {
-        vec2 towards = direction(index, 8);
-        vec2 near_px = center_px + towards * NEAR_PX * px_scale;
-        vec3 near = surface_at(near_px).y == id ? oklab_from_linear(color_at(near_px)) : lab;
-        slope_x += (near - lab) * towards.x;
-        slope_y += (near - lab) * towards.y;
-        vec2 wide_px = center_px + towards * WIDE_PX * px_scale;
-        wide += surface_at(wide_px).y == id ? oklab_from_linear(color_at(wide_px)) : lab;
-    }
-    wide /= 8.0;
-    change = sqrt(dot(slope_x, slope_x) + dot(slope_y, slope_y)) * (2.0 / (8.0 * NEAR_PX));
-    return clamp(max((change - 0.008) / 0.030, (abs(lab.x - wide.x) - 0.015) / 0.06), 0.0, 1.0);
-}
-
-// How near the body's own outline is, 0..1; where something stands in front of it is no outline of its own.
-float rim_at(vec2 center_px, float id, float depth) {
+// The mean colour on the stroke's own body round about, Oklab.
+vec3 wide_mean(vec2 center_px, float id, vec3 lab) {
     const float REACH_PX = 10.0;
-    float bias = 0.02 * depth;
-    float beyond = 0.0;
-    for (int index = 0; index < 16; index++) {
-        float radius_px = REACH_PX * px_scale * (index < 8 ? 1.0 : 0.5);
-        vec2 there = surface_at(center_px + direction(index, 8) * radius_px);
-        if (there.y == id) continue;
-        beyond += there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - depth);
+    vec3 sum = vec3(0.0);
+    for (int index = 0; index < 8; index++) {
+        vec2 tap_px = center_px + direction(index, 8) * (REACH_PX * px_scale);
+        sum += surface_at(tap_px).y == id ? oklab_from_linear(color_at(tap_px)) : lab;
     }
-    return smoothstep(0.0, 0.35, beyond / 16.0);
+    return sum / 8.0;
 }
 
-float glint_at(vec2 center_px, float id) {
-    float sum = 0.0;
-    for (int index = 0; index < 5; index++) {
-        vec2 tap_px = center_px + (index < 4 ? direction(index, 4) * 1.5 * px_scale : vec2(0.0));
-        ivec2 texel = clamp(ivec2(floor(tap_px)), ivec2(0), textureSize(glint, 0) - 1);
-        if (surface_at(tap_px).y == id) sum += texelFetch(glint, texel, 0).r;
+// How much happens round about on the stroke's own body: change of colour, outline, highlight, 0..1 each. A smooth mean of
+// the body's blocks, so that blocks of a thin body that come and go hardly show.
+vec3 detail_at(vec2 center_px, float id) {
+    vec2 at = center_px / block_px - 0.5;
+    ivec2 last = textureSize(detail, 0) - 1;
+    ivec2 corner = ivec2(floor(at)) - 1;
+    vec3 sum = vec3(0.0);
+    float weight = 0.0;
+    for (int index = 0; index < 16; index++) {
+        ivec2 texel_at = corner + ivec2(index & 3, index >> 2);
+        vec4 texel = texelFetch(detail, clamp(texel_at, ivec2(0), last), 0);
+        vec2 near = max(1.0 - 0.5 * abs(at - vec2(texel_at)), 0.0);
+        float share = texel.a == id ? near.x * near.x * near.y * near.y : 0.0;
+        sum += texel.rgb * share;
+        weight += share;
     }
-    return sum / 5.0;
+    return sum / max(weight, 0.1);
 }
 
 // How far the stroke's body reaches from its centre in this direction, at most `most_px`. What stands in front of the

@@ -185,7 +185,7 @@ fn a_wrong_command_line_ends_with_2() {
     assert_eq!(code(&folder.run(&["--help"])), 0);
 }
 
-/// Angle of each stroke by id and size, from CSV.
+/// Angle of each stroke by id, layer and size, from CSV.
 fn angles(text: &str) -> BTreeMap<(String, String), f64> {
     // The object's name holds a comma and quotes, so fields are counted from the end.
     let row = |line: &str| -> ((String, String), f64) {
@@ -196,7 +196,8 @@ fn angles(text: &str) -> BTreeMap<(String, String), f64> {
             assert!(number.parse::<f64>().is_ok_and(f64::is_finite), "{number:?} in {line}");
         }
         // From the end: rank 0, facing 1, b g r 2-4, kappa 5, alpha 6, width 7, length 8, angle 9.
-        ((id, fields[8].to_owned()), fields[9].parse().unwrap())
+        let layer = fields[13].rsplit(',').next().unwrap();
+        ((id, format!("{layer} {}", fields[8])), fields[9].parse().unwrap())
     };
     text.lines().skip(1).map(row).collect()
 }
@@ -207,7 +208,7 @@ fn strokes_are_listed_as_they_are_drawn() {
     let csv = |frame: &str| words(&folder.run(&["strokes", "scene.ron", "--frame", frame]).stdout);
     let (before, after) = (csv("0"), csv("2"));
     let header =
-        "id,object,region,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
+        "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
     assert_eq!(before.lines().next(), Some(header));
     assert!(before.lines().nth(1).unwrap().contains("\"cube, \"\"big\"\"\""));
     let (before, after) = (angles(&before), angles(&after));

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat2, DMat3, DVec2, DVec3};
+use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, prepare};
-use impasto_scene::document::{CameraKey, Lens, ObjectKey, Scene, Solver, Style};
+use impasto_scene::document::{CameraKey, Lens, ObjectKey, RotatingStrokes, Scene, Solver, Style};
 use impasto_tests::shapes;
 
 fn options(size_px: [u32; 2]) -> FrameOptions {
@@ -20,7 +21,7 @@ fn degrees_apart(first: f64, second: f64) -> f64 {
 
 /// Angles of the body layer's strokes by particle.
 fn angles(frame: &Frame) -> std::collections::BTreeMap<(u32, u32), f64> {
-    let run = frame.layers.iter().find(|run| !run.underpainting).expect("a body layer");
+    let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
     let range = run.first as usize..(run.first + run.count) as usize;
     frame.strokes[range.clone()]
         .iter()
@@ -30,7 +31,7 @@ fn angles(frame: &Frame) -> std::collections::BTreeMap<(u32, u32), f64> {
 }
 
 fn with_solver(mut scene: Scene, solver: Solver) -> Scene {
-    scene.style = Style::RotatingStrokes { solver, underpainting: true };
+    scene.style = Style::RotatingStrokes(RotatingStrokes { solver, ..Default::default() });
     scene
 }
 

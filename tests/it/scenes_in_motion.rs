@@ -10,6 +10,7 @@ use impasto_core::sampling::{Particle, Surface, progressive};
 use impasto_core::screen_map::{PixelLens, ScreenMap, facing};
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
+use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, Painting, prepare};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
@@ -117,7 +118,7 @@ fn flat_normals_would_show_facets() {
 }
 
 /// Drawn alpha and area of every stroke, read back.
-fn drawn(renderer: &mut Renderer, frame: &Frame) -> HashMap<(u32, bool, u32), (f64, f64)> {
+fn drawn(renderer: &mut Renderer, frame: &Frame) -> HashMap<(u32, LayerKind, u32), (f64, f64)> {
     renderer.render(frame).unwrap();
     let resolved = renderer.resolved_strokes();
     let mut found = HashMap::new();
@@ -125,7 +126,7 @@ fn drawn(renderer: &mut Renderer, frame: &Frame) -> HashMap<(u32, bool, u32), (f
         let range = layer.first as usize..(layer.first + layer.count) as usize;
         let strokes = frame.strokes[range.clone()].iter().zip(&frame.sources[range.clone()]);
         for ((stroke, source), resolved) in strokes.zip(&resolved[range]) {
-            let key = (stroke.body_id, layer.underpainting, source.particle);
+            let key = (stroke.body_id, layer.kind, source.particle);
             found.insert(key, (f64::from(resolved.alpha), f64::from(stroke.length_px * stroke.width_px)));
         }
     }
@@ -146,6 +147,9 @@ fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
     for (key, &(alpha, area)) in &before {
         let now = after.get(key).map_or(0.0, |&(alpha, _)| alpha);
         popped += if (alpha - now).abs() > 0.2 { area } else { 0.0 };
+        if (alpha - now).abs() > 0.2 {
+            println!("POP {:?} {alpha} {now} {area}", key);
+        }
         shown += alpha * area;
     }
     for (key, &(alpha, area)) in &after {
@@ -219,10 +223,10 @@ fn every_scene_gives_finite_strokes_at_every_time() {
                     stroke.center_px[1],
                     stroke.depth,
                     stroke.angle_rad,
-                    stroke.presence,
+                    stroke.presence(),
                 ];
                 assert!(numbers.iter().all(|number| number.is_finite()), "{name} at {frame}: {stroke:?}");
-                assert!(stroke.depth > 0.0 && stroke.presence > 0.0 && stroke.presence <= 1.0);
+                assert!(stroke.depth > 0.0 && (0.0..=1.0).contains(&stroke.presence()));
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, prepare};
 use impasto_scene::document::{ObjectKey, Scene, StrokeSettings};
 use impasto_tests::shapes;
@@ -9,13 +10,13 @@ use impasto_tests::shapes;
 const OPTIONS: FrameOptions = FrameOptions { size_px: [640, 360], keep_stroke_px: false, transparent: false };
 
 /// Presence and area of every stroke, by layer kind and particle.
-fn presences(frame: &Frame) -> BTreeMap<(bool, u32), (f64, f64)> {
+fn presences(frame: &Frame) -> BTreeMap<(LayerKind, u32), (f64, f64)> {
     let mut found = BTreeMap::new();
     for run in &frame.layers {
         for index in run.first as usize..(run.first + run.count) as usize {
             let (stroke, source) = (&frame.strokes[index], &frame.sources[index]);
             let area = f64::from(stroke.length_px * stroke.width_px);
-            found.insert((run.underpainting, source.particle), (f64::from(stroke.presence), area));
+            found.insert((run.kind, source.particle), (f64::from(stroke.presence()), area));
         }
     }
     found
@@ -118,17 +119,14 @@ fn strokes_keep_their_size_from_1_to_100() {
         .map(|(frame, &distance)| shapes::camera_key(frame as f64, [0.0, 0.0, distance], [0.0; 3]))
         .collect();
     let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
-    let sizes = |frame: f64| -> BTreeMap<(bool, u32), (f32, f32)> {
+    let sizes = |frame: f64| -> BTreeMap<(LayerKind, u32), (f32, f32)> {
         let frame = painting.at(frame, &OPTIONS);
         let run_of =
             |index: usize| frame.layers.iter().find(|run| (run.first + run.count) as usize > index).unwrap();
         (0..frame.strokes.len())
             .map(|index| {
                 let stroke = &frame.strokes[index];
-                (
-                    (run_of(index).underpainting, frame.sources[index].particle),
-                    (stroke.length_px, stroke.width_px),
-                )
+                ((run_of(index).kind, frame.sources[index].particle), (stroke.length_px, stroke.width_px))
             })
             .collect()
     };
@@ -154,13 +152,11 @@ fn twice_the_particles_keep_the_first_and_their_looks() {
         prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap().at(0.0, &OPTIONS)
     };
     let (few, many) = (frame(4000), frame(8000));
-    let looks = |frame: &Frame| -> BTreeMap<(bool, u32), _> {
-        (0..frame.strokes.len())
-            .map(|index| {
-                let under = index < (frame.layers[0].first + frame.layers[0].count) as usize;
-                ((under, frame.sources[index].particle), frame.strokes[index])
-            })
-            .collect()
+    let looks = |frame: &Frame| -> BTreeMap<(LayerKind, u32), _> {
+        let strokes = frame.layers.iter().flat_map(|run| {
+            (run.first as usize..(run.first + run.count) as usize).map(move |index| (run.kind, index))
+        });
+        strokes.map(|(kind, index)| ((kind, frame.sources[index].particle), frame.strokes[index])).collect()
     };
     let (few, many) = (looks(&few), looks(&many));
     assert!(few.len() > 500);

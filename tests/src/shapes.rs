@@ -117,7 +117,8 @@ pub fn camera_key(frame: f64, eye: [f64; 3], target: [f64; 3]) -> CameraKey {
     CameraKey { frame, eye, target, roll_deg: 0.0, fov_y_deg: None, ease: Ease::Linear }
 }
 
-/// A scene over these objects, seen from (0, 0, 4) with a 35° lens, strokes at 20° without jitter.
+/// A scene over these objects, seen from (0, 0, 4) with a 35° lens, strokes at 20° without jitter, in the colours of the
+/// plain render.
 pub fn scene(objects: Vec<Object>) -> Scene {
     Scene {
         version: Scene::VERSION,
@@ -134,7 +135,11 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         objects,
         strokes: StrokeSettings {
             angle_jitter_deg: Some(0.0),
+            swing_deg: Some(0.0),
             size_jitter: Some(0.0),
+            color_jitter: Some(0.0),
+            temperature: Some(0.0),
+            grading: Some(0.0),
             length_px: Some(20.0),
             width_px: Some(7.0),
             ..Default::default()
@@ -174,6 +179,7 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
         scene,
         meshes,
         textures: BTreeMap::new(),
+        brushes: BTreeMap::new(),
         warnings: Vec::new(),
     })
 }

@@ -300,8 +300,10 @@ impl Plan {
         let strokes = resolved.iter().filter(|stroke| stroke.alpha > LEAST_ALPHA).count();
         let overdraw = self.cost.overdraw;
         let memory = peak_memory_mib().map_or(String::new(), |mib| format!(", {mib} MiB at most so far"));
-        let mut text =
-            format!("  {strokes} strokes of {} in question, overdraw {overdraw:.1}{memory}", frame.strokes.len());
+        let mut text = format!(
+            "  {strokes} strokes of {} in question, overdraw {overdraw:.1}{memory}",
+            frame.strokes.len()
+        );
         let mut passes: Vec<PassTime> = Vec::new();
         for pass in &self.cost.passes {
             match passes.iter_mut().find(|known| known.name == pass.name) {

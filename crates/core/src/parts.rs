@@ -116,8 +116,9 @@ fn principal_axes(mut matrix: [[f64; 3]; 3]) -> [DVec3; 3] {
             for row in &mut matrix {
                 (row[p], row[q]) = rotate(row[p], row[q]);
             }
-            for column in 0..3 {
-                (matrix[p][column], matrix[q][column]) = rotate(matrix[p][column], matrix[q][column]);
+            let (first, second) = (matrix[p], matrix[q]);
+            for (column, (first, second)) in first.into_iter().zip(second).enumerate() {
+                (matrix[p][column], matrix[q][column]) = rotate(first, second);
             }
             let (a, b) = (axes.col(p), axes.col(q));
             *axes.col_mut(p) = a * cos - b * sin;

@@ -27,8 +27,8 @@ pub struct ResolvedStroke {
     pub color_linear: [f32; 3],
     /// Presence times what can be seen of the stroke's centre, 0..=1.
     pub alpha: f32,
-    /// Length in output pixels, fitted to its body.
-    pub length_px: f32,
+    /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
+    pub center_px: [f32; 2],
 }
 
 /// What a picture cost to draw.
@@ -174,10 +174,10 @@ impl Renderer {
         let resolved = strokes.read_resolved();
         resolved
             .into_iter()
-            .map(|[r, g, b, alpha, _, length_px, ..]| ResolvedStroke {
+            .map(|[r, g, b, alpha, x, y, ..]| ResolvedStroke {
                 color_linear: [r, g, b],
                 alpha,
-                length_px,
+                center_px: [x, y],
             })
             .collect()
     }

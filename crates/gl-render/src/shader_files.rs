@@ -37,5 +37,7 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/paint.vert",
     "rotating_strokes/paint.frag",
     "rotating_strokes/soften.frag",
+    "rotating_strokes/detail.frag",
+    "rotating_strokes/spread.frag",
     "rotating_strokes/encode.frag",
 ];

@@ -14,7 +14,6 @@ use rayon::prelude::*;
 use crate::coat::Coat;
 use crate::frame::{Frame, FrameBody, LayerRun, Stroke, StrokeSource};
 use crate::lights;
-use crate::parts::Cap;
 use crate::prepare::{OrderEntry, Painting};
 use crate::view::PictureView;
 
@@ -35,8 +34,6 @@ pub(crate) struct SeenCoat<'a> {
     pub(crate) map: ScreenMap,
     pub(crate) world_from_model: DAffine3,
     pub(crate) solved: SolvedParticles,
-    /// Of each part of the body, pixels at the scene's size.
-    pub(crate) caps: Vec<Cap>,
     /// With the paper's rule, how many particles of each polygon show.
     pub(crate) shown: Option<Vec<u32>>,
     /// With `horn-exact`, the reference and this view.
@@ -97,11 +94,6 @@ impl Painting {
     fn see(&self, view: &PictureView, poses: &[DAffine3], px_scale: f32) -> Vec<SeenCoat<'_>> {
         let wanted_per_px =
             self.rules.last().map_or(0.0, |rule| f64::from(rule.strokes.body().wanted_per_px()));
-        // Caps are pixels at the scene's size, whatever the picture's.
-        let scene_height_px = (f64::from(view.size_px[1]) / f64::from(px_scale)).round().max(1.0) as u32;
-        let width = f64::from(view.size_px[0]) / f64::from(view.size_px[1]) * f64::from(scene_height_px);
-        let at_scene_size =
-            PictureView { size_px: [(width.round() as u32).max(1), scene_height_px], ..view.clone() };
         self.coats
             .iter()
             .map(|coat| {
@@ -118,8 +110,7 @@ impl Painting {
                     let reference = &self.reference;
                     (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
                 });
-                let caps = self.bodies[coat.object].parts.caps(&at_scene_size.screen_map(world_from_model));
-                SeenCoat { coat, map, world_from_model, solved, caps, shown, clip_views }
+                SeenCoat { coat, map, world_from_model, solved, shown, clip_views }
             })
             .collect()
     }

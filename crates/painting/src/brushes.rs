@@ -78,5 +78,5 @@ pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let count = first_marks.len() as u32;
     let brush = step(0.754_877_666_25, count).min(count.saturating_sub(1));
     let flip = hash::combine(bits, 12) & 1;
-    first_marks.get(brush as usize).copied().unwrap_or(0) + variant | flip << 16
+    (first_marks.get(brush as usize).copied().unwrap_or(0) + variant) | (flip << 16)
 }

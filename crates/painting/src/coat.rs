@@ -14,7 +14,7 @@ use crate::bake::{BakeInputs, BakedBody, BodyReference};
 use crate::frame::BodySurface;
 use crate::paper::PolygonCounts;
 use crate::particle_count::{self, Sighting};
-use crate::parts::BodyParts;
+use crate::parts::{BodyParts, Cap};
 use crate::prepare::Context;
 use crate::surface::SurfaceInputs;
 
@@ -67,6 +67,8 @@ pub(crate) struct ObjectInputs<'a> {
     pub(crate) surface: &'a SurfaceInputs,
     /// Region of each triangle.
     pub(crate) regions: &'a [u16],
+    /// Of each part.
+    pub(crate) caps: &'a [Cap],
 }
 
 impl KeptObject {
@@ -90,7 +92,7 @@ impl KeptObject {
     pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
         let (body, parts) = (self.surface(), self.parts());
         let surface = Surface::new(&body.mesh, |_| true);
-        let sightings = context.sightings(object.index, &parts);
+        let sightings = context.sightings(object.index);
         for kind in LayerKind::ALL {
             let count = count(context, object, kind, (&surface, &parts, &sightings));
             let name_hash = name_hash(context, object.index, kind);
@@ -213,8 +215,8 @@ fn count(
     if left_out {
         return 0;
     }
-    particle_count::find(surface, sightings, |triangle, sighting| {
-        let cap = sighting.caps[parts.of_triangle[triangle] as usize];
+    particle_count::find(surface, sightings, |triangle| {
+        let cap = object.caps[parts.of_triangle[triangle] as usize];
         let layer = layer(triangle);
         let [length, width] = cap.apply(layer.length_px, layer.width_px);
         layer.coverage / (length * width) * most_wanted(kind)
@@ -233,18 +235,14 @@ fn name_hash(context: &Context<'_>, object: usize, kind: LayerKind) -> u32 {
 }
 
 impl Context<'_> {
-    fn sightings(&self, object: usize, parts: &BodyParts) -> Vec<Sighting> {
+    fn sightings(&self, object: usize) -> Vec<Sighting> {
         let size_px = [self.scene.size.0, self.scene.size.1];
         self.views
             .iter()
-            .map(|(view, poses)| {
-                let map = view.screen_map(poses[object]);
-                Sighting {
-                    map,
-                    caps: parts.caps(&map),
-                    half_size_px: DVec2::new(f64::from(size_px[0]), f64::from(size_px[1])) * 0.5,
-                    near: view.near(),
-                }
+            .map(|(view, poses)| Sighting {
+                map: view.screen_map(poses[object]),
+                half_size_px: DVec2::new(f64::from(size_px[0]), f64::from(size_px[1])) * 0.5,
+                near: view.near(),
             })
             .collect()
     }

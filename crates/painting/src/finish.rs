@@ -86,6 +86,7 @@ fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec2;
     use impasto_scene::document::Lens;
     use impasto_scene::motion::CameraPose;
 

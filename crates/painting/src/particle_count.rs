@@ -5,8 +5,6 @@ use impasto_core::ScreenMap;
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
 
-use crate::parts::Cap;
-
 /// Bounds of the number found.
 const LEAST: f64 = 64.0;
 const MOST: f64 = 400_000.0;
@@ -17,18 +15,16 @@ const FACES: usize = 20_000;
 /// A pose in which the object is seen, at the scene's own size.
 pub(crate) struct Sighting {
     pub(crate) map: ScreenMap,
-    /// Of each part.
-    pub(crate) caps: Vec<Cap>,
     pub(crate) half_size_px: DVec2,
     pub(crate) near: f64,
 }
 
 /// The count at which nine tenths of the picture of this surface, in its nearest sighting, get all the strokes that they
-/// want. `wanted_per_px` gives the strokes per pixel wanted on a triangle in a sighting.
+/// want. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
 pub(crate) fn find(
     surface: &Surface<'_>,
     sightings: &[Sighting],
-    wanted_per_px: impl Fn(usize, &Sighting) -> f32,
+    wanted_per_px: impl Fn(usize) -> f32,
 ) -> usize {
     let faces: Vec<(u32, bool, f64)> = surface.faces().collect();
     let stride = faces.len().div_ceil(FACES).max(1);
@@ -47,10 +43,7 @@ pub(crate) fn find(
             let jacobian = sighting.map.jacobian(center);
             let px_per_area = area_px(jacobian, normal);
             if px_per_area.is_finite() && facing(jacobian, normal) > 0.0 {
-                seen.push((
-                    px_per_area * f64::from(wanted_per_px(triangle as usize, sighting)),
-                    px_per_area * area,
-                ));
+                seen.push((px_per_area * f64::from(wanted_per_px(triangle as usize)), px_per_area * area));
             }
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));

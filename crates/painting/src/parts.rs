@@ -36,7 +36,8 @@ pub(crate) struct BodyParts {
     pub(crate) of_triangle: Vec<u32>,
 }
 
-/// The largest strokes that a part carries in a view, pixels at the scene's size.
+/// The largest strokes that a part carries, pixels at the scene's size. Fixed by the reference pose: a stroke keeps its size
+/// however far away it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cap {
     length_px: f32,
@@ -49,7 +50,7 @@ impl BodyParts {
         Self { parts, of_triangle }
     }
 
-    /// The caps in a view of the scene at its own size.
+    /// The caps, from the reference view at the scene's own size.
     pub(crate) fn caps(&self, map: &ScreenMap) -> Vec<Cap> {
         let of_part = |part: &Part| {
             let scale = px_per_unit(map, part);

@@ -17,7 +17,7 @@ use crate::coat::{Coat, KeptObject, ObjectInputs};
 use crate::finish::FinishRule;
 use crate::frame::{BodySurface, Brushes, FrameStyle};
 use crate::lights;
-use crate::parts::BodyParts;
+use crate::parts::Cap;
 use crate::regions::{self, RegionRule};
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
@@ -78,7 +78,8 @@ pub(crate) struct ReferencePose {
 #[derive(Clone)]
 pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
-    pub(crate) parts: Arc<BodyParts>,
+    /// The largest strokes that each part carries.
+    pub(crate) caps: Vec<Cap>,
 }
 
 /// A particle's place in the painting order.
@@ -154,8 +155,14 @@ impl Preparer {
         let inputs = surface_inputs(&loaded)?;
         kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
         clock.lap("surfaces");
-        let bodies: Vec<PreparedBody> =
-            kept.iter().map(|kept| PreparedBody { surface: kept.surface(), parts: kept.parts() }).collect();
+        let bodies: Vec<PreparedBody> = kept
+            .iter()
+            .zip(&reference.poses)
+            .map(|(kept, &pose)| PreparedBody {
+                surface: kept.surface(),
+                caps: kept.parts().caps(&reference.view.screen_map(pose)),
+            })
+            .collect();
         let regions: Vec<Vec<u16>> = inputs
             .iter()
             .zip(&bodies)
@@ -164,7 +171,12 @@ impl Preparer {
             })
             .collect();
         let objects: Vec<ObjectInputs<'_>> = (0..kept.len())
-            .map(|index| ObjectInputs { index, surface: &inputs[index], regions: &regions[index] })
+            .map(|index| ObjectInputs {
+                index,
+                surface: &inputs[index],
+                regions: &regions[index],
+                caps: &bodies[index].caps,
+            })
             .collect();
         kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.sample(&context, object));
         clock.lap("sampling");

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use impasto_core::angle::wrap_pi;
 use impasto_core::hash;
 use impasto_core::lift::PixelMap2;
-use impasto_core::presence::smoothstep;
+use impasto_core::presence::{self, smoothstep};
 use impasto_core::screen_map::facing;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
@@ -32,11 +32,14 @@ const MOST_BEND: f32 = 0.9;
 /// Of the edges' slow noise, how far it carries paint past its body.
 const EDGE_SWING: f32 = 0.6;
 
+/// A stroke's quad is this much larger than the stroke, for ragged ends.
+const QUAD: f32 = 1.0 / impasto_core::brush::FILL;
+
+/// Near the limb, strokes that have faded to this are made up for by more of them.
+const LEAST_COUNTED_FADE: f32 = 0.3;
+
 /// ln(D/u) of a stroke that is there whatever the rank.
 const WHOLE: f32 = 8.0;
-
-/// At or below this ln(D/u) nothing of a stroke is left.
-const ABSENT: f32 = -0.5 * impasto_core::presence::FADE;
 
 impl Look<'_> {
     /// The stroke of a particle, unless it is absent whatever its layer is wanted for.
@@ -49,7 +52,8 @@ impl Look<'_> {
         if layer.coverage <= 0.0 {
             return None;
         }
-        let size_px = seen.caps[coat.baked.part[index] as usize].apply(layer.length_px, layer.width_px);
+        let cap = self.painting.bodies[coat.object].caps[coat.baked.part[index] as usize];
+        let size_px = cap.apply(layer.length_px, layer.width_px);
         let drift = coat.baked.drift[index];
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&seen.shown, &coat.sampled.polygons) {
@@ -57,7 +61,7 @@ impl Look<'_> {
             (Some(_), _) => return None,
             _ => self.supply_ln(seen, index, layer.coverage * patches / (size_px[0] * size_px[1])),
         };
-        if supply_ln + most_wanted(coat.kind).ln() <= ABSENT {
+        if supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln() <= presence::ABSENT_LN {
             return None;
         }
         let position = coat.baked.baked.position_of(index);
@@ -67,8 +71,12 @@ impl Look<'_> {
         if facing <= 0.0 {
             return None;
         }
-        // The paper's count knows no fading.
-        let facing_fade = if seen.shown.is_some() { 1.0 } else { smoothstep(facing * 5.0) };
+        // The paper's count knows no fading. In ours, where strokes fade more of them make up for it.
+        let facing_fade = if seen.shown.is_some() { 1.0 } else { presence::of_facing(facing) };
+        let supply_ln = supply_ln - facing_fade.max(LEAST_COUNTED_FADE).ln();
+        if supply_ln + most_wanted(coat.kind).ln() <= presence::ABSENT_LN {
+            return None;
+        }
         let lift = match self.painting.solver {
             Solver::Tangent => coat.baked.baked.lift_of(index),
             Solver::Horn | Solver::HornExact => coat.inputs.surface_lift(index),
@@ -76,15 +84,26 @@ impl Look<'_> {
         let map: PixelMap2 = lift.map(jacobian);
         let angle_rad = along_contour(seen.angle_rad(index), strokes.contour, normal, (&seen.map, facing));
         let chance = Chance { seen, index };
-        let [length_px, width_px] = chance.size_px(size_px, strokes.size_jitter);
+        let [length_px, width_px] =
+            chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
+        let (sin, cos) = angle_rad.sin_cos();
+        let reach_px = |along: f32, across: f32| {
+            (0.5 * QUAD * (along.abs() * length_px + across.abs() * width_px)) + 0.5 * length_px * along.abs()
+        };
+        let outside = |at: f32, half: f32, reach: f32| at.abs() > half + reach;
+        if outside(solved.x_px[index], self.half_px[0], reach_px(cos, sin))
+            || outside(solved.y_px[index], self.half_px[1], reach_px(sin, cos))
+        {
+            return None;
+        }
         let bits = coat.baked.bits[index];
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
             center_px: [solved.x_px[index] + self.half_px[0], solved.y_px[index] + self.half_px[1]],
             depth: solved.depth[index],
             angle_rad,
-            length_px: length_px * self.px_scale,
-            width_px: width_px * self.px_scale,
+            length_px,
+            width_px,
             facing_fade,
             supply_ln,
             bits,
@@ -122,8 +141,7 @@ impl Look<'_> {
         match edges {
             Edges::Clip => 0.0,
             Edges::Overrun(px) => {
-                (px as f32 * of_layer * (1.0 + EDGE_SWING * noise)).clamp(0.0, Stroke::FREE * 0.5)
-                    * self.px_scale
+                px as f32 * of_layer * (1.0 + EDGE_SWING * noise.clamp(-1.5, 1.2)) * self.px_scale
             }
             Edges::Free => Stroke::FREE,
         }

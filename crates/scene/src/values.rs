@@ -170,9 +170,9 @@ impl<'de> Deserialize<'de> for Style {
             }
             fn visit_enum<A: EnumAccess<'de>>(self, style: A) -> Result<Style, A::Error> {
                 match style.variant()? {
-                    (Name::RotatingStrokes, fields) => {
-                        fields.struct_variant(RotatingStrokes::FIELDS, FieldsVisitor).map(Style::RotatingStrokes)
-                    }
+                    (Name::RotatingStrokes, fields) => fields
+                        .struct_variant(RotatingStrokes::FIELDS, FieldsVisitor)
+                        .map(Style::RotatingStrokes),
                     (Name::Reference, nothing) => nothing.unit_variant().map(|()| Style::Reference),
                 }
             }

@@ -89,7 +89,8 @@ impl Gpu {
 
     /// Starts timing passes. Each lap waits for the driver, so a timed frame is slower than one that is not.
     pub(crate) fn start_clock(&self) {
-        *self.shared.clock.borrow_mut() = Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
+        *self.shared.clock.borrow_mut() =
+            Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
     }
 
     /// What was drawn since the last lap was this; nothing unless passes are timed.

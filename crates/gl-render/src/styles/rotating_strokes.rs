@@ -1,8 +1,8 @@
 //! Brush strokes that turn with what they lie on.
 //!
-//! Targets: `paint` (premultiplied, linear), `height` (of the paint), `below` (the picture before a layer), `soft height`.
-//! Passes: resolve (a colour, a presence and a fit per stroke), paint (a billboard per stroke, one layer after the other),
-//! soften, encode.
+//! Targets: `detail` (where small strokes are wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the
+//! picture before a layer), `soft height`. Passes: detail, spread (twice), resolve (a colour, a presence and a place per
+//! stroke), paint (a billboard per stroke, one layer after the other), soften, encode.
 
 mod canvas;
 mod marks;
@@ -29,6 +29,12 @@ const WASH: f32 = 0.85;
 /// Bytes of what the resolve pass keeps of a stroke: colour and presence, then its fit.
 const RESOLVED_BYTES: usize = 32;
 
+/// Side of a block in which what happens is looked at, pixels at the scene's size.
+const BLOCK_PX: f32 = 4.0;
+
+/// How far what happens at a place is spread over the body: the deviation of a Gaussian, pixels at the scene's size.
+const SPREAD_PX: f32 = 16.0;
+
 /// Texels in a row of palettes.
 const PALETTE: usize = 16;
 
@@ -36,6 +42,8 @@ const PALETTE: usize = 16;
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
     resolve: Program,
+    detail: Program,
+    spread: Program,
     paint: Program,
     soften: Program,
     encode: Program,
@@ -51,6 +59,10 @@ pub(crate) struct RotatingStrokes {
 }
 
 struct Targets {
+    /// Side of a block of `detail`.
+    block_px: u32,
+    detail: [Rc<Texture>; 2],
+    detail_passes: [Framebuffer; 2],
     paint: Rc<Texture>,
     height: Rc<Texture>,
     below: Rc<Texture>,
@@ -61,7 +73,7 @@ struct Targets {
 }
 
 impl Targets {
-    fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GlError> {
+    fn new(gpu: &Gpu, size_px: [u32; 2], block_px: u32) -> Result<Self, GlError> {
         let target = |format: Format, size_px: [u32; 2], filter: Filter| {
             Texture::target(gpu, format, size_px, filter).map(Rc::new)
         };
@@ -70,7 +82,18 @@ impl Targets {
         let below = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let half = size_px.map(|side| side.div_ceil(2));
         let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;
+        let blocks = size_px.map(|side| side.div_ceil(block_px));
+        let detail = [
+            target(Format::Rgba16F, blocks, Filter::Nearest)?,
+            target(Format::Rgba16F, blocks, Filter::Nearest)?,
+        ];
         Ok(Self {
+            detail_passes: [
+                Framebuffer::new(gpu, &[&detail[0]], None)?,
+                Framebuffer::new(gpu, &[&detail[1]], None)?,
+            ],
+            detail,
+            block_px,
             paint_pass: Framebuffer::new(gpu, &[&paint, &height], None)?,
             below_pass: Framebuffer::new(gpu, &[&below], None)?,
             soften_pass: Framebuffer::new(gpu, &[&soft_height], None)?,
@@ -89,6 +112,8 @@ impl RotatingStrokes {
         Ok(Self {
             gpu: gpu.clone(),
             resolve: Program::new(gpu, files, &RESOLVE)?,
+            detail: Program::new(gpu, files, &DETAIL)?,
+            spread: Program::new(gpu, files, &SPREAD)?,
             paint: Program::new(gpu, files, &PAINT)?,
             soften: Program::new(gpu, files, &SOFTEN)?,
             encode: Program::new(gpu, files, &ENCODE)?,
@@ -104,7 +129,32 @@ impl RotatingStrokes {
         })
     }
 
+    /// Where small strokes are wanted; the result lies in the first of the two targets.
+    fn find_detail(&self, input: &StyleInput<'_>) -> Result<(), GlError> {
+        let Some(targets) = &self.targets else { return Ok(()) };
+        self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
+        let bound = self
+            .detail
+            .bind()
+            .texture("reference_color", &input.reference.color)
+            .texture("depth_and_id", &input.reference.depth_and_id)
+            .texture("glint", &input.reference.glint)
+            .set("px_scale", input.frame.px_scale)
+            .set("block_px", targets.block_px as i32);
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        // Two taps make a deviation.
+        let step = (0.5 * SPREAD_PX * input.frame.px_scale / targets.block_px as f32).max(1.0);
+        for (from, to, axis) in [(0, 1, Vec2::X), (1, 0, Vec2::Y)] {
+            self.gpu.begin_pass(&targets.detail_passes[to], DrawState::default());
+            let bound = self.spread.bind().texture("detail", &targets.detail[from]).set("axis", axis * step);
+            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        }
+        self.gpu.lap("detail");
+        Ok(())
+    }
+
     fn resolve(&mut self, input: &StyleInput<'_>) -> Result<(), GlError> {
+        let Some(targets) = &self.targets else { return Ok(()) };
         let frame = input.frame;
         self.stroke_count = frame.strokes.len();
         self.strokes.upload(bytemuck::cast_slice(&frame.strokes))?;
@@ -118,7 +168,8 @@ impl RotatingStrokes {
                 .set(lens.set(self.resolve.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
                 .texture("depth_and_id", &input.reference.depth_and_id)
-                .texture("glint", &input.reference.glint)
+                .texture("detail", &targets.detail[0])
+                .set("block_px", targets.block_px as f32)
                 .texture("palettes", &palettes)
                 .set("view_from_world", frame.view.view_from_world)
                 .set("px_scale", frame.px_scale)
@@ -223,10 +274,14 @@ impl RotatingStrokes {
 impl Style for RotatingStrokes {
     fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
         let frame = input.frame;
-        if self.targets.as_ref().is_none_or(|targets| targets.paint_pass.size_px() != frame.size_px) {
-            self.targets = Some(Targets::new(&self.gpu, frame.size_px)?);
+        let block_px = (BLOCK_PX * frame.px_scale).round().clamp(1.0, 8.0) as u32;
+        let fits =
+            |targets: &Targets| targets.paint_pass.size_px() == frame.size_px && targets.block_px == block_px;
+        if !self.targets.as_ref().is_some_and(fits) {
+            self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
         }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
+        self.find_detail(input)?;
         self.resolve(input)?;
         self.gpu.lap("resolve");
         if let Some(targets) = &self.targets {
@@ -301,12 +356,27 @@ const RESOLVE: ProgramSource = ProgramSource {
         LightSetup::UNIFORMS[7],
         "reference_color",
         "depth_and_id",
-        "glint",
+        "detail",
+        "block_px",
         "palettes",
         "view_from_world",
         "px_scale",
         "kind",
     ],
+};
+
+const DETAIL: ProgramSource = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("rotating_strokes/detail.frag"),
+    captured: &[],
+    uniforms: &["reference_color", "depth_and_id", "glint", "px_scale", "block_px"],
+};
+
+const SPREAD: ProgramSource = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("rotating_strokes/spread.frag"),
+    captured: &[],
+    uniforms: &["detail", "axis"],
 };
 
 const PAINT: ProgramSource = ProgramSource {

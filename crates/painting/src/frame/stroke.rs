@@ -1,7 +1,7 @@
 //! Strokes of a frame, as they go to the GPU.
 
 use bytemuck::{Pod, Zeroable};
-use impasto_core::presence::smoothstep;
+use impasto_core::presence;
 use impasto_scene::presets::LayerKind;
 
 /// The palette number of strokes that may take any colour.
@@ -103,11 +103,10 @@ impl Stroke {
     /// The overrun of strokes that end where they end.
     pub const FREE: f32 = 1e6;
 
-    /// How much of the stroke is there, 0..=1, where the layer is wanted by this factor (0 not at all, 1 in full):
-    /// `S(½ + ln(D/u · wanted)/1.4)` times the fade of its facing. The resolve shader computes the same.
-    pub fn presence(&self, wanted: f32) -> f32 {
-        let supply = self.supply_ln + wanted.max(1e-6).ln();
-        smoothstep(0.5 + supply / impasto_core::presence::FADE) * self.facing_fade
+    /// How much of the stroke is there, 0..=1, where its layer is wanted in full and nothing hides it. The resolve shader
+    /// computes the same.
+    pub fn presence(&self) -> f32 {
+        presence::of_supply(self.supply_ln) * self.facing_fade
     }
 }
 

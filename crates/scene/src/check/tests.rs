@@ -184,7 +184,7 @@ fn stroke_settings_have_ranges_and_known_names() {
         assert_finds(&format!("strokes: ({settings})"), &[(Error, &format!("strokes.{field}"))]);
     }
     assert_finds(
-        "strokes: (length_px: 4096, width_px: 0.5, coverage: 20, flatness: 0, preset: \"broad\")",
+        "strokes: (length_px: 4096, width_px: 0.5, coverage: 20, flatness: 0, preset: \"impressionist\")",
         &[],
     );
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::document::{Lens, Solver, Style};
+use crate::document::{BrushMix, Lens, RotatingStrokes, Solver, Style};
 
 const GOOD: &str = r#"(
     version: 1,
@@ -48,7 +48,7 @@ fn every_kind_of_fault_is_said_at_its_place_with_a_mend() {
             "version: 1, background: (NaN, 0, 0),",
             "s.ron:2:29: error: `(NaN, 0, 0)` does not fit",
         ),
-        ("version: 1,", "version: 1, style: RotatingStrokes(canvas: 1),", "s.ron:2:40: error: unknown field"),
+        ("version: 1,", "version: 1, style: RotatingStrokes(canva: 1),", "s.ron:2:40: error: unknown field"),
         ("regions: [", "regions: [[", "s.ron:9:1: error: `)` closes what `[` opened; write `]`"),
     ];
     for (from, to, expected) in cases {
@@ -155,10 +155,11 @@ fn values_of_the_command_line_replace_and_add_fields() {
     ])
     .unwrap();
     assert_eq!(scene.strokes.width_px, Some(12.0));
-    assert_eq!(scene.strokes.brush.as_deref(), Some("filbert"));
+    assert_eq!(scene.strokes.brush, Some(BrushMix(vec!["filbert".to_owned()])));
     assert_eq!(scene.objects.iter().map(|o| o.particles).collect::<Vec<_>>(), [Some(9), Some(11)]);
     assert_eq!(scene.objects[1].name, "left wheel");
-    assert_eq!(scene.style, Style::RotatingStrokes { solver: Solver::Horn, underpainting: true });
+    let style = RotatingStrokes { solver: Solver::Horn, ..Default::default() };
+    assert_eq!(scene.style, Style::RotatingStrokes(style));
     assert_eq!(scene.camera.lens, Lens::Perspective { fov_y_deg: 50.0, near: 0.05, far: 100.0 });
     assert_eq!(scene.camera.keys[0].eye, [0.0, 2.5, 4.0]);
     assert_eq!(scene.regions[0].direction, crate::document::Direction::Around([0.0, 0.0, 1.0]));

@@ -31,20 +31,20 @@ struct Layer {
 }
 
 const UNDERPAINTING: Layer = Layer {
-    brushes: &[("flat", 6), ("dry", 2)],
+    brushes: &[("flat", 6), ("dry", 1)],
     size_px: [130.0, 42.0],
-    coverage: 2.6,
+    coverage: 4.0,
     opacity: 0.86,
     thickness: 0.10,
-    dryness: 0.10,
+    dryness: 0.07,
     pickup: 0.10,
-    overrun: 3.0,
+    overrun: 2.0,
 };
 
 const BODY: Layer = Layer {
     brushes: &[("flat", 5), ("filbert", 5), ("round", 1)],
     size_px: [78.0, 25.0],
-    coverage: 2.8,
+    coverage: 3.1,
     opacity: 0.95,
     thickness: 0.50,
     dryness: 0.12,

@@ -23,12 +23,22 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
     }
 }
 
+/// The body layer's size and coverage.
+fn body(strokes: &ResolvedStrokes) -> (f32, f32, f32) {
+    let body = strokes.body();
+    (body.length_px, body.width_px, body.coverage)
+}
+
 #[test]
-fn a_scene_without_settings_is_an_oil_study() {
-    let strokes = resolve(&scene(StrokeSettings::default(), StrokeSettings::default()), None);
-    assert_eq!((strokes.length_px, strokes.width_px, strokes.coverage), (34.0, 11.0, 3.0));
-    assert_eq!(strokes.brush, "filbert");
+fn a_scene_without_settings_is_an_oil_study_of_its_own_height() {
+    let mut plain = scene(StrokeSettings::default(), StrokeSettings::default());
+    let strokes = resolve(&plain, None);
+    // Presets are stated for a height of 720; this scene is 360 high.
+    assert_eq!(body(&strokes), (39.0, 12.5, 3.1));
     assert!((strokes.angle_jitter_rad.to_degrees() - 7.0).abs() < 1e-5);
+    assert_eq!(strokes.edges, Edges::Overrun(1.5));
+    plain.size = (1280, 720);
+    assert_eq!(body(&resolve(&plain, None)), (78.0, 25.0, 3.1));
 }
 
 #[test]
@@ -37,17 +47,53 @@ fn the_nearest_statement_wins() {
     let of_region = StrokeSettings { width_px: Some(3.0), layer: Some(2), ..Default::default() };
     let scene = scene(of_scene, of_region);
     let (everywhere, region) = (resolve(&scene, None), resolve(&scene, Some(0)));
-    assert_eq!((everywhere.width_px, everywhere.coverage, everywhere.layer), (9.0, 2.0, 0));
-    assert_eq!((region.width_px, region.coverage, region.length_px, region.layer), (3.0, 2.0, 34.0, 2));
+    assert_eq!((body(&everywhere), everywhere.layer), ((39.0, 9.0, 2.0), 0));
+    assert_eq!((body(&region), region.layer), ((39.0, 3.0, 2.0), 2));
+}
+
+#[test]
+fn other_layers_keep_their_proportion_to_the_body() {
+    let usual = resolve(&scene(StrokeSettings::default(), StrokeSettings::default()), None);
+    let sized = |settings: StrokeSettings| resolve(&scene(settings, StrokeSettings::default()), None);
+    let halved = sized(StrokeSettings { scale: Some(0.5), ..Default::default() });
+    let stated = sized(StrokeSettings {
+        length_px: Some(39.0 * 0.5),
+        width_px: Some(12.5 * 0.5),
+        ..Default::default()
+    });
+    for strokes in [halved, stated] {
+        for (half, whole) in strokes.layers.iter().zip(&usual.layers) {
+            assert!((half.length_px * 2.0 - whole.length_px).abs() < 1e-4);
+            assert!((half.width_px * 2.0 - whole.width_px).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn one_layer_can_differ_alone() {
+    let scumble = LayerSettings {
+        name: "scumble".to_owned(),
+        coverage: Some(0.0),
+        brush: Some(BrushMix(vec!["fan".to_owned()])),
+        ..Default::default()
+    };
+    let usual = resolve(&scene(StrokeSettings::default(), StrokeSettings::default()), None);
+    let settings = StrokeSettings { layers: vec![scumble], ..Default::default() };
+    let strokes = resolve(&scene(settings, StrokeSettings::default()), None);
+    assert_eq!(strokes.layer_of(LayerKind::Scumble).coverage, 0.0);
+    assert_eq!(strokes.layer_of(LayerKind::Scumble).brushes, ["fan"]);
+    for kind in LayerKind::ALL.into_iter().filter(|kind| *kind != LayerKind::Scumble) {
+        assert_eq!(strokes.layer_of(kind), usual.layer_of(kind));
+    }
 }
 
 #[test]
 fn a_regions_preset_replaces_the_scenes_values_and_not_its_own() {
     let of_scene = StrokeSettings { width_px: Some(9.0), ..Default::default() };
-    let detail = Some("detail".to_owned());
-    let of_region = StrokeSettings { preset: detail, coverage: Some(1.0), ..Default::default() };
+    let impressionist = Some("impressionist".to_owned());
+    let of_region = StrokeSettings { preset: impressionist, coverage: Some(1.0), ..Default::default() };
     let region = resolve(&scene(of_scene, of_region), Some(0));
-    assert_eq!((region.length_px, region.width_px, region.coverage), (16.0, 5.0, 1.0));
+    assert_eq!(body(&region), (18.0, 7.0, 1.0));
 }
 
 #[test]
@@ -56,12 +102,34 @@ fn the_papers_rule_has_no_jitter_and_belongs_to_the_scene() {
     let by_scene = scene(paper.clone(), StrokeSettings::default());
     let strokes = resolve(&by_scene, Some(0));
     assert_eq!((strokes.angle_jitter_rad, strokes.size_jitter, strokes.flatness), (0.0, 0.0, 1.0));
+    assert_eq!((strokes.swing_rad, strokes.color_jitter, strokes.grading), (0.0, 0.0, 0.0));
+    let others = LayerKind::ALL.into_iter().filter(|kind| *kind != LayerKind::Body);
+    assert!(others.into_iter().all(|kind| strokes.layer_of(kind).coverage == 0.0));
     assert!(is_paper(&by_scene));
     assert!(!is_paper(&scene(StrokeSettings::default(), paper)));
 }
 
 #[test]
-fn every_preset_names_a_brush_that_exists() {
-    assert!(PRESETS.iter().all(|preset| BRUSHES.contains(&preset.brush)));
+fn every_preset_names_brushes_that_exist() {
+    for preset in &PRESETS {
+        for layer in ResolvedStrokes::of_preset(preset, 1.0).layers {
+            assert!(!layer.brushes.is_empty());
+            assert!(layer.brushes.iter().all(|brush| impasto_core::brush::NAMES.contains(&brush.as_str())));
+        }
+    }
     assert_eq!(names().next(), Some(DEFAULT_PRESET));
+}
+
+#[test]
+fn the_ground_is_the_last_that_is_stated() {
+    let ground = LayerSettings {
+        name: GROUND.to_owned(),
+        color: Some(Color([0.5, 0.25, 0.0])),
+        opacity: Some(0.75),
+        ..Default::default()
+    };
+    let settings = StrokeSettings { layers: vec![ground], ..Default::default() };
+    let found = super::ground(&scene(settings, StrokeSettings::default()));
+    assert_eq!(found, ResolvedGround { color: Color([0.5, 0.25, 0.0]), opacity: 0.75 });
+    assert!(super::ground(&scene(StrokeSettings::default(), StrokeSettings::default())).opacity < 0.5);
 }

@@ -3,6 +3,7 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::*;
+use crate::document::{Canvas, CanvasFollows, Solver};
 use crate::load::parse;
 
 fn number() -> impl Strategy<Value = f64> {
@@ -82,8 +83,13 @@ fn any_object() -> impl Strategy<Value = Object> {
         (number(), vector3(), vector3(), ease()).prop_map(|(frame, translation, rotation_deg, ease)| {
             ObjectKey { frame, translation, rotation_deg, ease }
         });
-    let material = (proptest::option::of(any_color()), proptest::option::of(name()), any::<bool>())
-        .prop_map(|(color, texture, unlit)| MaterialOverride { color, texture, unlit });
+    let material = (
+        proptest::option::of(any_color()),
+        proptest::option::of(name()),
+        any::<bool>(),
+        proptest::option::of(number()),
+    )
+        .prop_map(|(color, texture, unlit, gloss)| MaterialOverride { color, texture, unlit, gloss });
     let names = (name(), name(), proptest::option::of(name()), proptest::option::of(name()));
     let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);
     let up = prop_oneof![Just(Up::Y), Just(Up::Z)];
@@ -103,22 +109,79 @@ fn any_object() -> impl Strategy<Value = Object> {
     )
 }
 
-fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
-    let names = (proptest::option::of(name()), proptest::option::of(name()));
-    let numbers = prop::collection::vec(proptest::option::of(number()), 6);
-    (names, numbers, proptest::option::of(any::<i32>())).prop_map(|((preset, brush), numbers, layer)| {
-        StrokeSettings {
-            preset,
+fn any_brush() -> impl Strategy<Value = Option<BrushMix>> {
+    proptest::option::of(prop::collection::vec(name(), 1..4).prop_map(BrushMix))
+}
+
+fn any_layer() -> impl Strategy<Value = LayerSettings> {
+    let numbers = prop::collection::vec(proptest::option::of(number()), 7);
+    (name(), any_brush(), numbers, proptest::option::of(any_color())).prop_map(
+        |(name, brush, numbers, color)| LayerSettings {
+            name,
             brush,
             length_px: numbers[0],
             width_px: numbers[1],
             coverage: numbers[2],
-            flatness: numbers[3],
-            angle_jitter_deg: numbers[4],
-            size_jitter: numbers[5],
+            opacity: numbers[3],
+            thickness: numbers[4],
+            dryness: numbers[5],
+            pickup: numbers[6],
+            color,
+        },
+    )
+}
+
+fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
+    let numbers = prop::collection::vec(proptest::option::of(number()), 12);
+    let edges = prop_oneof![Just(Edges::Clip), number().prop_map(Edges::Overrun), Just(Edges::Free)];
+    let lists = (
+        proptest::option::of(prop::collection::vec(any_color(), 0..3)),
+        prop::collection::vec(any_layer(), 0..3),
+    );
+    let head = (proptest::option::of(name()), any_brush(), proptest::option::of(edges));
+    (head, numbers, proptest::option::of(any::<i32>()), lists).prop_map(
+        |((preset, brush, edges), numbers, layer, (palette, layers))| StrokeSettings {
+            preset,
+            brush,
+            length_px: numbers[0],
+            width_px: numbers[1],
+            scale: numbers[2],
+            coverage: numbers[3],
+            flatness: numbers[4],
+            angle_jitter_deg: numbers[5],
+            swing_deg: numbers[6],
+            contour: numbers[7],
+            size_jitter: numbers[8],
+            edges,
+            color_jitter: numbers[9],
+            temperature: numbers[10],
+            grading: numbers[11],
+            palette,
             layer,
-        }
-    })
+            layers,
+        },
+    )
+}
+
+fn any_style() -> impl Strategy<Value = Style> {
+    let solver = prop_oneof![Just(Solver::Tangent), Just(Solver::Horn), Just(Solver::HornExact)];
+    let canvas = prop_oneof![Just(Canvas::Linen), Just(Canvas::Board)];
+    let follows = prop_oneof![Just(CanvasFollows::Picture), Just(CanvasFollows::Camera)];
+    let numbers = (number(), number(), number());
+    let strokes = (solver, any::<bool>(), canvas, follows, numbers).prop_map(
+        |(solver, underpainting, canvas, canvas_follows, (weave, relief, varnish))| {
+            Style::RotatingStrokes(RotatingStrokes {
+                solver,
+                underpainting,
+                canvas,
+                weave,
+                canvas_follows,
+                relief,
+                varnish,
+            })
+        },
+    );
+    prop_oneof![Just(Style::Reference), strokes]
 }
 
 fn any_region() -> impl Strategy<Value = Region> {
@@ -129,7 +192,10 @@ fn any_region() -> impl Strategy<Value = Region> {
         (name(), name()).prop_map(|(object, material)| Selector::Material(object, material)),
     ];
     let direction = prop_oneof![
+        Just(Direction::Auto),
         number().prop_map(Direction::Angle),
+        (number(), number()).prop_map(|(first, second)| Direction::Crossing(first, second)),
+        vector3().prop_map(Direction::Along),
         vector3().prop_map(Direction::Around),
         Just(Direction::Up)
     ];
@@ -142,16 +208,7 @@ fn any_region() -> impl Strategy<Value = Region> {
 }
 
 fn any_scene() -> impl Strategy<Value = Scene> {
-    let solver = prop_oneof![
-        Just(crate::document::Solver::Tangent),
-        Just(crate::document::Solver::Horn),
-        Just(crate::document::Solver::HornExact)
-    ];
-    let style = prop_oneof![
-        Just(Style::Reference),
-        (solver, any::<bool>())
-            .prop_map(|(solver, underpainting)| Style::RotatingStrokes { solver, underpainting }),
-    ];
+    let style = any_style();
     let timeline =
         (number(), any::<i64>(), any::<i64>()).prop_map(|(fps, first, last)| Timeline { fps, first, last });
     let head = (any::<(u32, u32)>(), any::<u32>(), any_color(), timeline, any::<i64>(), style);
