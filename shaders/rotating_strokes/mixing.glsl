@@ -6,7 +6,7 @@ const uint ANY_COLOR = 255u;
 // Deviations from stroke to stroke, by layer: lightness, hue in degrees, chroma as a share.
 const vec3 JITTER[6] = vec3[6](
     vec3(0.020, 7.0, 0.10), vec3(0.013, 3.5, 0.06), vec3(0.012, 3.0, 0.05),
-    vec3(0.028, 14.0, 0.06), vec3(0.010, 3.0, 0.05), vec3(0.008, 2.0, 0.04)
+    vec3(0.020, 8.0, 0.06), vec3(0.010, 3.0, 0.05), vec3(0.008, 2.0, 0.04)
 );
 
 struct Mixing {

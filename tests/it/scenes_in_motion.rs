@@ -147,9 +147,6 @@ fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
     for (key, &(alpha, area)) in &before {
         let now = after.get(key).map_or(0.0, |&(alpha, _)| alpha);
         popped += if (alpha - now).abs() > 0.2 { area } else { 0.0 };
-        if (alpha - now).abs() > 0.2 {
-            println!("POP {:?} {alpha} {now} {area}", key);
-        }
         shown += alpha * area;
     }
     for (key, &(alpha, area)) in &after {

@@ -24,7 +24,8 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     let folder = output::ready_folder(&arguments.output)?;
     let mut scene = loaded.scene;
     let mesh = path_from(&folder, &arguments.model)?;
-    for object in &mut scene.objects {
+    // The model; what stands beside it needs no file.
+    if let Some(object) = scene.objects.first_mut() {
         object.mesh.clone_from(&mesh);
     }
     save::write(&arguments.output, &scene)?;

@@ -20,8 +20,12 @@ pub struct Part {
 /// Shells of fewer triangles than this are not looked at one by one.
 const LEAST_TRIANGLES: usize = 8;
 
-/// The parts of a mesh, and the part that each triangle belongs to. A part is a shell; the smallest ones of a few triangles
-/// count as one part together, so that a mesh whose triangles were torn apart is still one thing.
+/// A mesh of more shells than this is a heap: only shells of at least `LEAST_SHARE` of its surface are looked at one by one.
+const HEAP: usize = 48;
+const LEAST_SHARE: f64 = 0.02;
+
+/// The parts of a mesh, and the part that each triangle belongs to. A part is a shell; those of a few triangles, and the
+/// leaves of a tree, count as one part together, so that what is torn into bits is still one thing.
 pub fn parts(mesh: &TriangleMesh) -> (Vec<Part>, Vec<u32>) {
     let of_triangle = numbers(mesh);
     let count = of_triangle.iter().max().map_or(0, |&last| last as usize + 1);
@@ -53,16 +57,22 @@ pub fn parts(mesh: &TriangleMesh) -> (Vec<Part>, Vec<u32>) {
 /// The part of each triangle, counted from 0 in the order in which parts begin.
 fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
     let shells = shells::numbers(mesh);
-    let mut triangles: HashMap<u32, usize> = HashMap::new();
-    for &shell in &shells {
-        *triangles.entry(shell).or_default() += 1;
+    let count = shells.iter().max().map_or(0, |&last| last as usize + 1);
+    let (mut triangles, mut areas) = (vec![0usize; count], vec![0.0f64; count]);
+    for (triangle, &shell) in shells.iter().enumerate() {
+        let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
+        triangles[shell as usize] += 1;
+        areas[shell as usize] += (b - a).cross(c - a).length();
     }
+    let least_area = if count > HEAP { LEAST_SHARE * areas.iter().sum::<f64>() } else { 0.0 };
+    let stands_alone =
+        |shell: &u32| triangles[*shell as usize] >= LEAST_TRIANGLES && areas[*shell as usize] >= least_area;
     let mut number: HashMap<Option<u32>, u32> = HashMap::new();
     shells
         .iter()
         .map(|&shell| {
             let next = number.len() as u32;
-            *number.entry(Some(shell).filter(|shell| triangles[shell] >= LEAST_TRIANGLES)).or_insert(next)
+            *number.entry(Some(shell).filter(stands_alone)).or_insert(next)
         })
         .collect()
 }
@@ -191,6 +201,22 @@ mod tests {
             (0..torn.len() as u32 / 3).map(|triangle| [0, 1, 2].map(|k| 3 * triangle + k)).collect();
         mesh.positions = torn;
         assert_eq!(parts(&mesh).0.len(), 1);
+    }
+
+    #[test]
+    fn the_leaves_of_a_tree_are_one_part_and_its_trunk_another() {
+        let mut mesh = brick(DVec3::new(0.5, 4.0, 0.5), DQuat::IDENTITY, DVec3::ZERO);
+        for leaf in 0..60 {
+            let at = DVec3::new(f64::from(leaf % 10), 5.0, f64::from(leaf / 10));
+            let bit = brick(DVec3::splat(0.2), DQuat::IDENTITY, at);
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(bit.positions);
+            mesh.triangles.extend(bit.triangles.iter().map(|t| t.map(|vertex| vertex + first)));
+        }
+        let (parts, of_triangle) = parts(&mesh);
+        assert_eq!(parts.len(), 2);
+        assert_eq!((of_triangle[0], of_triangle[12], *of_triangle.last().unwrap()), (0, 1, 1));
+        assert!(parts[1].extents[0] > 9.0);
     }
 
     #[test]

@@ -98,7 +98,7 @@ const SWING_PX: f64 = 170.0;
 const BACKDROP_SWING_PX: f64 = 260.0;
 const EDGE_PX: f64 = 60.0;
 
-/// A share of the strokes breaks rank by this, where the angle's own jitter is [`USUAL_JITTER_DEG`].
+/// A share of the strokes breaks rank by this; by less where the angle's own jitter is under [`USUAL_JITTER_DEG`].
 const RANK_BREAKERS: f32 = 0.08;
 const RANK_BREAKING_DEG: f64 = 38.0;
 pub(crate) const USUAL_JITTER_DEG: f64 = 7.0;
@@ -179,8 +179,8 @@ impl BakeInputs {
         let jitter_rad = f64::from(rule.strokes.angle_jitter_rad);
         let mut stray = jitter_rad * jitter * normal(ANGLE_JITTER);
         if hash::unit(hash::combine(bits, RANK_BREAKING)) < RANK_BREAKERS {
-            stray +=
-                jitter_rad * (RANK_BREAKING_DEG / USUAL_JITTER_DEG) * normal(hash::combine(RANK_BREAKING, 1));
+            let share = (jitter_rad.to_degrees() / USUAL_JITTER_DEG).min(1.0);
+            stray += RANK_BREAKING_DEG.to_radians() * share * normal(hash::combine(RANK_BREAKING, 1));
         }
         if rule.strokes.swing_rad > 0.0 {
             let at = self.particles[index].position.as_dvec3() * (scale / cycle_px);

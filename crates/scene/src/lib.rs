@@ -3,6 +3,7 @@
 pub mod assets;
 pub mod check;
 pub mod document;
+pub mod house_mesh;
 pub mod limits;
 pub mod load;
 pub mod loaded;

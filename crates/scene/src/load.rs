@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::assets::{AssetFolders, AssetRequest};
 use crate::check::{self, Finding};
 use crate::document::Scene;
+use crate::house_mesh;
 use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::Located;
@@ -171,6 +172,18 @@ mod tests;
 
 /// A mesh that the scene names.
 fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
+    if name.starts_with(house_mesh::PREFIX) {
+        let unknown = || {
+            let message = format!("there is no mesh {name:?} in the house");
+            Report(vec![error_in(
+                scene,
+                None,
+                message,
+                format!("the only one is {:?}", house_mesh::BACKDROP),
+            )])
+        };
+        return house_mesh::of_name(name).map(|mesh| (mesh, Vec::new())).ok_or_else(unknown);
+    }
     let root = folder_of(scene);
     let request = AssetRequest { name, beside: scene, root, max_bytes: crate::obj::MAX_FILE_BYTES };
     let path = folders

@@ -5,9 +5,10 @@ use std::path::Path;
 use glam::DVec3;
 
 use crate::document::{
-    Camera, CameraKey, Color, Direction, Ease, Lens, Light, LightKind, Object, Region, Scene, Selector,
-    Timeline,
+    Camera, CameraKey, Color, Direction, Ease, Lens, Light, LightKind, Object, ObjectKey, Region, Scale,
+    Scene, Selector, StrokeSettings, Timeline,
 };
+use crate::house_mesh;
 use crate::mesh_file::MeshFile;
 
 /// Vertical field of view, degrees: near that of an eye that looks at one thing, so that forms are not distorted.
@@ -16,17 +17,43 @@ const FOV_Y_DEG: f64 = 35.0;
 /// Share of the picture that stays free at each border.
 const MARGIN: f64 = 0.08;
 
+/// The backdrop is this much larger than the diagonal of what stands before it: it fills the picture.
+const BACKDROP_SCALE: f64 = 3.0;
+const BACKDROP_NAME: &str = "backdrop";
+
 /// Width and height in pixels.
 const SIZE_PX: (u32, u32) = (1280, 720);
 
-/// A scene with one object, framed with a margin of 8 % whatever its size and place.
+/// A scene with one object before a backdrop, framed with a margin of 8 % whatever its size and place.
 ///
-/// The object is named after the file, and its mesh is the file's bare name: the scene is meant to stand in the same
-/// folder. Strokes run up the surface. A mesh that is open and shows its back to the usual viewpoint is looked at from
-/// the other side.
+/// The object is the first one; it is named after the file, and its mesh is the file's bare name: the scene is meant to stand
+/// in the same folder. A mesh that is open and shows its back to the usual viewpoint is looked at from the other side; where
+/// that is from below, there is no backdrop, since its floor would stand in the way.
 pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
     let name = object_name(path);
     let view = View::of(mesh);
+    let mut objects = vec![Object {
+        name: name.clone(),
+        mesh: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+        group: None,
+        parent: None,
+        particles: None,
+        scale: Default::default(),
+        up: Default::default(),
+        material: None,
+        keys: Vec::new(),
+    }];
+    let mut regions = Vec::new();
+    if view.axes.back.y > 0.0 {
+        let backdrop_name = if name == BACKDROP_NAME { "wall" } else { BACKDROP_NAME };
+        objects.push(view.backdrop(backdrop_name));
+        regions.push(Region {
+            name: backdrop_name.to_owned(),
+            on: Selector::Object(backdrop_name.to_owned()),
+            direction: Direction::Crossing(-58.0, 4.0),
+            strokes: StrokeSettings { scale: Some(2.0), color_jitter: Some(0.7), ..Default::default() },
+        });
+    }
     Scene {
         version: Scene::VERSION,
         size: SIZE_PX,
@@ -36,24 +63,10 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
         reference: Default::default(),
         camera: view.camera(),
         lights: view.lights(),
-        objects: vec![Object {
-            name: name.clone(),
-            mesh: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-            group: None,
-            parent: None,
-            particles: None,
-            scale: Default::default(),
-            up: Default::default(),
-            material: None,
-            keys: Vec::new(),
-        }],
-        strokes: Default::default(),
-        regions: vec![Region {
-            name: name.clone(),
-            on: Selector::Object(name),
-            direction: Direction::Up,
-            strokes: Default::default(),
-        }],
+        objects,
+        // A model that nobody has looked at may have much that is small.
+        strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
+        regions,
         style: Default::default(),
     }
 }
@@ -73,6 +86,9 @@ struct View {
     near: f64,
     far: f64,
     axes: Axes,
+    /// The middle of the mesh's underside, world space, and the diagonal of its bounds.
+    foot: DVec3,
+    size: f64,
 }
 
 /// The camera's axes in world space, unit vectors.
@@ -120,8 +136,10 @@ impl View {
             eye: round(axes.to_world(eye_in_camera)),
             target: round(axes.to_world(target_in_camera)),
             near: significant(framing.nearest * size * 0.5),
-            far: significant(framing.farthest * size * 2.0),
+            far: significant((framing.farthest + BACKDROP_SCALE) * size * 2.0),
             axes,
+            foot: DVec3::new(center.x, low.y, center.z),
+            size,
         }
     }
 
@@ -134,6 +152,29 @@ impl View {
                 target: self.target.to_array(),
                 roll_deg: 0.0,
                 fov_y_deg: None,
+                ease: Ease::default(),
+            }],
+        }
+    }
+
+    /// A floor under the mesh and a wall behind it, turned to the eye.
+    fn backdrop(&self, name: &str) -> Object {
+        let yaw_deg = self.axes.back.x.atan2(self.axes.back.z).to_degrees();
+        // A hair below, so that a mesh that is flat lies on it.
+        let below = self.foot - DVec3::Y * (0.002 * self.size);
+        Object {
+            name: name.to_owned(),
+            mesh: house_mesh::BACKDROP.to_owned(),
+            group: None,
+            parent: None,
+            particles: None,
+            scale: Scale([significant(BACKDROP_SCALE * self.size); 3]),
+            up: Default::default(),
+            material: None,
+            keys: vec![ObjectKey {
+                frame: 0.0,
+                translation: round_to(below, self.size * 1e-4).to_array(),
+                rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
                 ease: Ease::default(),
             }],
         }
@@ -160,7 +201,7 @@ impl View {
 /// Where to look from, as a direction: three quarters from the front, slightly from above; where an open mesh would
 /// show its back, from the side that shows the most of its front.
 fn viewpoint(mesh: &MeshFile) -> DVec3 {
-    const USUAL: DVec3 = DVec3::new(0.5, 0.38, 0.9);
+    const USUAL: DVec3 = DVec3::new(0.5, 0.27, 0.9);
     let mut area_vector = DVec3::ZERO;
     let mut area = 0.0;
     for triangle in 0..mesh.mesh.triangles.len() {

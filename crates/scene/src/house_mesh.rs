@@ -1,0 +1,104 @@
+//! Meshes that come with Impasto and need no file. Their names begin with `impasto:`, which no file's does.
+
+use std::f32::consts::FRAC_PI_2;
+
+use glam::{Vec2, Vec3};
+use impasto_core::TriangleMesh;
+
+use crate::mesh_file::{Material, MeshFile};
+
+/// What the names of these meshes begin with.
+pub const PREFIX: &str = "impasto:";
+
+/// A floor that rises into a wall, as photographers use: 2 wide, its floor at height 0 from z = 1 back to −0.28, its wall
+/// 1.3 high.
+pub const BACKDROP: &str = "impasto:backdrop";
+
+const FRONT: f32 = 1.0;
+const BACK: f32 = -0.28;
+const HEIGHT: f32 = 1.3;
+
+/// Radius of the bend between floor and wall.
+const BEND: f32 = 0.12;
+
+/// Quads across, along the floor, in the bend, up the wall.
+const ACROSS: usize = 24;
+const ALONG: [usize; 3] = [16, 10, 14];
+
+/// The mesh of that name; `None` when there is no such one.
+pub fn of_name(name: &str) -> Option<MeshFile> {
+    (name == BACKDROP).then(|| MeshFile {
+        mesh: backdrop(),
+        groups: vec!["backdrop".to_owned()],
+        materials: vec![Material {
+            name: "backdrop".to_owned(),
+            color: [0.42, 0.40, 0.35],
+            texture: None,
+            gloss: 0.0,
+        }],
+    })
+}
+
+/// Height, depth and normal along the profile, from the front of the floor to the top of the wall.
+fn profile() -> Vec<(f32, f32, Vec3)> {
+    let share = |index: usize, count: usize| index as f32 / count as f32;
+    let floor = (0..ALONG[0]).map(|i| {
+        let z = FRONT + (BACK + BEND - FRONT) * share(i, ALONG[0]);
+        (0.0, z, Vec3::Y)
+    });
+    let bend = (0..ALONG[1]).map(|i| {
+        let (sin, cos) = (FRAC_PI_2 * share(i, ALONG[1])).sin_cos();
+        (BEND * (1.0 - cos), BACK + BEND * (1.0 - sin), Vec3::new(0.0, cos, sin))
+    });
+    let wall = (0..=ALONG[2]).map(|i| (BEND + (HEIGHT - BEND) * share(i, ALONG[2]), BACK, Vec3::Z));
+    floor.chain(bend).chain(wall).collect()
+}
+
+fn backdrop() -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    let profile = profile();
+    let rows = profile.len() - 1;
+    for (row, &(y, z, normal)) in profile.iter().enumerate() {
+        for column in 0..=ACROSS {
+            let u = column as f32 / ACROSS as f32;
+            mesh.positions.push(Vec3::new(2.0 * u - 1.0, y, z));
+            mesh.normals.push(normal);
+            mesh.uvs.push(Vec2::new(u, row as f32 / rows as f32));
+        }
+    }
+    let vertices_across = ACROSS as u32 + 1;
+    for row in 0..rows as u32 {
+        for column in 0..ACROSS as u32 {
+            let polygon = row * ACROSS as u32 + column;
+            let a = row * vertices_across + column;
+            let (b, c, d) = (a + 1, a + vertices_across + 1, a + vertices_across);
+            for triangle in [[a, b, c], [a, c, d]] {
+                mesh.triangles.push(triangle);
+                mesh.polygon_of_triangle.push(polygon);
+                mesh.group_of_triangle.push(0);
+                mesh.material_of_triangle.push(0);
+            }
+        }
+    }
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_backdrop_faces_up_and_forward() {
+        let mesh = of_name(BACKDROP).unwrap().mesh;
+        for triangle in 0..mesh.triangles.len() {
+            let [a, b, c] = mesh.corners(triangle);
+            let across = (b - a).cross(c - a).normalize();
+            let normal = mesh.normals[mesh.triangles[triangle][0] as usize];
+            assert!(across.dot(normal) > 0.9, "triangle {triangle}: {across} against {normal}");
+        }
+        let (low, high) = mesh.bounds().unwrap();
+        assert!((low - Vec3::new(-1.0, 0.0, BACK)).length() < 1e-6);
+        assert!((high - Vec3::new(1.0, HEIGHT, FRONT)).length() < 1e-6);
+        assert!(of_name("impasto:ladder").is_none());
+    }
+}
