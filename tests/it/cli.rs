@@ -278,3 +278,60 @@ fn an_interrupted_run_leaves_whole_frames_only() {
         assert!(name.starts_with("f_") && is_whole_png(&folder.path("out").join(&name)), "{name}");
     }
 }
+
+#[test]
+fn brushes_are_shown_on_a_sheet() {
+    let folder = Folder::new();
+    assert_eq!(code(&folder.run(&["brushes", "-o", "sheet.png"])), 0);
+    let decoder =
+        png::Decoder::new(std::io::BufReader::new(std::fs::File::open(folder.path("sheet.png")).unwrap()));
+    let reader = decoder.read_info().unwrap();
+    assert!(reader.info().width > 1000 && reader.info().height > 500);
+    std::fs::copy(folder.path("sheet.png"), folder.path("mark.png")).unwrap();
+    assert_eq!(code(&folder.run(&["brushes", "mark.png", "-o", "with_mine.png"])), 0);
+    let refused = folder.run(&["brushes", "cube.obj", "-o", "none.png"]);
+    assert_eq!(code(&refused), 3, "{}", words(&refused.stderr));
+    assert_eq!(code(&folder.run(&["brushes", "mark.png", "-o", "mark.png"])), 3);
+    assert_eq!(folder.names("."), ["cube.obj", "mark.png", "scene.ron", "sheet.png", "with_mine.png"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn frames_are_piped_to_ffmpeg_where_it_is_installed() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = Folder::new();
+    let programs = folder.path("programs");
+    std::fs::create_dir(&programs).unwrap();
+    let render = || {
+        let mut command = Command::new(impasto());
+        command
+            .args(["render", "scene.ron", "-o", "shot.mp4"])
+            .current_dir(folder.path("."))
+            .env("PATH", &programs);
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
+    };
+    let without = render();
+    assert_eq!(code(&without), 3);
+    assert!(words(&without.stderr).contains("ffmpeg, which is not installed; install it"));
+    // Writes what it is given to its last argument.
+    let install = |script: &str| {
+        let path = programs.join("ffmpeg");
+        std::fs::write(&path, script).unwrap();
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    };
+    install("#!/bin/sh\nfor last; do :; done\n/bin/cat > \"$last\"\n");
+    let with = render();
+    assert_eq!(code(&with), 0, "{}", words(&with.stderr));
+    // Three frames, four bytes a pixel.
+    assert_eq!(std::fs::metadata(folder.path("shot.mp4")).unwrap().len(), 3 * 160 * 90 * 4);
+    std::fs::remove_file(folder.path("shot.mp4")).unwrap();
+    install("#!/bin/sh\n/bin/cat > /dev/null\nexit 1\n");
+    let failing = render();
+    assert_eq!(code(&failing), 1, "{}", words(&failing.stderr));
+    assert_eq!(
+        folder.names("."),
+        ["cube.obj", "programs", "scene.ron"],
+        "a movie that failed leaves nothing"
+    );
+    assert_eq!(code(&folder.run(&["render", "scene.ron", "-o", "shot.mp4", "--apng"])), 2);
+}

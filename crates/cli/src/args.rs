@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Info(InfoArguments),
     /// Write the strokes of a frame as they are drawn.
     Strokes(StrokesArguments),
+    /// Paint a sheet of all brushes, and of pictures of one's own as brushes.
+    Brushes(BrushesArguments),
     /// Tell which OpenGL drivers work here, and draw a test picture.
     Doctor(DoctorArguments),
     /// Print a completion script for a shell.
@@ -52,7 +54,7 @@ pub(crate) struct SceneArguments {
 /// How much to say.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct Talk {
-    /// Say more: the driver and why, the steps of preparing, each frame's strokes and seconds.
+    /// Say more: the driver and why, the steps of preparing, each frame's strokes, overdraw, memory and passes.
     #[arg(short, long, action = clap::ArgAction::Count)]
     pub(crate) verbose: u8,
     /// Say nothing but errors.
@@ -86,7 +88,8 @@ pub(crate) enum StyleChoice {
 pub(crate) struct RenderArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame).
+    /// Where frames go: #### or %04d or $F4 stands for the frame number, - for standard output (one frame); a name that
+    /// ends in .mp4, .mov, .mkv or .webm is one movie, made by ffmpeg.
     #[arg(short, long, default_value = "out/frame_####.png")]
     pub(crate) output: String,
     /// Which frames: a-b, a..b, a-bxN and a-b:N (every Nth), commas; left out, the scene's own.
@@ -188,6 +191,15 @@ pub(crate) struct StrokesArguments {
     /// Which library to take OpenGL from.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) driver: DriverChoice,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct BrushesArguments {
+    /// Pictures that serve as brushes too: light is paint.
+    pub(crate) pictures: Vec<PathBuf>,
+    /// The sheet, a PNG file.
+    #[arg(short, long, default_value = "out/brushes.png")]
+    pub(crate) output: String,
 }
 
 #[derive(Args, Debug)]

@@ -1,11 +1,13 @@
 //! The `impasto` command: paints scenes with no window, and tells what is in them.
 
 mod args;
+mod brushes;
 mod check;
 mod doctor;
 mod failure;
 mod frame_list;
 mod info;
+mod movie;
 mod new;
 mod output;
 mod picture_file;
@@ -38,6 +40,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Strokes(arguments) => strokes::run(&arguments),
+        Command::Brushes(arguments) => brushes::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions { shell } => {
             clap_complete::generate(shell, &mut Arguments::command(), "impasto", &mut std::io::stdout());

@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use crate::args::{RenderArguments, StyleChoice};
 use crate::failure::Failure;
 use crate::frame_list::FrameList;
+use crate::movie::{self, Movie};
 use crate::output::{self, Pattern};
 use crate::picture_file::{self, Provenance};
 use crate::session;
@@ -26,6 +27,8 @@ enum Destination {
     Files(Pattern),
     /// One animated file.
     Animation(PathBuf),
+    /// One movie.
+    Movie(PathBuf),
     /// One picture, to standard output.
     Stream,
 }
@@ -66,6 +69,10 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
             let path = path.clone();
             plan.animation(arguments, &path)
         }
+        Destination::Movie(path) => {
+            let path = path.clone();
+            plan.movie(arguments, &path)
+        }
         Destination::Stream => plan.stream(),
     }
 }
@@ -93,7 +100,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
             }
             output::ready_folder(&pattern.path(0))?;
         }
-        Destination::Animation(path) => {
+        Destination::Animation(path) | Destination::Movie(path) => {
             output::not_an_input(path, &inputs)?;
             output::ready_folder(path)?;
         }
@@ -133,8 +140,15 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         }
         return Ok(Destination::Stream);
     }
+    if movie::is_movie(&arguments.output) {
+        if arguments.apng || arguments.contact_sheet || arguments.skip_existing {
+            let words = "-o MOVIE makes one movie and nothing else: leave --apng, --contact-sheet and --skip-existing out";
+            return Err(Failure::Usage(words.to_owned()));
+        }
+        return Ok(Destination::Movie(PathBuf::from(&arguments.output)));
+    }
     if !arguments.output.to_lowercase().ends_with(".png") {
-        let words = format!("-o {}: pictures are PNG files; let the name end in .png", arguments.output);
+        let words = format!("-o {}: let the name end in .png, or in .mp4 for a movie", arguments.output);
         return Err(Failure::Usage(words));
     }
     if arguments.apng {
@@ -265,6 +279,26 @@ impl Plan {
         written.map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
         if !arguments.talk.quiet {
             eprintln!("{done} frames in {}", path.display());
+        }
+        Ok(())
+    }
+
+    fn movie(&mut self, arguments: &RenderArguments, path: &std::path::Path) -> Result<(), Failure> {
+        let bar = progress_bar(self.frames.count(), arguments);
+        let fps = self.painting.scene().timeline.fps;
+        let mut movie = Movie::start(path, self.options.size_px, fps)?;
+        for frame_number in self.frames.clone().iter() {
+            if self.interrupted.load(Ordering::SeqCst) {
+                return Err(Failure::Interrupted { done: 0 });
+            }
+            let (_, picture) = self.draw(frame_number)?;
+            movie.add(&picture)?;
+            bar.inc(1);
+        }
+        movie.finish()?;
+        bar.finish_and_clear();
+        if !arguments.talk.quiet {
+            eprintln!("{} frames in {}", self.frames.count(), path.display());
         }
         Ok(())
     }

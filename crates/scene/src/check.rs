@@ -16,6 +16,8 @@ mod objects;
 mod shot;
 mod strokes;
 
+pub(crate) use strokes::brush_pictures;
+
 /// One thing that is wrong, or odd, with one field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {

@@ -13,7 +13,7 @@ const PLACES: &[(&str, &str, &str)] = &[
 const TESTS: (&str, &str, &str) = ("a test module", "tests/it/", ".rs");
 
 /// Names in those places that are no technique's.
-const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference"];
+const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference", "paint"];
 
 /// Techniques that lack one of their places.
 pub fn check(files: &[String]) -> Vec<Finding> {

@@ -19,6 +19,10 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
             findings.number(&format!("style.{field}"), value, 0.0..=limits::MAX_STRENGTH);
         }
     }
+    if let Some((_, field_path)) = brush_pictures(scene).get(limits::MAX_BRUSH_PICTURES) {
+        let message = "too many pictures that serve as brushes".to_owned();
+        findings.error(field_path.clone(), message, format!("use at most {}", limits::MAX_BRUSH_PICTURES));
+    }
     findings.unique("regions", scene.regions.iter().map(|region| region.name.as_str()));
     let object_names: HashSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
     for (index, region) in scene.regions.iter().enumerate() {
@@ -38,6 +42,32 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
         }
         check_region(&region_path, scene, index, findings);
     }
+}
+
+/// Each brush that is a picture, with the field that names it first.
+pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
+    let of_regions = scene
+        .regions
+        .iter()
+        .enumerate()
+        .map(|(index, region)| (format!("regions[{index}].strokes"), &region.strokes));
+    let mut seen = HashSet::new();
+    let mut found = Vec::new();
+    for (path, settings) in [("strokes".to_owned(), &scene.strokes)].into_iter().chain(of_regions) {
+        let of_layers = settings
+            .layers
+            .iter()
+            .enumerate()
+            .map(|(index, layer)| (format!("{path}.layers[{index}].brush"), layer.brush.as_ref()));
+        let mixes = [(format!("{path}.brush"), settings.brush.as_ref())].into_iter().chain(of_layers);
+        for (field_path, mix) in mixes {
+            let names = mix.into_iter().flat_map(|mix| &mix.0).map(String::as_str);
+            for name in names.filter(|name| presets::is_picture(name) && seen.insert(name.to_owned())) {
+                found.push((name, field_path.clone()));
+            }
+        }
+    }
+    found
 }
 
 fn check_region(region_path: &str, scene: &Scene, index: usize, findings: &mut Findings) {

@@ -178,6 +178,15 @@ fn stroke_settings_have_ranges_and_known_names() {
         "size_jitter: inf",
         "layer: 1001",
         "brush: \"filbret\"",
+        "brush: []",
+        "scale: 0",
+        "swing_deg: -1",
+        "contour: 1.5",
+        "color_jitter: 11",
+        "temperature: NaN",
+        "grading: 2",
+        "edges: Overrun(-1)",
+        "palette: [\"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\", \"#000\"]",
         "preset: \"oil\"",
     ] {
         let field = settings.split(':').next().unwrap();
@@ -187,6 +196,31 @@ fn stroke_settings_have_ranges_and_known_names() {
         "strokes: (length_px: 4096, width_px: 0.5, coverage: 20, flatness: 0, preset: \"impressionist\")",
         &[],
     );
+}
+
+#[test]
+fn layers_of_paint_have_names_and_ranges() {
+    let layer = |fields: &str| format!("strokes: (layers: [({fields})])");
+    for (fields, field) in [
+        ("name: \"body\", coverage: 1e9", "coverage"),
+        ("name: \"body\", opacity: 1.01", "opacity"),
+        ("name: \"form\", thickness: -0.1", "thickness"),
+        ("name: \"scumble\", dryness: 2", "dryness"),
+        ("name: \"lights\", pickup: -1", "pickup"),
+        ("name: \"accents\", brush: \"broom\"", "brush"),
+        ("name: \"boddy\"", "name"),
+        ("name: \"body\", color: \"#fff\"", "color"),
+    ] {
+        assert_finds(&layer(fields), &[(Error, &format!("strokes.layers[0].{field}"))]);
+    }
+    assert_finds(&layer("name: \"ground\", color: \"#a08060\", opacity: 0.5"), &[]);
+    assert_finds(&layer("name: \"lights\", coverage: 0, thickness: 5, brush: [\"knife\", \"round\"]"), &[]);
+    let many: String = (0..17).map(|index| format!("\"{index}.png\",")).collect();
+    assert_finds(&format!("strokes: (brush: [{many}])"), &[(Error, "strokes.brush")]);
+    for style in ["relief: -1", "weave: 11", "varnish: NaN"] {
+        let field = style.split(':').next().unwrap();
+        assert_finds(&format!("style: RotatingStrokes({style})"), &[(Error, &format!("style.{field}"))]);
+    }
 }
 
 #[test]

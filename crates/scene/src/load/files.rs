@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::check;
 use crate::document::Scene;
 use crate::limits;
 use crate::mesh_file::{MeshFile, Texture};
-use crate::presets;
 use crate::problem::{Problem, Report};
 
 pub(super) type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
@@ -61,7 +61,7 @@ impl Files {
                 Err(problem) => files.problems.push(at(problem, &field_path)),
             }
         }
-        for (name, field_path) in brush_pictures(scene) {
+        for (name, field_path) in check::brush_pictures(scene).into_iter().take(limits::MAX_BRUSH_PICTURES) {
             match (readers.brush)(name) {
                 Ok((texture, warnings)) => {
                     files.problems.extend(warnings);
@@ -72,33 +72,6 @@ impl Files {
         }
         files
     }
-}
-
-/// Each brush that is a picture, with the field that names it first; no more than a scene may have.
-fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
-    let of_regions = scene
-        .regions
-        .iter()
-        .enumerate()
-        .map(|(index, region)| (format!("regions[{index}].strokes"), &region.strokes));
-    let mut seen = std::collections::HashSet::new();
-    let mut found = Vec::new();
-    for (path, settings) in [("strokes".to_owned(), &scene.strokes)].into_iter().chain(of_regions) {
-        let of_layers = settings
-            .layers
-            .iter()
-            .enumerate()
-            .map(|(index, layer)| (format!("{path}.layers[{index}].brush"), layer.brush.as_ref()));
-        let mixes = [(format!("{path}.brush"), settings.brush.as_ref())].into_iter().chain(of_layers);
-        for (field_path, mix) in mixes {
-            let names = mix.into_iter().flat_map(|mix| &mix.0).map(String::as_str);
-            for name in names.filter(|name| presets::is_picture(name) && seen.insert(name.to_owned())) {
-                found.push((name, field_path.clone()));
-            }
-        }
-    }
-    found.truncate(limits::MAX_BRUSH_PICTURES);
-    found
 }
 
 /// Each name that objects give, with the field that gives it first, in the order of the file.

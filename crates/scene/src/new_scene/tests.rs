@@ -93,7 +93,40 @@ fn names_come_from_the_file() {
         (scene.objects[0].name.as_str(), scene.objects[0].mesh.as_str()),
         ("red apple", "red apple.obj")
     );
-    assert_eq!(scene.regions[0].on, Selector::Object("red apple".to_owned()));
+    assert_eq!(scene.objects[1].mesh, crate::house_mesh::BACKDROP);
+    assert_eq!(scene.regions[0].on, Selector::Object("backdrop".to_owned()));
     let text = crate::save::to_ron(&scene);
     assert_eq!(crate::load::parse(Path::new("s.ron"), &text).unwrap(), scene);
+}
+
+#[test]
+fn the_backdrop_stands_under_and_behind_the_model() {
+    let center = Vec3::new(5.0, -3.0, 2.0);
+    let mesh = box_between(center - 0.5, center + 0.5, false);
+    let scene = for_mesh(Path::new("x.obj"), &mesh);
+    let backdrop = &scene.objects[1];
+    let at = backdrop.keys[0].translation;
+    assert!((at[0] - 5.0).abs() < 1e-3 && (at[2] - 2.0).abs() < 1e-3);
+    assert!(at[1] < -3.5 && at[1] > -3.51, "a hair under the model: {at:?}");
+    // The wall stands on the far side, as the camera sees it.
+    let pose = crate::motion::poses_at(&scene, 0.0)[1];
+    let wall = pose.transform_point3(DVec3::new(0.0, 0.5, -0.28) * backdrop.scale.0[0]);
+    let view = camera_at(&scene, 0.0).view_from_world();
+    let depth = |point: DVec3| -view.transform_point3(point).z;
+    assert!(depth(wall) > depth(center.as_dvec3()) + 0.5);
+    // A model called as the backdrop would be does not clash with it.
+    let named = for_mesh(Path::new("backdrop.obj"), &mesh);
+    assert!(crate::check::check(&named).is_empty());
+    // What is looked at from below has no floor in the way.
+    let ceiling = box_between(Vec3::NEG_ONE, Vec3::ONE, true);
+    let mut turned = ceiling.clone();
+    for position in &mut turned.mesh.positions {
+        *position = Vec3::new(position.x, position.z, position.y);
+    }
+    for triangle in &mut turned.mesh.triangles {
+        triangle.swap(0, 1);
+    }
+    let below = for_mesh(Path::new("x.obj"), &turned);
+    let eye = below.camera.keys[0].eye;
+    assert_eq!(below.objects.len(), if eye[1] < 0.0 { 1 } else { 2 }, "eye at {eye:?}");
 }

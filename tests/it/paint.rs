@@ -1,0 +1,244 @@
+//! The paint: layers that can each be turned down to nothing, brushes and colours that are hard to take, the same picture at
+//! any size.
+
+use std::path::Path;
+
+use impasto_gl_render::Renderer;
+use impasto_gl_render::context::Driver;
+use impasto_painting::frame::{Frame, LayerKind};
+use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_scene::document::Scene;
+use impasto_scene::load::{LoadOptions, load};
+use impasto_tests::command::root;
+use impasto_tests::pictures::renderer;
+use impasto_tests::shapes;
+
+fn options(size_px: [u32; 2]) -> FrameOptions {
+    FrameOptions { size_px, keep_stroke_px: false, transparent: false }
+}
+
+/// A shipped scene with some of its values replaced.
+fn painting(name: &str, set: &[(&str, &str)]) -> Painting {
+    let overrides = set.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+    let path = root().join("scenes").join(format!("{name}.ron"));
+    prepare(load(&path, &LoadOptions { overrides, ..Default::default() }).unwrap().into()).unwrap()
+}
+
+fn strokes_of(frame: &Frame, kind: LayerKind) -> usize {
+    frame.layers.iter().filter(|run| run.kind == kind).map(|run| run.count as usize).sum()
+}
+
+#[test]
+fn each_layer_can_be_turned_down_to_nothing() {
+    let all = painting("apple", &[]).at(0.0, &options([320, 180]));
+    for kind in LayerKind::ALL {
+        assert!(strokes_of(&all, kind) > 0, "{kind:?} has no strokes");
+        let without = format!("[(name: \"{}\", coverage: 0)]", kind.name());
+        let frame = painting("apple", &[("strokes.layers", &without)]).at(0.0, &options([320, 180]));
+        for other in LayerKind::ALL {
+            let expected = if other == kind { 0 } else { strokes_of(&all, other) };
+            assert_eq!(strokes_of(&frame, other), expected, "{other:?} without {kind:?}");
+        }
+    }
+}
+
+/// Mean lightness difference of two pictures of one size, 0..255.
+fn mean_difference(a: &[u8], b: &[u8]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let sum: u64 = a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    sum as f64 / (a.len() as f64 * 0.75)
+}
+
+#[test]
+fn relief_canvas_and_varnish_each_show_and_each_go() {
+    let mut renderer = renderer(Driver::Egl);
+    let bare = [("style.relief", "0"), ("style.weave", "0"), ("style.varnish", "0")];
+    let mut picture = |set: &[(&str, &str)]| {
+        let frame = painting("apple", set).at(0.0, &options([320, 180]));
+        renderer.render(&frame).unwrap().rgba8
+    };
+    let flat = picture(&bare);
+    for (index, &(field, _)) in bare.iter().enumerate() {
+        let mut set = bare;
+        set[index] = (field, "1");
+        let difference = mean_difference(&flat, &picture(&set));
+        assert!((0.1..12.0).contains(&difference), "{field} changes the picture by {difference}");
+    }
+    let board = picture(&[("style.relief", "0"), ("style.canvas", "Board"), ("style.varnish", "0")]);
+    assert!(board == flat, "a board has no weave");
+}
+
+#[test]
+fn a_palette_keeps_values_and_takes_its_hues_only() {
+    let mut renderer = renderer(Driver::Egl);
+    let mut hues = |palette: &str| {
+        let set = [("strokes.palette", palette), ("strokes.color_jitter", "0"), ("strokes.temperature", "0")];
+        let frame = painting("apple", &set).at(0.0, &options([320, 180]));
+        renderer.render(&frame).unwrap();
+        let resolved = renderer.resolved_strokes();
+        let shown: Vec<[f32; 3]> = resolved
+            .iter()
+            .filter(|stroke| stroke.alpha > 0.1)
+            .map(|stroke| impasto_core::color::oklab_from_linear(stroke.color_linear))
+            .collect();
+        assert!(shown.len() > 200);
+        let values: Vec<f32> = shown.iter().map(|lab| lab[0]).collect();
+        let spread =
+            values.iter().fold(0.0f32, |a, &b| a.max(b)) - values.iter().fold(1.0f32, |a, &b| a.min(b));
+        // Chroma across the palette's own hue: how far a colour lies off the line from grey to the pigment.
+        let pigment = impasto_core::color::oklab_from_linear(
+            [0x4a, 0x6a, 0x9a].map(|byte: u8| impasto_core::color::linear_from_srgb(f32::from(byte) / 255.0)),
+        );
+        let across = [-pigment[2], pigment[1]];
+        let length = across[0].hypot(across[1]);
+        let off = shown.iter().map(|lab| ((lab[1] * across[0] + lab[2] * across[1]) / length).abs());
+        (spread, off.fold(0.0f32, f32::max))
+    };
+    let (spread, off) = hues("[\"#4a6a9a\"]");
+    assert!(spread > 0.3, "one pigment still has values: {spread}");
+    assert!(off < 0.03, "one pigment has one hue: {off}");
+    let (_, off) = hues("[]");
+    assert!(off > 0.08, "the measure must see other hues: {off}");
+}
+
+/// A folder with a scene of the apple and a brush of that name.
+fn with_brush(folder: &Path, brush: &[u8]) -> Result<Painting, String> {
+    let scenes = root().join("scenes");
+    std::fs::create_dir_all(folder.join("meshes")).unwrap();
+    for name in ["apple.obj", "apple.mtl", "wall.obj", "wall.mtl"] {
+        std::fs::copy(scenes.join("meshes").join(name), folder.join("meshes").join(name)).unwrap();
+    }
+    let text = std::fs::read_to_string(scenes.join("apple.ron")).unwrap();
+    std::fs::write(folder.join("scene.ron"), text).unwrap();
+    std::fs::write(folder.join("mark.png"), brush).unwrap();
+    let overrides = vec![("strokes.brush".to_owned(), "mark.png".to_owned())];
+    let loaded = load(&folder.join("scene.ron"), &LoadOptions { overrides, ..Default::default() })
+        .map_err(|report| report.to_string())?;
+    prepare(loaded.into()).map_err(|error| error.to_string())
+}
+
+fn png_of(size: u32, grey: impl Fn(u32, u32) -> u8) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size, size);
+    encoder.set_color(png::ColorType::Grayscale);
+    let texels: Vec<u8> = (0..size * size).map(|index| grey(index % size, index / size)).collect();
+    encoder.write_header().unwrap().write_image_data(&texels).unwrap();
+    bytes
+}
+
+#[test]
+fn a_picture_of_ones_own_is_a_brush() {
+    let folder = tempfile::tempdir().unwrap();
+    let disc = png_of(64, |x, y| if (x as i32 - 32).pow(2) + (y as i32 - 32).pow(2) < 700 { 255 } else { 0 });
+    let painting = with_brush(folder.path(), &disc).unwrap();
+    let mut renderer = renderer(Driver::Egl);
+    let frame = painting.at(0.0, &options([320, 180]));
+    let own = renderer.render(&frame).unwrap();
+    let usual = renderer.render(&self::painting("apple", &[]).at(0.0, &options([320, 180]))).unwrap();
+    let difference = mean_difference(&own.rgba8, &usual.rgba8);
+    assert!((0.3..20.0).contains(&difference), "another brush changes the picture by {difference}");
+}
+
+#[test]
+fn a_brush_that_is_none_is_told() {
+    let whole = png_of(64, |x, _| x as u8);
+    let cases: [(&str, Vec<u8>, &str); 5] = [
+        ("empty", Vec::new(), "mark.png"),
+        ("cut off", whole[..whole.len() / 2].to_vec(), "mark.png"),
+        ("of one grey", png_of(16, |_, _| 90), "it holds no brush mark"),
+        ("no picture", b"a brush".to_vec(), "mark.png"),
+        ("claims to be huge", huge(&whole), "mark.png"),
+    ];
+    for (name, bytes, words) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let said = with_brush(folder.path(), &bytes).err().unwrap_or_else(|| panic!("{name} is taken"));
+        assert!(said.contains(words) && said.contains("strokes.brush"), "{name}: {said}");
+        assert_eq!(said.lines().count(), 1, "{name}: {said}");
+    }
+}
+
+/// A PNG whose header claims 60,000 pixels a side.
+fn huge(png: &[u8]) -> Vec<u8> {
+    let mut bytes = png.to_vec();
+    bytes[16..24].copy_from_slice(&[0, 0, 0xea, 0x60, 0, 0, 0xea, 0x60]);
+    let crc = crc32(&bytes[12..29]);
+    bytes[29..33].copy_from_slice(&crc.to_be_bytes());
+    bytes
+}
+
+/// The checksum of PNG chunks.
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0u32, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1)))
+    })
+}
+
+/// A sphere with the given settings, as many particles as it needs.
+fn sphere(edit: impl FnOnce(&mut Scene)) -> Painting {
+    let mut scene = shapes::scene(vec![impasto_scene::document::Object {
+        particles: None,
+        ..shapes::object("sphere", 0)
+    }]);
+    edit(&mut scene);
+    prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap()
+}
+
+type Edit = fn(&mut Scene);
+
+#[test]
+fn extreme_settings_still_give_a_picture() {
+    let mut renderer = renderer(Driver::Egl);
+    let edits: [(&str, Edit); 5] = [
+        ("twentyfold coverage", |scene| scene.strokes.coverage = Some(20.0)),
+        ("huge strokes", |scene| {
+            (scene.strokes.length_px, scene.strokes.width_px) = (Some(4096.0), Some(4096.0));
+        }),
+        ("hair-thin strokes", |scene| scene.strokes.width_px = Some(0.001)),
+        ("wild colours", |scene| {
+            (scene.strokes.color_jitter, scene.strokes.temperature) = (Some(10.0), Some(10.0));
+        }),
+        ("strokes along the contour", |scene| scene.strokes.contour = Some(1.0)),
+    ];
+    for (name, edit) in edits {
+        let frame = sphere(edit).at(0.0, &options([160, 90]));
+        assert!(frame.strokes.iter().all(|stroke| stroke.angle_rad.is_finite()), "{name}");
+        let picture = renderer.render(&frame).unwrap();
+        assert!(picture.rgba8.chunks(4).all(|pixel| pixel[3] == 255), "{name}");
+        assert!(renderer.read_paint().iter().flatten().all(|value| value.is_finite()), "{name}");
+    }
+}
+
+/// Colour of every pixel after the picture has been reduced to this size by averaging.
+fn reduced(renderer: &mut Renderer, painting: &Painting, size_px: [u32; 2], small: [u32; 2]) -> Vec<f64> {
+    let picture = renderer.render(&painting.at(0.0, &options(size_px))).unwrap();
+    let by = [size_px[0] / small[0], size_px[1] / small[1]];
+    let mut values = Vec::new();
+    for y in 0..small[1] {
+        for x in 0..small[0] {
+            for channel in 0..3 {
+                let mut sum = 0.0;
+                for (dx, dy) in (0..by[1]).flat_map(|dy| (0..by[0]).map(move |dx| (dx, dy))) {
+                    let at = ((y * by[1] + dy) * size_px[0] + x * by[0] + dx) * 4 + channel;
+                    sum += f64::from(picture.rgba8[at as usize]);
+                }
+                values.push(sum / f64::from(by[0] * by[1]));
+            }
+        }
+    }
+    values
+}
+
+#[test]
+fn the_same_painting_at_any_size() {
+    let mut renderer = renderer(Driver::Egl);
+    let painting = painting("still_life", &[]);
+    let small = [320, 180];
+    let middle = reduced(&mut renderer, &painting, [1280, 720], small);
+    for size_px in [[640, 360], [1920, 1080]] {
+        let other = reduced(&mut renderer, &painting, size_px, small);
+        let mean = middle.iter().zip(&other).map(|(a, b)| (a - b).abs()).sum::<f64>() / middle.len() as f64;
+        println!("{size_px:?} against 1280 x 720, both reduced: mean difference {mean:.2}/255");
+        assert!(mean <= 8.0, "{size_px:?}: {mean}");
+        assert!(mean > 0.01, "two sizes are not one picture");
+    }
+}
