@@ -17,7 +17,7 @@ uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left
 out vec4 encoded;
 
 const float THICKNESS_PX = 1.6;      // of paint of height 1
-const float WEAVE_PX = 0.22;
+const float WEAVE_PX = 0.13;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 vec4 toned_ground(ivec2 at) {
@@ -48,7 +48,7 @@ vec3 in_room_light(vec3 color) {
     float bare = 0.10 + 0.90 * exp(-wide / 0.35);
     slope += weave.yz * (4.0 * WEAVE_PX * bare * finish.y);
 
-    const float STRENGTH = 1.25;
+    const float STRENGTH = 2.2;
     vec3 n = normalize(vec3(-STRENGTH * slope, 1.0));
     float shade = clamp(dot(n, to_light) / to_light.z, 0.25, 1.9);
     vec3 halfway = normalize(to_light + vec3(0.0, 0.0, 1.0));
@@ -56,7 +56,7 @@ vec3 in_room_light(vec3 color) {
     float furrow = clamp(THICKNESS_PX * (wide - mean), 0.0, 1.0) * min(finish.x, 1.0);
     color *= (1.0 + 0.62 * (shade - 1.0)) * (1.0 - 0.28 * furrow);
     float value = clamp(dot(color, LUMINANCE), 0.0, 1.0);
-    return color + 0.055 * STRENGTH * min(finish.x, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
+    return color + 0.09 * min(finish.x, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
 }
 
 // Deeper darks, fuller colour, a little warmer; on encoded values, which are nearly even to the eye.

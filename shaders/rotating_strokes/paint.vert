@@ -52,7 +52,7 @@ void main() {
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
     vec3 lab = oklab_from_linear(resolved.rgb);
-    half_mixed = linear_from_oklab(lab + vec3(0.040, 0.0, 0.012)) - resolved.rgb;
+    half_mixed = linear_from_oklab(lab + vec3(0.055, 0.0, 0.014)) - resolved.rgb;
 
     vec2 along = vec2(cos(place.w), sin(place.w));
     vec2 center_px = fitted.xy;

@@ -34,16 +34,17 @@ float seen(mat2 turn) {
     float radius_px = clamp(0.28 * sqrt(size.x * size.y), 2.0, 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
-    for (int index = 0; index < 9; index++) {
-        float angle = float(index) * 0.78539816;
-        vec2 offset_px = index == 8 ? vec2(0.0) : turn * vec2(cos(angle), sin(angle)) * radius_px;
+    for (int index = 0; index < 17; index++) {
+        float angle = (float(index) + (index < 8 ? 0.0 : 0.5)) * 0.78539816;
+        float ring_px = index < 8 ? radius_px : index < 16 ? 0.55 * radius_px : 0.0;
+        vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * ring_px;
         vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
         vec2 there = surface_at(tap_px);
         float own = place.z + dot(n.xy, tap_px - place.xy) * unit / (n.z < 0.0 ? -slant : slant);
         float hidden = there.y == 0.0 ? 0.0 : smoothstep(bias, 3.0 * bias, own - there.x);
         sum += 1.0 - hidden;
     }
-    return sum / 9.0;
+    return sum / 17.0;
 }
 
 vec3 albedo_of(uint albedo_bytes) {
@@ -67,9 +68,14 @@ vec3 color_of_hidden() {
     return lit(albedo, point, no_glint);
 }
 
+// The last tenth of a stroke, a few hairs spread wide, is never painted.
+float without_last(float there) {
+    return max(there - 0.1, 0.0) / 0.9;
+}
+
 // How much of the stroke is there for its rank, as in `core::presence`.
 float presence(float supply_ln) {
-    return max(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4) - 0.1, 0.0) / 0.9 * size.z;
+    return without_last(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4)) * size.z;
 }
 
 // How full the body layer is, 1 as its coverage says: thin in the darks, full in the lights.
@@ -82,22 +88,24 @@ float wanted(vec3 detail) {
     if (kind == LIGHTS) return smoothstep(0.04, 0.22, detail.b);
     // Edges are lost in places.
     float rim = min(1.8 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
-    float inside = kind == FORM ? 1.7 * detail.r - 0.10 : 1.7 * detail.r - 0.32;
+    float inside = kind == FORM ? 1.7 * detail.r - 0.15 : 1.7 * detail.r - 0.36;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
 // Shift along the stroke, so that it lies on its body as far as it can. Its size stays.
-float shift(vec2 along, vec2 own) {
+float shift(mat2 turn, vec2 own) {
     if (reach.x >= FREE) return 0.0;
-    float half_px = 0.5 * size.x;
-    float past_px = reach.x + 0.2 * size.x;
-    float forward_px = min(extent_px(place.xy, along, half_px, own) + past_px, half_px);
-    float back_px = min(extent_px(place.xy, -along, half_px, own) + past_px, half_px);
-    return 0.5 * (forward_px - back_px);
+    vec2 half_along_px = turn[0] * (0.5 * size.x);
+    vec2 across_px = turn[1] * (0.3 * size.y);
+    // An end may lie a little past the body.
+    float past = (reach.x + 0.2 * size.x) / (0.5 * size.x);
+    float forward = min(share_on_body(place.xy, half_along_px, across_px, own) + past, 1.0);
+    float back = min(share_on_body(place.xy, -half_along_px, across_px, own) + past, 1.0);
+    return 0.25 * size.x * (forward - back);
 }
 
 void main() {
-    vec2 along = vec2(cos(place.w), sin(place.w));
+    mat2 turn = mat2(cos(place.w), sin(place.w), -sin(place.w), cos(place.w));
     vec2 own = vec2(place.z, float(marks.y));
     resolved = vec4(0.0);
     fitted = vec4(place.xy, 0.0, 0.0);
@@ -105,11 +113,13 @@ void main() {
     // Most strokes in question are absent; they cost little.
     bool small = kind == FORM || kind == ACCENTS || kind == LIGHTS;
     float there = presence(size.w + (kind == BODY ? log(MOST_FULL) : 0.0));
-    if (small && there > LEAST) there *= wanted(detail_at(place.xy, own.y));
-    if (there > LEAST) there *= seen(mat2(along, vec2(-along.y, along.x)));
+    if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
+    if (there > LEAST) there *= seen(turn);
     if (there <= LEAST) return;
 
-    vec4 found = own_color(place.xy, own.y, max(BLUR[kind] * size.y, 0.7));
+    float across_px = max(BLUR[kind] * size.y, 0.7);
+    mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
+    vec4 found = own_color(place.xy, own.y, turn * blur_px);
     vec3 lab = oklab_from_linear(found.w > 0.0 ? found.rgb : color_of_hidden());
     Mixing mixing = mixing_of(bytes.y);
     if (kind == BODY) {
@@ -118,5 +128,5 @@ void main() {
     vec3 wide = kind == ACCENTS ? wide_mean(place.xy, own.y, lab) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
     resolved = vec4(linear_from_oklab(lab), there);
-    fitted = vec4(place.xy + along * shift(along, own), lab.x, 0.0);
+    fitted = vec4(place.xy + turn[0] * shift(turn, own), lab.x, 0.0);
 }

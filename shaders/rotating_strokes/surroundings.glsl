@@ -21,9 +21,10 @@ vec2 direction(int index, int count) {
     return vec2(cos(angle), sin(angle));
 }
 
-// Mean colour on the stroke's own body: a Gaussian of this deviation, on two rings and their middle; a wider one where
-// the middle is behind something. W is 0 where nothing of the body was found.
-vec4 own_color(vec2 center_px, float id, float sigma_px) {
+// Mean colour on the stroke's own body: a Gaussian of this deviation, on two rings and their middle, longer along the stroke,
+// so that a shadow that sweeps over it takes several frames; a wider one where the middle is behind something. W is 0
+// where nothing of the body was found.
+vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
     vec3 sum = vec3(0.0);
     float weight = 0.0;
     for (int widening = 0; widening < 3 && weight == 0.0; widening++) {
@@ -33,14 +34,15 @@ vec4 own_color(vec2 center_px, float id, float sigma_px) {
         }
         for (int index = 0; index < 12; index++) {
             float radius = index < 6 ? 1.1 : 2.1;
-            vec2 tap_px = center_px + direction(index, 6) * (radius * sigma_px);
+            float angle = 1.0471976 * (float(index) + (index < 6 ? 0.0 : 0.5));
+            vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * radius;
             if (surface_at(tap_px).y == id) {
                 float share = index < 6 ? 0.55 : 0.11;
                 sum += color_at(tap_px) * share;
                 weight += share;
             }
         }
-        sigma_px = max(sigma_px * 2.2, 3.0);
+        sigma_px = sigma_px * 2.2;
     }
     return weight > 0.0 ? vec4(sum / weight, 1.0) : vec4(0.0);
 }
@@ -75,27 +77,17 @@ vec3 detail_at(vec2 center_px, float id) {
     return sum / max(weight, 0.1);
 }
 
-// How far the stroke's body reaches from its centre in this direction, at most `most_px`. What stands in front of the
-// body does not end it.
-float extent_px(vec2 center_px, vec2 towards, float most_px, vec2 own) {
+// How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on three lines, so that it
+// changes slowly even where the stroke lies along its body's border. What stands in front of the body is no end of it.
+float share_on_body(vec2 center_px, vec2 to_end_px, vec2 across_px, vec2 own) {
     float bias = 0.02 * own.x;
-    float inside_px = 0.0;
-    float outside_px = -1.0;
-    for (int index = 1; index <= 8; index++) {
-        float at_px = most_px * float(index) / 8.0;
-        vec2 there = surface_at(center_px + towards * at_px);
-        if (there.y != own.y && (there.y == 0.0 || there.x > own.x - bias)) {
-            outside_px = at_px;
-            break;
-        }
-        inside_px = at_px;
+    float beyond = 0.0;
+    for (int index = 0; index < 24; index++) {
+        float along = (float(index / 3) + 0.5 + float(index % 3) / 3.0 - 0.33) / 8.0;
+        vec2 tap_px = center_px + to_end_px * along + across_px * (float(index % 3) - 1.0);
+        vec2 there = surface_at(tap_px);
+        if (there.y == own.y) continue;
+        beyond += there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x);
     }
-    if (outside_px < 0.0) return most_px;
-    for (int halving = 0; halving < 4; halving++) {
-        float at_px = 0.5 * (inside_px + outside_px);
-        vec2 there = surface_at(center_px + towards * at_px);
-        bool beyond = there.y != own.y && (there.y == 0.0 || there.x > own.x - bias);
-        if (beyond) outside_px = at_px; else inside_px = at_px;
-    }
-    return 0.5 * (inside_px + outside_px);
+    return 1.0 - beyond / 24.0;
 }

@@ -27,7 +27,7 @@ cargo xtask <command>
   demo [--no-install]         install what rendering needs, build, paint a short animation into out/
   layers                      every arrow between crates is one that ARCHITECTURE.md allows
   tidy                        long files, empty names, half a technique, big pictures, unfinished work
-  gallery                     render the pictures of the README and the docs into docs/pictures/
+  gallery [NAME …]            render the pictures of the README and the docs into docs/pictures/
   bench [-- …]                the benchmarks of bench/
   meshes                      write the meshes of scenes/meshes/ anew";
 
@@ -53,6 +53,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
     for flag in own {
         match (command.as_str(), flag.as_str()) {
             ("test" | "demo", "--no-install") => install = Install::PrintOnly,
+            ("gallery", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }
     }
@@ -65,7 +66,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "demo" => demo::run(&root, install),
         "layers" => layers::run(&root),
         "tidy" => tidy::run(&root),
-        "gallery" => gallery::run(&root),
+        "gallery" => gallery::run(&root, own),
         "bench" => bench::run(&root, passed_on),
         "meshes" => meshes::run(&root),
         "help" | "--help" | "-h" => {

@@ -37,19 +37,17 @@ const fn fold(crest: [f64; 3], [width, height]: [f64; 2], reach: f64, lean: f64)
 }
 
 /// From the left selvage to the right one; they start under the fruit and fan out.
-const FOLDS: [Fold; 9] = [
-    fold([0.010, 0.030, 0.07], [0.052, 0.046], 0.14, -0.4),
-    fold([0.125, 0.140, 0.19], [0.064, 0.078], 0.27, 0.7),
-    fold([0.235, 0.240, 0.26], [0.044, 0.030], 0.08, 0.3),
-    fold([0.335, 0.350, 0.43], [0.066, 0.092], 0.42, 0.8),
-    fold([0.470, 0.470, 0.48], [0.056, 0.046], 0.20, 0.4),
-    fold([0.600, 0.585, 0.56], [0.062, 0.088], 0.43, 0.6),
-    fold([0.720, 0.695, 0.65], [0.046, 0.036], 0.12, -0.3),
-    fold([0.835, 0.810, 0.70], [0.068, 0.094], 0.45, 0.7),
-    fold([0.965, 0.945, 0.90], [0.052, 0.056], 0.20, 0.4),
+const FOLDS: [Fold; 7] = [
+    fold([0.010, 0.030, 0.07], [0.052, 0.026], 0.12, -0.4),
+    fold([0.105, 0.130, 0.19], [0.070, 0.074], 0.26, 0.7),
+    fold([0.325, 0.350, 0.44], [0.084, 0.112], 0.42, 0.9),
+    fold([0.490, 0.485, 0.48], [0.056, 0.020], 0.10, 0.4),
+    fold([0.690, 0.660, 0.60], [0.076, 0.084], 0.43, 0.6),
+    fold([0.865, 0.830, 0.70], [0.066, 0.112], 0.45, 0.8),
+    fold([0.975, 0.955, 0.90], [0.044, 0.034], 0.16, 0.4),
 ];
 
-/// A linen cloth with two woven stripes (160 × 80 faces). Its origin is the middle of the table's edge: the table's
+/// A linen cloth with a woven stripe (160 × 80 faces). Its origin is the middle of the table's edge: the table's
 /// top is y = 0 for z < 0, and its front is z = 0.
 pub fn cloth() -> PolyMesh {
     let mut mesh = PolyMesh::new(
@@ -68,7 +66,7 @@ pub fn cloth() -> PolyMesh {
             let patch = noise(column as f64 / COLUMNS as f64 * 0.5, row as f64 * 0.07, 9, 41);
             let material = match row {
                 0..=1 => "hem",
-                7..=10 | 13 => "stripe",
+                7..=12 => "stripe",
                 _ if patch > 0.3 => "worn",
                 _ => "linen",
             };

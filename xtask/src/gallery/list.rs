@@ -1,0 +1,243 @@
+//! What the gallery shows.
+
+/// A picture of the docs.
+pub(super) struct Picture {
+    pub(super) name: &'static str,
+    pub(super) view: View,
+    /// Rendered at the scene's own size.
+    pub(super) own_size: bool,
+    pub(super) columns: usize,
+    /// One panel for each: what is set in the scene for it.
+    pub(super) panels: &'static [&'static [(&'static str, &'static str)]],
+}
+
+/// What is looked at.
+pub(super) enum View {
+    /// A frame of a scene, whole or a part of it: left, top, width, height.
+    Scene { scene: &'static str, frame: i64, crop: Option<[usize; 4]> },
+    /// The sheet of brushes.
+    Brushes,
+}
+
+const fn whole(name: &'static str, scene: &'static str, frame: i64) -> Picture {
+    Picture {
+        name,
+        view: View::Scene { scene, frame, crop: None },
+        own_size: false,
+        columns: 1,
+        panels: &[&[]],
+    }
+}
+
+/// A part of the still life: apple, lemon and cloth.
+const FRUIT: [usize; 4] = [520, 270, 300, 230];
+
+/// Another: jug and wall.
+const JUG: [usize; 4] = [330, 60, 300, 230];
+
+const fn sweep(
+    name: &'static str,
+    crop: [usize; 4],
+    columns: usize,
+    panels: &'static [&'static [(&'static str, &'static str)]],
+) -> Picture {
+    let view = View::Scene { scene: "still_life", frame: 0, crop: Some(crop) };
+    Picture { name, view, own_size: false, columns, panels }
+}
+
+pub(super) const PICTURES: &[Picture] = &[
+    whole("still_life", "still_life", 0),
+    whole("still_life_rolled", "still_life", 90),
+    sweep("still_life_crop", [560, 250, 420, 290], 1, &[&[]]),
+    whole("landscape", "landscape", 0),
+    Picture { own_size: true, ..whole("portrait", "portrait", 0) },
+    whole("simple_objects", "simple_objects", 0),
+    whole("fish", "fish", 0),
+    whole("falling_log", "falling_log", 12),
+    // The camera rolled by 30°, strokes with it.
+    Picture {
+        name: "roll",
+        view: View::Scene { scene: "roll", frame: 30, crop: None },
+        own_size: false,
+        columns: 1,
+        panels: &[&[]],
+    },
+    Picture {
+        name: "paper_beside_ours",
+        view: View::Scene { scene: "turntable", frame: 30, crop: Some([340, 60, 600, 640]) },
+        own_size: false,
+        columns: 2,
+        panels: &[&[("strokes.preset", "paper")], &[]],
+    },
+    Picture { name: "brushes", view: View::Brushes, own_size: false, columns: 1, panels: &[&[]] },
+    sweep(
+        "paint_layers",
+        FRUIT,
+        3,
+        &[
+            &[("strokes.layers", LAYERS_0)],
+            &[("strokes.layers", LAYERS_1)],
+            &[("strokes.layers", LAYERS_2)],
+            &[("strokes.layers", LAYERS_3)],
+            &[("strokes.layers", LAYERS_4)],
+            &[],
+        ],
+    ),
+    sweep(
+        "paint_presets",
+        FRUIT,
+        3,
+        &[
+            &[],
+            &[("strokes.preset", "impressionist")],
+            &[("strokes.preset", "dry brush")],
+            &[("strokes.preset", "gouache")],
+            &[("strokes.preset", "paper")],
+            &[("strokes.palette", ZORN)],
+        ],
+    ),
+    sweep(
+        "paint_scale",
+        JUG,
+        3,
+        &[
+            &[("regions.jug.strokes.scale", "0.4"), ("regions.wall.strokes.scale", "0.4")],
+            &[],
+            &[("regions.jug.strokes.scale", "1.8"), ("regions.wall.strokes.scale", "1.8")],
+        ],
+    ),
+    sweep(
+        "paint_coverage",
+        JUG,
+        4,
+        &[&[("strokes.coverage", "0.8")], &[("strokes.coverage", "1.6")], &[], &[("strokes.coverage", "8")]],
+    ),
+    sweep(
+        "paint_opacity",
+        FRUIT,
+        3,
+        &[
+            &[("strokes.layers", "[(name: \"body\", opacity: 0.4), (name: \"form\", opacity: 0.4)]")],
+            &[("strokes.layers", "[(name: \"body\", opacity: 0.7), (name: \"form\", opacity: 0.7)]")],
+            &[],
+        ],
+    ),
+    sweep(
+        "paint_dryness",
+        JUG,
+        3,
+        &[
+            &[("strokes.layers", "[(name: \"body\", dryness: 0)]")],
+            &[("strokes.layers", "[(name: \"body\", dryness: 0.3)]")],
+            &[("strokes.layers", "[(name: \"body\", dryness: 0.6)]")],
+        ],
+    ),
+    sweep(
+        "paint_pickup",
+        FRUIT,
+        3,
+        &[
+            &[("strokes.layers", "[(name: \"body\", pickup: 0), (name: \"form\", pickup: 0)]")],
+            &[],
+            &[("strokes.layers", "[(name: \"body\", pickup: 0.8), (name: \"form\", pickup: 0.8)]")],
+        ],
+    ),
+    sweep(
+        "paint_angle_jitter",
+        JUG,
+        4,
+        &[
+            &[("strokes.angle_jitter_deg", "0"), ("strokes.swing_deg", "0")],
+            &[],
+            &[("strokes.angle_jitter_deg", "20")],
+            &[("strokes.angle_jitter_deg", "45")],
+        ],
+    ),
+    sweep("paint_swing", JUG, 3, &[&[("strokes.swing_deg", "0")], &[], &[("strokes.swing_deg", "25")]]),
+    sweep("paint_contour", FRUIT, 3, &[&[], &[("strokes.contour", "0.5")], &[("strokes.contour", "1")]]),
+    sweep(
+        "paint_direction",
+        FRUIT,
+        3,
+        &[
+            &[("regions.apple.direction", "Auto")],
+            &[("regions.apple.direction", "Angle(35)")],
+            &[("regions.apple.direction", "Crossing(-58, 4)")],
+            &[("regions.apple.direction", "Along((1, 0, 0))")],
+            &[("regions.apple.direction", "Around((0, 1, 0))")],
+            &[("regions.apple.direction", "Up")],
+        ],
+    ),
+    sweep(
+        "paint_size_jitter",
+        JUG,
+        3,
+        &[&[("strokes.size_jitter", "0")], &[], &[("strokes.size_jitter", "0.5")]],
+    ),
+    sweep(
+        "paint_edges",
+        FRUIT,
+        4,
+        &[
+            &[("strokes.edges", "Clip")],
+            &[],
+            &[("strokes.edges", "Overrun(9)")],
+            &[("strokes.edges", "Free")],
+        ],
+    ),
+    sweep(
+        "paint_color_jitter",
+        FRUIT,
+        4,
+        &[
+            &[("strokes.color_jitter", "0")],
+            &[],
+            &[("strokes.color_jitter", "2.5")],
+            &[("strokes.color_jitter", "6")],
+        ],
+    ),
+    sweep(
+        "paint_temperature",
+        FRUIT,
+        4,
+        &[
+            &[("strokes.temperature", "0")],
+            &[],
+            &[("strokes.temperature", "2.5")],
+            &[("strokes.temperature", "6")],
+        ],
+    ),
+    sweep("paint_grading", JUG, 3, &[&[("strokes.grading", "0")], &[("strokes.grading", "0.5")], &[]]),
+    sweep(
+        "paint_thickness",
+        FRUIT,
+        3,
+        &[
+            &[("strokes.layers", "[(name: \"body\", thickness: 0), (name: \"form\", thickness: 0)]")],
+            &[],
+            &[("strokes.layers", "[(name: \"body\", thickness: 1.5), (name: \"form\", thickness: 1.5)]")],
+        ],
+    ),
+    sweep(
+        "paint_relief",
+        FRUIT,
+        4,
+        &[&[("style.relief", "0")], &[], &[("style.relief", "2")], &[("style.relief", "5")]],
+    ),
+    sweep(
+        "paint_canvas",
+        JUG,
+        4,
+        &[&[("style.canvas", "Board")], &[], &[("style.weave", "2.5")], &[("style.weave", "6")]],
+    ),
+    sweep("paint_varnish", FRUIT, 3, &[&[("style.varnish", "0")], &[], &[("style.varnish", "4")]]),
+];
+
+const ZORN: &str = "[\"#b3302a\", \"#d9a23a\", \"#2a2a2c\", \"#efe8da\"]";
+
+const LAYERS_0: &str = "[(name: \"underpainting\", coverage: 0), (name: \"body\", coverage: 0), (name: \"form\", coverage: 0), (name: \"scumble\", coverage: 0), (name: \"accents\", coverage: 0), (name: \"lights\", coverage: 0)]";
+const LAYERS_1: &str = "[(name: \"body\", coverage: 0), (name: \"form\", coverage: 0), (name: \"scumble\", coverage: 0), (name: \"accents\", coverage: 0), (name: \"lights\", coverage: 0)]";
+const LAYERS_2: &str = "[(name: \"form\", coverage: 0), (name: \"scumble\", coverage: 0), (name: \"accents\", coverage: 0), (name: \"lights\", coverage: 0)]";
+const LAYERS_3: &str =
+    "[(name: \"scumble\", coverage: 0), (name: \"accents\", coverage: 0), (name: \"lights\", coverage: 0)]";
+const LAYERS_4: &str = "[(name: \"accents\", coverage: 0), (name: \"lights\", coverage: 0)]";

@@ -1,0 +1,92 @@
+//! `cargo xtask gallery`: the pictures of the README and the docs, rendered anew. With names, only those.
+
+mod list;
+mod panel;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+
+use crate::steps::{self, build_release, step};
+use crate::tidy::pictures::DOCS_LIMIT_BYTES;
+
+use list::{PICTURES, Picture, View};
+use panel::Panel;
+
+/// Size at which everything is rendered; crops count its pixels.
+const SIZE_PX: [u32; 2] = [1280, 720];
+
+/// Renders every picture into `docs/pictures/`, or those whose names are given.
+pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
+    if let Some(unknown) = only.iter().find(|name| PICTURES.iter().all(|picture| picture.name != **name)) {
+        bail!("there is no picture `{unknown}`; the list is in xtask/src/gallery/list.rs");
+    }
+    let impasto = step("build", || build_release(root))?;
+    let work =
+        Work { root, impasto: impasto.to_string_lossy().into_owned(), folder: root.join("out/gallery") };
+    std::fs::create_dir_all(&work.folder)?;
+    for picture in
+        PICTURES.iter().filter(|picture| only.is_empty() || only.iter().any(|name| name == picture.name))
+    {
+        step(picture.name, || work.make(picture))?;
+    }
+    Ok(())
+}
+
+struct Work<'a> {
+    root: &'a Path,
+    impasto: String,
+    /// For what is rendered on the way.
+    folder: PathBuf,
+}
+
+impl Work<'_> {
+    fn make(&self, picture: &Picture) -> anyhow::Result<()> {
+        let panels: Vec<Panel> = picture
+            .panels
+            .iter()
+            .enumerate()
+            .map(|(index, set)| self.panel(picture, index, set))
+            .collect::<anyhow::Result<_>>()?;
+        let columns = picture.columns.min(panels.len());
+        let whole = Panel::side_by_side(&panels, columns)?;
+        let target = self.root.join(format!("docs/pictures/{}.png", picture.name));
+        // 256 colours are enough for paint; a picture that is still too heavy is reduced.
+        for percent in [100, 85, 70, 60, 50, 40] {
+            let reduced = whole.reduced(percent);
+            reduced.write(&target)?;
+            let bytes = std::fs::metadata(&target)?.len();
+            if bytes <= DOCS_LIMIT_BYTES {
+                println!("{}: {:?}, {} KB", target.display(), reduced.size_px, bytes / 1024);
+                return Ok(());
+            }
+        }
+        bail!("{} is over {} KB however small", target.display(), DOCS_LIMIT_BYTES / 1024)
+    }
+
+    fn panel(&self, picture: &Picture, index: usize, set: &[(&str, &str)]) -> anyhow::Result<Panel> {
+        let file = self.folder.join(format!("{}_{index}.png", picture.name));
+        let output = file.to_string_lossy().into_owned();
+        match picture.view {
+            View::Brushes => steps::run(self.root, &self.impasto, &["brushes", "-o", &output])?,
+            View::Scene { scene, frame, .. } => {
+                let scene = format!("scenes/{scene}.ron");
+                let (frame, size) = (frame.to_string(), format!("{}x{}", SIZE_PX[0], SIZE_PX[1]));
+                let set: Vec<String> = set.iter().map(|(path, value)| format!("{path}={value}")).collect();
+                let mut arguments = vec!["render", &scene, "--quiet", "--frames", &frame, "-o", &output];
+                if !picture.own_size {
+                    arguments.extend(["--size", &size]);
+                }
+                for value in &set {
+                    arguments.extend(["--set", value]);
+                }
+                steps::run(self.root, &self.impasto, &arguments)?;
+            }
+        }
+        let panel = Panel::read(&file).with_context(|| format!("{} cannot be read", file.display()))?;
+        match picture.view {
+            View::Scene { crop: Some([x, y, width, height]), .. } => panel.cropped([x, y], [width, height]),
+            View::Scene { crop: None, .. } | View::Brushes => Ok(panel),
+        }
+    }
+}
