@@ -35,5 +35,5 @@ void main() {
         float rise = dot(n, towards) / max(distance, 1e-6);
         closed += max(rise - 0.12, 0.0) * clamp(1.6 - 1.2 * distance / radius, 0.0, 1.0);
     }
-    openness = vec4(clamp(1.0 - 2.6 * closed / 16.0, 0.0, 1.0));
+    openness = vec4(clamp(1.0 - 3.2 * closed / 16.0, 0.0, 1.0));
 }

@@ -17,7 +17,7 @@ uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left
 out vec4 encoded;
 
 const float THICKNESS_PX = 1.6;      // of paint of height 1
-const float WEAVE_PX = 0.13;
+const float WEAVE_PX = 0.09;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 vec4 toned_ground(ivec2 at) {

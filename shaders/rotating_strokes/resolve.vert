@@ -85,7 +85,7 @@ float fullness(float lightness, float grading) {
 
 // How much a layer of small strokes is wanted here, 0..1.
 float wanted(vec3 detail) {
-    if (kind == LIGHTS) return smoothstep(0.04, 0.22, detail.b);
+    if (kind == LIGHTS) return smoothstep(0.03, 0.15, detail.b);
     // Edges are lost in places.
     float rim = min(1.8 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
     float inside = kind == FORM ? 1.7 * detail.r - 0.15 : 1.7 * detail.r - 0.36;

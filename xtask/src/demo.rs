@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::packages::{self, Install};
 use crate::steps::{build_release, step};
 
-const SCENE: &str = "scenes/roll.ron";
+const SCENE: &str = "scenes/still_life.ron";
 const FRAMES: usize = 24;
 
 /// Installs what rendering needs, builds in release, paints [`FRAMES`] frames into `out/`, and says what came out.
@@ -37,8 +37,8 @@ pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
         strokes.iter().max().copied().unwrap_or_default()
     );
     println!("  seconds  {:.1}", start.elapsed().as_secs_f64());
-    println!("  moving   {}", root.join("out/roll.png").display());
-    println!("  sheet    {}", root.join("out/roll_sheet.png").display());
+    println!("  moving   {}", root.join("out/still_life.png").display());
+    println!("  sheet    {}", root.join("out/still_life_sheet.png").display());
     Ok(())
 }
 
@@ -59,7 +59,7 @@ fn paint(root: &Path, impasto: &Path) -> anyhow::Result<Vec<Value>> {
         }
         Ok(String::from_utf8(output.stdout)?)
     };
-    let text = render(&["-o", "out/roll_####.png", "--contact-sheet", "--json"])?;
-    render(&["-o", "out/roll.png", "--apng"])?;
+    let text = render(&["-o", "out/still_life_####.png", "--contact-sheet", "--json"])?;
+    render(&["-o", "out/still_life.png", "--apng"])?;
     text.lines().map(|line| serde_json::from_str(line).with_context(|| format!("no JSON: {line}"))).collect()
 }

@@ -47,13 +47,13 @@ const FOLDS: [Fold; 7] = [
     fold([0.975, 0.955, 0.90], [0.044, 0.034], 0.16, 0.4),
 ];
 
-/// A linen cloth with a woven stripe (160 × 80 faces). Its origin is the middle of the table's edge: the table's
+/// A linen cloth (160 × 80 faces). Its origin is the middle of the table's edge: the table's
 /// top is y = 0 for z < 0, and its front is z = 0.
 pub fn cloth() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "cloth",
         "A cloth on a table's top (y = 0, z < 0) that hangs over its front edge (z = 0); open at its rim.",
-        &[("linen", "#d9d2c2"), ("worn", "#d6cebd"), ("stripe", "#7f8fa3"), ("hem", "#dfd9cb")],
+        &[("linen", "#cfc6b3"), ("worn", "#c9bfaa"), ("hem", "#d6cebd")],
     );
     let back = Profile::through(&[[0.0, 0.50], [0.25, 0.60], [0.55, 0.74], [0.80, 0.76], [1.0, 0.70]]);
     mesh.sheet(
@@ -66,11 +66,11 @@ pub fn cloth() -> PolyMesh {
             let patch = noise(column as f64 / COLUMNS as f64 * 0.5, row as f64 * 0.07, 9, 41);
             let material = match row {
                 0..=1 => "hem",
-                7..=12 => "stripe",
                 _ if patch > 0.3 => "worn",
                 _ => "linen",
             };
-            Look { group: "cloth", material }
+            // Where it goes round the table's edge it still counts as lying.
+            Look { group: if row + 2 < HANGING { "fall" } else { "top" }, material }
         },
     );
     mesh

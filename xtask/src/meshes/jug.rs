@@ -42,7 +42,7 @@ pub fn jug() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "jug",
         "A glazed clay jug, its lip towards -X, its handle towards +X.",
-        &[("glaze", "#3f6673"), ("rim", "#2f4b57"), ("clay", "#b08d6c"), ("inside", "#4a4038")],
+        &[("glaze", "#3f6673"), ("rim", "#5a8894"), ("clay", "#b08d6c"), ("inside", "#15232a")],
     );
     mesh.polish(&["glaze"], 0.9, 300.0);
     body(&mut mesh);
