@@ -54,7 +54,8 @@ fn relief_canvas_and_varnish_each_show_and_each_go() {
     let mut renderer = renderer(Driver::Egl);
     let bare = [("style.relief", "0"), ("style.weave", "0"), ("style.varnish", "0")];
     let mut picture = |set: &[(&str, &str)]| {
-        let frame = painting("apple", set).at(0.0, &options([320, 180]));
+        // Large enough that threads of the canvas are more than a pixel apart.
+        let frame = painting("apple", set).at(0.0, &options([960, 540]));
         renderer.render(&frame).unwrap().rgba8
     };
     let flat = picture(&bare);

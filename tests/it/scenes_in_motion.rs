@@ -250,7 +250,8 @@ fn a_closed_path_of_the_camera_closes_the_picture() {
 
 #[test]
 fn grain_stays_along_the_falling_log() {
-    let painting = painting("falling_log", &[]);
+    // Without chance, which has nothing to do with how the grain is kept.
+    let painting = painting("falling_log", &[("strokes.angle_jitter_deg", "0"), ("strokes.swing_deg", "0")]);
     let scene = painting.scene();
     let log = scene.objects.iter().position(|object| object.keys.len() > 1).expect("something falls");
     let timeline = &scene.timeline;
@@ -281,5 +282,5 @@ fn grain_stays_along_the_falling_log() {
         largest = largest.max(errors[errors.len() / 2]);
     }
     println!("median angle between grain and log over the fall: at most {largest:.2} degrees");
-    assert!(largest <= 8.0, "the grain leaves the log by {largest} degrees");
+    assert!(largest <= 2.0, "the grain leaves the log by {largest} degrees");
 }
