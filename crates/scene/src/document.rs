@@ -3,14 +3,14 @@
 
 mod paint;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 pub use paint::{
     BrushMix, Canvas, CanvasFollows, Edges, LayerSettings, RotatingStrokes, Solver, StrokeSettings, Style,
 };
 
 /// A whole scene file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The schema's version; this build writes and reads [`Scene::VERSION`].
@@ -62,7 +62,7 @@ fn default_size() -> (u32, u32) {
 pub struct Color(pub [f32; 3]);
 
 /// Frame range and rate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Timeline {
     /// Frames per second, greater than 0.
@@ -74,7 +74,7 @@ pub struct Timeline {
 }
 
 /// Which pose the stroke directions refer to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Reference {
     /// The camera and the objects as they stand at this frame.
@@ -82,7 +82,7 @@ pub enum Reference {
 }
 
 /// How a value leaves its key.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Ease {
     /// Holds until the next key.
     Step,
@@ -94,7 +94,7 @@ pub enum Ease {
 }
 
 /// The camera: a lens and keyed poses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// How the camera projects.
@@ -105,7 +105,7 @@ pub struct Camera {
 }
 
 /// Projection of the camera. Lengths in world units.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Lens {
     /// Central projection; `fov_y_deg` is the vertical field of view.
@@ -146,7 +146,7 @@ fn default_far() -> f64 {
 }
 
 /// One pose of the camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraKey {
     /// The frame; need not be whole.
@@ -159,7 +159,7 @@ pub struct CameraKey {
     #[serde(default)]
     pub roll_deg: f64,
     /// Overrides the lens's field of view from here on (perspective lenses; interpolated between keys).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub fov_y_deg: Option<f64>,
     /// How the pose leaves this key.
     #[serde(default)]
@@ -167,7 +167,7 @@ pub struct CameraKey {
 }
 
 /// A light with its name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
     /// For people; unique.
@@ -175,16 +175,16 @@ pub struct Light {
     /// `Sun`, `Point` or `Ambient`.
     pub kind: LightKind,
     /// `Sun`: where the light travels to, world space, not zero.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub direction: Option<[f64; 3]>,
     /// `Point`: where it stands, world space.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub position: Option<[f64; 3]>,
     /// Colour; for `Ambient` the colour from above.
     #[serde(default = "Color::white")]
     pub color: Color,
     /// `Ambient`: the colour from below; left out, a dim warm version of `color`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub ground: Option<Color>,
     /// Multiplies the colour, ≥ 0. A point light of intensity 1 lights a facing surface at distance 1 as a sun of 1.
     #[serde(default = "one")]
@@ -192,7 +192,7 @@ pub struct Light {
 }
 
 /// What kind of light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub enum LightKind {
     /// Parallel light that casts shadows.
     Sun,
@@ -207,7 +207,7 @@ fn one() -> f64 {
 }
 
 /// Which axis of the mesh file points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Up {
     /// Y up, −Z forward (the usual OBJ export).
     #[default]
@@ -217,7 +217,7 @@ pub enum Up {
 }
 
 /// A thing in the scene: a mesh file or one group of it, placed and keyed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
     /// Unique; strokes take their looks from it, so a renamed object is painted anew.
@@ -225,13 +225,13 @@ pub struct Object {
     /// Path of the mesh, relative to the scene file.
     pub mesh: String,
     /// Only this group of the mesh.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub group: Option<String>,
     /// Moves with this object.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub parent: Option<String>,
     /// How many particles; left out, found from the coverage.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub particles: Option<u64>,
     /// Static scale of the mesh, applied before anything is sampled; not inherited by children.
     #[serde(default)]
@@ -240,7 +240,7 @@ pub struct Object {
     #[serde(default)]
     pub up: Up,
     /// Overrides the materials of the mesh file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub material: Option<MaterialOverride>,
     /// Rigid poses, frames strictly increasing; none means the identity.
     #[serde(default)]
@@ -252,24 +252,21 @@ pub struct Object {
 pub struct Scale(pub [f64; 3]);
 
 /// Colour or texture that replaces what the mesh file says.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialOverride {
     /// Base colour.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
     /// Picture file, relative to the scene file; multiplied by `color` (white when that is left out).
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub texture: Option<String>,
     /// Shown as it is, without light or shadow.
     pub unlit: bool,
     /// Strength of highlights, 0 matt .. 1 glazed; left out, what the mesh file says.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub gloss: Option<f64>,
 }
 
 /// One rigid pose of an object in its parent's space.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectKey {
     /// The frame; need not be whole.
@@ -286,7 +283,7 @@ pub struct ObjectKey {
 }
 
 /// A part of the scene with settings of its own.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
     /// Unique.
@@ -302,7 +299,7 @@ pub struct Region {
 }
 
 /// What a region covers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Selector {
     /// All objects.
@@ -316,7 +313,7 @@ pub enum Selector {
 }
 
 /// Base direction of strokes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Direction {
     /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops.

@@ -5,7 +5,6 @@ use std::fmt;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
-use serde::ser::{Serialize, SerializeTuple, Serializer};
 
 use crate::document::{BrushMix, Color, RotatingStrokes, Scale, Style};
 
@@ -37,12 +36,6 @@ impl Color {
     }
 }
 
-impl Serialize for Color {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(&self.to_hex())
-    }
-}
-
 impl<'de> Deserialize<'de> for Color {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct HexVisitor;
@@ -56,20 +49,6 @@ impl<'de> Deserialize<'de> for Color {
             }
         }
         deserializer.deserialize_str(HexVisitor)
-    }
-}
-
-impl Serialize for Scale {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let [x, y, z] = self.0;
-        if x == y && y == z {
-            return serializer.serialize_f64(x);
-        }
-        let mut tuple = serializer.serialize_tuple(3)?;
-        for value in self.0 {
-            tuple.serialize_element(&value)?;
-        }
-        tuple.end()
     }
 }
 
@@ -103,15 +82,6 @@ impl<'de> Deserialize<'de> for Scale {
     }
 }
 
-impl Serialize for BrushMix {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match &self.0[..] {
-            [name] => serializer.serialize_str(name),
-            names => serializer.collect_seq(names),
-        }
-    }
-}
-
 impl<'de> Deserialize<'de> for BrushMix {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct MixVisitor;
@@ -132,15 +102,6 @@ impl<'de> Deserialize<'de> for BrushMix {
             }
         }
         deserializer.deserialize_any(MixVisitor)
-    }
-}
-
-impl Serialize for Style {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::RotatingStrokes(settings) => settings.serialize(serializer),
-            Self::Reference => serializer.serialize_unit_struct("Reference"),
-        }
     }
 }
 

@@ -105,7 +105,7 @@ fn stem(mesh: &mut PolyMesh) {
             let end = row == 0 || row == ALONG.len() - 1;
             let radius =
                 if end { 0.0 } else { 0.019 + 0.017 * bump(0.0, 0.3, t) + 0.008 * bump(1.0, 0.3, t) };
-            let (centre, right, forward) = stem_frame(t);
+            let (centre, right, forward) = stem_frame(t, 0.40, 0.02);
             let angle = TAU * side as f64 / SIDES as f64;
             centre + radius * (right * angle.cos() + forward * angle.sin())
         },
@@ -113,11 +113,13 @@ fn stem(mesh: &mut PolyMesh) {
     );
 }
 
-/// Centre line of the stem at `t` (0 the cut top, 1 the foot), with two directions across it.
-fn stem_frame(t: f64) -> (DVec3, DVec3, DVec3) {
+/// Centre line of a stem of this height at `t` (0 the cut top, 1 the foot), with two directions across it. Its foot is
+/// this far off the axis.
+pub(super) fn stem_frame(t: f64, height: f64, off_axis: f64) -> (DVec3, DVec3, DVec3) {
     let centre = |t: f64| {
         let up = 1.0 - t;
-        DVec3::new(0.02 + 0.115 * up * up, 0.625 + 0.40 * up - 0.02 * up * up, 0.02 - 0.035 * up)
+        let lean = 0.115 * up * up;
+        DVec3::new(off_axis + lean, 0.625 + height * up - 0.02 * up * up, off_axis - 0.035 * up)
     };
     let along = (centre(t - 0.01) - centre(t + 0.01)).normalize();
     let forward = along.cross(DVec3::X).normalize();

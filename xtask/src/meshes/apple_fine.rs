@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
+use super::apple::stem_frame;
 use super::curve::{Profile, bump, hash, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
@@ -167,23 +168,12 @@ fn stem(mesh: &mut PolyMesh) {
             let end = row == 0 || row == ALONG;
             let radius =
                 if end { 0.0 } else { 0.019 + 0.016 * bump(0.0, 0.3, t) + 0.010 * bump(1.0, 0.3, t) };
-            let (centre, right, forward) = stem_frame(t);
+            let (centre, right, forward) = stem_frame(t, 0.41, 0.01);
             let angle = TAU * side as f64 / SIDES as f64;
             centre + radius * (right * angle.cos() + forward * angle.sin())
         },
         |_, _| Look { group: "stem", material: "stem" },
     );
-}
-
-/// Centre line of the stem at `t` (0 the cut top, 1 the foot), with two directions across it.
-fn stem_frame(t: f64) -> (DVec3, DVec3, DVec3) {
-    let centre = |t: f64| {
-        let up = 1.0 - t;
-        DVec3::new(0.01 + 0.115 * up * up, 0.625 + 0.41 * up - 0.02 * up * up, 0.01 - 0.035 * up)
-    };
-    let along = (centre(t - 0.01) - centre(t + 0.01)).normalize();
-    let forward = along.cross(DVec3::X).normalize();
-    (centre(t), forward.cross(along), forward)
 }
 
 /// A large leaf on a short stalk, folded along its midrib, bent over, its tip hanging.

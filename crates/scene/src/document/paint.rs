@@ -1,101 +1,83 @@
 //! Strokes and paint as a scene file states them.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::Color;
 
 /// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct StrokeSettings {
     /// A named set of values to start from.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub preset: Option<String>,
     /// Brush of the body layer.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub brush: Option<BrushMix>,
     /// Length of the body layer's strokes in pixels at the scene's size; the other layers keep their proportion to it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub length_px: Option<f64>,
     /// Width, likewise.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub width_px: Option<f64>,
     /// Makes the strokes of all layers larger or smaller; 1 leaves them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
     /// Strokes of the body layer per pixel × length × width.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub coverage: Option<f64>,
     /// 1 keeps strokes flat on the picture (the paper's similarity), 0 lets their direction follow the surface.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub flatness: Option<f64>,
     /// Standard deviation of the angle from stroke to stroke, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub angle_jitter_deg: Option<f64>,
     /// Standard deviation of a slow swing of the angle over the surface, degrees.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub swing_deg: Option<f64>,
     /// How far strokes near a body's limb lie along its contour, 0..=1; this part of the direction follows the view.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub contour: Option<f64>,
     /// Standard deviation of the size, as a share of it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub size_jitter: Option<f64>,
     /// How paint ends at the border of its body.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub edges: Option<Edges>,
     /// How much colours differ from stroke to stroke: 0 not at all, 1 as oil paint is mixed.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub color_jitter: Option<f64>,
     /// How much warmer lights and cooler shadows are than in the plain render, 0 and up.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature: Option<f64>,
     /// How far colours are pulled to a painter's values: planes of one value, rich darks, an earthy underpainting; 0..=1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub grading: Option<f64>,
     /// Pigments that all colours are mixed from, at most 16; empty means any colour.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub palette: Option<Vec<Color>>,
     /// Higher layers are painted over lower ones.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub layer: Option<i32>,
     /// What differs from the preset in single layers of paint, by name.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<LayerSettings>,
 }
 
 /// One layer of paint: its own strokes, laid over those of the layers before it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LayerSettings {
     /// `underpainting`, `body`, `form`, `scumble`, `accents` or `lights`; `ground` is the tone under all of them.
     pub name: String,
     /// Brush, or a mix of brushes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub brush: Option<BrushMix>,
     /// Length in pixels at the scene's size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub length_px: Option<f64>,
     /// Width in pixels at the scene's size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub width_px: Option<f64>,
     /// Strokes per pixel × length × width where the layer is wanted; 0 leaves the layer out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub coverage: Option<f64>,
     /// How much of what lies under a stroke it hides, 0..=1; of the ground: how far its tone hides the body's own wash.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub opacity: Option<f64>,
     /// Height of the paint, 0 none, 1 the lights' full brush.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub thickness: Option<f64>,
     /// Share of its mark that a brush leaves out, 0 wet .. 1 nothing left.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub dryness: Option<f64>,
     /// How much wet paint from the layers below a stroke picks up, 0..=1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub pickup: Option<f64>,
     /// Tone of the ground; for `ground` alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub color: Option<Color>,
 }
 
@@ -104,7 +86,7 @@ pub struct LayerSettings {
 pub struct BrushMix(pub Vec<String>);
 
 /// How paint ends at the border of its body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Edges {
     /// Cut off along the border.
@@ -125,7 +107,7 @@ pub enum Style {
 }
 
 /// Brush strokes: how they turn, and what the paint is like as a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RotatingStrokes {
     /// How the turn is found.
@@ -145,7 +127,7 @@ pub struct RotatingStrokes {
 }
 
 /// What is painted on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Canvas {
     /// A smooth board.
     Board,
@@ -155,7 +137,7 @@ pub enum Canvas {
 }
 
 /// What the canvas moves with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum CanvasFollows {
     /// It stands still, as a picture on an easel.
     #[default]
@@ -165,7 +147,7 @@ pub enum CanvasFollows {
 }
 
 /// How the turn of a stroke is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Solver {
     /// From the surface's tangent plane, in closed form.
     #[default]
