@@ -41,7 +41,7 @@ float normal_from(uint bits, uint which) {
 // Value is held to planes: steps with soft risers.
 float planes(float lightness) {
     float at = (lightness + 0.03) * 11.0 - 0.5;
-    return (floor(at) + smoothstep(0.2, 0.8, fract(at)) + 0.5) / 11.0 - 0.03;
+    return (floor(at) + smoothstep(0.1, 0.9, fract(at)) + 0.5) / 11.0 - 0.03;
 }
 
 vec3 graded(vec3 lab, vec3 wide, int kind) {
@@ -51,7 +51,7 @@ vec3 graded(vec3 lab, vec3 wide, int kind) {
     }
     if (kind == ACCENTS) lab = wide + (lab - wide) * 1.45;
     if (kind == LIGHTS) lab.x += 0.043;
-    float lightness = mix(lab.x, planes(lab.x), 0.55);
+    float lightness = mix(lab.x, planes(lab.x), 0.42);
     // Darks are rich and never black.
     float dark = 1.0 - smoothstep(0.16, 0.42, lightness);
     float chroma = 1.06 + 0.16 * dark;

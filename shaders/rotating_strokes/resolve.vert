@@ -117,7 +117,7 @@ void main() {
     if (there > LEAST) there *= seen(turn);
     if (there <= LEAST) return;
 
-    float across_px = max(BLUR[kind] * size.y, 0.7);
+    float across_px = max(BLUR[kind] * size.y, 1.4 * min(px_scale, 1.0));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
     vec4 found = own_color(place.xy, own.y, turn * blur_px);
     vec3 lab = oklab_from_linear(found.w > 0.0 ? found.rgb : color_of_hidden());

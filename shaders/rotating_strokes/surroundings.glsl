@@ -10,9 +10,22 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-vec3 color_at(vec2 at_px) {
-    ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(reference_color, 0) - 1);
-    return texelFetch(reference_color, texel, 0).rgb;
+// Colour between four pixels, of those that show the body; W how much of it. The plain render has hard edges, and a tap on
+// one pixel would jump with them.
+vec4 own_color_at(vec2 at_px, float id) {
+    vec2 at = at_px - 0.5;
+    ivec2 corner = ivec2(floor(at));
+    ivec2 last = textureSize(reference_color, 0) - 1;
+    vec2 part = at - vec2(corner);
+    vec4 sum = vec4(0.0);
+    for (int index = 0; index < 4; index++) {
+        ivec2 offset = ivec2(index & 1, index >> 1);
+        ivec2 texel = clamp(corner + offset, ivec2(0), last);
+        if (texelFetch(depth_and_id, texel, 0).y != id) continue;
+        vec2 near = mix(1.0 - part, part, vec2(offset));
+        sum += vec4(texelFetch(reference_color, texel, 0).rgb, 1.0) * (near.x * near.y);
+    }
+    return sum;
 }
 
 // Directions all round, counted from the stroke's own, so that a picture that is turned is looked at the same way.
@@ -25,26 +38,18 @@ vec2 direction(int index, int count) {
 // so that a shadow that sweeps over it takes several frames; a wider one where the middle is behind something. W is 0
 // where nothing of the body was found.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
-    vec3 sum = vec3(0.0);
-    float weight = 0.0;
-    for (int widening = 0; widening < 3 && weight == 0.0; widening++) {
-        if (surface_at(center_px).y == id) {
-            sum += color_at(center_px);
-            weight += 1.0;
-        }
+    vec4 sum = vec4(0.0);
+    for (int widening = 0; widening < 3 && sum.a < 0.2; widening++) {
+        sum = own_color_at(center_px, id) * 0.7;
         for (int index = 0; index < 12; index++) {
-            float radius = index < 6 ? 1.1 : 2.1;
+            float radius = index < 6 ? 1.0 : 1.9;
             float angle = 1.0471976 * (float(index) + (index < 6 ? 0.0 : 0.5));
             vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * radius;
-            if (surface_at(tap_px).y == id) {
-                float share = index < 6 ? 0.55 : 0.11;
-                sum += color_at(tap_px) * share;
-                weight += share;
-            }
+            sum += own_color_at(tap_px, id) * (index < 6 ? 0.60 : 0.17);
         }
         sigma_px = sigma_px * 2.2;
     }
-    return weight > 0.0 ? vec4(sum / weight, 1.0) : vec4(0.0);
+    return sum.a > 1e-3 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
 
 // The mean colour on the stroke's own body round about, Oklab.
@@ -53,7 +58,8 @@ vec3 wide_mean(vec2 center_px, float id, vec3 lab) {
     vec3 sum = vec3(0.0);
     for (int index = 0; index < 8; index++) {
         vec2 tap_px = center_px + direction(index, 8) * (REACH_PX * px_scale);
-        sum += surface_at(tap_px).y == id ? oklab_from_linear(color_at(tap_px)) : lab;
+        vec4 found = own_color_at(tap_px, id);
+        sum += found.a > 1e-3 ? mix(lab, oklab_from_linear(found.rgb / found.a), found.a) : lab;
     }
     return sum / 8.0;
 }

@@ -207,7 +207,7 @@ impl Plan {
                     }
                     if arguments.json {
                         let line = serde_json::json!({
-                            "version": 1, "event": "frame", "frame": frame_number, "path": path, "strokes": frame.strokes.len(), "seconds": seconds,
+                            "version": 1, "event": "frame", "frame": frame_number, "path": path, "strokes": self.drawn(), "seconds": seconds,
                         });
                         writeln!(std::io::stdout(), "{line}")?;
                     }
@@ -328,10 +328,14 @@ impl Plan {
         Ok((frame, picture))
     }
 
+    /// How many strokes of the last frame were painted.
+    fn drawn(&self) -> usize {
+        self.renderer.resolved_strokes().iter().filter(|stroke| stroke.alpha > LEAST_ALPHA).count()
+    }
+
     /// What the last frame was made of: strokes, overdraw, memory, seconds of each pass.
     fn told(&self, frame: &Frame) -> String {
-        let resolved = self.renderer.resolved_strokes();
-        let strokes = resolved.iter().filter(|stroke| stroke.alpha > LEAST_ALPHA).count();
+        let strokes = self.drawn();
         let overdraw = self.cost.overdraw;
         let memory = peak_memory_mib().map_or(String::new(), |mib| format!(", {mib} MiB at most so far"));
         let mut text = format!(
