@@ -215,12 +215,14 @@ fn count(
     if left_out {
         return 0;
     }
-    particle_count::find(surface, sightings, |triangle| {
+    let found = particle_count::find(surface, sightings, |triangle| {
         let cap = object.caps[parts.of_triangle[triangle] as usize];
         let layer = layer(triangle);
         let [length, width] = cap.apply(layer.length_px, layer.width_px);
         layer.coverage / (length * width) * most_wanted(kind)
-    })
+    });
+    // By the paper's rule a polygon without a particle stays bare.
+    if context.paper { found.max(surface.faces().count()) } else { found }
 }
 
 /// The most that a layer is wanted anywhere, where its coverage says 1.

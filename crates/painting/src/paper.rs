@@ -3,6 +3,7 @@
 use glam::DVec3;
 use impasto_core::ScreenMap;
 use impasto_core::TriangleMesh;
+use impasto_core::hash;
 use impasto_core::sampling::{PolygonParticle, Surface};
 use impasto_core::screen_map::area_px;
 
@@ -55,14 +56,17 @@ impl PolygonCounts {
         Self { of_particle, sides }
     }
 
-    /// How many particles of each polygon show in a view.
+    /// How many particles of each polygon show in a view. What is left of a whole number is rounded at a threshold of the
+    /// polygon's own, fixed by its index, so that polygons smaller than a stroke are painted too, each in its turn.
     pub(crate) fn shown(&self, map: &ScreenMap, wanted_per_px: f64) -> Vec<u32> {
         self.sides
             .iter()
-            .map(|side| {
+            .zip(0..)
+            .map(|(side, index)| {
                 let projected_px = area_px(map.jacobian(side.center), side.normal) * side.area;
                 let wanted = projected_px * wanted_per_px;
-                if wanted > 0.0 { (wanted.round() as u32).min(side.count) } else { 0 }
+                let threshold = f64::from(hash::unit(hash::scramble(index)));
+                if wanted > 0.0 { ((wanted + threshold) as u32).min(side.count) } else { 0 }
             })
             .collect()
     }
