@@ -109,7 +109,7 @@ fn preparing() {
     }
     let painting = impasto_painting::prepare(loaded).expect("the scene has its meshes");
     let options =
-        impasto_painting::FrameOptions { size_px: [1280, 720], keep_stroke_px: false, transparent: false };
+        impasto_painting::FrameOptions::new([1280, 720]);
     let frame_secs = median_secs(21, || {
         black_box(painting.at(0.0, &options));
     });

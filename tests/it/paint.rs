@@ -14,7 +14,7 @@ use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
 fn options(size_px: [u32; 2]) -> FrameOptions {
-    FrameOptions { size_px, keep_stroke_px: false, transparent: false }
+    FrameOptions::new(size_px)
 }
 
 /// A shipped scene with some of its values replaced.

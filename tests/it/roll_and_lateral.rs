@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat2, DMat3, DVec2, DVec3};
 use impasto_painting::frame::LayerKind;
-use impasto_painting::{Frame, FrameOptions, prepare};
+use impasto_painting::{Frame, FrameOptions, Rotation, prepare};
 use impasto_scene::document::{CameraKey, Lens, ObjectKey, RotatingStrokes, Scene, Solver, Style};
 use impasto_tests::shapes;
 
 fn options(size_px: [u32; 2]) -> FrameOptions {
-    FrameOptions { size_px, keep_stroke_px: false, transparent: false }
+    FrameOptions::new(size_px)
 }
 
 fn degrees_apart(first: f64, second: f64) -> f64 {
@@ -227,4 +227,32 @@ fn back_at_the_reference_every_stroke_is_as_it_was() {
             assert!(degrees_apart(f64::from(stroke.angle_rad), 20f64.to_radians()) < 1e-3);
         }
     }
+}
+
+#[test]
+fn strokes_can_be_kept_from_turning_and_turned_by_chance() {
+    let scene = with_solver(rolling_scene((640, 360), 30.0), Solver::Tangent);
+    let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
+    let at = |frame: f64, rotation: Rotation| {
+        angles(&painting.at(frame, &FrameOptions { rotation, ..options([640, 360]) }))
+    };
+    let apart =
+        |a: &std::collections::BTreeMap<_, f64>, b: &std::collections::BTreeMap<_, f64>| -> Vec<f64> {
+            a.iter().filter_map(|(key, angle)| Some(degrees_apart(*angle, *b.get(key)?))).collect()
+        };
+    let still = apart(&at(0.0, Rotation::Off), &at(1.0, Rotation::Off));
+    assert!(still.len() > 500 && still.iter().all(|&off| off == 0.0), "off: {} strokes", still.len());
+    // In the reference pose there is nothing to turn where that sees the surface well.
+    let unturned = apart(&at(0.0, Rotation::Off), &at(0.0, Rotation::On));
+    let same = unturned.iter().filter(|&&off| off < 1e-3).count();
+    assert!(2 * same > unturned.len(), "{same} of {} strokes lie as in the reference pose", unturned.len());
+    let turned = apart(&at(1.0, Rotation::Off), &at(1.0, Rotation::On));
+    assert!(
+        turned.iter().filter(|&&off| off > 20.0).count() * 2 > turned.len(),
+        "the camera has rolled by 30 degrees"
+    );
+    let random = apart(&at(0.0, Rotation::Random), &at(1.0, Rotation::Random));
+    let mean = random.iter().sum::<f64>() / random.len() as f64;
+    assert!((80.0..100.0).contains(&mean), "two random angles are 90 degrees apart on average: {mean}");
+    assert_eq!(at(0.0, Rotation::Random), at(0.0, Rotation::Random), "the same frame is the same picture");
 }

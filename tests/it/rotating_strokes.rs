@@ -12,7 +12,7 @@ use impasto_tests::pictures::{Grey, renderer, wrap_half};
 use impasto_tests::shapes;
 
 fn options(size_px: [u32; 2]) -> FrameOptions {
-    FrameOptions { size_px, keep_stroke_px: false, transparent: false }
+    FrameOptions::new(size_px)
 }
 
 fn unlit(color: [f32; 3]) -> Option<MaterialOverride> {

@@ -16,7 +16,7 @@ use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
 
-const OPTIONS: FrameOptions = FrameOptions { size_px: [640, 360], keep_stroke_px: false, transparent: false };
+const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
 fn painting(scene: &str, overrides: &[(&str, &str)]) -> Painting {
     let overrides = overrides.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();

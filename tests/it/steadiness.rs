@@ -7,7 +7,7 @@ use impasto_painting::{Frame, FrameOptions, prepare};
 use impasto_scene::document::{ObjectKey, Scene, StrokeSettings};
 use impasto_tests::shapes;
 
-const OPTIONS: FrameOptions = FrameOptions { size_px: [640, 360], keep_stroke_px: false, transparent: false };
+const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
 /// Presence and area of every stroke, by layer kind and particle.
 fn presences(frame: &Frame) -> BTreeMap<(LayerKind, u32), (f64, f64)> {

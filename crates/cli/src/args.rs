@@ -84,6 +84,18 @@ pub(crate) enum StyleChoice {
     Reference,
 }
 
+/// How strokes turn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RotationChoice {
+    /// With what they lie on.
+    #[default]
+    On,
+    /// Not at all.
+    Off,
+    /// By chance, in every frame.
+    Random,
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct RenderArguments {
     #[command(flatten)]
@@ -107,6 +119,9 @@ pub(crate) struct RenderArguments {
     /// A style in place of the scene's own.
     #[arg(long, value_enum)]
     pub(crate) style: Option<StyleChoice>,
+    /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) rotation: RotationChoice,
     /// Strokes keep their size in pixels whatever the picture's size.
     #[arg(long)]
     pub(crate) keep_stroke_px: bool,

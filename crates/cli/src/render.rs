@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
-use impasto_painting::{Frame, FrameOptions, Painting};
+use impasto_painting::{Frame, FrameOptions, Painting, Rotation};
 use impasto_scene::document::Style;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::args::{RenderArguments, StyleChoice};
+use crate::args::{RenderArguments, RotationChoice, StyleChoice};
 use crate::failure::Failure;
 use crate::frame_list::FrameList;
 use crate::movie::{self, Movie};
@@ -123,6 +123,11 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
             size_px,
             keep_stroke_px: arguments.keep_stroke_px,
             transparent: arguments.alpha,
+            rotation: match arguments.rotation {
+                RotationChoice::On => Rotation::On,
+                RotationChoice::Off => Rotation::Off,
+                RotationChoice::Random => Rotation::Random,
+            },
         },
         destination,
         scene_name,

@@ -56,8 +56,7 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     if !frame_number.is_finite() {
         return Err(Failure::Usage("--frame wants a number".to_owned()));
     }
-    let frame =
-        painting.at(frame_number, &FrameOptions { size_px, keep_stroke_px: false, transparent: false });
+    let frame = painting.at(frame_number, &FrameOptions::new(size_px));
     renderer.render(&frame)?;
     let resolved = renderer.resolved_strokes();
     let of_run = |run: &LayerRun| (run.first as usize..(run.first + run.count) as usize, run.kind);

@@ -26,6 +26,27 @@ pub struct FrameOptions {
     pub keep_stroke_px: bool,
     /// No ground under the strokes.
     pub transparent: bool,
+    /// Whether strokes turn.
+    pub rotation: Rotation,
+}
+
+/// Whether strokes turn with what they lie on; the others are there to be compared with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rotation {
+    /// They do.
+    #[default]
+    On,
+    /// They lie in every frame as in the reference pose: the picture moves under its own pattern, as behind a shower door.
+    Off,
+    /// They lie anyhow, anew in each frame.
+    Random,
+}
+
+impl FrameOptions {
+    /// A picture of this size; all else as usual.
+    pub const fn new(size_px: [u32; 2]) -> Self {
+        Self { size_px, keep_stroke_px: false, transparent: false, rotation: Rotation::On }
+    }
 }
 
 /// One coat in one view.
@@ -47,6 +68,9 @@ pub(crate) struct Look<'a> {
     pub(crate) half_px: [f32; 2],
     pub(crate) px_scale: f32,
     near_far: [f32; 2],
+    rotation: Rotation,
+    /// Differs from frame to frame.
+    moment: u32,
 }
 
 impl Painting {
@@ -64,6 +88,8 @@ impl Painting {
             half_px: options.size_px.map(|side| side as f32 * 0.5),
             px_scale,
             near_far: frame_view.near_far,
+            rotation: options.rotation,
+            moment: hash::scramble((frame * 1000.0).round() as i64 as u32),
         };
         let (strokes, sources, layers) = look.strokes();
         Frame {
@@ -140,6 +166,17 @@ impl Look<'_> {
         }
         let strokes = found.iter().map(|(_, stroke, _)| *stroke).collect();
         (strokes, found.iter().map(|(.., source)| *source).collect(), layers)
+    }
+
+    /// The angle of a particle's stroke before its contour has a say.
+    pub(crate) fn angle_rad(&self, seen: &SeenCoat<'_>, index: usize) -> f32 {
+        match self.rotation {
+            Rotation::On => seen.angle_rad(index),
+            Rotation::Off => seen.coat.baked.base_angle_rad[index],
+            Rotation::Random => {
+                (hash::unit(seen.bits(index, self.moment)) * 2.0 - 1.0) * std::f32::consts::PI
+            }
+        }
     }
 
     pub(crate) fn region(&self, entry: OrderEntry) -> u16 {

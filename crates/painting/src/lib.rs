@@ -22,6 +22,6 @@ mod stroke;
 mod surface;
 mod view;
 
-pub use at::FrameOptions;
+pub use at::{FrameOptions, Rotation};
 pub use frame::Frame;
 pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};

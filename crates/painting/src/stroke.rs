@@ -82,7 +82,8 @@ impl Look<'_> {
             Solver::Horn | Solver::HornExact => coat.inputs.surface_lift(index),
         };
         let map: PixelMap2 = lift.map(jacobian);
-        let angle_rad = along_contour(seen.angle_rad(index), strokes.contour, normal, (&seen.map, facing));
+        let angle_rad =
+            along_contour(self.angle_rad(seen, index), strokes.contour, normal, (&seen.map, facing));
         let chance = Chance { seen, index };
         let [length_px, width_px] =
             chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
