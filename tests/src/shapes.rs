@@ -105,6 +105,7 @@ pub fn object(name: &str, particles: u64) -> Object {
         group: None,
         parent: None,
         particles: Some(particles),
+        hold: 1,
         scale: Default::default(),
         up: Default::default(),
         material: None,

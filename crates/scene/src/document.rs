@@ -206,6 +206,10 @@ fn one() -> f64 {
     1.0
 }
 
+fn one_frame() -> u32 {
+    1
+}
+
 /// Which axis of the mesh file points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Up {
@@ -242,6 +246,9 @@ pub struct Object {
     /// Overrides the materials of the mesh file.
     #[serde(default)]
     pub material: Option<MaterialOverride>,
+    /// Frames that each pose is held: 1 moves in every frame, 2 on twos, counted from the timeline's first frame.
+    #[serde(default = "one_frame")]
+    pub hold: u32,
     /// Rigid poses, frames strictly increasing; none means the identity.
     #[serde(default)]
     pub keys: Vec<ObjectKey>,

@@ -69,6 +69,9 @@ pub const MAX_BRUSHES: usize = 64;
 /// Different brushes of a scene that are pictures.
 pub const MAX_BRUSH_PICTURES: usize = 16;
 
+/// Frames that a pose is held.
+pub const MAX_HOLD: u32 = 1000;
+
 /// Distance of a layer from 0.
 pub const MAX_LAYER: i32 = 1000;
 

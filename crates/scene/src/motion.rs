@@ -77,7 +77,13 @@ fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
 pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     let objects = &scene.objects;
     let parents = parent_indices(objects);
-    let mut poses: Vec<DAffine3> = objects.iter().map(|object| pose_in_parent(&object.keys, frame)).collect();
+    let first = scene.timeline.first as f64;
+    let held = |hold: u32| match hold {
+        0 | 1 => frame,
+        hold => first + ((frame - first) / f64::from(hold)).floor() * f64::from(hold),
+    };
+    let mut poses: Vec<DAffine3> =
+        objects.iter().map(|object| pose_in_parent(&object.keys, held(object.hold))).collect();
     for index in parents_first(&parents) {
         if let Some(parent) = parents[index] {
             poses[index] = poses[parent] * poses[index];

@@ -149,6 +149,7 @@ fn object(object: &Object) -> Value {
         .maybe("group", object.group.as_deref().map(text))
         .maybe("parent", object.parent.as_deref().map(text))
         .maybe("particles", object.particles.map(|particles| Value::Word(particles.to_string())))
+        .unless(object.hold == 1, "hold", || Value::Word(object.hold.to_string()))
         .unless(object.scale == Scale::default(), "scale", || scale(object.scale))
         .unless(object.up == Up::default(), "up", || word(object.up))
         .maybe("material", object.material.as_ref().map(material))

@@ -25,6 +25,11 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
         findings.number(&format!("{object_path}.material.gloss"), gloss, 0.0..=1.0);
     }
     check_scale(&format!("{object_path}.scale"), object.scale.0, findings);
+    findings.number(
+        &format!("{object_path}.hold"),
+        f64::from(object.hold),
+        1.0..=f64::from(limits::MAX_HOLD),
+    );
     findings.frames(&format!("{object_path}.keys"), object.keys.iter().map(|key| key.frame));
     for (index, key) in object.keys.iter().enumerate() {
         findings.vector(&format!("{object_path}.keys[{index}].translation"), key.translation);

@@ -264,7 +264,7 @@ fn did_you_mean(name: &str) -> String {
 /// What a field holds, for people.
 fn what_goes_into(field: &str) -> Option<&'static str> {
     Some(match field {
-        "version" | "particles" | "seed" => "a whole number, as in 7",
+        "version" | "particles" | "seed" | "hold" => "a whole number, as in 7",
         "first" | "last" | "reference" => "a whole frame number, as in 24",
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",

@@ -14,6 +14,7 @@ fn object(name: &str, parent: Option<&str>, keys: Vec<ObjectKey>) -> Object {
         group: None,
         parent: parent.map(str::to_owned),
         particles: None,
+        hold: 1,
         scale: Default::default(),
         up: Default::default(),
         material: None,
@@ -170,4 +171,27 @@ fn the_view_is_finite_even_where_check_would_refuse_it() {
         assert!(pose.view_from_world().is_finite());
     }
     assert!(camera_at(&scene(vec![], vec![]), 3.0).view_from_world().is_finite());
+}
+
+#[test]
+fn a_pose_is_held_for_as_many_frames_as_its_object_says() {
+    let moving = |hold: u32| {
+        let mut keys = vec![key(2.0), key(26.0)];
+        keys[1].translation = [24.0, 0.0, 0.0];
+        Object { hold, ..object("a", None, keys) }
+    };
+    let x_at = |hold: u32, frame: f64| {
+        let mut scene = scene(vec![camera_key(0.0, 0.0)], vec![moving(hold)]);
+        (scene.timeline.first, scene.timeline.last) = (2, 26);
+        poses_at(&scene, frame)[0].translation.x
+    };
+    for (hold, expected) in [
+        (1, [0.0, 1.0, 2.0, 3.0, 4.0, 4.5]),
+        (2, [0.0, 0.0, 2.0, 2.0, 4.0, 4.0]),
+        (3, [0.0, 0.0, 0.0, 3.0, 3.0, 3.0]),
+    ] {
+        for (frame, x) in [2.0, 3.0, 4.0, 5.0, 6.0, 6.5].into_iter().zip(expected) {
+            assert!((x_at(hold, frame) - x).abs() < 1e-9, "on {hold}s at {frame}: {}", x_at(hold, frame));
+        }
+    }
 }

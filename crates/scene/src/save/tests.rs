@@ -94,13 +94,15 @@ fn any_object() -> impl Strategy<Value = Object> {
     let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);
     let up = prop_oneof![Just(Up::Y), Just(Up::Z)];
     let keys = prop::collection::vec(key, 0..4);
-    (names, proptest::option::of(any::<u64>()), scale, up, proptest::option::of(material), keys).prop_map(
-        |((name, mesh, group, parent), particles, scale, up, material, keys)| Object {
+    let counts = (proptest::option::of(any::<u64>()), any::<u32>());
+    (names, counts, scale, up, proptest::option::of(material), keys).prop_map(
+        |((name, mesh, group, parent), (particles, hold), scale, up, material, keys)| Object {
             name,
             mesh,
             group,
             parent,
             particles,
+            hold,
             scale,
             up,
             material,
