@@ -40,7 +40,7 @@ const fn case(name: &'static str, fields: &'static str, expected: Outcome, says:
 }
 
 /// Fields stand on line 2 of the file, from column 1.
-const CASES: [Case; 34] = [
+const CASES: [Case; 35] = [
     case(
         "particles_u64max",
         r#"objects: [(name: "a", mesh: "cube.obj", particles: 18446744073709551615)]"#,
@@ -105,6 +105,12 @@ const CASES: [Case; 34] = [
         "scene.ron:2:18: error: \"nothere.png\" was not found",
     ),
     case("brush_bomb", r#"strokes: (brush: "bomb.png")"#, Limit, "60000"),
+    case(
+        "texture_bomb",
+        r#"objects: [(name: "a", mesh: "cube.obj", material: (texture: "bomb.png"))]"#,
+        Limit,
+        "60000",
+    ),
     case(
         "keys_unsorted",
         r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0), (frame: 2), (frame: 1)])]"#,

@@ -225,7 +225,7 @@ fn count(
     if context.paper { found.max(surface.faces().count()) } else { found }
 }
 
-/// The most that a layer is wanted anywhere, where its coverage says 1.
+/// The most that a layer is wanted anywhere, where its coverage says 1; as `MOST_FULL` of the resolve shader.
 pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
     if kind == LayerKind::Body { 1.35 } else { 1.0 }
 }

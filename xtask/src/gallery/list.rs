@@ -154,7 +154,17 @@ pub(super) const PICTURES: &[Picture] = &[
         ],
     ),
     sweep("paint_swing", JUG, 3, &[&[("strokes.swing_deg", "0")], &[], &[("strokes.swing_deg", "25")]]),
-    sweep("paint_contour", FRUIT, 3, &[&[], &[("strokes.contour", "0.5")], &[("strokes.contour", "1")]]),
+    // The region states a contour of its own; strokes that run up would lie along most of the outline anyway.
+    sweep(
+        "paint_contour",
+        FRUIT,
+        3,
+        &[
+            &[("regions.apple.direction", "Angle(35)"), ("regions.apple.strokes.contour", "0")],
+            &[("regions.apple.direction", "Angle(35)"), ("regions.apple.strokes.contour", "0.5")],
+            &[("regions.apple.direction", "Angle(35)"), ("regions.apple.strokes.contour", "1")],
+        ],
+    ),
     sweep(
         "paint_direction",
         FRUIT,

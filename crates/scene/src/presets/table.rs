@@ -38,7 +38,7 @@ const UNDERPAINTING: Layer = Layer {
     thickness: 0.10,
     dryness: 0.07,
     pickup: 0.10,
-    overrun: 2.0,
+    overrun: 1.4,
 };
 
 const BODY: Layer = Layer {
