@@ -4,7 +4,7 @@ use std::path::Path;
 
 use impasto_core::brush::{self, HEIGHT_SCALE, Mark};
 use impasto_gl_render::Picture;
-use impasto_scene::assets::{AssetFolders, AssetRequest};
+use impasto_scene::load::load_brush;
 
 use crate::args::BrushesArguments;
 use crate::failure::Failure;
@@ -47,22 +47,8 @@ pub(crate) fn run(arguments: &BrushesArguments) -> Result<(), Failure> {
 }
 
 fn marks_of_picture(path: &Path) -> Result<Vec<Mark>, Failure> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    let request = AssetRequest {
-        name: &name,
-        beside: &folder.join("brushes"),
-        root: folder,
-        max_bytes: impasto_scene::texture::MAX_FILE_BYTES,
-    };
-    let decoded = impasto_scene::texture::read(&AssetFolders::default(), &request)
-        .map_err(|problem| Failure::Refused(problem.to_string()))?;
-    let texture = decoded.texture;
-    if !brush::has_mark(texture.size_px, &texture.rgba8) {
-        let words = format!("{}: the picture is of one grey; it holds no brush mark", path.display());
-        return Err(Failure::Refused(words));
-    }
-    Ok(brush::marks_of_picture(texture.size_px, &texture.rgba8))
+    let picture = load_brush(path)?;
+    Ok(brush::marks_of_picture(picture.size_px, &picture.rgba8))
 }
 
 fn sheet(rows: &[(String, Vec<Mark>)]) -> Picture {

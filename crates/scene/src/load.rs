@@ -9,7 +9,7 @@ use crate::house_mesh;
 use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::Located;
-use crate::mesh_file::MeshFile;
+use crate::mesh_file::{MeshFile, Texture};
 use crate::problem::{Problem, Report, Severity};
 
 mod files;
@@ -62,6 +62,18 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
             Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
         }
     }
+}
+
+/// Reads a picture that is to serve as a brush, as a scene beside it would.
+///
+/// # Errors
+/// Where the file cannot be used, or holds no mark.
+pub fn load_brush(path: &Path) -> Result<Texture, Report> {
+    source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    read_brush(path, &name, &AssetFolders::default())
+        .map(|(texture, _)| texture)
+        .map_err(|problem| Report(vec![problem]))
 }
 
 fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
