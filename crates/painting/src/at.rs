@@ -8,7 +8,7 @@ use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::solve::{SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
-use impasto_scene::motion;
+use impasto_scene::motion::{self, CameraPose};
 use rayon::prelude::*;
 
 use crate::coat::Coat;
@@ -76,8 +76,13 @@ pub(crate) struct Look<'a> {
 impl Painting {
     /// The painting at a frame of its timeline (which need not be whole), as its camera sees it.
     pub fn at(&self, frame: f64, options: &FrameOptions) -> Frame {
+        self.seen_by(&motion::camera_at(self.scene(), frame), frame, options)
+    }
+
+    /// The painting at a frame of its timeline, as a camera of one's own sees it.
+    pub fn seen_by(&self, camera: &CameraPose, frame: f64, options: &FrameOptions) -> Frame {
         let scene = self.scene();
-        let view = PictureView { pose: motion::camera_at(scene, frame), size_px: options.size_px };
+        let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
         let frame_view = view.frame_view();
         let px_scale =
