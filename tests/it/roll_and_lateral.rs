@@ -86,12 +86,8 @@ fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     let moved = |at: [f64; 3]| [at[0] + shift[0], at[1] + shift[1], at[2] + shift[2]];
     scene.camera.keys =
         vec![shapes::camera_key(0.0, eye, target), shapes::camera_key(1.0, moved(eye), moved(target))];
-    scene.objects[0].keys = vec![ObjectKey {
-        frame: 0.0,
-        translation: [0.0; 3],
-        rotation_deg: [-30.0, 25.0, 10.0],
-        ease: Default::default(),
-    }];
+    scene.objects[0].keys =
+        vec![ObjectKey { translation: [0.0; 3], rotation_deg: [-30.0, 25.0, 10.0], ..ObjectKey::at(0.0) }];
     let pose = DAffine3::from_mat3(
         DMat3::from_rotation_z(10f64.to_radians())
             * DMat3::from_rotation_y(25f64.to_radians())
@@ -175,10 +171,9 @@ fn a_turning_object_is_a_turning_camera_seen_backwards() {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 8000)]);
     scene.timeline.last = 1;
     let key = |frame: f64, z: f64| ObjectKey {
-        frame,
         translation: [0.0; 3],
         rotation_deg: [0.0, 0.0, z],
-        ease: Default::default(),
+        ..ObjectKey::at(frame)
     };
     scene.objects[0].keys = vec![key(0.0, 0.0), key(1.0, -77.0)];
     let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();

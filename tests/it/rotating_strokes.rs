@@ -26,12 +26,8 @@ fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) 
         let mut half = shapes::object(name, 1);
         half.scale = Scale([50.0; 3]);
         half.material = unlit(color);
-        half.keys = vec![ObjectKey {
-            frame: 0.0,
-            translation: [x, 0.0, -95.0],
-            rotation_deg: [0.0; 3],
-            ease: Default::default(),
-        }];
+        half.keys =
+            vec![ObjectKey { translation: [x, 0.0, -95.0], rotation_deg: [0.0; 3], ..ObjectKey::at(0.0) }];
         half
     });
     let scene = shapes::scene(halves.into());
@@ -156,21 +152,13 @@ fn presence_erodes_a_stroke_without_a_step() {
 fn two_bodies() -> Scene {
     let mut left = shapes::object("left", 8000);
     left.material = unlit([1.0, 0.0, 0.0]);
-    left.keys = vec![ObjectKey {
-        frame: 0.0,
-        translation: [-0.6, 0.0, 0.0],
-        rotation_deg: [0.0; 3],
-        ease: Default::default(),
-    }];
+    left.keys =
+        vec![ObjectKey { translation: [-0.6, 0.0, 0.0], rotation_deg: [0.0; 3], ..ObjectKey::at(0.0) }];
     let mut right = shapes::object("right", 8000);
     right.material = unlit([0.0, 0.0, 1.0]);
     right.scale = Scale([0.7; 3]);
-    right.keys = vec![ObjectKey {
-        frame: 0.0,
-        translation: [0.6, 0.1, 0.5],
-        rotation_deg: [0.0; 3],
-        ease: Default::default(),
-    }];
+    right.keys =
+        vec![ObjectKey { translation: [0.6, 0.1, 0.5], rotation_deg: [0.0; 3], ..ObjectKey::at(0.0) }];
     let mut scene = shapes::scene(vec![left, right]);
     flat(&mut scene);
     scene

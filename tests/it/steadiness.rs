@@ -41,10 +41,9 @@ fn turntable() -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 20_000)]);
     scene.timeline.last = 360;
     let key = |frame: f64, y: f64| ObjectKey {
-        frame,
         translation: [0.0; 3],
         rotation_deg: [12.0, y, 0.0],
-        ease: Default::default(),
+        ..ObjectKey::at(frame)
     };
     scene.objects[0].keys = vec![key(0.0, 0.0), key(360.0, 360.0)];
     scene

@@ -108,6 +108,7 @@ pub fn object(name: &str, particles: u64) -> Object {
         hold: 1,
         scale: Default::default(),
         up: Default::default(),
+        morph: None,
         material: None,
         keys: Vec::new(),
     }
@@ -128,6 +129,7 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         background: Color::default(),
         timeline: Timeline { fps: 24.0, first: 0, last: 0 },
         reference: Reference::Frame(0),
+        further_references: Vec::new(),
         camera: Camera {
             lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.05, far: 100.0 },
             keys: vec![camera_key(0.0, [0.0, 0.0, 4.0], [0.0; 3])],
@@ -146,10 +148,8 @@ pub fn scene(objects: Vec<Object>) -> Scene {
             ..Default::default()
         },
         regions: vec![Region {
-            name: "all".to_owned(),
-            on: Selector::Everything,
             direction: Direction::Angle(20.0),
-            strokes: StrokeSettings::default(),
+            ..Region::new("all", Selector::Everything)
         }],
         style: Style::default(),
     }

@@ -13,6 +13,8 @@ use crate::problem::Severity;
 
 mod mesh_names;
 mod objects;
+mod on_meshes;
+mod regions;
 mod shot;
 mod strokes;
 
@@ -40,14 +42,17 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
     shot::check(scene, &mut findings);
     objects::check(scene, &mut findings);
     strokes::check(scene, &mut findings);
+    regions::check(scene, &mut findings);
     findings.done()
 }
 
-/// Whether the groups and materials that the document names are in its meshes, which are listed by the path written in
-/// the document. A mesh that is not listed is passed over: whoever failed to read it has said so.
-pub fn check_names_in_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Vec<Finding> {
+/// Whether the document goes with its meshes, which are listed by the path written in the document: groups and materials
+/// that are there, guides on the surface, morphs of equal topology. A mesh that is not listed is passed over: whoever failed
+/// to read it has said so.
+pub fn check_with_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Vec<Finding> {
     let mut findings = Findings::default();
     mesh_names::check(scene, meshes, &mut findings);
+    on_meshes::check(scene, meshes, &mut findings);
     findings.done()
 }
 

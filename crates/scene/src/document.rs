@@ -2,11 +2,15 @@
 //! person writes them; nothing here is solved or resolved.
 
 mod paint;
+mod regions;
 
 use serde::Deserialize;
 
 pub use paint::{
     BrushMix, Canvas, CanvasFollows, Edges, LayerSettings, RotatingStrokes, Solver, StrokeSettings, Style,
+};
+pub use regions::{
+    Bend, Dab, Direction, Falloff, Guide, GuidePoint, GuideView, Region, Seam, Selector, Sense,
 };
 
 /// A whole scene file.
@@ -30,6 +34,9 @@ pub struct Scene {
     /// The pose in which stroke directions are stated.
     #[serde(default)]
     pub reference: Reference,
+    /// More poses that directions may refer to: a surface that the reference does not face takes the one that faces it best.
+    #[serde(default)]
+    pub further_references: Vec<Reference>,
     /// The camera and its keys.
     pub camera: Camera,
     /// Lights; empty means the studio default.
@@ -79,6 +86,22 @@ pub struct Timeline {
 pub enum Reference {
     /// The camera and the objects as they stand at this frame.
     Frame(i64),
+    /// A camera of its own, and the objects as they stand at a frame.
+    View {
+        /// Where the eye is, world space.
+        eye: [f64; 3],
+        /// What it looks at, world space.
+        target: [f64; 3],
+        /// Turns the camera about its gaze.
+        #[serde(default)]
+        roll_deg: f64,
+        /// Vertical field of view, degrees; left out, the lens's own.
+        #[serde(default)]
+        fov_y_deg: Option<f64>,
+        /// The frame of the objects.
+        #[serde(default)]
+        frame: i64,
+    },
 }
 
 /// How a value leaves its key.
@@ -243,13 +266,16 @@ pub struct Object {
     /// Which way the mesh file points.
     #[serde(default)]
     pub up: Up,
+    /// Path of a mesh of equal topology that keys may turn this one into.
+    #[serde(default)]
+    pub morph: Option<String>,
     /// Overrides the materials of the mesh file.
     #[serde(default)]
     pub material: Option<MaterialOverride>,
     /// Frames that each pose is held: 1 moves in every frame, 2 on twos, counted from the timeline's first frame.
     #[serde(default = "one_frame")]
     pub hold: u32,
-    /// Rigid poses, frames strictly increasing; none means the identity.
+    /// Poses, frames strictly increasing; none means the identity.
     #[serde(default)]
     pub keys: Vec<ObjectKey>,
 }
@@ -272,7 +298,7 @@ pub struct MaterialOverride {
     pub gloss: Option<f64>,
 }
 
-/// One rigid pose of an object in its parent's space.
+/// One pose of an object in its parent's space.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectKey {
@@ -284,58 +310,34 @@ pub struct ObjectKey {
     /// Euler angles in degrees: about X first, then Y, then Z; interpolated as numbers, so 0 to 720 is two turns.
     #[serde(default)]
     pub rotation_deg: [f64; 3],
+    /// Size, > 0; children take part in it.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// How far the mesh has turned into the object's `morph`: 0 not at all, 1 wholly.
+    #[serde(default)]
+    pub morph: f64,
     /// How the pose leaves this key.
     #[serde(default)]
     pub ease: Ease,
 }
 
-/// A part of the scene with settings of its own.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Region {
-    /// Unique.
-    pub name: String,
-    /// What it covers.
-    pub on: Selector,
-    /// Base direction of its strokes.
-    #[serde(default)]
-    pub direction: Direction,
-    /// Settings that differ from the scene's.
-    #[serde(default)]
-    pub strokes: StrokeSettings,
+impl Object {
+    /// From the mesh file's coordinates to the object's own space: Z up turned into Y up, and the static scale.
+    pub fn model_from_file(&self) -> glam::DMat3 {
+        let turn = match self.up {
+            Up::Y => glam::DMat3::IDENTITY,
+            Up::Z => glam::DMat3::from_cols(glam::DVec3::X, glam::DVec3::NEG_Z, glam::DVec3::Y),
+        };
+        glam::DMat3::from_diagonal(glam::DVec3::from(self.scale.0)) * turn
+    }
 }
 
-/// What a region covers.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Selector {
-    /// All objects.
-    Everything,
-    /// A whole object, by name.
-    Object(String),
-    /// A group of an object's mesh: object, group.
-    Group(String, String),
-    /// A material of an object's mesh: object, material.
-    Material(String, String),
-}
-
-/// Base direction of strokes.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Direction {
-    /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops.
-    #[default]
-    Auto,
-    /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
-    Angle(f64),
-    /// Two families of strokes that cross: degrees of either, as with `Angle`.
-    Crossing(f64, f64),
-    /// Along this axis of the object's own space, on the surface.
-    Along([f64; 3]),
-    /// Round this axis of the object's own space, along the surface.
-    Around([f64; 3]),
-    /// Up the surface, towards the object's own +Y.
-    Up,
+impl ObjectKey {
+    /// The identity at a frame.
+    pub fn at(frame: f64) -> Self {
+        let ease = Ease::default();
+        Self { frame, translation: [0.0; 3], rotation_deg: [0.0; 3], scale: 1.0, morph: 0.0, ease }
+    }
 }
 
 impl Color {

@@ -9,6 +9,7 @@ pub mod load;
 pub mod loaded;
 pub mod locate;
 pub mod mesh_file;
+pub mod morph;
 pub mod motion;
 mod nearest;
 pub mod new_scene;

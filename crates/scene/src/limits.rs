@@ -83,3 +83,18 @@ pub const MAX_POINT_LIGHTS: usize = 16;
 
 /// Problems that one report lists.
 pub const MAX_PROBLEMS: usize = 100;
+
+/// Poses that directions may refer to beside the reference.
+pub const MAX_FURTHER_REFERENCES: usize = 16;
+
+/// Guides of a scene.
+pub const MAX_GUIDES: usize = 4096;
+
+/// Points of all guides of a scene.
+pub const MAX_GUIDE_POINTS: usize = 65_536;
+
+/// Dabs of a scene.
+pub const MAX_DABS: usize = 65_536;
+
+/// Scale of a key.
+pub const KEY_SCALE: std::ops::RangeInclusive<f64> = 1e-3..=1e3;

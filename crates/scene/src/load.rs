@@ -121,7 +121,7 @@ fn finish(
         brush: &|name| read_brush(path, name, &options.folders),
     };
     let files = Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
-    let in_meshes = check::check_names_in_meshes(&scene, &files.meshes);
+    let in_meshes = check::check_with_meshes(&scene, &files.meshes);
     problems.extend(in_meshes.into_iter().map(|finding| told.problem(finding)));
     sort_and_cap(path, &mut problems, files.problems);
     if problems.iter().any(|problem| problem.severity.is_fatal()) {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 
-use crate::document::{CameraKey, Ease, Lens, Object, ObjectKey, Scene};
+use crate::document::{CameraKey, Ease, Lens, Object, ObjectKey, Reference, Scene};
 
 /// Where the camera is at one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,32 +64,63 @@ pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     }
 }
 
+/// The camera of a reference, and the frame at which the objects stand.
+pub fn referred_to(scene: &Scene, reference: &Reference) -> (CameraPose, f64) {
+    match *reference {
+        Reference::Frame(frame) => (camera_at(scene, frame as f64), frame as f64),
+        Reference::View { eye, target, roll_deg, fov_y_deg, frame } => {
+            let lens = match camera_at(scene, frame as f64).lens {
+                Lens::Perspective { fov_y_deg: usual, near, far } => {
+                    Lens::Perspective { fov_y_deg: fov_y_deg.unwrap_or(usual), near, far }
+                }
+                lens @ Lens::Orthographic { .. } => lens,
+            };
+            let roll_rad = wrap_deg(roll_deg).to_radians();
+            (CameraPose { eye: DVec3::from(eye), target: DVec3::from(target), roll_rad, lens }, frame as f64)
+        }
+    }
+}
+
 /// The field of view that the last of these keys leaves, degrees.
 fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
     keys.iter().rev().find_map(|key| key.fov_y_deg)
 }
 
-/// `world_from_model` of every object, in the order of the file; rigid. An object moves with its parent, wherever in
-/// the file that stands; keys are in the parent's space.
+/// `world_from_model` of every object, in the order of the file: turned, moved and evenly scaled. An object moves with its
+/// parent, wherever in the file that stands; keys are in the parent's space.
 ///
 /// Takes time and memory in proportion to the objects and follows chains of any depth. An unknown parent, or one that
 /// closes a cycle, counts as none (`check` refuses both).
 pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     let objects = &scene.objects;
     let parents = parent_indices(objects);
-    let first = scene.timeline.first as f64;
-    let held = |hold: u32| match hold {
-        0 | 1 => frame,
-        hold => first + ((frame - first) / f64::from(hold)).floor() * f64::from(hold),
-    };
     let mut poses: Vec<DAffine3> =
-        objects.iter().map(|object| pose_in_parent(&object.keys, held(object.hold))).collect();
+        objects.iter().map(|object| pose_in_parent(&object.keys, held(scene, object, frame))).collect();
     for index in parents_first(&parents) {
         if let Some(parent) = parents[index] {
             poses[index] = poses[parent] * poses[index];
         }
     }
     poses
+}
+
+/// How far every object has turned into its morph, in the order of the file: 0 not at all, 1 wholly.
+pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
+    let weight = |object: &Object| {
+        let span = Span::at(&object.keys, held(scene, object, frame), |key| (key.frame, key.ease));
+        let at = |index: usize| object.keys[index].morph;
+        span.map_or(0.0, |span| span.mix(at(span.left), at(span.right)))
+    };
+    scene.objects.iter().map(weight).collect()
+}
+
+/// The frame whose pose an object holds.
+fn held(scene: &Scene, object: &Object, frame: f64) -> f64 {
+    let first = scene.timeline.first as f64;
+    match object.hold {
+        0 | 1 => frame,
+        hold => first + ((frame - first) / f64::from(hold)).floor() * f64::from(hold),
+    }
 }
 
 /// For each object, the index of its parent; the first object of a name counts.
@@ -146,14 +177,15 @@ fn parents_first(parents: &[Option<usize>]) -> Vec<usize> {
     order
 }
 
-/// The rigid pose that keys give at a frame; the identity without keys.
+/// The pose that keys give at a frame; the identity without keys.
 fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     let Some(span) = Span::at(keys, frame, |key| (key.frame, key.ease)) else {
         return DAffine3::IDENTITY;
     };
     let (left, right) = (&keys[span.left], &keys[span.right]);
     let rotation = rotation_from_euler_deg(span.mix_vec3(left.rotation_deg, right.rotation_deg));
-    DAffine3::from_mat3_translation(rotation, span.mix_vec3(left.translation, right.translation))
+    let scale = span.mix(left.scale, right.scale);
+    DAffine3::from_mat3_translation(rotation * scale, span.mix_vec3(left.translation, right.translation))
 }
 
 /// The rotation of Euler angles in degrees: about X first, then Y, then Z (R = Rz·Ry·Rx).

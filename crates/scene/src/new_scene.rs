@@ -41,6 +41,7 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
         hold: 1,
         scale: Default::default(),
         up: Default::default(),
+        morph: None,
         material: None,
         keys: Vec::new(),
     }];
@@ -49,10 +50,9 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
         let backdrop_name = if name == BACKDROP_NAME { "wall" } else { BACKDROP_NAME };
         objects.push(view.backdrop(backdrop_name));
         regions.push(Region {
-            name: backdrop_name.to_owned(),
-            on: Selector::Object(backdrop_name.to_owned()),
             direction: Direction::Crossing(-58.0, 4.0),
             strokes: StrokeSettings { scale: Some(2.0), color_jitter: Some(0.7), ..Default::default() },
+            ..Region::new(backdrop_name, Selector::Object(backdrop_name.to_owned()))
         });
     }
     Scene {
@@ -62,6 +62,7 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
         background: Color::default(),
         timeline: Timeline::default(),
         reference: Default::default(),
+        further_references: Vec::new(),
         camera: view.camera(),
         lights: view.lights(),
         objects,
@@ -172,12 +173,12 @@ impl View {
             hold: 1,
             scale: Scale([significant(BACKDROP_SCALE * self.size); 3]),
             up: Default::default(),
+            morph: None,
             material: None,
             keys: vec![ObjectKey {
-                frame: 0.0,
                 translation: round_to(below, self.size * 1e-4).to_array(),
                 rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
-                ease: Ease::default(),
+                ..ObjectKey::at(0.0)
             }],
         }
     }

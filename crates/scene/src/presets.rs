@@ -58,6 +58,10 @@ pub struct ResolvedStrokes {
     pub layers: [ResolvedLayer; 6],
     /// 1 keeps strokes flat on the picture, 0 lets their direction follow the surface.
     pub flatness: f32,
+    /// How far strokes stand off the surface, units of the object's own space.
+    pub offset: f32,
+    /// How far strokes grow with their surface, 0..=1.
+    pub size_follow: f32,
     /// Standard deviation of the angle from stroke to stroke, radians.
     pub angle_jitter_rad: f32,
     /// Standard deviation of the slow swing of the angle, radians.
@@ -182,6 +186,8 @@ impl ResolvedStrokes {
             body.brushes.clone_from(names);
         }
         replace(&mut self.flatness, settings.flatness);
+        replace(&mut self.offset, settings.offset);
+        replace(&mut self.size_follow, settings.size_follow);
         replace(&mut self.angle_jitter_rad, settings.angle_jitter_deg.map(f64::to_radians));
         replace(&mut self.swing_rad, settings.swing_deg.map(f64::to_radians));
         replace(&mut self.contour, settings.contour);

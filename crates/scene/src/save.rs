@@ -4,12 +4,12 @@ use std::io::Write;
 use std::path::Path;
 
 use crate::document::{
-    BrushMix, Camera, CameraKey, Color, Direction, Ease, Edges, LayerSettings, Lens, Light, MaterialOverride,
-    Object, ObjectKey, Reference, Region, RotatingStrokes, Scale, Scene, Selector, StrokeSettings, Style,
-    Timeline, Up,
+    BrushMix, Camera, CameraKey, Color, Ease, Edges, LayerSettings, Lens, Light, MaterialOverride, Object,
+    ObjectKey, Reference, RotatingStrokes, Scale, Scene, StrokeSettings, Style, Timeline, Up,
 };
 
 mod layout;
+mod regions;
 
 use layout::{Fields, Value, number, text};
 
@@ -24,12 +24,15 @@ pub fn to_ron(scene: &Scene) -> String {
         .unless(scene.background == Color::default(), "background", || color(scene.background))
         .unless(scene.timeline == Timeline::default(), "timeline", || timeline(&scene.timeline))
         .unless(scene.reference == Reference::default(), "reference", || reference(&scene.reference))
+        .unless(scene.further_references.is_empty(), "further_references", || {
+            Value::List(scene.further_references.iter().map(reference).collect())
+        })
         .with("camera", camera(&scene.camera))
         .unless(scene.lights.is_empty(), "lights", || Value::List(scene.lights.iter().map(light).collect()))
         .with("objects", Value::List(scene.objects.iter().map(object).collect()))
         .unless(scene.strokes == StrokeSettings::default(), "strokes", || strokes(&scene.strokes))
         .unless(scene.regions.is_empty(), "regions", || {
-            Value::List(scene.regions.iter().map(region).collect())
+            Value::List(scene.regions.iter().map(regions::region).collect())
         })
         .with("style", style(&scene.style))
         .done();
@@ -96,8 +99,16 @@ fn timeline(timeline: &Timeline) -> Value {
 }
 
 fn reference(reference: &Reference) -> Value {
-    let Reference::Frame(frame) = reference;
-    Value::Word(format!("Frame({frame})"))
+    match reference {
+        Reference::Frame(frame) => Value::Word(format!("Frame({frame})")),
+        Reference::View { eye, target, roll_deg, fov_y_deg, frame } => Fields::new()
+            .with("eye", vector(*eye))
+            .with("target", vector(*target))
+            .unless(*roll_deg == 0.0, "roll_deg", || number(*roll_deg))
+            .maybe("fov_y_deg", fov_y_deg.map(number))
+            .unless(*frame == 0, "frame", || Value::Word(frame.to_string()))
+            .named("View"),
+    }
 }
 
 fn camera(camera: &Camera) -> Value {
@@ -152,6 +163,7 @@ fn object(object: &Object) -> Value {
         .unless(object.hold == 1, "hold", || Value::Word(object.hold.to_string()))
         .unless(object.scale == Scale::default(), "scale", || scale(object.scale))
         .unless(object.up == Up::default(), "up", || word(object.up))
+        .maybe("morph", object.morph.as_deref().map(text))
         .maybe("material", object.material.as_ref().map(material))
         .unless(object.keys.is_empty(), "keys", || Value::List(object.keys.iter().map(object_key).collect()))
         .done()
@@ -176,6 +188,8 @@ fn object_key(key: &ObjectKey) -> Value {
         .with("frame", number(key.frame))
         .unless(key.translation == [0.0; 3], "translation", || vector(key.translation))
         .unless(key.rotation_deg == [0.0; 3], "rotation_deg", || vector(key.rotation_deg))
+        .unless(key.scale == 1.0, "scale", || number(key.scale))
+        .unless(key.morph == 0.0, "morph", || number(key.morph))
         .unless(key.ease == Ease::default(), "ease", || word(key.ease))
         .done()
 }
@@ -189,6 +203,8 @@ fn strokes(settings: &StrokeSettings) -> Value {
         .maybe("scale", settings.scale.map(number))
         .maybe("coverage", settings.coverage.map(number))
         .maybe("flatness", settings.flatness.map(number))
+        .maybe("offset", settings.offset.map(number))
+        .maybe("size_follow", settings.size_follow.map(number))
         .maybe("angle_jitter_deg", settings.angle_jitter_deg.map(number))
         .maybe("swing_deg", settings.swing_deg.map(number))
         .maybe("contour", settings.contour.map(number))
@@ -234,37 +250,6 @@ fn edges(edges: Edges) -> Value {
     match edges {
         Edges::Overrun(px) => Value::Named("Overrun", vec![number(px)]),
         Edges::Clip | Edges::Free => word(edges),
-    }
-}
-
-fn region(region: &Region) -> Value {
-    Fields::new()
-        .with("name", text(&region.name))
-        .with("on", selector(&region.on))
-        .unless(region.direction == Direction::default(), "direction", || direction(&region.direction))
-        .unless(region.strokes == StrokeSettings::default(), "strokes", || strokes(&region.strokes))
-        .done()
-}
-
-fn selector(selector: &Selector) -> Value {
-    let named = |name, parts: &[&String]| Value::Named(name, parts.iter().map(|part| text(part)).collect());
-    match selector {
-        Selector::Everything => Value::Word("Everything".to_owned()),
-        Selector::Object(object) => named("Object", &[object]),
-        Selector::Group(object, group) => named("Group", &[object, group]),
-        Selector::Material(object, material) => named("Material", &[object, material]),
-    }
-}
-
-fn direction(direction: &Direction) -> Value {
-    match direction {
-        Direction::Angle(angle_deg) => Value::Named("Angle", vec![number(*angle_deg)]),
-        Direction::Crossing(first_deg, second_deg) => {
-            Value::Named("Crossing", vec![number(*first_deg), number(*second_deg)])
-        }
-        Direction::Along(axis) => Value::Named("Along", vec![vector(*axis)]),
-        Direction::Around(axis) => Value::Named("Around", vec![vector(*axis)]),
-        Direction::Auto | Direction::Up => word(direction),
     }
 }
 

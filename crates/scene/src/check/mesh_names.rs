@@ -22,7 +22,7 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
         let (kind, object, name) = match &region.on {
             Selector::Group(object, group) => (Kind::Group, object, group),
             Selector::Material(object, material) => (Kind::Material, object, material),
-            Selector::Everything | Selector::Object(_) => continue,
+            Selector::Everything | Selector::Object(_) | Selector::Dabs(..) => continue,
         };
         let mesh_path = mesh_path_of.get(object.as_str());
         if let Some(known) = mesh_path.and_then(|path| known.get(path)) {

@@ -24,6 +24,9 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
     if let Some(gloss) = object.material.as_ref().and_then(|material| material.gloss) {
         findings.number(&format!("{object_path}.material.gloss"), gloss, 0.0..=1.0);
     }
+    if let Some(morph) = &object.morph {
+        findings.name(&format!("{object_path}.morph"), morph);
+    }
     check_scale(&format!("{object_path}.scale"), object.scale.0, findings);
     findings.number(
         &format!("{object_path}.hold"),
@@ -37,6 +40,14 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
         for angle_deg in key.rotation_deg {
             findings.number(&format!("{object_path}.keys[{index}].rotation_deg"), angle_deg, -turn..=turn);
         }
+        findings.number(&format!("{object_path}.keys[{index}].scale"), key.scale, limits::KEY_SCALE);
+        findings.number(&format!("{object_path}.keys[{index}].morph"), key.morph, 0.0..=1.0);
+    }
+    let unmorphed = object.keys.iter().position(|key| key.morph != 0.0).filter(|_| object.morph.is_none());
+    if let Some(index) = unmorphed {
+        let message = "the object has nothing to turn into";
+        let mend = "name a mesh of equal topology in the object's `morph`";
+        findings.error(format!("{object_path}.keys[{index}].morph"), message, mend);
     }
 }
 

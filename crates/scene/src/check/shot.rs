@@ -9,6 +9,7 @@ use crate::limits;
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_size(scene.size, findings);
     check_timeline(scene, findings);
+    check_references(scene, findings);
     check_lens(&scene.camera.lens, findings);
     check_camera_keys(scene, findings);
     check_lights(&scene.lights, findings);
@@ -46,8 +47,50 @@ fn check_timeline(scene: &Scene, findings: &mut Findings) {
             findings.limit("timeline.last", message, "split the shot");
         }
     }
-    let Reference::Frame(reference) = scene.reference;
-    check_whole_frame("reference", reference, findings);
+}
+
+fn check_references(scene: &Scene, findings: &mut Findings) {
+    check_reference("reference", scene, &scene.reference, findings);
+    if scene.further_references.len() > limits::MAX_FURTHER_REFERENCES {
+        let message = format!("{} further references", scene.further_references.len());
+        let mend = format!("give at most {}", limits::MAX_FURTHER_REFERENCES);
+        findings.limit("further_references", message, mend);
+    }
+    for (index, reference) in scene.further_references.iter().enumerate() {
+        check_reference(&format!("further_references[{index}]"), scene, reference, findings);
+    }
+    for (index, region) in scene.regions.iter().enumerate() {
+        if let Some(reference) = &region.reference {
+            check_reference(&format!("regions[{index}].reference"), scene, reference, findings);
+        }
+    }
+}
+
+fn check_reference(field_path: &str, scene: &Scene, reference: &Reference, findings: &mut Findings) {
+    let frame = match *reference {
+        Reference::Frame(frame) => frame,
+        Reference::View { eye, target, roll_deg, fov_y_deg, frame } => {
+            let path = |field: &str| format!("{field_path}.{field}");
+            findings.vector(&path("eye"), eye);
+            findings.vector(&path("target"), target);
+            findings.number(&path("roll_deg"), roll_deg, -limits::MAX_ANGLE_DEG..=limits::MAX_ANGLE_DEG);
+            if let Some(fov_y_deg) = fov_y_deg {
+                findings.number(&path("fov_y_deg"), fov_y_deg, limits::FOV_Y_DEG);
+            }
+            check_gaze(&path("target"), DVec3::from(eye), DVec3::from(target), findings);
+            frame
+        }
+    };
+    let timeline = &scene.timeline;
+    let outside = !(timeline.first..=timeline.last).contains(&frame) && timeline.first <= timeline.last;
+    // Left out, the reference is frame 0, wherever the timeline lies.
+    let is_default = field_path == "reference" && *reference == Reference::default();
+    if check_whole_frame(field_path, frame, findings) && outside && !is_default {
+        let message =
+            format!("frame {frame} is outside the timeline ({} to {})", timeline.first, timeline.last);
+        let mend = "name a frame of the timeline; the pose of the nearest key is used";
+        findings.warning(field_path, message, mend);
+    }
 }
 
 fn check_whole_frame(field_path: &str, frame: i64, findings: &mut Findings) -> bool {

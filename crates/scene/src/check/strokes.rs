@@ -1,15 +1,13 @@
-//! Stroke settings, regions and the style.
+//! Stroke settings and the style.
 
 use std::collections::HashSet;
 
 use super::{Findings, did_you_mean, short, shown};
 use crate::document::{
-    BrushMix, Direction, Edges, LayerSettings, RotatingStrokes, Scene, Selector, Solver, StrokeSettings,
-    Style,
+    BrushMix, Edges, LayerSettings, RotatingStrokes, Scene, Solver, StrokeSettings, Style,
 };
 use crate::limits;
 use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};
-use crate::problem::Severity;
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_settings("strokes", &scene.strokes, findings);
@@ -22,25 +20,6 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     if let Some((_, field_path)) = brush_pictures(scene).get(limits::MAX_BRUSH_PICTURES) {
         let message = "too many pictures that serve as brushes".to_owned();
         findings.error(field_path.clone(), message, format!("use at most {}", limits::MAX_BRUSH_PICTURES));
-    }
-    findings.unique("regions", scene.regions.iter().map(|region| region.name.as_str()));
-    let object_names: HashSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
-    for (index, region) in scene.regions.iter().enumerate() {
-        let region_path = format!("regions[{index}]");
-        let (Selector::Object(object) | Selector::Group(object, _) | Selector::Material(object, _)) =
-            &region.on
-        else {
-            check_region(&region_path, scene, index, findings);
-            continue;
-        };
-        if !object_names.contains(object.as_str()) {
-            findings.add(Severity::Error, || {
-                let known = scene.objects.iter().map(|object| object.name.as_str());
-                let message = format!("there is no object \"{}\"", shown(object));
-                (format!("{region_path}.on"), message, did_you_mean(object, known))
-            });
-        }
-        check_region(&region_path, scene, index, findings);
     }
 }
 
@@ -70,29 +49,15 @@ pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
     found
 }
 
-fn check_region(region_path: &str, scene: &Scene, index: usize, findings: &mut Findings) {
-    let region = &scene.regions[index];
-    let direction_path = format!("{region_path}.direction");
-    match region.direction {
-        Direction::Angle(angle_deg) => {
-            let turn = limits::MAX_ANGLE_DEG;
-            findings.number(&direction_path, angle_deg, -turn..=turn);
-        }
-        Direction::Crossing(first_deg, second_deg) => {
-            let turn = limits::MAX_ANGLE_DEG;
-            findings.number(&direction_path, first_deg, -turn..=turn);
-            findings.number(&direction_path, second_deg, -turn..=turn);
-        }
-        Direction::Along(axis) | Direction::Around(axis) => findings.direction(&direction_path, axis),
-        Direction::Auto | Direction::Up => {}
-    }
-    let strokes_path = format!("{region_path}.strokes");
-    check_settings(&strokes_path, &region.strokes, findings);
-    if region.strokes.preset.as_deref() == Some(PAPER_PRESET) {
+/// The settings of a region.
+pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, findings: &mut Findings) {
+    let settings = &scene.regions[index].strokes;
+    check_settings(strokes_path, settings, findings);
+    if settings.preset.as_deref() == Some(PAPER_PRESET) {
         let message = format!("the preset \"{PAPER_PRESET}\" holds for a whole scene");
         findings.error(format!("{strokes_path}.preset"), message, "name it in the scene's own strokes");
     }
-    check_flatness(&strokes_path, scene, Some(index), findings);
+    check_flatness(strokes_path, scene, Some(index), findings);
 }
 
 /// Strokes that follow the surface need the tangent plane; the neighbour solvers know none.
@@ -125,6 +90,7 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
     check_marks(strokes_path, &Marks::from(settings), findings);
     for (field, value, most) in [
         ("flatness", settings.flatness, 1.0),
+        ("size_follow", settings.size_follow, 1.0),
         ("angle_jitter_deg", settings.angle_jitter_deg, 180.0),
         ("swing_deg", settings.swing_deg, 180.0),
         ("contour", settings.contour, 1.0),
@@ -136,6 +102,9 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
         if let Some(value) = value {
             findings.number(&path(field), value, 0.0..=most);
         }
+    }
+    if let Some(offset) = settings.offset {
+        findings.number(&path("offset"), offset, -limits::MAX_LENGTH..=limits::MAX_LENGTH);
     }
     if let Some(scale) = settings.scale.filter(|scale| !(0.01..=100.0).contains(scale)) {
         findings.error(

@@ -260,10 +260,119 @@ fn groups_and_materials_are_looked_for_in_the_mesh() {
          regions: [(name: \"1\", on: Group(\"a\", \"skin\")), (name: \"2\", on: Group(\"a\", \"wax\")),
                    (name: \"3\", on: Material(\"a\", \"wax\")), (name: \"4\", on: Material(\"a\", \"skin\"))]",
     );
-    let findings = check_names_in_meshes(&scene, &meshes);
+    let findings = check_with_meshes(&scene, &meshes);
     let paths: Vec<&str> = findings.iter().map(|finding| finding.field_path.as_str()).collect();
     assert_eq!(paths, ["objects[0].group", "regions[1].on", "regions[3].on"]);
     assert_eq!(findings[0].mend, "did you mean \"leaf\"?");
+}
+
+#[test]
+fn guides_and_dabs_that_cannot_work_are_errors() {
+    let guide = |rest: &str| {
+        format!("regions: [(name: \"r\", on: Object(\"a\"), guides: [({rest})])]").replace(
+            "POINTS",
+            "points: [(at: (0, 0, 0), normal: (0, 1, 0)), (at: (1, 0, 0), normal: (0, 1, 0))]",
+        )
+    };
+    let at = |field: &str| format!("regions[0].guides[0]{field}");
+    assert_finds(&guide("POINTS, radius: 0.1"), &[]);
+    assert_finds(&guide("POINTS, radius: 0"), &[(Error, &at(".radius"))]);
+    assert_finds(&guide("POINTS, radius: NaN"), &[(Error, &at(".radius"))]);
+    assert_finds(&guide("POINTS, radius: 1, strength: 2"), &[(Error, &at(".strength"))]);
+    assert_finds(&guide("POINTS, radius: 1, object: \"gone\""), &[(Error, &at(".object"))]);
+    let same = "points: [(at: (0, 0, 0), normal: (0, 1, 0)), (at: (0, 0, 0), normal: (0, 1, 0))]";
+    assert_finds(&guide(&format!("{same}, radius: 1")), &[(Error, &at(".points"))]);
+    assert_finds(&guide("points: [], radius: 1"), &[(Error, &at(".points"))]);
+    let flat = "points: [(at: (0, 0, 0), normal: (0, 0, 0)), (at: (1, 0, 0), normal: (0, 1, 0))]";
+    assert_finds(&guide(&format!("{flat}, radius: 1")), &[(Error, &at(".points[0].normal"))]);
+    let view = "POINTS, radius: 1, view: (eye: (0, 1, 0), target: (0, 1, 0))";
+    assert_finds(&guide(view), &[(Error, &at(".view.target"))]);
+    let everywhere = guide("POINTS, radius: 1").replace("Object(\"a\")", "Everything");
+    assert_finds(&everywhere, &[(Error, "regions[0].guides[0]")]);
+    let dabs = |dab: &str| format!("regions: [(name: \"r\", on: Dabs(\"a\", [{dab}]))]");
+    assert_finds(&dabs("(at: (0, 0, 0), normal: (0, 1, 0), radius: 0.2)"), &[]);
+    assert_finds(&dabs("(at: (0, 0, 0), normal: (0, 1, 0), radius: -1)"), &[(Error, "regions[0].on")]);
+    assert_finds(&dabs(""), &[(Warning, "regions[0].on")]);
+}
+
+#[test]
+fn regions_that_a_later_one_covers_are_told() {
+    let regions = |on: [&str; 3]| {
+        let list: String =
+            on.iter().enumerate().map(|(i, on)| format!("(name: \"{i}\", on: {on}),")).collect();
+        format!("regions: [{list}]")
+    };
+    let group = "Group(\"a\", \"g\")";
+    assert_finds(&regions(["Everything", "Object(\"a\")", group]), &[]);
+    assert_finds(&regions([group, "Everything", "Object(\"a\")"]), &[(Warning, "regions[0].on")]);
+    assert_finds(&regions(["Everything", group, group]), &[(Warning, "regions[1].on")]);
+    assert_finds(&regions(["Object(\"a\")", "Object(\"a\")", group]), &[(Warning, "regions[0].on")]);
+}
+
+#[test]
+fn references_stay_in_the_timeline() {
+    let timeline = "timeline: (first: 10, last: 20)";
+    assert_finds(timeline, &[]);
+    assert_finds(&format!("{timeline}, reference: Frame(12)"), &[]);
+    assert_finds(&format!("{timeline}, reference: Frame(9)"), &[(Warning, "reference")]);
+    let further = format!("{timeline}, further_references: [Frame(10), Frame(21)]");
+    assert_finds(&further, &[(Warning, "further_references[1]")]);
+    let view = "reference: View(eye: (0, 0, 1), target: (0, 0, 1))";
+    assert_finds(view, &[(Error, "reference.target")]);
+}
+
+#[test]
+fn guides_lie_on_their_surface_and_morphs_have_its_topology() {
+    use glam::Vec3;
+    let triangles = |corners: &[[f32; 3]], faces: &[[u32; 3]]| {
+        Arc::new(MeshFile {
+            mesh: TriangleMesh {
+                positions: corners.iter().map(|&corner| Vec3::from(corner)).collect(),
+                normals: vec![Vec3::Z; corners.len()],
+                triangles: faces.to_vec(),
+                polygon_of_triangle: (0..faces.len() as u32).collect(),
+                group_of_triangle: vec![0; faces.len()],
+                material_of_triangle: vec![0; faces.len()],
+                ..TriangleMesh::default()
+            },
+            groups: vec!["skin".to_owned(), "bare".to_owned()],
+            materials: vec![Material { name: String::new(), color: [0.5; 3], texture: None, gloss: 0.0 }],
+        })
+    };
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 5.0, 0.0]];
+    let needle = [[9.0, 0.0, 0.0], [9.0, 1.0, 0.0], [9.0, 0.5, 0.0]];
+    let both: Vec<[f32; 3]> = corners[..3].iter().chain(&needle).copied().collect();
+    let meshes = BTreeMap::from([
+        ("cube.obj".to_owned(), triangles(&both, &[[0, 1, 2], [3, 4, 5]])),
+        ("other.obj".to_owned(), triangles(&corners, &[[0, 1, 2], [2, 1, 3]])),
+        ("fewer.obj".to_owned(), triangles(&corners, &[[0, 1, 2]])),
+    ]);
+    let guide = |from: &str, to: &str| {
+        format!("(points: [(at: {from}, normal: (0, 0, 1)), (at: {to}, normal: (0, 0, 1))], radius: 0.5),")
+    };
+    let scene = scene(&format!(
+        "objects: [(name: \"a\", mesh: \"cube.obj\", scale: 2, morph: \"other.obj\"),
+                   (name: \"c\", mesh: \"other.obj\", morph: \"cube.obj\"),
+                   (name: \"b\", mesh: \"cube.obj\", morph: \"fewer.obj\")],
+         regions: [(name: \"r\", on: Object(\"a\"), guides: [{}{}{}]), (name: \"s\", on: Group(\"a\", \"bare\"))]",
+        guide("(0, 0, 0)", "(1, 0.9, 0.1)"),
+        guide("(0, 0, 0)", "(1, 1, 3)"),
+        guide("(0, 0, 0)", "(18, 1, 0)"),
+    ));
+    let findings = check_with_meshes(&scene, &meshes);
+    let found: Vec<(Severity, &str)> =
+        findings.iter().map(|finding| (finding.severity, finding.field_path.as_str())).collect();
+    assert_eq!(
+        found,
+        [
+            (Error, "objects[1].morph"),
+            (Error, "objects[2].morph"),
+            (Warning, "regions[0].guides[1].points[1].at"),
+            (Warning, "regions[0].guides[2].points[1].at"),
+            (Warning, "regions[1].on"),
+        ]
+    );
+    assert!(findings[2].message.contains("is 3 away from \"a\""), "{}", findings[2].message);
 }
 
 #[test]

@@ -22,6 +22,10 @@ pub struct StrokeSettings {
     pub coverage: Option<f64>,
     /// 1 keeps strokes flat on the picture (the paper's similarity), 0 lets their direction follow the surface.
     pub flatness: Option<f64>,
+    /// How far strokes stand off the surface along its normal, units of the object's own space.
+    pub offset: Option<f64>,
+    /// How far strokes grow and shrink with their surface: 0 keeps their size in pixels, 1 keeps it on the surface.
+    pub size_follow: Option<f64>,
     /// Standard deviation of the angle from stroke to stroke, degrees.
     pub angle_jitter_deg: Option<f64>,
     /// Standard deviation of a slow swing of the angle over the surface, degrees.

@@ -33,7 +33,11 @@ impl Files {
     /// Reads every file once, however many objects name it. `at` gives a problem the place of a field of the document.
     pub(super) fn read(scene: &Scene, readers: &Readers<'_>, at: impl Fn(Problem, &str) -> Problem) -> Self {
         let mut files = Self::default();
-        for (name, field_path) in first_uses(scene, |object| Some(&object.mesh), "mesh") {
+        let meshes = first_uses(scene, |object| Some(&object.mesh), "mesh");
+        let known: std::collections::HashSet<&str> = meshes.iter().map(|(name, _)| *name).collect();
+        let mut morphs = first_uses(scene, |object| object.morph.as_ref(), "morph");
+        morphs.retain(|(name, _)| !known.contains(name));
+        for (name, field_path) in meshes.into_iter().chain(morphs) {
             match (readers.mesh)(name) {
                 Ok((mesh, warnings)) => {
                     files.problems.extend(warnings);

@@ -265,17 +265,31 @@ fn did_you_mean(name: &str) -> String {
 fn what_goes_into(field: &str) -> Option<&'static str> {
     Some(match field {
         "version" | "particles" | "seed" | "hold" => "a whole number, as in 7",
-        "first" | "last" | "reference" => "a whole frame number, as in 24",
+        "first" | "last" => "a whole frame number, as in 24",
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
         "fps" | "frame" | "roll_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
         | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter"
         | "swing_deg" | "contour" | "color_jitter" | "temperature" | "grading" | "opacity" | "thickness"
-        | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" => "one number, as in 2.5",
-        "eye" | "target" | "position" | "translation" | "rotation_deg" => "three numbers, as in (0, 1.5, -2)",
+        | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" | "offset" | "size_follow"
+        | "radius" | "strength" => "one number, as in 2.5",
+        "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
+            "three numbers, as in (0, 1.5, -2)"
+        }
+        "reference" => "a frame or a view, as in Frame(0) or View(eye: (0, 1, 4), target: (0, 0, 0))",
+        "further_references" => "a list, as in [Frame(60), View(eye: (0, 1, -4), target: (0, 0, 0))]",
+        "guides" => "a list, as in [(points: [(at: (…), normal: (…)), …], radius: 0.2)]",
+        "points" => "at least two points, as in [(at: (0, 1, 0), normal: (0, 0, 1)), …]",
+        "view" => "an eye and a target, as in (eye: (0, 1, 4), target: (0, 0, 0))",
+        "seam" => "Hard or Soft(0.1)",
+        "sense" => "Lines or Arrows",
+        "falloff" => "Smooth, Linear or Flat",
+        "morph" => "a mesh such as \"meshes/late.obj\" for an object, a number from 0 to 1 for a key",
         "scale" => "one number, or three as in (1, 2, 1)",
         "background" | "color" | "ground" => "a colour, as in \"#b3262a\"",
-        "name" | "mesh" | "group" | "parent" | "texture" | "preset" => "text in quotes, as in \"apple\"",
+        "name" | "mesh" | "group" | "parent" | "texture" | "preset" | "object" => {
+            "text in quotes, as in \"apple\""
+        }
         "brush" => "a brush such as \"filbert\", a picture such as \"mark.png\", or a list of them",
         "palette" => "a list of colours, as in [\"#b3262a\", \"#e3b62c\"]",
         "layers" => "a list of layers, as in [(name: \"scumble\", coverage: 0)]",
@@ -295,9 +309,11 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "ease" => "Step, Linear or Smooth",
         "kind" => "Sun, Point or Ambient",
         "up" => "Y or Z",
-        "on" => "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\") or Material(\"apple\", \"wood\")",
+        "on" => {
+            "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\") or Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)])"
+        }
         "direction" => {
-            "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)) or Up in a region, (x, y, z) in a light"
+            "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)), Toward((0, 1, 0)), Curvature(Min) or Up in a region, (x, y, z) in a light"
         }
         _ => return None,
     })

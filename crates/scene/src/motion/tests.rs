@@ -4,7 +4,7 @@ use super::*;
 use crate::document::Camera;
 
 fn key(frame: f64) -> ObjectKey {
-    ObjectKey { frame, translation: [0.0; 3], rotation_deg: [0.0; 3], ease: Ease::Linear }
+    ObjectKey::at(frame)
 }
 
 fn object(name: &str, parent: Option<&str>, keys: Vec<ObjectKey>) -> Object {
@@ -17,6 +17,7 @@ fn object(name: &str, parent: Option<&str>, keys: Vec<ObjectKey>) -> Object {
         hold: 1,
         scale: Default::default(),
         up: Default::default(),
+        morph: None,
         material: None,
         keys,
     }
@@ -34,6 +35,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         background: Default::default(),
         timeline: Default::default(),
         reference: Default::default(),
+        further_references: Vec::new(),
         camera: Camera { lens: Lens::default(), keys: camera_keys },
         lights: Vec::new(),
         objects,

@@ -228,6 +228,8 @@ impl ResolvedStrokes {
         Self {
             layers: preset.layers.map(sized),
             flatness: 1.0,
+            offset: 0.0,
+            size_follow: 0.0,
             angle_jitter_rad: preset.angle_jitter_deg.to_radians(),
             swing_rad: preset.swing_deg.to_radians(),
             contour: 0.0,

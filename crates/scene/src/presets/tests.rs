@@ -9,15 +9,15 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
         background: Default::default(),
         timeline: Default::default(),
         reference: Default::default(),
+        further_references: Vec::new(),
         camera: Camera { lens: Default::default(), keys: Vec::new() },
         lights: Vec::new(),
         objects: Vec::new(),
         strokes,
         regions: vec![Region {
-            name: "skin".to_owned(),
-            on: Selector::Everything,
             direction: Direction::Up,
             strokes: of_region,
+            ..Region::new("skin", Selector::Everything)
         }],
         style: Default::default(),
     }

@@ -3,7 +3,10 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::*;
-use crate::document::{Canvas, CanvasFollows, Solver};
+use crate::document::{
+    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuidePoint, GuideView, Region, Seam,
+    Selector, Sense, Solver,
+};
 use crate::load::parse;
 
 fn number() -> impl Strategy<Value = f64> {
@@ -79,10 +82,16 @@ fn any_light() -> impl Strategy<Value = Light> {
 }
 
 fn any_object() -> impl Strategy<Value = Object> {
-    let key =
-        (number(), vector3(), vector3(), ease()).prop_map(|(frame, translation, rotation_deg, ease)| {
-            ObjectKey { frame, translation, rotation_deg, ease }
-        });
+    let key = (number(), vector3(), vector3(), number(), number(), ease()).prop_map(
+        |(frame, translation, rotation_deg, scale, morph, ease)| ObjectKey {
+            frame,
+            translation,
+            rotation_deg,
+            scale,
+            morph,
+            ease,
+        },
+    );
     let material = (
         proptest::option::of(any_color()),
         proptest::option::of(name()),
@@ -90,13 +99,14 @@ fn any_object() -> impl Strategy<Value = Object> {
         proptest::option::of(number()),
     )
         .prop_map(|(color, texture, unlit, gloss)| MaterialOverride { color, texture, unlit, gloss });
-    let names = (name(), name(), proptest::option::of(name()), proptest::option::of(name()));
+    let maybe_name = || proptest::option::of(name());
+    let names = (name(), name(), maybe_name(), maybe_name(), maybe_name());
     let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);
     let up = prop_oneof![Just(Up::Y), Just(Up::Z)];
     let keys = prop::collection::vec(key, 0..4);
     let counts = (proptest::option::of(any::<u64>()), any::<u32>());
     (names, counts, scale, up, proptest::option::of(material), keys).prop_map(
-        |((name, mesh, group, parent), (particles, hold), scale, up, material, keys)| Object {
+        |((name, mesh, group, parent, morph), (particles, hold), scale, up, material, keys)| Object {
             name,
             mesh,
             group,
@@ -105,6 +115,7 @@ fn any_object() -> impl Strategy<Value = Object> {
             hold,
             scale,
             up,
+            morph,
             material,
             keys,
         },
@@ -134,7 +145,7 @@ fn any_layer() -> impl Strategy<Value = LayerSettings> {
 }
 
 fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
-    let numbers = prop::collection::vec(proptest::option::of(number()), 12);
+    let numbers = prop::collection::vec(proptest::option::of(number()), 14);
     let edges = prop_oneof![Just(Edges::Clip), number().prop_map(Edges::Overrun), Just(Edges::Free)];
     let lists = (
         proptest::option::of(prop::collection::vec(any_color(), 0..3)),
@@ -158,6 +169,8 @@ fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
             color_jitter: numbers[9],
             temperature: numbers[10],
             grading: numbers[11],
+            offset: numbers[12],
+            size_follow: numbers[13],
             palette,
             layer,
             layers,
@@ -186,12 +199,44 @@ fn any_style() -> impl Strategy<Value = Style> {
     prop_oneof![Just(Style::Reference), strokes]
 }
 
+fn any_guide() -> impl Strategy<Value = Guide> {
+    let view = (vector3(), vector3()).prop_map(|(eye, target)| GuideView { eye, target });
+    let point = (vector3(), vector3()).prop_map(|(at, normal)| GuidePoint { at, normal });
+    let falloff = prop_oneof![Just(Falloff::Smooth), Just(Falloff::Linear), Just(Falloff::Flat)];
+    let head = (proptest::option::of(name()), proptest::option::of(view));
+    (head, prop::collection::vec(point, 0..4), number(), number(), falloff).prop_map(
+        |((object, view), points, radius, strength, falloff)| Guide {
+            object,
+            view,
+            points,
+            radius,
+            strength,
+            falloff,
+        },
+    )
+}
+
+fn any_reference() -> impl Strategy<Value = Reference> {
+    let view = (vector3(), vector3(), number(), proptest::option::of(number()), any::<i64>()).prop_map(
+        |(eye, target, roll_deg, fov_y_deg, frame)| Reference::View {
+            eye,
+            target,
+            roll_deg,
+            fov_y_deg,
+            frame,
+        },
+    );
+    prop_oneof![any::<i64>().prop_map(Reference::Frame), view]
+}
+
 fn any_region() -> impl Strategy<Value = Region> {
+    let dab = (vector3(), vector3(), number()).prop_map(|(at, normal, radius)| Dab { at, normal, radius });
     let on = prop_oneof![
         Just(Selector::Everything),
         name().prop_map(Selector::Object),
         (name(), name()).prop_map(|(object, group)| Selector::Group(object, group)),
         (name(), name()).prop_map(|(object, material)| Selector::Material(object, material)),
+        (name(), prop::collection::vec(dab, 0..3)).prop_map(|(object, dabs)| Selector::Dabs(object, dabs)),
     ];
     let direction = prop_oneof![
         Just(Direction::Auto),
@@ -199,31 +244,44 @@ fn any_region() -> impl Strategy<Value = Region> {
         (number(), number()).prop_map(|(first, second)| Direction::Crossing(first, second)),
         vector3().prop_map(Direction::Along),
         vector3().prop_map(Direction::Around),
+        vector3().prop_map(Direction::Toward),
+        Just(Direction::Curvature(Bend::Min)),
+        Just(Direction::Curvature(Bend::Max)),
         Just(Direction::Up)
     ];
-    (name(), on, direction, any_strokes()).prop_map(|(name, on, direction, strokes)| Region {
-        name,
-        on,
-        direction,
-        strokes,
-    })
+    let seam = prop_oneof![Just(Seam::Hard), number().prop_map(Seam::Soft)];
+    let sense = prop_oneof![Just(Sense::Lines), Just(Sense::Arrows)];
+    let field = (seam, sense, prop::collection::vec(any_guide(), 0..3));
+    (name(), on, direction, field, proptest::option::of(any_reference()), any_strokes()).prop_map(
+        |(name, on, direction, (seam, sense, guides), reference, strokes)| Region {
+            name,
+            on,
+            direction,
+            guides,
+            seam,
+            sense,
+            reference,
+            strokes,
+        },
+    )
 }
 
 fn any_scene() -> impl Strategy<Value = Scene> {
     let style = any_style();
     let timeline =
         (number(), any::<i64>(), any::<i64>()).prop_map(|(fps, first, last)| Timeline { fps, first, last });
-    let head = (any::<(u32, u32)>(), any::<u32>(), any_color(), timeline, any::<i64>(), style);
+    let head = (any::<(u32, u32)>(), any::<u32>(), any_color(), timeline, any_reference(), style);
     let lists = (
         prop::collection::vec(any_light(), 0..3),
         prop::collection::vec(any_object(), 0..4),
         prop::collection::vec(any_region(), 0..3),
+        prop::collection::vec(any_reference(), 0..3),
     );
     (head, any_camera(), lists, any_strokes()).prop_map(
         |(
             (size, seed, background, timeline, reference, style),
             camera,
-            (lights, objects, regions),
+            (lights, objects, regions, further_references),
             strokes,
         )| {
             Scene {
@@ -232,7 +290,8 @@ fn any_scene() -> impl Strategy<Value = Scene> {
                 seed,
                 background,
                 timeline,
-                reference: Reference::Frame(reference),
+                reference,
+                further_references,
                 camera,
                 lights,
                 objects,

@@ -1,0 +1,200 @@
+//! Regions: what they cover, their directions, their guides.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::DVec3;
+
+use super::{Findings, did_you_mean, shown, strokes};
+use crate::document::{Dab, Direction, Guide, Region, Scene, Seam, Selector};
+use crate::limits;
+use crate::problem::Severity;
+
+pub(super) fn check(scene: &Scene, findings: &mut Findings) {
+    findings.unique("regions", scene.regions.iter().map(|region| region.name.as_str()));
+    let object_names: HashSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+    for (index, region) in scene.regions.iter().enumerate() {
+        let region_path = format!("regions[{index}]");
+        if let Some(object) = region.on.object().filter(|object| !object_names.contains(object)) {
+            unknown_object(&format!("{region_path}.on"), object, scene, findings);
+        }
+        if let Selector::Dabs(_, dabs) = &region.on {
+            check_dabs(&format!("{region_path}.on"), dabs, findings);
+        }
+        check_direction(&format!("{region_path}.direction"), &region.direction, findings);
+        if let Seam::Soft(distance) = region.seam {
+            let range = limits::MIN_LENGTH..=limits::MAX_LENGTH;
+            findings.number(&format!("{region_path}.seam"), distance, range);
+        }
+        for (guide_index, guide) in region.guides.iter().enumerate() {
+            let guide_path = format!("{region_path}.guides[{guide_index}]");
+            check_guide_object(&guide_path, scene, (region, guide), findings);
+            check_guide(&guide_path, guide, findings);
+        }
+        strokes::check_of_region(&format!("{region_path}.strokes"), scene, index, findings);
+    }
+    check_covered(scene, findings);
+    check_counts(scene, findings);
+}
+
+fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
+    findings.add(Severity::Error, || {
+        let known = scene.objects.iter().map(|object| object.name.as_str());
+        let message = format!("there is no object \"{}\"", shown(object));
+        (field_path.to_owned(), message, did_you_mean(object, known))
+    });
+}
+
+fn check_direction(field_path: &str, direction: &Direction, findings: &mut Findings) {
+    let turn = limits::MAX_ANGLE_DEG;
+    match *direction {
+        Direction::Angle(angle_deg) => findings.number(field_path, angle_deg, -turn..=turn),
+        Direction::Crossing(first_deg, second_deg) => {
+            findings.number(field_path, first_deg, -turn..=turn);
+            findings.number(field_path, second_deg, -turn..=turn);
+        }
+        Direction::Along(axis) | Direction::Around(axis) => findings.direction(field_path, axis),
+        Direction::Toward(point) => findings.vector(field_path, point),
+        Direction::Auto | Direction::Up | Direction::Curvature(_) => {}
+    }
+}
+
+fn check_dabs(field_path: &str, dabs: &[Dab], findings: &mut Findings) {
+    if dabs.is_empty() {
+        let mend = "paint it somewhere, or remove it";
+        findings.warning(field_path, "the region has no dabs and covers nothing", mend);
+    }
+    // Fields of a tuple's items have no path of their own; the whole list is named.
+    for dab in dabs {
+        findings.vector(field_path, dab.at);
+        findings.direction(field_path, dab.normal);
+        radius(field_path, "a dab", dab.radius, findings);
+    }
+}
+
+fn radius(field_path: &str, what: &str, radius: f64, findings: &mut Findings) {
+    if radius <= 0.0 {
+        let message = format!("{what} with a radius of {} reaches nothing", super::short(radius));
+        findings.error(field_path, message, "give a radius above 0");
+    } else {
+        findings.number(field_path, radius, limits::MIN_LENGTH..=limits::MAX_LENGTH);
+    }
+}
+
+fn check_guide_object(
+    guide_path: &str,
+    scene: &Scene,
+    (region, guide): (&Region, &Guide),
+    findings: &mut Findings,
+) {
+    let field_path = format!("{guide_path}.object");
+    match (&guide.object, region.on.object()) {
+        (Some(object), _) if scene.objects.iter().all(|known| known.name != *object) => {
+            unknown_object(&field_path, object, scene, findings);
+        }
+        (Some(object), Some(of_region)) if object != of_region => {
+            let message = format!("the region lies on \"{}\"", shown(of_region));
+            let mend = "remove it, or put the guide into a region of its own";
+            findings.error(field_path, message, mend);
+        }
+        (None, None) => {
+            let mend = "name its object, as in object: \"apple\"";
+            findings.error(guide_path, "the region covers every object; whose guide is this?", mend);
+        }
+        _ => {}
+    }
+}
+
+fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
+    let path = |field: &str| format!("{guide_path}.{field}");
+    radius(&path("radius"), "a guide", guide.radius, findings);
+    findings.number(&path("strength"), guide.strength, 0.0..=1.0);
+    for (index, point) in guide.points.iter().enumerate() {
+        findings.vector(&path(&format!("points[{index}].at")), point.at);
+        findings.direction(&path(&format!("points[{index}].normal")), point.normal);
+    }
+    let apart = |pair: &[crate::document::GuidePoint]| {
+        (DVec3::from(pair[1].at) - DVec3::from(pair[0].at)).length() > limits::MIN_LENGTH
+    };
+    if guide.points.len() < 2 {
+        let message = "a guide of one point has no direction";
+        findings.error(path("points"), message, "give at least two points, in the order of the gesture");
+    } else if !guide.points.windows(2).any(apart) {
+        let message = "all points of the guide are the same: it has no direction";
+        findings.error(path("points"), message, "give points that lie apart");
+    }
+    if let Some(view) = &guide.view {
+        findings.vector(&path("view.eye"), view.eye);
+        findings.vector(&path("view.target"), view.target);
+        if (DVec3::from(view.eye) - DVec3::from(view.target)).length() < limits::MIN_LENGTH {
+            let mend = "move one of them, or leave the view out";
+            findings.error(path("view.target"), "eye and target are the same point", mend);
+        }
+    }
+}
+
+/// A region that a later one covers whole is never seen.
+fn check_covered(scene: &Scene, findings: &mut Findings) {
+    let mut last_of: HashMap<String, usize> = HashMap::new();
+    let mut cover = |key: String, index: usize| last_of.insert(key, index);
+    for (index, region) in scene.regions.iter().enumerate() {
+        match &region.on {
+            Selector::Everything => cover(String::new(), index),
+            Selector::Object(object) => cover(format!("o{object}"), index),
+            Selector::Group(object, group) => cover(format!("g{object}\0{group}"), index),
+            Selector::Material(object, material) => cover(format!("m{object}\0{material}"), index),
+            Selector::Dabs(..) => None,
+        };
+    }
+    for (index, region) in scene.regions.iter().enumerate() {
+        let own = match &region.on {
+            Selector::Everything | Selector::Dabs(..) => None,
+            Selector::Object(_) => None,
+            Selector::Group(object, group) => Some(format!("g{object}\0{group}")),
+            Selector::Material(object, material) => Some(format!("m{object}\0{material}")),
+        };
+        let whole = region.on.object().map(|object| format!("o{object}"));
+        let covering = [own, whole, Some(String::new())]
+            .into_iter()
+            .flatten()
+            .filter_map(|key| last_of.get(&key).copied())
+            .filter(|&other| other > index)
+            .min();
+        if let Some(other) = covering {
+            let message =
+                format!("the region \"{}\" after it covers all of it", shown(&scene.regions[other].name));
+            let mend = "a later region wins: put the smaller one last, or remove one";
+            findings.warning(format!("regions[{index}].on"), message, mend);
+        }
+    }
+}
+
+fn check_counts(scene: &Scene, findings: &mut Findings) {
+    let guides = || scene.regions.iter().flat_map(|region| &region.guides);
+    let dabs = scene.regions.iter().map(|region| match &region.on {
+        Selector::Dabs(_, dabs) => dabs.len(),
+        _ => 0,
+    });
+    for (what, count, most) in [
+        ("guides", guides().count(), limits::MAX_GUIDES),
+        ("points of guides", guides().map(|guide| guide.points.len()).sum(), limits::MAX_GUIDE_POINTS),
+        ("dabs", dabs.sum(), limits::MAX_DABS),
+    ] {
+        if count > most {
+            let message = format!("the scene has {count} {what}, more than {most}");
+            findings.limit("regions", message, "paint with fewer and larger ones");
+        }
+    }
+}
+
+impl Selector {
+    /// The object that it lies on; none for `Everything`.
+    pub fn object(&self) -> Option<&str> {
+        match self {
+            Self::Everything => None,
+            Self::Object(object)
+            | Self::Group(object, _)
+            | Self::Material(object, _)
+            | Self::Dabs(object, _) => Some(object),
+        }
+    }
+}

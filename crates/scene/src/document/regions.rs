@@ -1,0 +1,187 @@
+//! Regions, their directions, and the guides that comb them, as a scene file states them.
+
+use serde::Deserialize;
+
+use super::{Reference, StrokeSettings, one};
+
+/// A part of the scene with settings of its own.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// Unique.
+    pub name: String,
+    /// What it covers.
+    pub on: Selector,
+    /// Base direction of its strokes.
+    #[serde(default)]
+    pub direction: Direction,
+    /// Gestures on the surface that strokes follow: within their radius, or, where the direction is `Auto`, everywhere in
+    /// the region; a later one over an earlier one.
+    #[serde(default)]
+    pub guides: Vec<Guide>,
+    /// How its directions meet those of the regions that it lies on.
+    #[serde(default)]
+    pub seam: Seam,
+    /// Whether its strokes have a beginning and an end.
+    #[serde(default)]
+    pub sense: Sense,
+    /// The pose that its directions refer to; left out, the scene's.
+    #[serde(default)]
+    pub reference: Option<Reference>,
+    /// Settings that differ from the scene's.
+    #[serde(default)]
+    pub strokes: StrokeSettings,
+}
+
+/// What a region covers.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Selector {
+    /// All objects.
+    Everything,
+    /// A whole object, by name.
+    Object(String),
+    /// A group of an object's mesh: object, group.
+    Group(String, String),
+    /// A material of an object's mesh: object, material.
+    Material(String, String),
+    /// What dabs of a brush have touched: object, dabs.
+    Dabs(String, Vec<Dab>),
+}
+
+/// One touch of a brush on a surface; all in the object's own space.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dab {
+    /// Where.
+    pub at: [f64; 3],
+    /// Normal of the surface there; only what faces the same way is touched.
+    pub normal: [f64; 3],
+    /// How far it reaches, > 0.
+    pub radius: f64,
+}
+
+/// Base direction of strokes.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Direction {
+    /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops. Guides
+    /// overrule it wherever they reach.
+    #[default]
+    Auto,
+    /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
+    Angle(f64),
+    /// Two families of strokes that cross: degrees of either, as with `Angle`.
+    Crossing(f64, f64),
+    /// Along this axis of the object's own space, on the surface.
+    Along([f64; 3]),
+    /// Round this axis of the object's own space, along the surface.
+    Around([f64; 3]),
+    /// Up the surface, towards the object's own +Y.
+    Up,
+    /// Towards a point of the object's own space, along the surface.
+    Toward([f64; 3]),
+    /// Along the surface's least or greatest bend.
+    Curvature(Bend),
+}
+
+/// Which of the two principal curvatures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Bend {
+    /// Where the surface bends least: along a log.
+    Min,
+    /// Where it bends most: round a log.
+    Max,
+}
+
+/// How directions meet at a region's border.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Seam {
+    /// They change from one stroke to the next.
+    #[default]
+    Hard,
+    /// They turn into each other over this distance on either side, units of the object's own space.
+    Soft(f64),
+}
+
+/// Whether strokes have a beginning and an end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Sense {
+    /// Turned by half a turn, a direction is the same: a field of lines.
+    #[default]
+    Lines,
+    /// Guides point where strokes end: a field of arrows.
+    Arrows,
+}
+
+/// A gesture on the surface of an object that strokes follow; all in the object's own space, so that it holds at any frame
+/// and survives a new mesh.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guide {
+    /// The object, where the region covers more than one.
+    #[serde(default)]
+    pub object: Option<String>,
+    /// The view that it was drawn in: seen from there, strokes show as drawn. Left out, the reference.
+    #[serde(default)]
+    pub view: Option<GuideView>,
+    /// At least two points of the surface, in the order of the gesture.
+    pub points: Vec<GuidePoint>,
+    /// How far it reaches, > 0.
+    pub radius: f64,
+    /// How far strokes on it follow it, 0 not at all .. 1 wholly.
+    #[serde(default = "one")]
+    pub strength: f64,
+    /// How its strength falls off towards its radius.
+    #[serde(default)]
+    pub falloff: Falloff,
+}
+
+/// Where a guide was looked at from when it was drawn.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GuideView {
+    /// The eye.
+    pub eye: [f64; 3],
+    /// What it looked at.
+    pub target: [f64; 3],
+}
+
+/// One point of a guide.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GuidePoint {
+    /// Where.
+    pub at: [f64; 3],
+    /// Normal of the surface there.
+    pub normal: [f64; 3],
+}
+
+/// How the strength of a guide falls off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Falloff {
+    /// (1 − (r/R)²)².
+    #[default]
+    Smooth,
+    /// 1 − r/R.
+    Linear,
+    /// Full up to the radius.
+    Flat,
+}
+
+impl Region {
+    /// A region with nothing of its own.
+    pub fn new(name: impl Into<String>, on: Selector) -> Self {
+        Self {
+            name: name.into(),
+            on,
+            direction: Direction::default(),
+            guides: Vec::new(),
+            seam: Seam::default(),
+            sense: Sense::default(),
+            reference: None,
+            strokes: StrokeSettings::default(),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Regions and guides.
+
+use super::layout::{Fields, Value, number, text};
+use super::{reference, strokes, vector, word};
+use crate::document::{
+    Dab, Direction, Falloff, Guide, GuidePoint, GuideView, Region, Seam, Selector, Sense, StrokeSettings,
+};
+
+pub(super) fn region(region: &Region) -> Value {
+    Fields::new()
+        .with("name", text(&region.name))
+        .with("on", selector(&region.on))
+        .unless(region.direction == Direction::default(), "direction", || direction(&region.direction))
+        .unless(region.guides.is_empty(), "guides", || Value::List(region.guides.iter().map(guide).collect()))
+        .unless(region.seam == Seam::default(), "seam", || seam(region.seam))
+        .unless(region.sense == Sense::default(), "sense", || word(region.sense))
+        .maybe("reference", region.reference.as_ref().map(reference))
+        .unless(region.strokes == StrokeSettings::default(), "strokes", || strokes(&region.strokes))
+        .done()
+}
+
+fn selector(selector: &Selector) -> Value {
+    let named = |name, parts: &[&String]| Value::Named(name, parts.iter().map(|part| text(part)).collect());
+    match selector {
+        Selector::Everything => Value::Word("Everything".to_owned()),
+        Selector::Object(object) => named("Object", &[object]),
+        Selector::Group(object, group) => named("Group", &[object, group]),
+        Selector::Material(object, material) => named("Material", &[object, material]),
+        Selector::Dabs(object, dabs) => {
+            Value::Named("Dabs", vec![text(object), Value::List(dabs.iter().map(dab).collect())])
+        }
+    }
+}
+
+fn dab(dab: &Dab) -> Value {
+    Fields::new()
+        .with("at", vector(dab.at))
+        .with("normal", vector(dab.normal))
+        .with("radius", number(dab.radius))
+        .done()
+}
+
+fn direction(direction: &Direction) -> Value {
+    match direction {
+        Direction::Angle(angle_deg) => Value::Named("Angle", vec![number(*angle_deg)]),
+        Direction::Crossing(first_deg, second_deg) => {
+            Value::Named("Crossing", vec![number(*first_deg), number(*second_deg)])
+        }
+        Direction::Along(axis) => Value::Named("Along", vec![vector(*axis)]),
+        Direction::Around(axis) => Value::Named("Around", vec![vector(*axis)]),
+        Direction::Toward(point) => Value::Named("Toward", vec![vector(*point)]),
+        Direction::Curvature(bend) => Value::Named("Curvature", vec![word(bend)]),
+        Direction::Auto | Direction::Up => word(direction),
+    }
+}
+
+fn seam(seam: Seam) -> Value {
+    match seam {
+        Seam::Hard => word(seam),
+        Seam::Soft(distance) => Value::Named("Soft", vec![number(distance)]),
+    }
+}
+
+fn guide(guide: &Guide) -> Value {
+    Fields::new()
+        .maybe("object", guide.object.as_deref().map(text))
+        .maybe("view", guide.view.as_ref().map(view))
+        .with("points", Value::List(guide.points.iter().map(point).collect()))
+        .with("radius", number(guide.radius))
+        .unless(guide.strength == 1.0, "strength", || number(guide.strength))
+        .unless(guide.falloff == Falloff::default(), "falloff", || word(guide.falloff))
+        .done()
+}
+
+fn view(view: &GuideView) -> Value {
+    Fields::new().with("eye", vector(view.eye)).with("target", vector(view.target)).done()
+}
+
+fn point(point: &GuidePoint) -> Value {
+    Fields::new().with("at", vector(point.at)).with("normal", vector(point.normal)).done()
+}
