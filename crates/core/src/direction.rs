@@ -1,6 +1,106 @@
-//! Base directions on a surface, as tangents in model space.
+//! Directions on a surface, as tangents in model space: stated ones, guides, and the field that joins them.
+//!
+//! A direction at a point is a complex number in the tangent plane: its angle α in [`tangent_axes`] of the normal, raised to
+//! the power n of the field's [`Symmetry`] (`e^{iα}` for arrows, `e^{2iα}` for lines), so that the two ends of a line are one
+//! number and means make sense.
 
-use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DVec2, DVec3};
+
+pub mod carry;
+pub mod curvature;
+pub mod field;
+pub mod guide;
+pub mod singularities;
+
+/// When two directions count as the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symmetry {
+    /// Never, but when they are: n = 1.
+    Arrows,
+    /// When one is the other turned by half a turn: n = 2.
+    Lines,
+}
+
+impl Symmetry {
+    /// The power n.
+    pub fn power(self) -> f64 {
+        match self {
+            Self::Arrows => 1.0,
+            Self::Lines => 2.0,
+        }
+    }
+
+    /// The complex number of a tangent in these axes; zero for a zero tangent.
+    pub fn encode(self, tangent: DVec3, [right, above]: [DVec3; 2]) -> DVec2 {
+        let z = DVec2::new(tangent.dot(right), tangent.dot(above)).normalize_or_zero();
+        match self {
+            Self::Arrows => z,
+            Self::Lines => z.rotate(z),
+        }
+    }
+
+    /// The unit tangent of a complex number in these axes; of a line, the end within a quarter turn of the first axis. Zero
+    /// for zero.
+    pub fn decode(self, z: DVec2, [right, above]: [DVec3; 2]) -> DVec3 {
+        if z.length_squared() < 1e-24 {
+            return DVec3::ZERO;
+        }
+        let (sin, cos) = (z.to_angle() / self.power()).sin_cos();
+        right * cos + above * sin
+    }
+
+    /// `e^{inα}` for a turn by α.
+    pub fn turn(self, angle_rad: f64) -> DVec2 {
+        DVec2::from_angle(self.power() * angle_rad)
+    }
+}
+
+/// Two unit tangents that make a right-handed frame with a unit normal (Duff et al. 2017); a function of the normal alone.
+pub fn tangent_axes(normal: DVec3) -> [DVec3; 2] {
+    let sign = 1f64.copysign(normal.z);
+    let a = -1.0 / (sign + normal.z);
+    let b = normal.x * normal.y * a;
+    let right = DVec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
+    let above = DVec3::new(b, sign + normal.y * normal.y * a, -normal.y);
+    [right, above]
+}
+
+/// The angle that parallel transport from one normal to another (the least rotation that takes one to the other) adds to a
+/// tangent's angle: α there = α here + this.
+pub fn transport_rad(from: DVec3, to: DVec3) -> f64 {
+    let [right_from, _] = tangent_axes(from);
+    let [right_to, above_to] = tangent_axes(to);
+    let axis = from.cross(to);
+    let cos = from.dot(to);
+    // Rodrigues' rotation with axis × (1/(1 + cos)) for the squared part; opposite normals keep the tangent.
+    let carried = if cos > -1.0 + 1e-9 {
+        right_from * cos + axis.cross(right_from) + axis * (axis.dot(right_from) / (1.0 + cos))
+    } else {
+        right_from
+    };
+    carried.dot(above_to).atan2(carried.dot(right_to))
+}
+
+/// The direction from a point on the surface towards `target`, along the surface; unit, or zero where it is straight off it.
+pub fn toward(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
+    along_surface((target - position).normalize_or_zero(), normal)
+}
+
+/// A tangent turned by a quarter about the normal, counter-clockwise as seen from outside.
+pub fn quarter_turn(tangent: DVec3, normal: DVec3) -> DVec3 {
+    normal.cross(tangent)
+}
+
+/// The least angle between two directions, radians: up to π for arrows, π/2 for lines.
+pub fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
+    let angle = a.angle_between(b);
+    match symmetry {
+        Symmetry::Lines if angle > FRAC_PI_2 => std::f64::consts::PI - angle,
+        _ => angle,
+    }
+}
 
 /// The direction round an axis, along the surface; unit, or zero where it is undefined.
 ///
@@ -36,6 +136,39 @@ mod tests {
         // A handle beside the axis: the direction goes round the handle's own bend, not round the jug.
         let handle = around(DVec3::Y, DVec3::Z, DVec3::new(0.8, 0.5, 0.05), 2.0);
         assert!((handle - DVec3::X).length() < 1e-2, "{handle}");
+    }
+
+    #[test]
+    fn axes_are_right_handed_and_numbers_stand_for_lines() {
+        for normal in [DVec3::Z, DVec3::NEG_Z, DVec3::new(0.3, -0.5, -0.2), DVec3::new(-1.0, 2.0, 0.7)] {
+            let normal = normal.normalize();
+            let axes = tangent_axes(normal);
+            assert!((axes[0].cross(axes[1]) - normal).length() < 1e-12);
+            for degrees in [7.0f64, 30.0, 137.0, -77.0] {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let tangent = axes[0] * cos + axes[1] * sin;
+                for symmetry in [Symmetry::Arrows, Symmetry::Lines] {
+                    let back = symmetry.decode(symmetry.encode(tangent, axes), axes);
+                    assert!(angle_between(symmetry, back, tangent) < 1e-7, "{symmetry:?} {degrees}");
+                }
+                let ends = [tangent, -tangent].map(|end| Symmetry::Lines.encode(end, axes));
+                assert!((ends[0] - ends[1]).length() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn transport_is_the_least_rotation() {
+        let (from, to) = (DVec3::Z, DVec3::new(0.5, 0.3, 0.6).normalize());
+        // The axis of the rotation is a tangent of both, and stays as it is.
+        let axis = from.cross(to).normalize();
+        let angle = |normal: DVec3| {
+            let [right, above] = tangent_axes(normal);
+            axis.dot(above).atan2(axis.dot(right))
+        };
+        let error = crate::angle::wrap_pi(angle(from) + transport_rad(from, to) - angle(to));
+        assert!(error.abs() < 1e-12, "{error}");
+        assert_eq!(transport_rad(from, from), 0.0);
     }
 
     #[test]

@@ -1,10 +1,19 @@
-//! The nearest particles within a radius, on the same side of the surface: only `horn` and `horn-exact` ask for them.
+//! The nearest particles within a radius, on the same side of the surface: for `horn`, `horn-exact` and the direction field.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
 /// The source paper's longest list.
 pub const MAX_NEIGHBOURS: usize = 50;
+
+/// Points of a surface with their unit normals, in model space.
+#[derive(Clone, Copy, Debug)]
+pub struct Points<'a> {
+    /// Positions.
+    pub positions: &'a [Vec3],
+    /// As many unit normals.
+    pub normals: &'a [Vec3],
+}
 
 /// For each particle the indices of its neighbours, nearest first.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,6 +23,16 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
+    /// How many particles have a list.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Whether none has.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// The neighbours of one particle, nearest first; equal distances by index. Never itself.
     pub fn of(&self, particle: usize) -> &[u32] {
         &self.indices[self.starts[particle] as usize..self.starts[particle + 1] as usize]
@@ -22,23 +41,39 @@ impl Neighbours {
     /// Finds, for each particle, the [`MAX_NEIGHBOURS`] nearest others of the same body within `radius` (model units,
     /// inclusive) whose normals lie in the same half space (n·n' > 0).
     pub fn find(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Self {
-        let grid = CellGrid::new(positions, radius);
-        let lists: Vec<Vec<u32>> = (0..positions.len())
+        let points = Points { positions, normals };
+        Self::search(points, points, (radius, MAX_NEIGHBOURS), |particle, other| particle != other)
+    }
+
+    /// Finds, for each of `queries`, the `most` nearest of `points` within `radius` on the same side of the surface.
+    pub fn find_among(queries: Points<'_>, points: Points<'_>, radius: f32, most: usize) -> Self {
+        Self::search(queries, points, (radius, most), |_, _| true)
+    }
+
+    fn search(
+        queries: Points<'_>,
+        points: Points<'_>,
+        (radius, most): (f32, usize),
+        counts: impl Fn(usize, usize) -> bool + Sync,
+    ) -> Self {
+        let grid = CellGrid::new(points.positions, radius);
+        let lists: Vec<Vec<u32>> = (0..queries.positions.len())
             .into_par_iter()
             .with_min_len(256)
-            .map_init(Vec::new, |found, particle| {
+            .map_init(Vec::new, |found, query| {
                 found.clear();
-                grid.for_each_near(positions[particle], |other| {
-                    let distance_sq = positions[particle].distance_squared(positions[other as usize]);
-                    let same_side = normals[particle].dot(normals[other as usize]) > 0.0;
-                    if other as usize != particle && distance_sq <= radius * radius && same_side {
+                let (position, normal) = (queries.positions[query], queries.normals[query]);
+                grid.for_each_near(position, |other| {
+                    let distance_sq = position.distance_squared(points.positions[other as usize]);
+                    let same_side = normal.dot(points.normals[other as usize]) > 0.0;
+                    if distance_sq <= radius * radius && same_side && counts(query, other as usize) {
                         found.push((distance_sq, other));
                     }
                 });
                 let nearer = |a: &(f32, u32), b: &(f32, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-                if found.len() > MAX_NEIGHBOURS {
-                    found.select_nth_unstable_by(MAX_NEIGHBOURS, nearer);
-                    found.truncate(MAX_NEIGHBOURS);
+                if found.len() > most {
+                    found.select_nth_unstable_by(most, nearer);
+                    found.truncate(most);
                 }
                 found.sort_unstable_by(nearer);
                 found.iter().map(|&(_, index)| index).collect()

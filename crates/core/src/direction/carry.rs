@@ -1,0 +1,128 @@
+//! From the field's samples to any particle of the surface.
+
+use glam::{DVec2, DVec3, Vec3};
+
+use super::{Symmetry, transport_rad};
+use crate::neighbours::{Neighbours, Points};
+
+/// How many samples a particle listens to.
+const MOST: usize = 6;
+
+/// They lie within this many spacings, and count by a Gaussian of this deviation in spacings.
+const REACH_SPACINGS: f64 = 1.6;
+const DEVIATION_SPACINGS: f64 = 0.55;
+
+/// Particles with the samples that each listens to; depends on where both are, not on any direction.
+#[derive(Clone, Debug)]
+pub struct Stencils {
+    lists: Neighbours,
+    spacing: f64,
+}
+
+/// A sample's solved direction beside the one that it was stated to have, unit numbers in the axes of its normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carried {
+    /// Position, model space.
+    pub position: Vec3,
+    /// Unit normal, model space.
+    pub normal: DVec3,
+    /// As solved.
+    pub solved: DVec2,
+    /// As stated.
+    pub stated: DVec2,
+    /// A share that is carried along, 0..=1.
+    pub anchor: f64,
+}
+
+impl Stencils {
+    /// The samples (about `spacing` apart) that each of `particles` listens to.
+    pub fn new(particles: Points<'_>, samples: Points<'_>, spacing: f64) -> Self {
+        let reach = (REACH_SPACINGS * spacing) as f32;
+        // Some more than are used, since not all of them count for every particle.
+        Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MOST), spacing }
+    }
+
+    /// How many particles.
+    pub fn len(&self) -> usize {
+        self.lists.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The direction of a particle and its anchor, from the samples that `counts`: `stated` turned by what the solve has
+    /// turned its samples, or, where that does not hang together (stated directions whirl), what the samples have been solved
+    /// to, transported. `None` where no sample counts.
+    pub fn carry(
+        &self,
+        particle: usize,
+        (position, normal, stated): (Vec3, DVec3, DVec2),
+        symmetry: Symmetry,
+        sample: impl Fn(usize) -> Option<Carried>,
+    ) -> Option<(DVec2, f64)> {
+        let deviation_sq = (DEVIATION_SPACINGS * self.spacing).powi(2);
+        let (mut turned, mut transported, mut anchor, mut weights) = (DVec2::ZERO, DVec2::ZERO, 0.0, 0.0);
+        let near = self.lists.of(particle).iter().filter_map(|&index| sample(index as usize)).take(MOST);
+        for Carried { position: at, normal: there, solved, stated: stated_there, anchor: anchor_there } in
+            near
+        {
+            let distance_sq = f64::from(position.distance_squared(at));
+            let weight = normal.dot(there).max(0.0) * (-0.5 * distance_sq / deviation_sq).exp();
+            // solved / stated, for unit numbers.
+            turned += DVec2::new(stated_there.x, -stated_there.y).rotate(solved) * weight;
+            transported += symmetry.turn(transport_rad(there, normal)).rotate(solved) * weight;
+            anchor += anchor_there * weight;
+            weights += weight;
+        }
+        if weights < 1e-12 {
+            return None;
+        }
+        let (coherent_turn, coherent) = (turned.length() / weights, transported.length() / weights);
+        // 1 where the turns agree at least as well as the directions do, give or take.
+        let trust = ((coherent_turn - coherent + 0.06) / 0.05).clamp(0.0, 1.0);
+        let by_turn = turned.normalize_or_zero().rotate(stated);
+        let mixed = by_turn * trust + transported.normalize_or_zero() * (1.0 - trust);
+        Some((mixed.try_normalize()?, anchor / weights))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::direction::field::spiral_sphere;
+    use crate::direction::{angle_between, tangent_axes, towards};
+
+    #[test]
+    fn what_is_stated_and_solved_alike_is_carried_exactly() {
+        let (samples, spacing) = spiral_sphere(2000);
+        let (particles, _) = spiral_sphere(3001);
+        let symmetry = Symmetry::Lines;
+        let up = |normal: DVec3| symmetry.encode(towards(DVec3::Y, normal), tangent_axes(normal));
+        let points = |positions| Points { positions, normals: positions };
+        let stencils = Stencils::new(points(&particles), points(&samples), spacing);
+        // Everything turned by 20 degrees from what was stated.
+        let turn = symmetry.turn(20f64.to_radians());
+        let mut worst = 0.0f64;
+        for (index, &particle) in particles.iter().enumerate() {
+            let normal = particle.as_dvec3();
+            let found = stencils.carry(index, (particle, normal, up(normal)), symmetry, |sample| {
+                let there = samples[sample].as_dvec3();
+                let stated = up(there);
+                let solved = turn.rotate(stated);
+                Some(Carried { position: samples[sample], normal: there, solved, stated, anchor: 0.5 })
+            });
+            let (u, anchor) = found.unwrap();
+            assert!((anchor - 0.5).abs() < 1e-9);
+            let axes = tangent_axes(normal);
+            let wanted = symmetry.decode(turn.rotate(up(normal)), axes);
+            if normal.y.abs() < 0.98 {
+                worst = worst.max(angle_between(symmetry, symmetry.decode(u, axes), wanted).to_degrees());
+            }
+        }
+        assert!(worst < 1e-5, "{worst}");
+        let nothing = stencils.carry(0, (particles[0], DVec3::Y, DVec2::X), symmetry, |_| None);
+        assert_eq!(nothing, None);
+    }
+}

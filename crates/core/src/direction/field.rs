@@ -1,0 +1,300 @@
+//! The direction field of a body: few samples, a sparse solve with parallel transport (Knöppel et al. 2013, the guided case,
+//! on points in place of a mesh).
+//!
+//! Unknown is a complex number `u` per sample (see [`super`]). It minimises
+//! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`, ρ the transport of j's axes to i's, raised to the field's power; then
+//! every `u` is made a unit number again and the sum is lowered with that kept.
+
+use glam::{DVec2, Vec3};
+use rayon::prelude::*;
+
+use super::{Symmetry, transport_rad};
+use crate::neighbours::Neighbours;
+
+/// How many samples carry the field of a body, at most.
+pub const MAX_SAMPLES: usize = 4096;
+
+/// Neighbours lie within this many spacings of the hexagonal lattice.
+const REACH_SPACINGS: f64 = 1.9;
+
+/// Conjugate gradients stop after this many steps, or when the residual has fallen by this factor.
+const MOST_STEPS: usize = 400;
+const RESIDUAL: f64 = 1e-5;
+
+/// Rounds in which every number becomes a unit number again.
+const UNIT_ROUNDS: usize = 24;
+
+/// Samples with their neighbours and the transport between them.
+#[derive(Clone, Debug)]
+pub struct FieldGraph {
+    /// First edge of each sample, and the end.
+    starts: Vec<u32>,
+    edges: Vec<Edge>,
+    /// Mean distance of samples, model units.
+    spacing: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    to: u32,
+    weight: f64,
+    /// Angle that transport from `to` adds, radians.
+    transport_rad: f64,
+}
+
+/// What a sample is held to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraint {
+    /// The unit number that it should be.
+    pub target: DVec2,
+    /// How firmly, in units of one neighbour's weight, > 0.
+    pub weight: f64,
+}
+
+impl FieldGraph {
+    /// The graph of samples (positions and unit normals, model space) that stand about `spacing` apart. `joined` says whether
+    /// two of them may be neighbours at all.
+    pub fn new(
+        positions: &[Vec3],
+        normals: &[Vec3],
+        spacing: f64,
+        joined: impl Fn(usize, usize) -> bool + Sync,
+    ) -> Self {
+        let reach = REACH_SPACINGS * spacing;
+        let near = Neighbours::find(positions, normals, reach as f32);
+        let lists: Vec<Vec<Edge>> = (0..positions.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|sample| {
+                let normal = normals[sample].as_dvec3();
+                near.of(sample)
+                    .iter()
+                    .filter(|&&other| joined(sample, other as usize))
+                    .map(|&other| {
+                        let other_normal = normals[other as usize].as_dvec3();
+                        let distance =
+                            f64::from(positions[sample].distance(positions[other as usize])) / reach;
+                        Edge {
+                            to: other,
+                            weight: normal.dot(other_normal).max(0.0).powi(2)
+                                * (-2.0 * distance * distance).exp(),
+                            transport_rad: transport_rad(other_normal, normal),
+                        }
+                    })
+                    .collect()
+            })
+            .collect();
+        let mut starts = Vec::with_capacity(lists.len() + 1);
+        starts.push(0);
+        let mut edges = Vec::with_capacity(lists.iter().map(Vec::len).sum());
+        for list in lists {
+            edges.extend(list);
+            starts.push(edges.len() as u32);
+        }
+        Self { starts, edges, spacing }
+    }
+
+    /// How many samples.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// About how far samples stand apart, model units.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// The neighbours of a sample.
+    pub fn neighbours(&self, sample: usize) -> impl Iterator<Item = usize> + '_ {
+        self.edges_of(sample).iter().map(|edge| edge.to as usize)
+    }
+
+    fn edges_of(&self, sample: usize) -> &[Edge] {
+        &self.edges[self.starts[sample] as usize..self.starts[sample + 1] as usize]
+    }
+
+    /// The unit numbers that fit the constraints best; a sample that nothing reaches keeps its target. Depends on the inputs
+    /// alone, to the bit.
+    pub fn solve(&self, symmetry: Symmetry, constraints: &[Constraint]) -> Vec<DVec2> {
+        let turns: Vec<DVec2> = self.edges.iter().map(|edge| symmetry.turn(edge.transport_rad)).collect();
+        let system = System { graph: self, turns: &turns, constraints };
+        let mut u = system.conjugate_gradients();
+        for _ in 0..UNIT_ROUNDS {
+            u = system.unit_round(&u);
+        }
+        u
+    }
+}
+
+struct System<'a> {
+    graph: &'a FieldGraph,
+    /// ρ of every edge.
+    turns: &'a [DVec2],
+    constraints: &'a [Constraint],
+}
+
+impl System<'_> {
+    /// Σ w ρ u over the neighbours, and Σ w.
+    fn gathered(&self, u: &[DVec2], sample: usize) -> (DVec2, f64) {
+        let first = self.graph.starts[sample] as usize;
+        let (mut sum, mut weights) = (DVec2::ZERO, 0.0);
+        for (offset, edge) in self.graph.edges_of(sample).iter().enumerate() {
+            sum += self.turns[first + offset].rotate(u[edge.to as usize]) * edge.weight;
+            weights += edge.weight;
+        }
+        (sum, weights)
+    }
+
+    fn map(&self, value: impl Fn(usize) -> DVec2 + Send + Sync) -> Vec<DVec2> {
+        (0..self.graph.len()).into_par_iter().with_min_len(512).map(value).collect()
+    }
+
+    /// The matrix of the normal equations times `u`.
+    fn apply(&self, u: &[DVec2]) -> Vec<DVec2> {
+        self.map(|sample| {
+            let (sum, weights) = self.gathered(u, sample);
+            u[sample] * (weights + self.constraints[sample].weight) - sum
+        })
+    }
+
+    /// Preconditioned by the diagonal. Sums run in order, so that threads do not change a bit.
+    fn conjugate_gradients(&self) -> Vec<DVec2> {
+        let count = self.graph.len();
+        let diagonal: Vec<f64> = (0..count)
+            .map(|sample| {
+                let weights: f64 = self.graph.edges_of(sample).iter().map(|edge| edge.weight).sum();
+                weights + self.constraints[sample].weight
+            })
+            .collect();
+        let dot = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>();
+        let mut u: Vec<DVec2> = self.constraints.iter().map(|constraint| constraint.target).collect();
+        let applied = self.apply(&u);
+        let mut residual: Vec<DVec2> = (0..count)
+            .map(|i| self.constraints[i].target * self.constraints[i].weight - applied[i])
+            .collect();
+        let scaled = |residual: &[DVec2]| -> Vec<DVec2> {
+            residual.iter().zip(&diagonal).map(|(r, d)| *r / d.max(f64::MIN_POSITIVE)).collect()
+        };
+        let mut z = scaled(&residual);
+        let mut direction = z.clone();
+        let mut rz = dot(&residual, &z);
+        let enough = rz * RESIDUAL * RESIDUAL;
+        for _ in 0..MOST_STEPS {
+            if rz <= enough || !rz.is_finite() || rz <= 0.0 {
+                break;
+            }
+            let applied = self.apply(&direction);
+            let step = rz / dot(&direction, &applied);
+            if !step.is_finite() {
+                break;
+            }
+            for i in 0..count {
+                u[i] += direction[i] * step;
+                residual[i] -= applied[i] * step;
+            }
+            z = scaled(&residual);
+            let next = dot(&residual, &z);
+            let share = next / rz;
+            for i in 0..count {
+                direction[i] = z[i] + direction[i] * share;
+            }
+            rz = next;
+        }
+        u.iter()
+            .zip(self.constraints)
+            .map(|(u, constraint)| u.try_normalize().unwrap_or(constraint.target))
+            .collect()
+    }
+
+    /// Every sample becomes the mean of what it is held to, unit: this never raises the sum (half a step, so that it cannot
+    /// swing).
+    fn unit_round(&self, u: &[DVec2]) -> Vec<DVec2> {
+        self.map(|sample| {
+            let (sum, weights) = self.gathered(u, sample);
+            let constraint = self.constraints[sample];
+            let pull = sum + constraint.target * constraint.weight;
+            (pull + u[sample] * (weights + constraint.weight)).try_normalize().unwrap_or(u[sample])
+        })
+    }
+}
+
+/// Positions and unit normals on a unit sphere, spread evenly (a spiral); shared by the tests of this folder.
+#[cfg(test)]
+pub(super) fn spiral_sphere(count: usize) -> (Vec<Vec3>, f64) {
+    use glam::DVec3;
+    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let points = (0..count).map(|index| {
+        let y = 1.0 - 2.0 * (index as f64 + 0.5) / count as f64;
+        let around = golden * index as f64;
+        let across = (1.0 - y * y).sqrt();
+        DVec3::new(across * around.cos(), y, across * around.sin()).as_vec3()
+    });
+    (points.collect(), crate::sampling::hexagonal_spacing(4.0 * std::f64::consts::PI, count))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::direction::{angle_between, tangent_axes};
+
+    #[test]
+    fn a_plane_with_one_constraint_is_parallel_everywhere() {
+        let positions: Vec<Vec3> =
+            (0..400).map(|i| Vec3::new((i % 20) as f32, (i / 20) as f32, 0.0)).collect();
+        let normals = vec![Vec3::Z; 400];
+        let graph = FieldGraph::new(&positions, &normals, 1.0, |_, _| true);
+        for symmetry in [Symmetry::Arrows, Symmetry::Lines] {
+            let axes = tangent_axes(DVec3::Z);
+            let wanted = DVec3::new(0.6, 0.8, 0.0);
+            let prior = symmetry.encode(DVec3::X, axes);
+            let mut constraints = vec![Constraint { target: prior, weight: 1e-6 }; 400];
+            constraints[210] = Constraint { target: symmetry.encode(wanted, axes), weight: 10.0 };
+            let field = graph.solve(symmetry, &constraints);
+            let worst = field
+                .iter()
+                .map(|&u| angle_between(symmetry, symmetry.decode(u, axes), wanted))
+                .fold(0.0, f64::max);
+            assert!(worst.to_degrees() < 0.5, "{symmetry:?}: {}", worst.to_degrees());
+        }
+    }
+
+    #[test]
+    fn a_ring_of_constraints_spreads_smoothly_over_a_sphere() {
+        let (positions, spacing) = spiral_sphere(4096);
+        let graph = FieldGraph::new(&positions, &positions, spacing, |_, _| true);
+        let symmetry = Symmetry::Lines;
+        let constraints: Vec<Constraint> = positions
+            .iter()
+            .map(|position| {
+                let normal = position.as_dvec3();
+                let axes = tangent_axes(normal);
+                // The front is combed at 35 degrees; the back is unseen.
+                let front = crate::direction::towards(DVec3::new(0.57, 0.82, 0.0), normal);
+                let weight = if normal.z > 0.3 { 100.0 } else { 1e-6 };
+                Constraint { target: symmetry.encode(front, axes), weight }
+            })
+            .collect();
+        let field = graph.solve(symmetry, &constraints);
+        let mut apart: Vec<f64> = Vec::new();
+        for sample in 0..graph.len() {
+            for edge in graph.edges_of(sample) {
+                let there = symmetry.turn(edge.transport_rad).rotate(field[edge.to as usize]);
+                apart.push(there.angle_to(field[sample]).abs().to_degrees() / 2.0);
+            }
+        }
+        apart.sort_by(f64::total_cmp);
+        let (median, p95) = (apart[apart.len() / 2], apart[apart.len() * 95 / 100]);
+        println!("neighbours differ by {median:.2}, p95 {p95:.2} degrees over {} pairs", apart.len());
+        assert!(median < 3.0 && p95 < 12.0, "median {median}, p95 {p95}");
+        // Threads do not change a bit.
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        assert_eq!(one.install(|| graph.solve(symmetry, &constraints)), field);
+    }
+}

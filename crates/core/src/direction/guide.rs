@@ -1,0 +1,147 @@
+//! Guides: gestures on a surface that strokes follow.
+
+use glam::DVec3;
+
+/// A polyline on a surface with its reach, model space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guide {
+    /// At least two; neighbours apart.
+    points: Vec<GuidePoint>,
+    /// How far it reaches, model units.
+    radius: f64,
+    /// How far strokes on it follow it, 0..=1.
+    strength: f64,
+    falloff: Falloff,
+}
+
+/// How the strength of a guide falls off with the distance r, R its radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Falloff {
+    /// (1 − (r/R)²)².
+    Smooth,
+    /// 1 − r/R.
+    Linear,
+    /// 1 up to R.
+    Flat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct GuidePoint {
+    position: DVec3,
+    normal: DVec3,
+    /// Unit, along the gesture: the mean of the pieces before and after.
+    along: DVec3,
+}
+
+/// What a guide says about a point of the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Influence {
+    /// Strength times falloff, 0..=1.
+    pub weight: f64,
+    /// Unit, along the gesture; not tangent to the surface.
+    pub along: DVec3,
+}
+
+/// Surfaces turned away from a guide's own by more than this cosine do not follow it; those at `SQUARE` follow wholly.
+const TURNED_AWAY: f64 = 0.1;
+const SQUARE: f64 = 0.4;
+
+impl Guide {
+    /// A guide through points with unit normals; points that lie on the one before are left out. `None` where fewer than two
+    /// are left.
+    pub fn new(
+        points: impl Iterator<Item = (DVec3, DVec3)>,
+        radius: f64,
+        strength: f64,
+        falloff: Falloff,
+    ) -> Option<Self> {
+        let mut kept: Vec<GuidePoint> = Vec::new();
+        for (position, normal) in points {
+            let normal = normal.normalize_or(DVec3::Y);
+            if kept.last().is_none_or(|last| (last.position - position).length_squared() > 0.0) {
+                kept.push(GuidePoint { position, normal, along: DVec3::ZERO });
+            }
+        }
+        if kept.len() < 2 {
+            return None;
+        }
+        let pieces: Vec<DVec3> =
+            kept.windows(2).map(|pair| (pair[1].position - pair[0].position).normalize_or_zero()).collect();
+        for (index, point) in kept.iter_mut().enumerate() {
+            let before = pieces[index.saturating_sub(1)];
+            let after = pieces[index.min(pieces.len() - 1)];
+            point.along = (before + after).try_normalize().unwrap_or(after);
+        }
+        Some(Self { points: kept, radius, strength, falloff })
+    }
+
+    /// How far it reaches, model units.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Its points with the direction of the gesture there (unit), in order.
+    pub fn points(&self) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
+        self.points.iter().map(|point| (point.position, point.along))
+    }
+
+    /// What it says about a point with this unit normal, as if it reached at least `least_reach` far. `None` where it does not
+    /// reach.
+    pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
+        let reach = self.radius.max(least_reach);
+        let mut nearest: Option<(f64, DVec3, DVec3)> = None;
+        for pair in self.points.windows(2) {
+            let (a, b) = (&pair[0], &pair[1]);
+            let piece = b.position - a.position;
+            let t = ((position - a.position).dot(piece) / piece.length_squared()).clamp(0.0, 1.0);
+            let distance_sq = (a.position + piece * t - position).length_squared();
+            if distance_sq < nearest.map_or(reach * reach, |(least, ..)| least) {
+                nearest = Some((distance_sq, a.along.lerp(b.along, t), a.normal.lerp(b.normal, t)));
+            }
+        }
+        let (distance_sq, along, own_normal) = nearest?;
+        let r = distance_sq.sqrt() / reach;
+        let falloff = match self.falloff {
+            Falloff::Smooth => (1.0 - r * r).powi(2),
+            Falloff::Linear => 1.0 - r,
+            Falloff::Flat => 1.0,
+        };
+        let facing = (own_normal.normalize_or_zero().dot(normal) - TURNED_AWAY) / (SQUARE - TURNED_AWAY);
+        let weight = self.strength * falloff * facing.clamp(0.0, 1.0);
+        (weight > 0.0).then(|| Influence { weight, along: along.normalize_or_zero() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn guide(falloff: Falloff) -> Guide {
+        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+        Guide::new(points.iter().map(|&at| (DVec3::from(at), DVec3::Z)), 0.5, 0.8, falloff).unwrap()
+    }
+
+    #[test]
+    fn strength_falls_off_to_the_radius_and_never_reaches_the_other_side() {
+        let at = |falloff: Falloff, y: f64| {
+            guide(falloff).influence(DVec3::new(0.5, y, 0.0), DVec3::Z, 0.0).map(|found| found.weight)
+        };
+        assert!((at(Falloff::Smooth, -0.25).unwrap() - 0.8 * 0.75f64.powi(2)).abs() < 1e-12);
+        assert!((at(Falloff::Linear, -0.25).unwrap() - 0.4).abs() < 1e-12);
+        assert!((at(Falloff::Flat, -0.49).unwrap() - 0.8).abs() < 1e-12);
+        assert_eq!(at(Falloff::Flat, -0.51), None);
+        let behind = guide(Falloff::Smooth).influence(DVec3::new(0.5, 0.0, 0.0), DVec3::NEG_Z, 0.0);
+        assert_eq!(behind, None);
+    }
+
+    #[test]
+    fn it_turns_with_its_points() {
+        let along = |x: f64, y: f64| {
+            guide(Falloff::Flat).influence(DVec3::new(x, y, 0.0), DVec3::Z, 0.0).unwrap().along
+        };
+        assert!((along(0.0, 0.1) - DVec3::X).length() < 1e-9);
+        assert!((along(1.0, 1.0) - DVec3::Y).length() < 1e-9);
+        assert!((along(1.1, -0.1) - DVec3::new(1.0, 1.0, 0.0).normalize()).length() < 1e-9);
+        assert!(Guide::new([(DVec3::ZERO, DVec3::Z); 3].into_iter(), 1.0, 1.0, Falloff::Flat).is_none());
+    }
+}
