@@ -2,8 +2,11 @@
 layout(location = 0) in vec3 position_in_model;
 layout(location = 1) in vec3 normal_in_model;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec3 target_position;
+layout(location = 4) in vec3 target_normal;
 
 uniform mat4 world_from_model;
+uniform float morph;             // how far the surface has turned into its target
 uniform mat4 view_from_world;
 uniform mat4 clip_from_view;
 
@@ -13,10 +16,10 @@ out float depth_along_gaze;
 out vec2 texture_at;
 
 void main() {
-    vec4 world = world_from_model * vec4(position_in_model, 1.0);
+    vec4 world = world_from_model * vec4(mix(position_in_model, target_position, morph), 1.0);
     vec4 view = view_from_world * world;
     position_in_world = world.xyz;
-    normal_in_world = mat3(world_from_model) * normal_in_model;
+    normal_in_world = mat3(world_from_model) * mix(normal_in_model, target_normal, morph);
     depth_along_gaze = -view.z;
     texture_at = uv;
     gl_Position = clip_from_view * view;

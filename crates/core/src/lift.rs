@@ -99,6 +99,16 @@ impl PixelMap2 {
         turn.y.atan2(turn.x)
     }
 
+    /// The angle of a stroke of this flatness F, radians: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`; 1 is the paper's similarity,
+    /// 0 follows the surface.
+    pub fn shown_rad(self, flatness: f64) -> f64 {
+        if flatness >= 1.0 {
+            return self.angle_rad();
+        }
+        let wrapped = DVec2::new(self.x.x, self.y.x).normalize_or_zero();
+        (self.turn().normalize_or_zero() * flatness + wrapped * (1.0 - flatness)).to_angle()
+    }
+
     /// κ in 0..=1: how much of the map is turning and scaling; at least 1/√2 for any map that does not
     /// mirror, 0 for a zero map.
     pub fn kappa(self) -> f64 {

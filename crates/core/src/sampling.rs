@@ -29,6 +29,23 @@ pub struct Particle {
 }
 
 impl Particle {
+    /// The same place on the same triangles after their vertices have moved.
+    pub fn on(&self, mesh: &TriangleMesh, positions: &[Vec3], normals: &[Vec3]) -> Self {
+        let corners = mesh.triangles[self.triangle as usize];
+        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+        let [na, nb, nc] = corners.map(|vertex| normals[vertex as usize]);
+        let [v, w] = self.barycentric;
+        let u = 1.0 - v - w;
+        let mut across = (b - a).cross(c - a);
+        if self.flipped {
+            across = -across;
+        }
+        let smooth = na * u + nb * v + nc * w;
+        let normal = if smooth.dot(across) < 0.0 { -smooth } else { smooth };
+        let normal = normal.try_normalize().or_else(|| across.try_normalize()).unwrap_or(self.normal);
+        Self { position: a * u + b * v + c * w, normal, ..*self }
+    }
+
     /// The texture coordinate at the particle, if the mesh has any.
     pub fn uv(&self, mesh: &TriangleMesh) -> Option<Vec2> {
         let [a, b, c] =
@@ -98,19 +115,8 @@ impl<'mesh> Surface<'mesh> {
     /// The particle at a place of a face.
     fn particle(&self, face: usize, barycentric: [f32; 2]) -> Particle {
         let Face { triangle, flipped } = self.faces[face];
-        let [v, w] = barycentric;
-        let u = 1.0 - v - w;
-        let [a, b, c] = self.mesh.corners(triangle as usize);
-        let mut across = (b - a).cross(c - a);
-        if flipped {
-            across = -across;
-        }
-        let [na, nb, nc] =
-            self.mesh.triangles[triangle as usize].map(|vertex| self.mesh.normals[vertex as usize]);
-        let smooth = na * u + nb * v + nc * w;
-        let normal = if smooth.dot(across) < 0.0 { -smooth } else { smooth };
-        let normal = normal.try_normalize().or_else(|| across.try_normalize()).unwrap_or(Vec3::Y);
-        Particle { triangle, barycentric, flipped, position: a * u + b * v + c * w, normal }
+        let place = Particle { triangle, barycentric, flipped, position: Vec3::ZERO, normal: Vec3::Y };
+        place.on(self.mesh, &self.mesh.positions, &self.mesh.normals)
     }
 }
 

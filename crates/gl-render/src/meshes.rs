@@ -36,6 +36,9 @@ struct Vertex {
     position: [f32; 3],
     normal: [f32; 3],
     uv: [f32; 2],
+    /// Where a morph takes the vertex; its own position and normal without one.
+    target_position: [f32; 3],
+    target_normal: [f32; 3],
 }
 
 impl MeshCache {
@@ -58,11 +61,17 @@ impl MeshCache {
 
     fn upload(&self, gpu: &Gpu, surface: &BodySurface) -> Result<MeshOnGpu, GlError> {
         let mesh = &surface.mesh;
+        let (target_positions, target_normals) = match &surface.morph {
+            Some(target) => (&target.positions, &target.normals),
+            None => (&mesh.positions, &mesh.normals),
+        };
         let vertices: Vec<Vertex> = (0..mesh.positions.len())
             .map(|index| Vertex {
                 position: mesh.positions[index].to_array(),
                 normal: mesh.normals[index].to_array(),
                 uv: mesh.uvs.get(index).copied().unwrap_or_default().to_array(),
+                target_position: target_positions[index].to_array(),
+                target_normal: target_normals[index].to_array(),
             })
             .collect();
         let material_of =
@@ -90,8 +99,8 @@ impl MeshCache {
             offset_bytes,
             per_instance: false,
         };
-        let array =
-            VertexArray::new(gpu, &[input(0, 3, 0), input(1, 3, 12), input(2, 2, 24)], Some(&index_buffer))?;
+        let inputs = [input(0, 3, 0), input(1, 3, 12), input(2, 2, 24), input(3, 3, 32), input(4, 3, 44)];
+        let array = VertexArray::new(gpu, &inputs, Some(&index_buffer))?;
         Ok(MeshOnGpu { array, parts, _vertices: vertex_buffer, _indices: index_buffer })
     }
 

@@ -180,13 +180,14 @@ impl ReferencePass {
             shadow: program(
                 "reference/shadow.vert",
                 "reference/shadow.frag",
-                &["world_from_model", "shadow_from_world"],
+                &["world_from_model", "morph", "shadow_from_world"],
             )?,
             surface: program(
                 "reference/surface.vert",
                 "reference/surface.frag",
                 &[
                     "world_from_model",
+                    "morph",
                     "view_from_world",
                     "clip_from_view",
                     "albedo",
@@ -313,6 +314,7 @@ impl ReferencePass {
                     .shadow
                     .bind()
                     .set("world_from_model", body.world_from_model)
+                    .set("morph", body.morph)
                     .set("shadow_from_world", lights.shadow_from_world);
                 let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
                 self.gpu.draw(bound, &mesh.array, vertices)?;
@@ -345,6 +347,7 @@ impl ReferencePass {
                     .surface
                     .bind()
                     .set("world_from_model", body.world_from_model)
+                    .set("morph", body.morph)
                     .set("view_from_world", view.view_from_world)
                     .set("clip_from_view", view.clip_from_view)
                     .set("albedo", Vec3::from(albedo))

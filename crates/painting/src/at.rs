@@ -1,11 +1,12 @@
 //! One frame of a painting: project, thin out, turn, and put in order. A pure function of the painting, the frame number
 //! and the picture size.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
-use impasto_core::solve::{SolvedParticles, solve};
+use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::{self, CameraPose};
@@ -52,6 +53,8 @@ impl FrameOptions {
 /// One coat in one view.
 pub(crate) struct SeenCoat<'a> {
     pub(crate) coat: &'a Coat,
+    /// The baked particles, on a surface that changes its shape as they are now.
+    pub(crate) baked: Cow<'a, BakedParticles>,
     pub(crate) map: ScreenMap,
     pub(crate) world_from_model: DAffine3,
     pub(crate) solved: SolvedParticles,
@@ -84,12 +87,13 @@ impl Painting {
         let scene = self.scene();
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
+        let morphs = motion::morphs_at(scene, frame);
         let frame_view = view.frame_view();
         let px_scale =
             if options.keep_stroke_px { 1.0 } else { options.size_px[1] as f32 / scene.size.1 as f32 };
         let look = Look {
             painting: self,
-            seen: self.see(&view, &poses, px_scale),
+            seen: self.see(&view, (&poses, &morphs), px_scale),
             half_px: options.size_px.map(|side| side as f32 * 0.5),
             px_scale,
             near_far: frame_view.near_far,
@@ -106,10 +110,11 @@ impl Painting {
             bodies: self
                 .bodies
                 .iter()
-                .zip(&poses)
-                .map(|(body, &pose)| FrameBody {
+                .zip(poses.iter().zip(&morphs))
+                .map(|(body, (&pose, &morph))| FrameBody {
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
+                    morph: morph as f32,
                 })
                 .collect(),
             strokes,
@@ -122,7 +127,12 @@ impl Painting {
         }
     }
 
-    fn see(&self, view: &PictureView, poses: &[DAffine3], px_scale: f32) -> Vec<SeenCoat<'_>> {
+    fn see(
+        &self,
+        view: &PictureView,
+        (poses, morphs): (&[DAffine3], &[f64]),
+        px_scale: f32,
+    ) -> Vec<SeenCoat<'_>> {
         let wanted_per_px =
             self.rules.last().map_or(0.0, |rule| f64::from(rule.strokes.body().wanted_per_px()));
         self.coats
@@ -130,18 +140,24 @@ impl Painting {
             .map(|coat| {
                 let world_from_model = poses[coat.object];
                 let map = view.screen_map(world_from_model);
+                let (morph, baked_at) = (morphs[coat.object], self.reference_morphs[coat.object]);
+                let baked = if coat.surface.morph.is_none() || morph == baked_at {
+                    Cow::Borrowed(&coat.baked.baked)
+                } else {
+                    Cow::Owned(coat.deformed(morph, baked_at))
+                };
                 let mut solved = SolvedParticles::default();
-                solve(&coat.baked.baked, &map, &mut solved);
+                solve(&baked, &map, &mut solved);
                 let shown = coat
                     .sampled
                     .polygons
                     .as_ref()
                     .map(|polygons| polygons.shown(&map, wanted_per_px / f64::from(px_scale * px_scale)));
                 let clip_views = (self.solver == Solver::HornExact).then(|| {
-                    let reference = &self.reference;
+                    let reference = self.references.own();
                     (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
                 });
-                SeenCoat { coat, map, world_from_model, solved, shown, clip_views }
+                SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views }
             })
             .collect()
     }
@@ -200,7 +216,8 @@ impl Look<'_> {
         let depth = solved.depth[index];
         let layer = self.painting.rules[self.region(entry) as usize].strokes.layer_of(seen.coat.kind);
         // Half a diagonal, for the largest of a lively crowd.
-        let reach = (layer.length_px + layer.width_px) * self.px_scale;
+        let grown = seen.growth(index, self.painting, self.px_scale);
+        let reach = (layer.length_px + layer.width_px) * self.px_scale * grown;
         solved.area_px[index] > 0.0
             && depth > self.near_far[0]
             && depth < self.near_far[1]
@@ -222,6 +239,24 @@ impl SeenCoat<'_> {
             now,
         );
         impasto_core::angle::wrap_pi(turn_rad + f64::from(self.coat.baked.base_angle_rad[index])) as f32
+    }
+
+    /// How much larger than stated the stroke of a particle is, since it follows the size of its surface: m^γ, m the pixels
+    /// per unit of surface now over those in the reference picture, γ the region's `size_follow`.
+    pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
+        let region = usize::from(self.coat.baked.region[index]);
+        let follow = painting.rules[region].strokes.size_follow;
+        if follow <= 0.0 {
+            return 1.0;
+        }
+        let scale = |map: &ScreenMap, at: DVec3, near: f64| {
+            map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
+        };
+        let reference = self.coat.inputs.references.of_rule(region);
+        let before = scale(&reference.map, self.coat.baked.baked.position_of(index), reference.near);
+        let now = scale(&self.map, self.baked.position_of(index), 1e-9);
+        let grown = (now / before / f64::from(px_scale)).powf(f64::from(follow));
+        if grown.is_finite() { grown.clamp(1.0 / 64.0, 64.0) as f32 } else { 1.0 }
     }
 
     /// Random bits of a particle.

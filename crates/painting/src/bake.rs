@@ -3,49 +3,47 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use impasto_core::ScreenMap;
-use impasto_core::direction;
+use impasto_core::direction::carry::Stencils;
 use impasto_core::hash;
-use impasto_core::lift::{Lift, turntable_axes};
+use impasto_core::lift::Lift;
 use impasto_core::neighbours::Neighbours;
 use impasto_core::noise;
-use impasto_core::presence::smoothstep;
 use impasto_core::sampling::Particle;
-use impasto_core::screen_map::facing;
 use impasto_core::solve::BakedParticles;
-use impasto_scene::document::{Direction, Solver};
+use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
+use crate::field::{BodyField, FieldInputs};
 use crate::parts::{BodyParts, px_per_unit};
-use crate::regions::RegionRule;
+use crate::references::{BodyReferences, Views};
+use crate::regions::{BodyRegions, RegionRule};
+use crate::stated::{Point, Stated};
 
-/// The reference view as one body sees it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct BodyReference {
-    pub(crate) map: ScreenMap,
-    pub(crate) near: f64,
-    pub(crate) roll_rad: f64,
-    /// The world's up in model space, at the reference pose.
-    pub(crate) up_in_model: DVec3,
-    /// Width and height of the scene's picture.
-    pub(crate) size_px: [u32; 2],
-}
-
-/// All that the lifts of a body depend on.
+/// All that the lifts of a coat depend on.
 #[derive(Clone)]
 pub(crate) struct BakeInputs {
     pub(crate) particles: Arc<Vec<Particle>>,
     pub(crate) neighbours: Option<Arc<Neighbours>>,
-    pub(crate) reference: BodyReference,
+    pub(crate) references: Arc<BodyReferences>,
     pub(crate) solver: Solver,
-    /// Region of each triangle.
-    pub(crate) region_of_triangle: Vec<u16>,
-    pub(crate) rules: Vec<RegionRule>,
+    pub(crate) regions: Arc<BodyRegions>,
+    pub(crate) rules: Arc<Vec<RegionRule>>,
     /// Hash of the object's name, the scene's seed and the layer.
     pub(crate) name_hash: u32,
     /// Centre and length of the diagonal of the body's bounds, model space.
     pub(crate) extent: (DVec3, f64),
     pub(crate) parts: Arc<BodyParts>,
+    /// Where directions are not all stated outright: what combs them, with the samples each particle listens to.
+    pub(crate) combed: Option<Combed>,
+}
+
+/// What combs the directions of a coat.
+#[derive(Clone)]
+pub(crate) struct Combed {
+    pub(crate) inputs: Arc<FieldInputs>,
+    /// None where guides alone have a say.
+    pub(crate) field: Option<Arc<BodyField>>,
+    pub(crate) stencils: Arc<Stencils>,
 }
 
 impl PartialEq for BakeInputs {
@@ -54,11 +52,16 @@ impl PartialEq for BakeInputs {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b),
             (a, b) => a.is_none() && b.is_none(),
         };
+        let same_combing = match (&self.combed, &other.combed) {
+            (Some(a), Some(b)) => Arc::ptr_eq(&a.inputs, &b.inputs),
+            (a, b) => a.is_none() && b.is_none(),
+        };
         same_lists
+            && same_combing
             && Arc::ptr_eq(&self.particles, &other.particles)
-            && self.reference == other.reference
+            && self.references == other.references
             && self.solver == other.solver
-            && self.region_of_triangle == other.region_of_triangle
+            && self.regions == other.regions
             && self.rules == other.rules
             && self.name_hash == other.name_hash
             && self.extent == other.extent
@@ -112,27 +115,26 @@ impl BakeInputs {
     pub(crate) fn bake(&self) -> BakedBody {
         let count = self.particles.len();
         let scales = self.scales();
-        let directions = self.parts.directions(&self.reference, self.reference.size_px);
+        let stated = Stated {
+            rules: &self.rules,
+            automatic: self.parts.directions(self.references.own()),
+            extent: self.extent,
+        };
+        let region: Vec<u16> =
+            self.particles.par_iter().with_min_len(4096).map(|particle| self.regions.of(particle)).collect();
         let lifts: Vec<(Lift, f64)> = (0..count)
             .into_par_iter()
-            .with_min_len(2048)
-            .map(|particle| {
-                let part = self.part_of(particle);
-                self.lift(particle, &directions[part], scales[part])
-            })
+            .with_min_len(1024)
+            .map(|index| self.lift(index, self.point(index, region[index]), (&stated, &scales)))
             .collect();
         let mut baked = BakedParticles::default();
-        for (particle, (lift, _)) in self.particles.iter().zip(&lifts) {
-            baked.push(particle.position.as_dvec3(), particle.normal.as_dvec3(), *lift);
+        for (index, (lift, _)) in lifts.iter().enumerate() {
+            let point = self.point(index, region[index]);
+            baked.push(self.lifted(point), point.normal, *lift);
         }
-        let region: Vec<u16> = self
-            .particles
-            .iter()
-            .map(|particle| self.region_of_triangle[particle.triangle as usize])
-            .collect();
-        if self.rules.iter().any(|rule| rule.strokes.flatness < 1.0) {
-            baked.flatness =
-                region.iter().map(|&region| self.rules[region as usize].strokes.flatness).collect();
+        let flatness = |&region: &u16| self.rules[usize::from(region)].strokes.flatness;
+        if region.iter().any(|region| flatness(region) < 1.0) {
+            baked.flatness = region.iter().map(flatness).collect();
         }
         BakedBody {
             baked,
@@ -153,6 +155,21 @@ impl BakeInputs {
         }
     }
 
+    fn point(&self, index: usize, region: u16) -> Point {
+        let particle = &self.particles[index];
+        Point {
+            position: particle.position.as_dvec3(),
+            normal: particle.normal.as_dvec3(),
+            rule: usize::from(region),
+            part: self.part_of(index),
+        }
+    }
+
+    /// Where the stroke of a point is: off the surface by its region's offset.
+    fn lifted(&self, point: Point) -> DVec3 {
+        point.position + point.normal * f64::from(self.rules[point.rule].strokes.offset)
+    }
+
     fn part_of(&self, particle: usize) -> usize {
         self.parts.of_triangle[self.particles[particle].triangle as usize] as usize
     }
@@ -163,8 +180,9 @@ impl BakeInputs {
 
     /// For each part, pixels of a picture 720 high per model unit, at the reference pose.
     fn scales(&self) -> Vec<f64> {
-        let scale = 720.0 / f64::from(self.reference.size_px[1]);
-        self.parts.parts.iter().map(|part| px_per_unit(&self.reference.map, part) * scale).collect()
+        let own = self.references.own();
+        let scale = 720.0 / f64::from(own.size_px[1]);
+        self.parts.parts.iter().map(|part| px_per_unit(&own.map, part) * scale).collect()
     }
 
     /// What chance and slow noise add to a base angle, radians.
@@ -190,98 +208,47 @@ impl BakeInputs {
         stray
     }
 
-    /// N' of a particle, and its base angle in the reference picture. `automatic` is the direction of its part where its
-    /// region states none, `scale` the part's own.
-    fn lift(&self, index: usize, automatic: &Direction, scale: f64) -> (Lift, f64) {
-        let particle = &self.particles[index];
-        let rule = &self.rules[self.region_of_triangle[particle.triangle as usize] as usize];
-        let (position, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
-        let direction = if rule.direction == Direction::Auto { automatic } else { &rule.direction };
-        let crossing = matches!(direction, Direction::Crossing(..));
-        let jitter = self.stray(index, rule, crossing, scale);
-        let tangent = match *direction {
-            Direction::Auto | Direction::Angle(_) | Direction::Crossing(..) => DVec3::ZERO,
-            Direction::Around(axis) => {
-                let (center, size) = self.extent;
-                direction::around(DVec3::from(axis), normal, position - center, size)
+    /// N' of a particle, and its base angle in the reference picture.
+    fn lift(&self, index: usize, point: Point, (stated, scales): (&Stated<'_>, &[f64])) -> (Lift, f64) {
+        let views = self.views(index, point, self.solver == Solver::Horn);
+        let base = stated.base(point, &views);
+        let mut tangent = base.tangent;
+        if let Some(combed) = &self.combed {
+            if let Some(field) = &combed.field {
+                tangent = field.direction((&combed.stencils, index), point, &base);
             }
-            Direction::Along(axis) => direction::towards(DVec3::from(axis), normal),
-            Direction::Up => direction::towards(DVec3::Y, normal),
-        };
-        let stated_rad = match *direction {
-            Direction::Angle(degrees) => degrees.to_radians(),
-            Direction::Crossing(first, second) => {
-                let in_second = hash::unit(hash::combine(self.bits_of(index), FAMILY)) < SECOND_FAMILY;
-                if in_second { second.to_radians() } else { first.to_radians() }
-            }
-            Direction::Auto | Direction::Along(_) | Direction::Around(_) | Direction::Up => 0.0,
-        };
-        // A base direction on the surface shows at another angle in each view; a stated angle is the same in all.
-        let angle_in = |axes: [DVec3; 2]| {
-            if tangent == DVec3::ZERO { stated_rad } else { tangent.dot(axes[1]).atan2(tangent.dot(axes[0])) }
-        };
-        let jacobian = self.reference.map.jacobian(position);
-        let base_rad = angle_in(jacobian) + jitter;
-        let lists = self.neighbours.as_deref().filter(|_| self.solver == Solver::Horn);
-        let (seen, virtual_view) = self.references(index, lists);
-        let rolled = {
-            let [right, above] = turntable_axes(normal, self.reference.up_in_model);
-            let (sin, cos) = self.reference.roll_rad.sin_cos();
-            [right * cos + above * sin, above * cos - right * sin]
-        };
-        let unseen = virtual_view.turned(angle_in(rolled) + jitter);
-        let lift = match seen {
-            Some((lift, share)) if share < 1.0 => {
-                lift.turned(base_rad).blended(unseen, 1.0 - share, jacobian)
-            }
-            Some((lift, _)) => lift.turned(base_rad),
-            None => unseen,
-        };
-        (lift, if base_rad.is_finite() { base_rad } else { 0.0 })
+            tangent = combed.inputs.with_guides(point, &views, tangent);
+        }
+        let second = stated.second_family_rad(point);
+        let mut stray = self.stray(index, &self.rules[point.rule], second.is_some(), scales[point.part]);
+        if let Some(second) = second
+            && hash::unit(hash::combine(self.bits_of(index), FAMILY)) < SECOND_FAMILY
+        {
+            stray += second;
+        }
+        let base_rad =
+            if tangent == base.tangent { base.in_reference_rad } else { views.angle_in_reference(tangent) };
+        (views.lift(tangent).turned(stray), if base_rad.is_finite() { base_rad + stray } else { stray })
     }
 
-    /// The lift from the reference view with its share (1 where the view faces the surface squarely, none where it does
-    /// not), and the one from the virtual view. With neighbours, Horn's estimate; without, the tangent's.
-    fn references(&self, index: usize, neighbours: Option<&Neighbours>) -> (Option<(Lift, f64)>, Lift) {
-        let particle = &self.particles[index];
-        let (position, normal) = (particle.position.as_dvec3(), particle.normal.as_dvec3());
-        let jacobian = self.reference.map.jacobian(position);
-        let px_per_unit = jacobian[0].cross(jacobian[1]).length().sqrt();
-        let px_per_unit = if px_per_unit.is_finite() && px_per_unit > 0.0 { px_per_unit } else { 1.0 };
-        let virtual_view =
-            Lift::facing_view(normal, self.reference.up_in_model, self.reference.roll_rad, px_per_unit);
-        let faced = facing(jacobian, normal);
-        let share = f64::from(smoothstep(((faced - 0.2) / 0.3) as f32));
-        if self.reference.map.depth(position) <= self.reference.near || share.is_nan() || share <= 0.0 {
-            return (None, virtual_view);
-        }
-        let lift = match neighbours {
-            Some(neighbours) => {
-                let center_px = self.reference.map.project(position);
-                let in_front = |&other: &u32| {
-                    self.reference.map.depth(self.particles[other as usize].position.as_dvec3())
-                        > self.reference.near
-                };
-                Lift::horn(neighbours.of(index).iter().filter(|other| in_front(other)).map(|&other| {
-                    let neighbour = self.particles[other as usize].position.as_dvec3();
-                    let offset_px: DVec2 = self.reference.map.project(neighbour) - center_px;
-                    (neighbour - position, offset_px)
-                }))
-            }
-            None => Lift::tangent(jacobian, normal),
-        };
-        (lift.map(|lift| (lift, share)), virtual_view)
+    /// How the references see a particle; with Horn's estimate from its neighbours or the tangent plane's own.
+    fn views(&self, index: usize, point: Point, with_horn: bool) -> Views {
+        let lists = self.neighbours.as_deref().filter(|_| with_horn);
+        let position = self.lifted(point);
+        self.references.views((position, point.normal), point.rule, |reference| {
+            let neighbours = lists?.of(index);
+            let center_px = reference.map.project(position);
+            let at = |other: &u32| self.particles[*other as usize].position.as_dvec3();
+            let in_front = neighbours.iter().filter(|other| reference.map.depth(at(other)) > reference.near);
+            Some(Lift::horn(in_front.map(|other| {
+                let offset_px: DVec2 = reference.map.project(at(other)) - center_px;
+                (at(other) - position, offset_px)
+            })))
+        })
     }
 
     /// The tangent plane's own lift, without base angle: what κ is measured with, whatever the solver.
-    pub(crate) fn surface_lift(&self, index: usize) -> Lift {
-        match self.references(index, None) {
-            (Some((lift, share)), virtual_view) if share < 1.0 => {
-                let jacobian = self.reference.map.jacobian(self.particles[index].position.as_dvec3());
-                lift.blended(virtual_view, 1.0 - share, jacobian)
-            }
-            (Some((lift, _)), _) => lift,
-            (None, virtual_view) => virtual_view,
-        }
+    pub(crate) fn surface_lift(&self, index: usize, region: u16) -> Lift {
+        self.views(index, self.point(index, region), false).bare_lift()
     }
 }

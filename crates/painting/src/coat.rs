@@ -3,19 +3,23 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, Vec3};
+use impasto_core::direction::carry::Stencils;
 use impasto_core::hash;
 use impasto_core::neighbours::{Neighbours, full_list_radius};
 use impasto_core::sampling::{self, Particle, Surface};
 use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 
-use crate::bake::{BakeInputs, BakedBody, BodyReference};
+use crate::bake::{BakeInputs, BakedBody, Combed};
+use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::frame::BodySurface;
 use crate::paper::PolygonCounts;
 use crate::particle_count::{self, Sighting};
 use crate::parts::{BodyParts, Cap};
 use crate::prepare::Context;
+use crate::references::BodyReferences;
+use crate::regions::{BodyGuide, BodyRegions};
 use crate::surface::SurfaceInputs;
 
 /// One coat, prepared.
@@ -26,6 +30,8 @@ pub(crate) struct Coat {
     pub(crate) sampled: Arc<Sampled>,
     pub(crate) inputs: BakeInputs,
     pub(crate) baked: Arc<BakedBody>,
+    /// The surface that the particles ride.
+    pub(crate) surface: Arc<BodySurface>,
     /// For each region, the marks that its brushes begin with.
     pub(crate) first_marks: Vec<Vec<u32>>,
 }
@@ -42,14 +48,49 @@ pub(crate) struct Sampled {
 #[derive(Default)]
 pub(crate) struct KeptObject {
     surface: Option<(SurfaceInputs, Arc<BodySurface>, Arc<BodyParts>)>,
+    samples: Option<(SampleKey, Arc<FieldSamples>)>,
+    field: Option<(Arc<FieldInputs>, Option<Arc<BodyField>>)>,
     coats: [KeptCoat; LayerKind::ALL.len()],
 }
 
 #[derive(Default)]
 struct KeptCoat {
     sampled: Option<(SampleInputs, Arc<Sampled>)>,
+    posed: Option<(PosedInputs, Arc<Vec<Particle>>)>,
     neighbours: Option<(Arc<Vec<Particle>>, Arc<Neighbours>)>,
+    stencils: Option<KeptStencils>,
     baked: Option<(BakeInputs, Arc<BakedBody>)>,
+}
+
+/// Which samples of the field each particle listens to.
+struct KeptStencils {
+    particles: Arc<Vec<Particle>>,
+    samples: Arc<FieldSamples>,
+    stencils: Arc<Stencils>,
+}
+
+/// Particles and the surface that they ride, as it stands at this share of its morph.
+#[derive(Clone)]
+struct PosedInputs {
+    particles: Arc<Vec<Particle>>,
+    surface: Arc<BodySurface>,
+    morph: f64,
+}
+
+impl PartialEq for PosedInputs {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.particles, &other.particles)
+            && Arc::ptr_eq(&self.surface, &other.surface)
+            && self.morph == other.morph
+    }
+}
+
+/// What the samples of the field depend on.
+#[derive(Clone, PartialEq)]
+struct SampleKey {
+    surface: SurfaceInputs,
+    name_hash: u32,
+    morph: f64,
 }
 
 #[derive(Clone, PartialEq)]
@@ -65,10 +106,13 @@ struct SampleInputs {
 pub(crate) struct ObjectInputs<'a> {
     pub(crate) index: usize,
     pub(crate) surface: &'a SurfaceInputs,
-    /// Region of each triangle.
-    pub(crate) regions: &'a [u16],
+    pub(crate) regions: &'a Arc<BodyRegions>,
+    pub(crate) guides: &'a Arc<Vec<BodyGuide>>,
+    pub(crate) references: &'a Arc<BodyReferences>,
     /// Of each part.
     pub(crate) caps: &'a [Cap],
+    /// How far the body has turned into its morph in the reference pose.
+    pub(crate) morph: f64,
 }
 
 impl KeptObject {
@@ -121,26 +165,84 @@ impl KeptObject {
         }
     }
 
+    /// Puts the particles where they are in the reference pose.
+    pub(crate) fn pose(&mut self, object: ObjectInputs<'_>) {
+        let surface = self.surface();
+        for coat in &mut self.coats {
+            let particles = Arc::clone(&coat.sampled_now().particles);
+            let now = PosedInputs { particles, surface: Arc::clone(&surface), morph: object.morph };
+            if coat.posed.as_ref().is_none_or(|(before, _)| *before != now) {
+                let posed = surface.posed(&now.particles, object.morph);
+                coat.posed = Some((now, posed));
+            }
+        }
+    }
+
     pub(crate) fn find_neighbours(&mut self) {
         for coat in &mut self.coats {
-            let sampled = coat.sampled_now();
-            if coat.neighbours.as_ref().is_some_and(|(before, _)| Arc::ptr_eq(before, &sampled.particles)) {
+            let particles = coat.posed_now();
+            if coat.neighbours.as_ref().is_some_and(|(before, _)| Arc::ptr_eq(before, &particles)) {
                 continue;
             }
-            let positions: Vec<Vec3> = sampled.particles.iter().map(|particle| particle.position).collect();
-            let normals: Vec<Vec3> = sampled.particles.iter().map(|particle| particle.normal).collect();
-            let radius = full_list_radius(sampled.area, positions.len()) as f32;
+            let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
+            let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
+            let radius = full_list_radius(coat.sampled_now().area, positions.len()) as f32;
             let found = Neighbours::find(&positions, &normals, radius);
-            coat.neighbours = Some((Arc::clone(&sampled.particles), Arc::new(found)));
+            coat.neighbours = Some((particles, Arc::new(found)));
         }
+    }
+
+    /// Joins what regions state and guides comb, where that is needed.
+    pub(crate) fn solve_field(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+        // The paper knows no field.
+        let needed = FieldInputs::may_be_needed(object.regions, context.rules, object.guides);
+        if !needed || context.paper {
+            self.field = None;
+            return;
+        }
+        let surface = self.surface();
+        let name_hash = name_hash(context, object.index, LayerKind::Body);
+        let key = SampleKey { surface: object.surface.clone(), name_hash, morph: object.morph };
+        if self.samples.as_ref().is_none_or(|(before, _)| *before != key) {
+            let samples = FieldSamples::new(&Surface::new(&surface.mesh, |_| true), name_hash);
+            self.samples = Some((key, Arc::new(samples.posed(&surface, object.morph))));
+        }
+        let samples = Arc::clone(&self.samples.as_ref().expect("it was just made").1);
+        let inputs = FieldInputs {
+            samples: Arc::clone(&samples),
+            references: Arc::clone(object.references),
+            regions: Arc::clone(object.regions),
+            guides: Arc::clone(object.guides),
+            rules: Arc::clone(context.rules),
+            parts: self.parts(),
+            extent: surface.extent(),
+            orthographic: context.orthographic,
+        };
+        if self.field.as_ref().is_none_or(|(before, _)| **before != inputs) {
+            let field = inputs.solve().map(Arc::new);
+            self.field = Some((Arc::new(inputs), field));
+        }
+        for coat in &mut self.coats {
+            let particles = coat.posed_now();
+            let same = |kept: &KeptStencils| {
+                Arc::ptr_eq(&kept.particles, &particles) && Arc::ptr_eq(&kept.samples, &samples)
+            };
+            if !coat.stencils.as_ref().is_some_and(same) {
+                let stencils = Arc::new(samples.stencils(&particles));
+                coat.stencils = Some(KeptStencils { particles, samples: Arc::clone(&samples), stencils });
+            }
+        }
+    }
+
+    /// The field of the body, if it has one.
+    pub(crate) fn field(&self) -> Option<Arc<BodyField>> {
+        self.field.as_ref().and_then(|(_, field)| field.clone())
     }
 
     /// The coats that have particles; the body's layer always counts as one.
     pub(crate) fn bake(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) -> Vec<Arc<Coat>> {
         let (surface, parts) = (self.surface(), self.parts());
-        let (low, high) = surface.mesh.bounds().unwrap_or_default();
-        let pose = context.reference.poses[object.index];
-        let view = &context.reference.view;
+        let field = self.field.clone();
         let wanted = |kind: LayerKind| {
             kind == LayerKind::Body || !self.coats[kind as usize].sampled_now().particles.is_empty()
         };
@@ -150,28 +252,27 @@ impl KeptObject {
             .map(|kind| {
                 let kept = &mut self.coats[kind as usize];
                 let inputs = BakeInputs {
-                    particles: Arc::clone(&kept.sampled_now().particles),
+                    particles: kept.posed_now(),
                     neighbours: match context.solver {
                         Solver::Tangent => None,
                         Solver::Horn | Solver::HornExact => {
                             kept.neighbours.as_ref().map(|(_, lists)| Arc::clone(lists))
                         }
                     },
-                    reference: BodyReference {
-                        map: view.screen_map(pose),
-                        near: view.near(),
-                        roll_rad: view.pose.roll_rad,
-                        up_in_model: pose.matrix3.transpose() * DVec3::Y,
-                        size_px: view.size_px,
-                    },
+                    references: Arc::clone(object.references),
                     solver: context.solver,
-                    region_of_triangle: object.regions.to_vec(),
-                    rules: context.rules.to_vec(),
+                    regions: Arc::clone(object.regions),
+                    rules: Arc::clone(context.rules),
                     name_hash: name_hash(context, object.index, kind),
-                    extent: (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length())),
+                    extent: surface.extent(),
                     parts: Arc::clone(&parts),
+                    combed: field.as_ref().zip(kept.stencils.as_ref()).map(|((inputs, field), stencils)| {
+                        let (inputs, stencils) = (Arc::clone(inputs), Arc::clone(&stencils.stencils));
+                        Combed { inputs, field: field.clone(), stencils }
+                    }),
                 };
-                Arc::new(kept.coat(context, object.index, kind, inputs))
+                let surface = Arc::clone(&surface);
+                Arc::new(kept.coat(context, (object.index, kind), inputs, surface))
             })
             .collect()
     }
@@ -182,7 +283,18 @@ impl KeptCoat {
         Arc::clone(&self.sampled.as_ref().expect("the sampling step ran before").1)
     }
 
-    fn coat(&mut self, context: &Context<'_>, object: usize, kind: LayerKind, inputs: BakeInputs) -> Coat {
+    /// The particles where they are in the reference pose.
+    fn posed_now(&self) -> Arc<Vec<Particle>> {
+        Arc::clone(&self.posed.as_ref().expect("the pose step ran before").1)
+    }
+
+    fn coat(
+        &mut self,
+        context: &Context<'_>,
+        (object, kind): (usize, LayerKind),
+        inputs: BakeInputs,
+        surface: Arc<BodySurface>,
+    ) -> Coat {
         if self.baked.as_ref().is_none_or(|(before, _)| *before != inputs) {
             self.baked = Some((inputs.clone(), Arc::new(inputs.bake())));
         }
@@ -192,7 +304,7 @@ impl KeptCoat {
             .iter()
             .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
             .collect();
-        Coat { object, kind, sampled: self.sampled_now(), inputs, baked, first_marks }
+        Coat { object, kind, sampled: self.sampled_now(), inputs, baked, surface, first_marks }
     }
 }
 
@@ -203,10 +315,10 @@ fn count(
     kind: LayerKind,
     (surface, parts, sightings): (&Surface<'_>, &BodyParts, &[Sighting]),
 ) -> usize {
-    let layer = |triangle: usize| context.rules[object.regions[triangle] as usize].strokes.layer_of(kind);
+    let layer = |rule: u16| context.rules[usize::from(rule)].strokes.layer_of(kind);
     let left_out = kind == LayerKind::Underpainting && !context.underpainting
         || context.paper && kind != LayerKind::Body
-        || (0..object.regions.len()).all(|triangle| layer(triangle).coverage <= 0.0);
+        || object.regions.all().into_iter().all(|rule| layer(rule).coverage <= 0.0);
     if kind == LayerKind::Body
         && let Some(count) = context.scene.objects[object.index].particles
     {
@@ -217,9 +329,13 @@ fn count(
     }
     let found = particle_count::find(surface, sightings, |triangle| {
         let cap = object.caps[parts.of_triangle[triangle] as usize];
-        let layer = layer(triangle);
-        let [length, width] = cap.apply(layer.length_px, layer.width_px);
-        layer.coverage / (length * width) * most_wanted(kind)
+        let wanted = |rule: u16| {
+            let layer = layer(rule);
+            let [length, width] = cap.apply(layer.length_px, layer.width_px);
+            layer.coverage / (length * width)
+        };
+        let densest = object.regions.on_triangle(surface.mesh(), triangle).map(wanted).fold(0.0, f32::max);
+        densest * most_wanted(kind)
     });
     // By the paper's rule a polygon without a particle stays bare.
     if context.paper { found.max(surface.faces().count()) } else { found }

@@ -6,6 +6,7 @@ use glam::{Affine2, Mat4, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::brush::Mark;
 use impasto_scene::mesh_file::Texture;
+use impasto_scene::morph::MorphTarget;
 
 mod stroke;
 
@@ -105,8 +106,10 @@ pub struct PointLight {
 pub struct FrameBody {
     /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
     pub surface: Arc<BodySurface>,
-    /// Rigid pose.
+    /// Pose: turned, moved, evenly scaled.
     pub world_from_model: Mat4,
+    /// How far the surface has turned into its morph, 0..=1.
+    pub morph: f32,
 }
 
 /// A surface with its materials, in model space (static scale applied).
@@ -116,6 +119,8 @@ pub struct BodySurface {
     pub name: String,
     /// The triangles.
     pub mesh: TriangleMesh,
+    /// Where its vertices go, for a surface that changes its shape.
+    pub morph: Option<MorphTarget>,
     /// Indexed by `mesh.material_of_triangle`.
     pub materials: Vec<BodyMaterial>,
 }

@@ -6,7 +6,7 @@ use impasto_core::parts::{Part, parts};
 use impasto_core::{ScreenMap, TriangleMesh};
 use impasto_scene::document::Direction;
 
-use crate::bake::BodyReference;
+use crate::references::BodyReference;
 
 /// A stroke is at most this share of its part's second extent wide, and of its longest long.
 const WIDTH_SHARE: f64 = 0.42;
@@ -60,9 +60,9 @@ impl BodyParts {
         self.parts.iter().map(of_part).collect()
     }
 
-    /// How each part is brushed in the reference picture of this size.
-    pub(crate) fn directions(&self, reference: &BodyReference, size_px: [u32; 2]) -> Vec<Direction> {
-        self.parts.iter().map(|part| direction_of(part, reference, size_px)).collect()
+    /// How each part is brushed in the reference picture.
+    pub(crate) fn directions(&self, reference: &BodyReference) -> Vec<Direction> {
+        self.parts.iter().map(|part| direction_of(part, reference)).collect()
     }
 }
 
@@ -85,7 +85,8 @@ pub(crate) fn px_per_unit(map: &ScreenMap, part: &Part) -> f64 {
     if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
 }
 
-fn direction_of(part: &Part, reference: &BodyReference, size_px: [u32; 2]) -> Direction {
+fn direction_of(part: &Part, reference: &BodyReference) -> Direction {
+    let size_px = reference.size_px;
     let scale = px_per_unit(&reference.map, part);
     let gaze = reference.map.row_depth.truncate();
     let [longest, second, least] = part.extents;

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::{DAffine3, Vec3};
+use impasto_core::direction::singularities::Singularity;
 use impasto_core::sampling::Particle;
-use impasto_scene::document::{Reference, RotatingStrokes, Scene, Solver, Style};
+use impasto_scene::document::{Lens, Reference, RotatingStrokes, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::LayerKind;
 use impasto_scene::{motion, presets};
@@ -14,11 +15,13 @@ use rayon::prelude::*;
 
 use crate::brushes;
 use crate::coat::{Coat, KeptObject, ObjectInputs};
+use crate::field::BodyField;
 use crate::finish::FinishRule;
 use crate::frame::{BodySurface, Brushes, FrameStyle};
 use crate::lights;
 use crate::parts::Cap;
-use crate::regions::{self, RegionRule};
+use crate::references::{BodyReferences, ReferencePose, SceneReferences};
+use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
 
@@ -52,7 +55,7 @@ pub struct Painting {
     pub(crate) bodies: Vec<PreparedBody>,
     /// By object, then in the order of the layers.
     pub(crate) coats: Vec<Arc<Coat>>,
-    pub(crate) rules: Vec<RegionRule>,
+    pub(crate) rules: Arc<Vec<RegionRule>>,
     /// Palettes, and for each rule which is its own.
     pub(crate) palettes: Arc<Vec<Vec<[f32; 3]>>>,
     pub(crate) palette_of_rule: Vec<u8>,
@@ -60,18 +63,13 @@ pub struct Painting {
     pub(crate) finish: FinishRule,
     /// All particles in painting order.
     pub(crate) order: Arc<Vec<OrderEntry>>,
-    pub(crate) reference: Arc<ReferencePose>,
+    pub(crate) references: Arc<SceneReferences>,
+    /// How far each object has turned into its morph in the reference pose.
+    pub(crate) reference_morphs: Arc<Vec<f64>>,
     pub(crate) solver: Solver,
     pub(crate) style: FrameStyle,
     pub(crate) shadow_bounds: (Vec3, f32),
     steps: Vec<Step>,
-}
-
-/// The pose that stroke directions are stated in.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ReferencePose {
-    pub(crate) view: PictureView,
-    pub(crate) poses: Vec<DAffine3>,
 }
 
 /// What all coats of an object lie on.
@@ -80,6 +78,8 @@ pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
     /// The largest strokes that each part carries.
     pub(crate) caps: Vec<Cap>,
+    /// Where directions were combed, their field.
+    pub(crate) field: Option<Arc<BodyField>>,
 }
 
 /// A particle's place in the painting order.
@@ -106,14 +106,14 @@ pub fn prepare(loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
 /// What the steps of one object share.
 pub(crate) struct Context<'a> {
     pub(crate) scene: &'a Scene,
-    pub(crate) rules: &'a [RegionRule],
-    pub(crate) reference: &'a ReferencePose,
+    pub(crate) rules: &'a Arc<Vec<RegionRule>>,
     /// The views in which the scene is looked at in advance, with the objects' poses.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     pub(crate) brushes: &'a Brushes,
     pub(crate) solver: Solver,
     pub(crate) paper: bool,
     pub(crate) underpainting: bool,
+    pub(crate) orthographic: bool,
 }
 
 impl Preparer {
@@ -134,20 +134,22 @@ impl Preparer {
             Style::RotatingStrokes(_) => FrameStyle::RotatingStrokes,
             Style::Reference => FrameStyle::Reference,
         };
-        let rules = regions::rules(scene);
+        let rules = Arc::new(regions::rules(scene));
         let brushes = Arc::new(brushes::of_rules(&loaded, &rules));
         clock.lap("brushes");
-        let reference = Arc::new(reference_pose(scene));
+        let references = Arc::new(scene_references(scene));
+        let reference_morphs =
+            Arc::new(motion::morphs_at(scene, motion::referred_to(scene, &scene.reference).1));
         let views = views_in_advance(scene);
         let context = Context {
             scene,
             rules: &rules,
-            reference: &reference,
             views: &views,
             brushes: &brushes,
             solver,
             paper,
             underpainting: settings.underpainting && !paper,
+            orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
         };
 
         let mut kept: Vec<KeptObject> =
@@ -155,44 +157,58 @@ impl Preparer {
         let inputs = surface_inputs(&loaded)?;
         kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
         clock.lap("surfaces");
-        let bodies: Vec<PreparedBody> = kept
+        let of_body: Vec<Arc<BodyReferences>> =
+            (0..kept.len()).map(|object| Arc::new(references.of_body(object))).collect();
+        let mut bodies: Vec<PreparedBody> = kept
             .iter()
-            .zip(&reference.poses)
-            .map(|(kept, &pose)| PreparedBody {
+            .zip(&of_body)
+            .map(|(kept, references)| PreparedBody {
                 surface: kept.surface(),
-                caps: kept.parts().caps(&reference.view.screen_map(pose)),
+                caps: kept.parts().caps(&references.own().map),
+                field: None,
             })
             .collect();
-        let regions: Vec<Vec<u16>> = inputs
+        let regions: Vec<Arc<BodyRegions>> = inputs
             .iter()
             .zip(&bodies)
             .map(|(inputs, body)| {
-                regions::of_triangles(scene, &inputs.name, inputs.file(), &body.surface.mesh)
+                Arc::new(BodyRegions::new(scene, &inputs.name, inputs.file(), &body.surface.mesh))
             })
             .collect();
+        let guides: Vec<Arc<Vec<BodyGuide>>> =
+            inputs.iter().map(|inputs| Arc::new(regions::guides(scene, &inputs.name))).collect();
         let objects: Vec<ObjectInputs<'_>> = (0..kept.len())
             .map(|index| ObjectInputs {
                 index,
                 surface: &inputs[index],
                 regions: &regions[index],
+                guides: &guides[index],
+                references: &of_body[index],
                 caps: &bodies[index].caps,
+                morph: reference_morphs[index],
             })
             .collect();
         kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.sample(&context, object));
+        kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.pose(object));
         clock.lap("sampling");
         if matches!(solver, Solver::Horn | Solver::HornExact) {
             kept.par_iter_mut().for_each(KeptObject::find_neighbours);
             clock.lap("neighbours");
         }
+        kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.solve_field(&context, object));
+        clock.lap("field");
         let coats: Vec<Vec<Arc<Coat>>> =
             kept.par_iter_mut().zip(&objects).map(|(kept, &object)| kept.bake(&context, object)).collect();
         let coats: Vec<Arc<Coat>> = coats.into_iter().flatten().collect();
+        for (body, kept) in bodies.iter_mut().zip(&kept) {
+            body.field = kept.field();
+        }
         clock.lap("lift");
         let order = Arc::new(painting_order(&coats, &rules));
         clock.lap("order");
         self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
 
-        let bounds: Vec<_> = bodies.iter().map(|body| body.surface.mesh.bounds()).collect();
+        let bounds: Vec<_> = bodies.iter().map(|body| body.surface.bounds()).collect();
         let shadow_bounds = lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice()));
         clock.lap("bounds");
         let (palettes, palette_of_rule) = regions::palettes(&rules);
@@ -203,10 +219,11 @@ impl Preparer {
             palettes: Arc::new(palettes),
             palette_of_rule,
             brushes,
-            finish: FinishRule::new(scene, &settings, &reference.view),
+            finish: FinishRule::new(scene, &settings, &references.own().view),
             rules,
             order,
-            reference,
+            references,
+            reference_morphs,
             solver,
             style,
             shadow_bounds,
@@ -256,6 +273,11 @@ impl Painting {
         self.coat(object, LayerKind::Body).map_or(0.0, |coat| coat.sampled.area)
     }
 
+    /// The points of one object where strokes have no direction, as far as its directions were combed.
+    pub fn singularities(&self, object: usize) -> &[Singularity] {
+        self.bodies[object].field.as_ref().map_or(&[], |field| &field.singularities)
+    }
+
     fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
         self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
     }
@@ -274,23 +296,45 @@ fn surface_inputs(loaded: &LoadedScene) -> Result<Vec<SurfaceInputs>, PrepareErr
         .collect()
 }
 
-fn reference_pose(scene: &Scene) -> ReferencePose {
-    let Reference::Frame(frame) = scene.reference;
-    let size_px = [scene.size.0, scene.size.1];
-    let view = PictureView { pose: motion::camera_at(scene, frame as f64), size_px };
-    ReferencePose { view, poses: motion::poses_at(scene, frame as f64) }
+/// The scene's own reference, the further ones, and those of regions.
+fn scene_references(scene: &Scene) -> SceneReferences {
+    let pose = |reference: &Reference| {
+        let (camera, frame) = motion::referred_to(scene, reference);
+        let size_px = [scene.size.0, scene.size.1];
+        ReferencePose { view: PictureView { pose: camera, size_px }, poses: motion::poses_at(scene, frame) }
+    };
+    let own = std::iter::once(&scene.reference);
+    let mut poses: Vec<ReferencePose> = own.chain(&scene.further_references).map(pose).collect();
+    let mut of_rule = Vec::with_capacity(scene.regions.len() + 1);
+    for region in &scene.regions {
+        of_rule.push(match &region.reference {
+            Some(reference) => {
+                let stated = pose(reference);
+                let known = poses.iter().position(|known| *known == stated);
+                known.unwrap_or_else(|| {
+                    poses.push(stated);
+                    poses.len() - 1
+                }) as u16
+            }
+            None => 0,
+        });
+    }
+    of_rule.push(0);
+    SceneReferences { poses, further: scene.further_references.len(), of_rule }
 }
 
 /// The views in which the scene is looked at in advance: the reference, and up to 17 evenly over the timeline.
 fn views_in_advance(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
-    let Reference::Frame(reference) = scene.reference;
     let (first, last) = (scene.timeline.first as f64, scene.timeline.last as f64);
     let count = (last - first).clamp(0.0, 16.0) as u32;
-    let mut frames = vec![reference as f64];
-    frames.extend((0..=count).map(|step| first + (last - first) * f64::from(step) / f64::from(count.max(1))));
+    let frames: Vec<f64> =
+        (0..=count).map(|step| first + (last - first) * f64::from(step) / f64::from(count.max(1))).collect();
     let size_px = [scene.size.0, scene.size.1];
     let view = |&frame: &f64| PictureView { pose: motion::camera_at(scene, frame), size_px };
-    frames.iter().map(|frame| (view(frame), motion::poses_at(scene, *frame))).collect()
+    let (camera, frame) = motion::referred_to(scene, &scene.reference);
+    let reference = (PictureView { pose: camera, size_px }, motion::poses_at(scene, frame));
+    let along = frames.iter().map(|frame| (view(frame), motion::poses_at(scene, *frame)));
+    std::iter::once(reference).chain(along).collect()
 }
 
 /// The regions' layers, the layers of paint, then rank from high to low; equal ranks of two objects by name.

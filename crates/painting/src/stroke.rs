@@ -53,7 +53,8 @@ impl Look<'_> {
             return None;
         }
         let cap = self.painting.bodies[coat.object].caps[coat.baked.part[index] as usize];
-        let size_px = cap.apply(layer.length_px, layer.width_px);
+        let grown = seen.growth(index, self.painting, self.px_scale);
+        let size_px = cap.apply(layer.length_px, layer.width_px).map(|side| side * grown);
         let drift = coat.baked.drift[index];
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&seen.shown, &coat.sampled.polygons) {
@@ -64,8 +65,8 @@ impl Look<'_> {
         if supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln() <= presence::ABSENT_LN {
             return None;
         }
-        let position = coat.baked.baked.position_of(index);
-        let normal = coat.baked.baked.normal_of(index);
+        let position = seen.baked.position_of(index);
+        let normal = seen.baked.normal_of(index);
         let jacobian = seen.map.jacobian(position);
         let facing = facing(jacobian, normal) as f32;
         if facing <= 0.0 {
@@ -78,8 +79,8 @@ impl Look<'_> {
             return None;
         }
         let lift = match self.painting.solver {
-            Solver::Tangent => coat.baked.baked.lift_of(index),
-            Solver::Horn | Solver::HornExact => coat.inputs.surface_lift(index),
+            Solver::Tangent => seen.baked.lift_of(index),
+            Solver::Horn | Solver::HornExact => coat.inputs.surface_lift(index, region),
         };
         let map: PixelMap2 = lift.map(jacobian);
         let angle_rad =
@@ -113,7 +114,10 @@ impl Look<'_> {
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
             paint: chance.paint(layer, strokes.size_jitter > 0.0),
             mixing: mixing(strokes, self.painting.palette_of_rule[region as usize]),
-            normal_in_world: (seen.world_from_model.matrix3 * normal).as_vec3().to_array(),
+            normal_in_world: (seen.world_from_model.matrix3 * normal)
+                .normalize_or_zero()
+                .as_vec3()
+                .to_array(),
             bend: (BEND_DEVIATION * jitter_share * hash::normal(seen.bits(index, BEND)))
                 .clamp(-MOST_BEND, MOST_BEND),
             overrun_px: self.overrun_px(strokes.edges, layer.overrun, drift[1]),

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::color::{linear_from_srgb, srgb_from_linear};
+use impasto_core::sampling::Particle;
 use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{MeshFile, Texture};
+use impasto_scene::morph::{self, MorphTarget};
 
 use crate::frame::{BodyMaterial, BodySurface};
 use crate::lights::linear;
@@ -22,16 +24,20 @@ pub(crate) struct SurfaceInputs {
     up: Up,
     material: Option<MaterialOverride>,
     texture: Option<Arc<Texture>>,
+    morph: Option<Arc<MeshFile>>,
 }
 
 impl PartialEq for SurfaceInputs {
     fn eq(&self, other: &Self) -> bool {
-        let same_texture = match (&self.texture, &other.texture) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-            (a, b) => a.is_none() && b.is_none(),
-        };
+        fn same<T>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
+            match (a, b) {
+                (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            }
+        }
         Arc::ptr_eq(&self.file, &other.file)
-            && same_texture
+            && same(self.texture.as_ref(), other.texture.as_ref())
+            && same(self.morph.as_ref(), other.morph.as_ref())
             && self.name == other.name
             && self.group == other.group
             && self.scale == other.scale
@@ -52,6 +58,7 @@ impl SurfaceInputs {
             up: object.up,
             material: object.material.clone(),
             texture: texture_name.and_then(|name| loaded.textures.get(name)).map(Arc::clone),
+            morph: object.morph.as_ref().and_then(|name| loaded.meshes.get(name)).map(Arc::clone),
         })
     }
 
@@ -61,14 +68,21 @@ impl SurfaceInputs {
     }
 
     pub(crate) fn build(&self) -> BodySurface {
-        let mesh = placed(self.chosen(), self.scale, self.up);
+        let mesh = placed(self.chosen(&self.file.mesh), self.scale, self.up);
         let materials = self.file.materials.iter().map(|material| self.material_of(material)).collect();
-        BodySurface { name: self.name.clone(), mesh, materials }
+        // `check` has seen to it that the topologies are equal.
+        let target = self.morph.as_ref().and_then(|target| morph::target_of(&self.file, target).ok());
+        let morph = target.map(|MorphTarget { positions, normals }| {
+            let moved = TriangleMesh { positions, normals, ..self.file.mesh.clone() };
+            let TriangleMesh { positions, normals, .. } = placed(self.chosen(&moved), self.scale, self.up);
+            MorphTarget { positions, normals }
+        });
+        BodySurface { name: self.name.clone(), mesh, morph, materials }
     }
 
     /// The whole mesh, or the triangles of the object's group.
-    fn chosen(&self) -> TriangleMesh {
-        let mesh = self.file.mesh.clone();
+    fn chosen(&self, mesh: &TriangleMesh) -> TriangleMesh {
+        let mesh = mesh.clone();
         let Some(group) = &self.group else { return mesh };
         let in_group =
             |triangle: usize| self.file.groups[mesh.group_of_triangle[triangle] as usize] == *group;
@@ -124,8 +138,47 @@ fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
 }
 
 impl BodySurface {
+    /// Positions and normals of the vertices at a share of the morph.
+    pub(crate) fn vertices_at(&self, morph: f64) -> (Vec<Vec3>, Vec<Vec3>) {
+        let Some(target) = &self.morph else {
+            return (self.mesh.positions.clone(), self.mesh.normals.clone());
+        };
+        let mix = |from: &[Vec3], to: &[Vec3]| -> Vec<Vec3> {
+            from.iter().zip(to).map(|(from, to)| from.lerp(*to, morph as f32)).collect()
+        };
+        let normals = mix(&self.mesh.normals, &target.normals);
+        let unit = normals.iter().zip(&self.mesh.normals);
+        (
+            mix(&self.mesh.positions, &target.positions),
+            unit.map(|(normal, usual)| normal.try_normalize().unwrap_or(*usual)).collect(),
+        )
+    }
+
+    /// Particles of the mesh where they are at a share of the morph; the same ones where it has none.
+    pub(crate) fn posed(&self, particles: &Arc<Vec<Particle>>, morph: f64) -> Arc<Vec<Particle>> {
+        if self.morph.is_none() || morph == 0.0 {
+            return Arc::clone(particles);
+        }
+        let (positions, normals) = self.vertices_at(morph);
+        Arc::new(particles.iter().map(|particle| particle.on(&self.mesh, &positions, &normals)).collect())
+    }
+
+    /// Least and greatest corner of the box round the surface, whatever its morph.
+    pub(crate) fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let (low, high) = self.mesh.bounds()?;
+        let Some(target) = &self.morph else { return Some((low, high)) };
+        let used = self.mesh.triangles.iter().flatten().map(|&vertex| target.positions[vertex as usize]);
+        Some(used.fold((low, high), |(low, high), at| (low.min(at), high.max(at))))
+    }
+
+    /// Centre and length of the diagonal of the mesh's own bounds, model space.
+    pub(crate) fn extent(&self) -> (DVec3, f64) {
+        let (low, high) = self.mesh.bounds().unwrap_or_default();
+        (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
+    }
+
     /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
-    pub(crate) fn albedo_srgb8(&self, particle: &impasto_core::sampling::Particle) -> u32 {
+    pub(crate) fn albedo_srgb8(&self, particle: &Particle) -> u32 {
         let material = self.mesh.material_of_triangle.get(particle.triangle as usize).copied().unwrap_or(0);
         let Some(material) = self.materials.get(material as usize) else { return 0xffcc_cccc };
         let mut albedo = material.albedo;

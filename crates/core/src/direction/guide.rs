@@ -12,6 +12,8 @@ pub struct Guide {
     /// How far strokes on it follow it, 0..=1.
     strength: f64,
     falloff: Falloff,
+    /// Centre and radius of a ball round the points.
+    ball: (DVec3, f64),
 }
 
 /// How the strength of a guide falls off with the distance r, R its radius.
@@ -72,7 +74,10 @@ impl Guide {
             let after = pieces[index.min(pieces.len() - 1)];
             point.along = (before + after).try_normalize().unwrap_or(after);
         }
-        Some(Self { points: kept, radius, strength, falloff })
+        let low = kept.iter().fold(DVec3::INFINITY, |low, point| low.min(point.position));
+        let high = kept.iter().fold(DVec3::NEG_INFINITY, |high, point| high.max(point.position));
+        let ball = ((low + high) * 0.5, (high - low).length() * 0.5);
+        Some(Self { points: kept, radius, strength, falloff, ball })
     }
 
     /// How far it reaches, model units.
@@ -89,6 +94,9 @@ impl Guide {
     /// reach.
     pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
         let reach = self.radius.max(least_reach);
+        if position.distance(self.ball.0) > self.ball.1 + reach {
+            return None;
+        }
         let mut nearest: Option<(f64, DVec3, DVec3)> = None;
         for pair in self.points.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);

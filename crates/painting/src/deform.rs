@@ -1,0 +1,48 @@
+//! Particles on a surface that changes its shape.
+
+use glam::{DMat3, DVec3};
+use impasto_core::lift::Lift;
+use impasto_core::solve::BakedParticles;
+use rayon::prelude::*;
+
+use crate::coat::Coat;
+
+impl Coat {
+    /// The baked particles as they are when the surface has turned into its morph by `morph`, baked at `baked_at`: each rides
+    /// its triangle, and its lift is carried by what the triangle's edges and normal have done, `N'' = F N'`.
+    pub(crate) fn deformed(&self, morph: f64, baked_at: f64) -> BakedParticles {
+        let mesh = &self.surface.mesh;
+        let before = self.surface.vertices_at(baked_at);
+        let now = self.surface.vertices_at(morph);
+        let particles = &self.sampled.particles;
+        let moved: Vec<(DVec3, DVec3, Lift)> = (0..particles.len())
+            .into_par_iter()
+            .with_min_len(1024)
+            .map(|index| {
+                let was = particles[index].on(mesh, &before.0, &before.1);
+                let is = particles[index].on(mesh, &now.0, &now.1);
+                let frame = |positions: &[glam::Vec3], normal: glam::Vec3| {
+                    let corners = mesh.triangles[particles[index].triangle as usize];
+                    let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
+                    DMat3::from_cols(b - a, c - a, normal.as_dvec3())
+                };
+                let (from, to) = (frame(&before.0, was.normal), frame(&now.0, is.normal));
+                let lift = self.baked.baked.lift_of(index);
+                let carried = |v: DVec3| {
+                    let there = to * (from.inverse() * v);
+                    if there.is_finite() { there } else { v }
+                };
+                let lift = Lift { along: carried(lift.along), across: carried(lift.across) };
+                let off = self.baked.baked.position_of(index) - was.position.as_dvec3();
+                let height = off.dot(was.normal.as_dvec3());
+                let normal = is.normal.as_dvec3();
+                (is.position.as_dvec3() + normal * height, normal, lift)
+            })
+            .collect();
+        let mut baked = BakedParticles { flatness: self.baked.baked.flatness.clone(), ..Default::default() };
+        for (position, normal, lift) in moved {
+            baked.push(position, normal, lift);
+        }
+        baked
+    }
+}

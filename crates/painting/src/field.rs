@@ -1,0 +1,420 @@
+//! The direction field of one body: what regions state and guides comb, joined over few samples and carried to every
+//! particle.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat4, DVec2, DVec3, Vec3};
+use impasto_core::ScreenMap;
+use impasto_core::angle::wrap_pi;
+use impasto_core::direction::carry::{Carried, Stencils};
+use impasto_core::direction::curvature;
+use impasto_core::direction::field::{Constraint, FieldGraph, MAX_SAMPLES};
+use impasto_core::direction::singularities::{self, Singularity};
+use impasto_core::direction::tangent_axes;
+use impasto_core::neighbours::Points;
+use impasto_core::sampling::{self, Particle, Surface};
+use impasto_core::screen_map::{PixelLens, facing};
+use impasto_scene::document::{Direction, Seam};
+use rayon::prelude::*;
+
+use crate::frame::BodySurface;
+use crate::parts::BodyParts;
+use crate::references::{BodyReferences, Views, shown_rad};
+use crate::regions::{BodyGuide, BodyRegions, RegionRule};
+use crate::stated::{Base, Point, Stated, symmetry};
+
+/// Firmness, in units of one neighbour, of what is stated outright and of a guide's own line.
+const FIRM: f64 = 300.0;
+
+/// Firmness of guesses about what no reference faces: they hold a quarter of the body's size away from what is known.
+const GUESS_REACH: f64 = 0.25;
+const NEIGHBOURS: f64 = 8.0;
+
+/// Firmness of the automatic direction where guides rule.
+const FAINT: f64 = 1e-4;
+
+/// A guide that is narrower than this many spacings of the samples still reaches that far for them.
+const LEAST_REACH_SPACINGS: f64 = 1.2;
+
+/// The samples of a body.
+#[derive(Debug)]
+pub(crate) struct FieldSamples {
+    pub(crate) particles: Vec<Particle>,
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    spacing: f64,
+}
+
+/// All that the field of a body depends on.
+#[derive(Clone)]
+pub(crate) struct FieldInputs {
+    pub(crate) samples: Arc<FieldSamples>,
+    pub(crate) references: Arc<BodyReferences>,
+    pub(crate) regions: Arc<BodyRegions>,
+    pub(crate) guides: Arc<Vec<BodyGuide>>,
+    /// Directions and seams of all rules.
+    pub(crate) rules: Arc<Vec<RegionRule>>,
+    pub(crate) parts: Arc<BodyParts>,
+    pub(crate) extent: (DVec3, f64),
+    /// Whether rays are parallel.
+    pub(crate) orthographic: bool,
+}
+
+/// The field of a body, solved.
+pub(crate) struct BodyField {
+    inputs: FieldInputs,
+    points: Vec<SamplePoint>,
+    solved: Vec<DVec2>,
+    anchors: Vec<f64>,
+    pub(crate) singularities: Vec<Singularity>,
+}
+
+#[derive(Clone, Copy)]
+struct SamplePoint {
+    point: Point,
+    base: Base,
+    /// The stated direction in the axes of the normal.
+    stated: DVec2,
+}
+
+impl FieldSamples {
+    pub(crate) fn new(surface: &Surface<'_>, name_hash: u32) -> Self {
+        let particles = sampling::progressive(surface, MAX_SAMPLES, name_hash);
+        Self {
+            positions: particles.iter().map(|particle| particle.position).collect(),
+            normals: particles.iter().map(|particle| particle.normal).collect(),
+            spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
+            particles,
+        }
+    }
+
+    /// The samples where they are at a share of the body's morph.
+    pub(crate) fn posed(self, surface: &BodySurface, morph: f64) -> Self {
+        let particles = surface.posed(&Arc::new(self.particles), morph);
+        Self {
+            positions: particles.iter().map(|particle| particle.position).collect(),
+            normals: particles.iter().map(|particle| particle.normal).collect(),
+            spacing: self.spacing,
+            particles: Arc::unwrap_or_clone(particles),
+        }
+    }
+
+    fn points(&self) -> Points<'_> {
+        Points { positions: &self.positions, normals: &self.normals }
+    }
+
+    /// Which samples each of these particles listens to.
+    pub(crate) fn stencils(&self, particles: &[Particle]) -> Stencils {
+        let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
+        let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
+        Stencils::new(Points { positions: &positions, normals: &normals }, self.points(), self.spacing)
+    }
+}
+
+impl PartialEq for FieldInputs {
+    fn eq(&self, other: &Self) -> bool {
+        let directions_equal = self.rules.len() == other.rules.len()
+            && self.rules.iter().zip(other.rules.iter()).all(|(a, b)| {
+                (&a.direction, a.seam, a.sense, a.strokes.flatness)
+                    == (&b.direction, b.seam, b.sense, b.strokes.flatness)
+            });
+        Arc::ptr_eq(&self.samples, &other.samples)
+            && Arc::ptr_eq(&self.parts, &other.parts)
+            && directions_equal
+            && self.references == other.references
+            && self.regions == other.regions
+            && self.guides == other.guides
+            && self.extent == other.extent
+            && self.orthographic == other.orthographic
+    }
+}
+
+impl FieldInputs {
+    /// Whether any rule of the body may need a field; where not, nothing is sampled.
+    pub(crate) fn may_be_needed(regions: &BodyRegions, rules: &[RegionRule], guides: &[BodyGuide]) -> bool {
+        let needs = |rule: &RegionRule| {
+            matches!(rule.direction, Direction::Angle(_) | Direction::Crossing(..) | Direction::Curvature(_))
+                || rule.seam != Seam::Hard
+        };
+        !guides.is_empty() || regions.all().iter().any(|&rule| needs(&rules[usize::from(rule)]))
+    }
+
+    /// The field, or none where every direction is stated outright.
+    pub(crate) fn solve(&self) -> Option<BodyField> {
+        let samples = &self.samples;
+        let stated = Stated {
+            rules: &self.rules,
+            automatic: self.parts.directions(self.references.own()),
+            extent: self.extent,
+        };
+        let points: Vec<SamplePoint> = samples
+            .particles
+            .par_iter()
+            .with_min_len(256)
+            .map(|sample| self.point(sample, &stated))
+            .collect();
+        let guided = |rule: usize| self.guides.iter().any(|guide| usize::from(guide.rule) == rule);
+        let free: Vec<bool> = (0..self.rules.len())
+            .map(|rule| match self.rules[rule].direction {
+                Direction::Auto => guided(rule),
+                Direction::Curvature(_) => true,
+                _ => false,
+            })
+            .collect();
+        let settled = |sample: &SamplePoint| sample.base.exact >= 1.0 && !free[sample.point.rule];
+        let soft = self.rules.iter().any(|rule| rule.seam != Seam::Hard);
+        if !soft && points.iter().all(settled) {
+            return None;
+        }
+        let graph = self.graph(&points);
+        let anchors = self.anchors(&points, &free);
+        let constraints: Vec<Constraint> = (0..points.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|sample| self.constraint(&points[sample], anchors[sample], &free))
+            .collect();
+        let constraints = self.with_curvature(&graph, &points, constraints);
+        // A body has one symmetry: arrows only where all of it has.
+        let symmetry = self.symmetry(&points);
+        let solved = graph.solve(symmetry, &constraints);
+        let places = (&samples.positions[..], &samples.normals[..]);
+        let singularities = singularities::find(&graph, places, &solved, symmetry);
+        Some(BodyField { inputs: self.clone(), points, solved, anchors, singularities })
+    }
+
+    fn symmetry(&self, points: &[SamplePoint]) -> impasto_core::direction::Symmetry {
+        let of = |sample: &SamplePoint| symmetry(&self.rules[sample.point.rule]);
+        let arrows = impasto_core::direction::Symmetry::Arrows;
+        if !points.is_empty() && points.iter().all(|sample| of(sample) == arrows) {
+            arrows
+        } else {
+            impasto_core::direction::Symmetry::Lines
+        }
+    }
+
+    fn point(&self, sample: &Particle, stated: &Stated<'_>) -> SamplePoint {
+        let rule = usize::from(self.regions.of(sample));
+        let part = self.parts.of_triangle[sample.triangle as usize] as usize;
+        let (position, normal) = (sample.position.as_dvec3(), sample.normal.as_dvec3());
+        let point = Point { position, normal, rule, part };
+        let views = self.references.views((position, normal), rule, |_| None);
+        let base = stated.base(point, &views);
+        let stated = symmetry(&self.rules[rule]).encode(base.tangent, tangent_axes(normal));
+        SamplePoint { point, base, stated }
+    }
+
+    fn joined(&self, a: Point, b: Point) -> bool {
+        if a.part != b.part {
+            return false;
+        }
+        // The region painted over the other says how they meet; the implicit one lies under all.
+        let height = |rule: usize| if rule + 1 == self.rules.len() { 0 } else { rule + 1 };
+        let upper = if height(a.rule) > height(b.rule) { a.rule } else { b.rule };
+        a.rule == b.rule || self.rules[upper].seam != Seam::Hard
+    }
+
+    fn graph(&self, points: &[SamplePoint]) -> FieldGraph {
+        let FieldSamples { positions, normals, spacing, .. } = &*self.samples;
+        FieldGraph::new(positions, normals, *spacing, |a, b| self.joined(points[a].point, points[b].point))
+    }
+
+    /// How far the stated direction of each sample holds: not at all where guides or bends rule, less towards a soft seam.
+    fn anchors(&self, points: &[SamplePoint], free: &[bool]) -> Vec<f64> {
+        let reach_of = |rule: usize| match self.rules[rule].seam {
+            Seam::Soft(distance) => distance,
+            Seam::Hard => 0.0,
+        };
+        let widest = (0..self.rules.len()).map(reach_of).fold(0.0, f64::max);
+        let plain = |sample: &SamplePoint| if free[sample.point.rule] { 0.0 } else { 1.0 };
+        if widest == 0.0 {
+            return points.iter().map(plain).collect();
+        }
+        points
+            .par_iter()
+            .with_min_len(64)
+            .map(|sample| {
+                let own = sample.point;
+                let to_seam = points
+                    .iter()
+                    .filter(|other| other.point.rule != own.rule && self.joined(own, other.point))
+                    .map(|other| {
+                        let reach = reach_of(own.rule).max(reach_of(other.point.rule));
+                        // Half the spacing: the border lies between the two samples.
+                        let distance = own.position.distance(other.point.position);
+                        (distance - 0.5 * self.samples.spacing).max(0.0) / reach.max(f64::MIN_POSITIVE)
+                    })
+                    .fold(1.0, f64::min);
+                plain(sample) * to_seam * to_seam * (3.0 - 2.0 * to_seam)
+            })
+            .collect()
+    }
+
+    fn constraint(&self, sample: &SamplePoint, anchor: f64, free: &[bool]) -> Constraint {
+        let spacings = GUESS_REACH * self.extent.1 / self.samples.spacing;
+        let guess = NEIGHBOURS / (spacings * spacings).max(1.0);
+        let faint = if free[sample.point.rule] || anchor < 1.0 { FAINT } else { guess };
+        let mut weight = faint + FIRM * anchor * sample.base.exact.powi(2);
+        let mut target = sample.stated;
+        let rule = &self.rules[sample.point.rule];
+        let symmetry = symmetry(rule);
+        let views = || {
+            let at = (sample.point.position, sample.point.normal);
+            self.references.views(at, sample.point.rule, |_| None)
+        };
+        for guide in self.guides.iter().filter(|guide| usize::from(guide.rule) == sample.point.rule) {
+            let least = LEAST_REACH_SPACINGS * self.samples.spacing;
+            let Some(found) = guide.guide.influence(sample.point.position, sample.point.normal, least) else {
+                continue;
+            };
+            let tangent = self.combed(guide, found.along, sample.point, &views());
+            let there = symmetry.encode(tangent, tangent_axes(sample.point.normal));
+            let pull = FIRM * found.weight;
+            target = (target * weight + there * pull).try_normalize().unwrap_or(there);
+            weight = weight.max(pull);
+        }
+        Constraint { target, weight }
+    }
+
+    /// Where the bend is asked for, it pulls as far as one direction bends more than the other.
+    fn with_curvature(
+        &self,
+        graph: &FieldGraph,
+        points: &[SamplePoint],
+        mut constraints: Vec<Constraint>,
+    ) -> Vec<Constraint> {
+        let FieldSamples { positions, normals, spacing, .. } = &*self.samples;
+        let bends = |sample: &SamplePoint| match self.rules[sample.point.rule].direction {
+            Direction::Curvature(bend) => Some(bend),
+            _ => None,
+        };
+        constraints.par_iter_mut().enumerate().with_min_len(256).for_each(|(sample, constraint)| {
+            let Some(bend) = bends(&points[sample]) else { return };
+            let normal = normals[sample].as_dvec3();
+            let near = graph.neighbours(sample).map(|other| {
+                let offset = (positions[other] - positions[sample]).as_dvec3();
+                (offset, normals[other].as_dvec3())
+            });
+            let Some(found) = curvature::principal(normal, near) else { return };
+            let [most, least] = found.curvatures.map(f64::abs);
+            let direction = match bend {
+                impasto_scene::document::Bend::Max => found.directions[0],
+                impasto_scene::document::Bend::Min => found.directions[1],
+            };
+            // Angle by which normals differ over one spacing, and how lopsided that is.
+            let pull = 30.0 * ((most - least) * spacing).clamp(0.0, 0.5);
+            if pull > constraint.weight {
+                let symmetry = symmetry(&self.rules[points[sample].point.rule]);
+                let target = symmetry.encode(direction, tangent_axes(normal));
+                *constraint = Constraint { target, weight: pull };
+            }
+        });
+        constraints
+    }
+
+    /// The tangent whose stroke shows along the gesture of a guide in the view that it was drawn in.
+    fn combed(&self, guide: &BodyGuide, along: DVec3, point: Point, views: &Views) -> DVec3 {
+        let Point { position, normal, rule, .. } = point;
+        let on_surface = (along - normal * normal.dot(along)).normalize_or(views.axes[0]);
+        let map = match guide.view {
+            None => self.references.of_rule(rule).map,
+            Some([eye, target]) => {
+                let gaze = (target - eye).normalize_or(DVec3::NEG_Z);
+                let up = if gaze.cross(DVec3::Y).length_squared() > 1e-12 { DVec3::Y } else { DVec3::Z };
+                let view: DMat4 = glam::dcamera::rh::view::look_to_mat4(eye, gaze, up);
+                let lens = if self.orthographic {
+                    PixelLens::Orthographic { px_per_unit: 1000.0 }
+                } else {
+                    PixelLens::Perspective { focal_px: 1000.0 }
+                };
+                ScreenMap::new(view, DAffine3::IDENTITY, lens)
+            }
+        };
+        let jacobian = map.jacobian(position);
+        let in_front = map.depth(position) > 0.0 || self.orthographic;
+        let wanted = shown_rad(along, jacobian);
+        // Hidden in its own view, a stroke follows the gesture as it lies on the surface.
+        let trust = ((facing(jacobian, normal) - 0.02) / 0.15).clamp(0.0, 1.0);
+        if !in_front || trust.is_nan() || trust <= 0.0 || !wanted.is_finite() {
+            return on_surface;
+        }
+        let flatness = f64::from(self.rules[rule].strokes.flatness);
+        let mut tangent = views.tangent_at(wanted, jacobian);
+        // What shows turns with the tangent, nearly one to one.
+        for _ in 0..12 {
+            let error = wrap_pi(wanted - views.lift(tangent).map(jacobian).shown_rad(flatness));
+            let (sin, cos) = error.sin_cos();
+            tangent = tangent * cos + normal.cross(tangent) * sin;
+            if error.abs() < 1e-7 {
+                break;
+            }
+        }
+        let lines = impasto_core::direction::Symmetry::Lines;
+        let mix = |tangent: DVec3| lines.encode(tangent, views.axes);
+        if trust >= 1.0 {
+            return tangent;
+        }
+        let mixed = mix(tangent) * trust + mix(on_surface) * (1.0 - trust);
+        let mixed = lines.decode(mixed, views.axes);
+        if mixed.dot(tangent) < 0.0 { -mixed } else { mixed }
+    }
+
+    /// The direction of a particle after every guide that reaches it.
+    pub(crate) fn with_guides(&self, point: Point, views: &Views, tangent: DVec3) -> DVec3 {
+        let symmetry = symmetry(&self.rules[point.rule]);
+        let mut z = symmetry.encode(tangent, views.axes);
+        let mut combed = None;
+        for guide in self.guides.iter().filter(|guide| usize::from(guide.rule) == point.rule) {
+            if let Some(found) = guide.guide.influence(point.position, point.normal, 0.0) {
+                let along = self.combed(guide, found.along, point, views);
+                let there = symmetry.encode(along, views.axes);
+                z = (z * (1.0 - found.weight) + there * found.weight).try_normalize().unwrap_or(there);
+                combed = Some(along);
+            }
+        }
+        let Some(along) = combed else { return tangent };
+        let found = symmetry.decode(z, views.axes);
+        // Of a line's two ends, the one that the last gesture points to.
+        if found.dot(along) < 0.0 && symmetry == impasto_core::direction::Symmetry::Lines {
+            -found
+        } else {
+            found
+        }
+    }
+}
+
+impl BodyField {
+    /// The direction of a particle with its stated one: the field's, where what is stated does not hold.
+    pub(crate) fn direction(
+        &self,
+        (stencils, particle): (&Stencils, usize),
+        point: Point,
+        base: &Base,
+    ) -> DVec3 {
+        let inputs = &self.inputs;
+        let symmetry = inputs.symmetry(&self.points);
+        let axes = tangent_axes(point.normal);
+        let stated = symmetry.encode(base.tangent, axes);
+        let sample = |index: usize| {
+            let sample = &self.points[index];
+            inputs.joined(sample.point, point).then(|| Carried {
+                position: inputs.samples.positions[index],
+                normal: sample.point.normal,
+                solved: self.solved[index],
+                stated: sample.stated,
+                anchor: self.anchors[index],
+            })
+        };
+        let at = (point.position.as_vec3(), point.normal, stated);
+        let Some((found, anchor)) = stencils.carry(particle, at, symmetry, sample) else {
+            return base.tangent;
+        };
+        let hold = anchor * base.exact;
+        if hold >= 1.0 - 1e-9 {
+            return base.tangent;
+        }
+        let mixed = (found * (1.0 - hold) + stated * hold).try_normalize().unwrap_or(stated);
+        let tangent = symmetry.decode(mixed, axes);
+        let nearer = symmetry == impasto_core::direction::Symmetry::Lines && tangent.dot(base.tangent) < 0.0;
+        if nearer { -tangent } else { tangent }
+    }
+}

@@ -1,0 +1,206 @@
+//! The poses that directions refer to, as one body sees them, and the lift of a particle from them.
+
+use glam::{DAffine3, DVec2, DVec3};
+use impasto_core::ScreenMap;
+use impasto_core::lift::{Lift, turntable_axes};
+use impasto_core::presence::smoothstep;
+use impasto_core::screen_map::facing;
+
+use crate::view::PictureView;
+
+/// A surface that a reference faces by less than this cosine is not stated by it; at `WHOLE`, wholly.
+const NONE: f64 = 0.2;
+const WHOLE: f64 = 0.5;
+
+/// A pose that directions refer to: a camera, and where every object stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ReferencePose {
+    pub(crate) view: PictureView,
+    pub(crate) poses: Vec<DAffine3>,
+}
+
+/// All references of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SceneReferences {
+    /// The scene's own, the further ones, then those of regions.
+    pub(crate) poses: Vec<ReferencePose>,
+    /// How many further ones there are.
+    pub(crate) further: usize,
+    /// For each rule, the reference that its directions refer to.
+    pub(crate) of_rule: Vec<u16>,
+}
+
+impl SceneReferences {
+    /// The scene's own.
+    pub(crate) fn own(&self) -> &ReferencePose {
+        &self.poses[0]
+    }
+
+    pub(crate) fn of_body(&self, object: usize) -> BodyReferences {
+        let of_pose = |reference: &ReferencePose| {
+            let pose = reference.poses[object];
+            BodyReference {
+                map: reference.view.screen_map(pose),
+                near: reference.view.near(),
+                roll_rad: reference.view.pose.roll_rad,
+                up_in_model: pose.matrix3.transpose() * DVec3::Y,
+                size_px: reference.view.size_px,
+            }
+        };
+        BodyReferences {
+            all: self.poses.iter().map(of_pose).collect(),
+            further: self.further,
+            of_rule: self.of_rule.clone(),
+        }
+    }
+}
+
+/// A reference as one body sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct BodyReference {
+    pub(crate) map: ScreenMap,
+    pub(crate) near: f64,
+    pub(crate) roll_rad: f64,
+    /// The world's up in model space, at the reference pose.
+    pub(crate) up_in_model: DVec3,
+    /// Width and height of the scene's picture.
+    pub(crate) size_px: [u32; 2],
+}
+
+/// All references as one body sees them.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct BodyReferences {
+    all: Vec<BodyReference>,
+    further: usize,
+    of_rule: Vec<u16>,
+}
+
+/// How the references see one point of a surface.
+pub(crate) struct Views {
+    /// The reference of its rule, then the further one that faces it best, each where it faces the point at all.
+    pub(crate) seen: [Option<Seen>; 2],
+    pub(crate) normal: DVec3,
+    /// Axes of the tangent plane, right and up as on a turntable.
+    pub(crate) axes: [DVec3; 2],
+    /// The same as the reference's rolled camera would have them.
+    pub(crate) rolled_axes: [DVec3; 2],
+    px_per_unit: f64,
+    /// Of the reference of its rule, whether it faces the point or not.
+    pub(crate) jacobian: [DVec3; 2],
+}
+
+/// A reference that faces a point.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen {
+    lift: Lift,
+    /// 1 where it faces the point squarely.
+    pub(crate) share: f64,
+    pub(crate) jacobian: [DVec3; 2],
+}
+
+impl BodyReferences {
+    /// The scene's own.
+    pub(crate) fn own(&self) -> &BodyReference {
+        &self.all[0]
+    }
+
+    /// The one that a rule's directions refer to.
+    pub(crate) fn of_rule(&self, rule: usize) -> &BodyReference {
+        &self.all[usize::from(self.of_rule[rule])]
+    }
+
+    /// How a point is seen; `horn` stands in for the tangent plane's lift in the reference of its rule.
+    pub(crate) fn views(
+        &self,
+        (position, normal): (DVec3, DVec3),
+        rule: usize,
+        horn: impl FnOnce(&BodyReference) -> Option<Option<Lift>>,
+    ) -> Views {
+        let own = self.of_rule(rule);
+        let jacobian = own.map.jacobian(position);
+        let px_per_unit = jacobian[0].cross(jacobian[1]).length().sqrt();
+        let axes = turntable_axes(normal, own.up_in_model);
+        let (sin, cos) = own.roll_rad.sin_cos();
+        let mut seen = [own.seen(position, normal), None];
+        if let Some(first) = &mut seen[0]
+            && let Some(lift) = horn(own)
+        {
+            match lift {
+                Some(lift) => first.lift = lift,
+                None => seen[0] = None,
+            }
+        }
+        if seen[0].is_none_or(|first| first.share < 1.0) {
+            let others = self.all[1..=self.further].iter().filter(|other| !std::ptr::eq(*other, own));
+            seen[1] = others
+                .filter_map(|other| other.seen(position, normal))
+                .max_by(|a, b| a.share.total_cmp(&b.share));
+        }
+        Views {
+            seen,
+            normal,
+            axes,
+            rolled_axes: [axes[0] * cos + axes[1] * sin, axes[1] * cos - axes[0] * sin],
+            px_per_unit: if px_per_unit.is_finite() && px_per_unit > 0.0 { px_per_unit } else { 1.0 },
+            jacobian,
+        }
+    }
+}
+
+impl BodyReference {
+    fn seen(&self, position: DVec3, normal: DVec3) -> Option<Seen> {
+        let jacobian = self.map.jacobian(position);
+        let share = f64::from(smoothstep(((facing(jacobian, normal) - NONE) / (WHOLE - NONE)) as f32));
+        if self.map.depth(position) <= self.near || share.is_nan() || share <= 0.0 {
+            return None;
+        }
+        Lift::tangent(jacobian, normal).map(|lift| Seen { lift, share, jacobian })
+    }
+}
+
+impl Views {
+    /// How far any reference states the direction here, 0..=1.
+    pub(crate) fn share(&self) -> f64 {
+        1.0 - self.seen.iter().flatten().map(|seen| 1.0 - seen.share).product::<f64>()
+    }
+
+    /// The tangent whose stroke, carried flat and without stretch, shows at this angle in a view.
+    pub(crate) fn tangent_at(&self, angle_rad: f64, jacobian: [DVec3; 2]) -> DVec3 {
+        let turned = angle_rad - self.flat(self.axes[0]).map(jacobian).angle_rad();
+        let (sin, cos) = turned.sin_cos();
+        self.axes[0] * cos + self.axes[1] * sin
+    }
+
+    /// The lift of a camera that looks straight at the surface, its strokes along `tangent`.
+    fn flat(&self, tangent: DVec3) -> Lift {
+        let along = tangent / self.px_per_unit;
+        Lift { along, across: self.normal.cross(along) }
+    }
+
+    /// N' for strokes along `tangent` (unit): the references that face the point, each turned so that it agrees with
+    /// `tangent` in its own picture, over what a camera straight before it would see.
+    pub(crate) fn lift(&self, tangent: DVec3) -> Lift {
+        let flat = self.flat(tangent);
+        let mut lift = flat;
+        for seen in self.seen.iter().rev().flatten() {
+            let here = seen.lift.turned(flat.map(seen.jacobian).angle_rad());
+            lift = if seen.share < 1.0 { here.blended(lift, 1.0 - seen.share, seen.jacobian) } else { here };
+        }
+        lift
+    }
+
+    /// N, without any stroke's direction: what κ is measured with.
+    pub(crate) fn bare_lift(&self) -> Lift {
+        self.lift(self.rolled_axes[0])
+    }
+
+    /// The angle at which strokes along `tangent` show in the reference of the rule, radians.
+    pub(crate) fn angle_in_reference(&self, tangent: DVec3) -> f64 {
+        self.flat(tangent).map(self.jacobian).angle_rad()
+    }
+}
+
+/// The angle at which a direction in space shows, radians.
+pub(crate) fn shown_rad(direction: DVec3, [jx, jy]: [DVec3; 2]) -> f64 {
+    DVec2::new(jx.dot(direction), jy.dot(direction)).to_angle()
+}
