@@ -5,7 +5,7 @@ layout(location = 1) in vec4 size;           // length and width in px, fade of 
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bend; // world space, half widths
-layout(location = 5) in vec3 reach;          // overrun in px, slow noise of hue and of edges
+layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
 layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness
 
@@ -61,7 +61,8 @@ void main() {
 
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     from_center_px =
-        (along * corner.x * size.x + vec2(-along.y, along.x) * corner.y * size.y) * 0.5 * MARGIN;
+        (along * corner.x * size.x + (vec2(-along.y, along.x) + along * reach.w) * corner.y * size.y)
+        * 0.5 * MARGIN;
     mark_at = corner * 0.5 + 0.5;
     // A constant level keeps the mark the same at every angle.
     float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);

@@ -12,7 +12,7 @@ layout(location = 1) in vec4 size;           // length and width in px, fade of 
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit), mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bend; // world space, half widths
-layout(location = 5) in vec3 reach;          // overrun in px, slow noise of hue and of edges
+layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 #include "rotating_strokes/surroundings.glsl"
 #include "rotating_strokes/mixing.glsl"
 
@@ -124,6 +124,12 @@ void main() {
     Mixing mixing = mixing_of(bytes.y);
     if (kind == BODY) {
         there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
+    }
+    // A colour of its own: what is shown is no scene.
+    if ((marks.z >> 24) == 128u) {
+        resolved = vec4(albedo_of(marks.z), there);
+        fitted = vec4(place.xy + turn[0] * shift(turn, own), lab.x, 0.0);
+        return;
     }
     vec3 wide = kind == ACCENTS ? wide_mean(place.xy, own.y, lab) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));

@@ -228,7 +228,7 @@ fn strokes_are_listed_as_they_are_drawn() {
     assert_eq!(json["strokes"].as_array().unwrap().len(), csv("0").lines().count() - 1);
     let svg = words(&folder.run(&["strokes", "scene.ron", "--format", "svg"]).stdout);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
-    let shapes: Vec<&str> = svg.lines().filter(|line| line.starts_with("<rect ")).collect();
+    let shapes: Vec<&str> = svg.lines().filter(|line| line.starts_with("<path ")).collect();
     assert_eq!(shapes.len(), csv("0").lines().count() - 1, "a shape per stroke");
     assert!(shapes.iter().all(|shape| shape.ends_with("/>") && shape.matches('"').count() % 2 == 0));
 }

@@ -4,6 +4,7 @@
 
 mod cli;
 mod corpus;
+mod directions;
 mod horn;
 mod hostile_scenes;
 mod paint;

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat4, DVec3, Vec3};
-use impasto_core::TriangleMesh;
 use impasto_core::lift::Lift;
 use impasto_core::sampling::{Particle, Surface, progressive};
 use impasto_core::screen_map::{PixelLens, ScreenMap, facing};
@@ -15,6 +14,7 @@ use impasto_painting::{Frame, FrameOptions, Painting, prepare};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
+use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
@@ -26,24 +26,6 @@ fn painting(scene: &str, overrides: &[(&str, &str)]) -> Painting {
     prepare(Arc::new(loaded)).unwrap()
 }
 
-fn apple() -> TriangleMesh {
-    let folder = root().join("scenes/meshes");
-    let (file, _) =
-        impasto_scene::obj::read(&folder.join("apple.obj"), &folder, &Default::default()).unwrap();
-    let skin = file.groups.iter().position(|group| group == "skin").expect("the apple has a skin") as u32;
-    let kept: Vec<usize> = (0..file.mesh.triangles.len())
-        .filter(|&triangle| file.mesh.group_of_triangle[triangle] == skin)
-        .collect();
-    let pick = |array: &[u32]| kept.iter().map(|&triangle| array[triangle]).collect();
-    TriangleMesh {
-        triangles: kept.iter().map(|&triangle| file.mesh.triangles[triangle]).collect(),
-        polygon_of_triangle: pick(&file.mesh.polygon_of_triangle),
-        group_of_triangle: pick(&file.mesh.group_of_triangle),
-        material_of_triangle: pick(&file.mesh.material_of_triangle),
-        ..file.mesh
-    }
-}
-
 fn view(yaw_deg: f64) -> ScreenMap {
     let turn = DAffine3::from_rotation_y(yaw_deg.to_radians());
     let view = DMat4::from_translation(DVec3::new(0.0, -0.5, -4.0));
@@ -52,7 +34,7 @@ fn view(yaw_deg: f64) -> ScreenMap {
 
 #[test]
 fn facets_of_the_coarse_apple_do_not_show_in_the_angle() {
-    let mesh = apple();
+    let mesh = shapes::apple_skin();
     // The two triangles on either side of every edge, by position.
     let key = |vertex: u32| mesh.positions[vertex as usize].to_array().map(f32::to_bits);
     type EdgeSides = HashMap<[[u32; 3]; 2], Vec<[u32; 2]>>;
@@ -104,7 +86,7 @@ fn facets_of_the_coarse_apple_do_not_show_in_the_angle() {
 
 #[test]
 fn flat_normals_would_show_facets() {
-    let mesh = apple();
+    let mesh = shapes::apple_skin();
     let particles: Vec<Particle> = progressive(&Surface::new(&mesh, |_| true), 4000, 1);
     let flat = |particle: &Particle| {
         let [a, b, c] = mesh.corners(particle.triangle as usize).map(Vec3::as_dvec3);

@@ -1,5 +1,6 @@
 //! Measuring tools that the tests share: shapes whose answers are known, pictures read and compared.
 
 pub mod command;
+pub mod gestures;
 pub mod pictures;
 pub mod shapes;

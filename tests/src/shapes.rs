@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crate::command::root;
 use glam::{Vec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_scene::document::{
@@ -63,6 +64,25 @@ pub fn sheet(cells: u32) -> TriangleMesh {
         }
     }
     mesh
+}
+
+/// The skin of the shipped apple: smooth, closed at stem and calyx, coarse.
+pub fn apple_skin() -> TriangleMesh {
+    let folder = root().join("scenes/meshes");
+    let (file, _) = impasto_scene::obj::read(&folder.join("apple.obj"), &folder, &Default::default())
+        .expect("the apple is shipped");
+    let skin = file.groups.iter().position(|group| group == "skin").expect("the apple has a skin") as u32;
+    let kept: Vec<usize> = (0..file.mesh.triangles.len())
+        .filter(|&triangle| file.mesh.group_of_triangle[triangle] == skin)
+        .collect();
+    let pick = |array: &[u32]| kept.iter().map(|&triangle| array[triangle]).collect();
+    TriangleMesh {
+        triangles: kept.iter().map(|&triangle| file.mesh.triangles[triangle]).collect(),
+        polygon_of_triangle: pick(&file.mesh.polygon_of_triangle),
+        group_of_triangle: pick(&file.mesh.group_of_triangle),
+        material_of_triangle: pick(&file.mesh.material_of_triangle),
+        ..file.mesh
+    }
 }
 
 /// A cube from −1 to 1 with flat normals.

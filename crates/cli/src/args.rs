@@ -94,6 +94,18 @@ pub(crate) enum RotationChoice {
     Off,
     /// By chance, in every frame.
     Random,
+    /// They lie on the surface as a texture does.
+    Mapped,
+}
+
+/// What strokes are coloured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ColorsChoice {
+    /// The scene.
+    #[default]
+    Scene,
+    /// How far the turn of each stroke can be trusted: green, yellow, red.
+    Trust,
 }
 
 #[derive(Args, Debug)]
@@ -119,9 +131,13 @@ pub(crate) struct RenderArguments {
     /// A style in place of the scene's own.
     #[arg(long, value_enum)]
     pub(crate) style: Option<StyleChoice>,
-    /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame.
+    /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame,
+    /// mapped lays them on the surface as a texture.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) rotation: RotationChoice,
+    /// What strokes are coloured by: the scene, or how far their turn can be trusted.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) colors: ColorsChoice,
     /// Strokes keep their size in pixels whatever the picture's size.
     #[arg(long)]
     pub(crate) keep_stroke_px: bool,
@@ -183,7 +199,7 @@ pub(crate) enum StrokeFormat {
     Csv,
     /// One object.
     Json,
-    /// A rectangle per stroke.
+    /// A path per stroke, in painting order.
     Svg,
 }
 

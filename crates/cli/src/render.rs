@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
-use impasto_painting::{Frame, FrameOptions, Painting, Rotation};
+use impasto_painting::{Frame, FrameOptions, Painting, Rotation, StrokeColors};
 use impasto_scene::document::Style;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::args::{RenderArguments, RotationChoice, StyleChoice};
+use crate::args::{ColorsChoice, RenderArguments, RotationChoice, StyleChoice};
 use crate::failure::Failure;
 use crate::frame_list::FrameList;
 use crate::movie::{self, Movie};
@@ -127,6 +127,11 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
                 RotationChoice::On => Rotation::On,
                 RotationChoice::Off => Rotation::Off,
                 RotationChoice::Random => Rotation::Random,
+                RotationChoice::Mapped => Rotation::Mapped,
+            },
+            colors: match arguments.colors {
+                ColorsChoice::Scene => StrokeColors::Scene,
+                ColorsChoice::Trust => StrokeColors::Trust,
             },
         },
         destination,

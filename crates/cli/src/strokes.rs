@@ -34,6 +34,9 @@ struct Row<'a> {
     b: f32,
     facing: f32,
     rank: f32,
+    /// In half widths, to the left; for drawing only.
+    #[serde(skip)]
+    bend: f32,
 }
 
 const HEADER: &str =
@@ -113,6 +116,7 @@ fn row<'a>(
         b,
         facing: source.facing,
         rank: source.rank,
+        bend: stroke.bend,
     }
 }
 
@@ -160,29 +164,78 @@ fn json(frame: &Frame, frame_number: f64, rows: &[Row<'_>]) -> String {
     format!("{value}\n")
 }
 
+/// The strokes as paths, in painting order: one may take them to a plotter or a vector editor.
 fn svg(frame: &Frame, rows: &[Row<'_>]) -> String {
     let [width, height] = frame.size_px;
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
     );
-    for row in rows {
-        let [r, g, b] = [row.r, row.g, row.b].map(|channel| (channel * 255.0).round() as u8);
-        // SVG counts Y downwards and turns clockwise.
-        let (x, y) = (row.x_px, height as f32 - row.y_px);
-        let (half_length, half_width) = (row.length_px * 0.5, row.width_px * 0.5);
+    if let Some(background) = frame.background {
+        let tone = frame.finish.ground.map_or(background, |ground| ground.color);
         let _ = writeln!(
             text,
-            "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" rx=\"{half_width:.2}\" transform=\"rotate({:.3} {x:.2} {y:.2})\" fill=\"#{r:02x}{g:02x}{b:02x}\" fill-opacity=\"{:.3}\"/>",
-            x - half_length,
-            y - half_width,
-            row.length_px,
-            row.width_px,
+            "<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>",
+            hex(tone.map(srgb_from_linear))
+        );
+    }
+    let mut layer = "";
+    for row in rows {
+        if row.layer != layer {
+            if !layer.is_empty() {
+                text.push_str("</g>\n");
+            }
+            layer = row.layer;
+            let _ = writeln!(text, "<g id=\"{layer}\">");
+        }
+        // SVG counts Y downwards and turns clockwise.
+        let _ = writeln!(
+            text,
+            "<path d=\"{}\" transform=\"translate({:.2} {:.2}) rotate({:.3})\" fill=\"{}\" fill-opacity=\"{:.3}\"/>",
+            outline(row),
+            row.x_px,
+            height as f32 - row.y_px,
             -row.angle_deg,
+            hex([row.r, row.g, row.b]),
             row.alpha
         );
     }
+    if !layer.is_empty() {
+        text.push_str("</g>\n");
+    }
     text.push_str("</svg>\n");
     text
+}
+
+fn hex(color: [f32; 3]) -> String {
+    let [r, g, b] = color.map(|channel| (channel * 255.0).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// A stroke along +X round the origin: full at the start, tapering at the end, bent in the middle.
+fn outline(row: &Row<'_>) -> String {
+    let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
+    // To the left of the stroke is up, which SVG counts negative; a cubic reaches three quarters of its handles.
+    let bend = -row.bend * w * 4.0 / 3.0;
+    let (upper, lower) = (bend - w, bend + w);
+    format!(
+        "M{:.2} {:.2}C{:.2} {upper:.2} {:.2} {upper:.2} {:.2} {:.2}Q{l:.2} {:.2} {l:.2} 0Q{l:.2} {:.2} {:.2} {:.2}C{:.2} {lower:.2} {:.2} {lower:.2} {:.2} {w:.2}Q{:.2} 0 {:.2} {:.2}Z",
+        -0.92 * l,
+        -w,
+        -0.4 * l,
+        0.4 * l,
+        0.8 * l,
+        -0.8 * w,
+        -0.55 * w,
+        0.55 * w,
+        0.8 * l,
+        0.8 * w,
+        0.4 * l,
+        -0.4 * l,
+        -0.92 * l,
+        -1.04 * l,
+        -0.92 * l,
+        -w,
+    )
 }
 
 #[cfg(test)]

@@ -29,6 +29,19 @@ pub struct FrameOptions {
     pub transparent: bool,
     /// Whether strokes turn.
     pub rotation: Rotation,
+    /// What strokes are coloured by.
+    pub colors: StrokeColors,
+}
+
+/// What strokes are coloured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StrokeColors {
+    /// The scene, lit and mixed.
+    #[default]
+    Scene,
+    /// How far each turn can be trusted (κ): green where a turn describes what the picture of the surface has done, through
+    /// yellow to red where it does not.
+    Trust,
 }
 
 /// Whether strokes turn with what they lie on; the others are there to be compared with.
@@ -41,12 +54,20 @@ pub enum Rotation {
     Off,
     /// They lie anyhow, anew in each frame.
     Random,
+    /// They lie on the surface as a texture does: shorter as it turns away, smaller as it goes (the source paper's figure 2).
+    Mapped,
 }
 
 impl FrameOptions {
     /// A picture of this size; all else as usual.
     pub const fn new(size_px: [u32; 2]) -> Self {
-        Self { size_px, keep_stroke_px: false, transparent: false, rotation: Rotation::On }
+        Self {
+            size_px,
+            keep_stroke_px: false,
+            transparent: false,
+            rotation: Rotation::On,
+            colors: StrokeColors::Scene,
+        }
     }
 }
 
@@ -71,7 +92,8 @@ pub(crate) struct Look<'a> {
     pub(crate) half_px: [f32; 2],
     pub(crate) px_scale: f32,
     near_far: [f32; 2],
-    rotation: Rotation,
+    pub(crate) rotation: Rotation,
+    pub(crate) colors: StrokeColors,
     /// Differs from frame to frame.
     moment: u32,
 }
@@ -98,6 +120,7 @@ impl Painting {
             px_scale,
             near_far: frame_view.near_far,
             rotation: options.rotation,
+            colors: options.colors,
             moment: hash::scramble((frame * 1000.0).round() as i64 as u32),
         };
         let (strokes, sources, layers) = look.strokes();
@@ -192,7 +215,7 @@ impl Look<'_> {
     /// The angle of a particle's stroke before its contour has a say.
     pub(crate) fn angle_rad(&self, seen: &SeenCoat<'_>, index: usize) -> f32 {
         match self.rotation {
-            Rotation::On => seen.angle_rad(index),
+            Rotation::On | Rotation::Mapped => seen.angle_rad(index),
             Rotation::Off => seen.coat.baked.base_angle_rad[index],
             Rotation::Random => {
                 (hash::unit(seen.bits(index, self.moment)) * 2.0 - 1.0) * std::f32::consts::PI

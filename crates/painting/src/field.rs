@@ -31,7 +31,7 @@ const GUESS_REACH: f64 = 0.25;
 const NEIGHBOURS: f64 = 8.0;
 
 /// Firmness of the automatic direction where guides rule.
-const FAINT: f64 = 1e-4;
+const FAINT: f64 = 1e-6;
 
 /// A guide that is narrower than this many spacings of the samples still reaches that far for them.
 const LEAST_REACH_SPACINGS: f64 = 1.2;
@@ -237,6 +237,7 @@ impl FieldInputs {
                 let to_seam = points
                     .iter()
                     .filter(|other| other.point.rule != own.rule && self.joined(own, other.point))
+                    .filter(|other| other.point.normal.dot(own.normal) > 0.0)
                     .map(|other| {
                         let reach = reach_of(own.rule).max(reach_of(other.point.rule));
                         // Half the spacing: the border lies between the two samples.
@@ -253,7 +254,8 @@ impl FieldInputs {
         let spacings = GUESS_REACH * self.extent.1 / self.samples.spacing;
         let guess = NEIGHBOURS / (spacings * spacings).max(1.0);
         let faint = if free[sample.point.rule] || anchor < 1.0 { FAINT } else { guess };
-        let mut weight = faint + FIRM * anchor * sample.base.exact.powi(2);
+        // Inside a soft seam the two sides meet by themselves; what is stated there pulls little.
+        let mut weight = faint + FIRM * anchor.powi(12) * sample.base.exact.powi(2);
         let mut target = sample.stated;
         let rule = &self.rules[sample.point.rule];
         let symmetry = symmetry(rule);
@@ -339,14 +341,19 @@ impl FieldInputs {
         }
         let flatness = f64::from(self.rules[rule].strokes.flatness);
         let mut tangent = views.tangent_at(wanted, jacobian);
-        // What shows turns with the tangent, nearly one to one.
-        for _ in 0..12 {
-            let error = wrap_pi(wanted - views.lift(tangent).map(jacobian).shown_rad(flatness));
-            let (sin, cos) = error.sin_cos();
-            tangent = tangent * cos + normal.cross(tangent) * sin;
-            if error.abs() < 1e-7 {
+        // What shows turns with the tangent: one to one when flat, else at a slope that is measured.
+        let turned = |tangent: DVec3, angle_rad: f64| {
+            let (sin, cos) = angle_rad.sin_cos();
+            tangent * cos + normal.cross(tangent) * sin
+        };
+        let error = |tangent: DVec3| wrap_pi(wanted - views.lift(tangent).map(jacobian).shown_rad(flatness));
+        for _ in 0..16 {
+            let off = error(tangent);
+            if off.abs() < 1e-7 {
                 break;
             }
+            let slope = if flatness < 1.0 { wrap_pi(off - error(turned(tangent, 1e-4))) / 1e-4 } else { 1.0 };
+            tangent = turned(tangent, (off / slope.clamp(0.2, 20.0)).clamp(-0.6, 0.6));
         }
         let lines = impasto_core::direction::Symmetry::Lines;
         let mix = |tangent: DVec3| lines.encode(tangent, views.axes);

@@ -26,6 +26,6 @@ mod stroke;
 mod surface;
 mod view;
 
-pub use at::{FrameOptions, Rotation};
+pub use at::{FrameOptions, Rotation, StrokeColors};
 pub use frame::Frame;
 pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};

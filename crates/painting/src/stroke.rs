@@ -9,7 +9,7 @@ use impasto_core::screen_map::facing;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
 
-use crate::at::{Look, SeenCoat};
+use crate::at::{Look, Rotation, SeenCoat, StrokeColors};
 use crate::bake::{
     BEND, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
@@ -86,8 +86,19 @@ impl Look<'_> {
         let angle_rad =
             along_contour(self.angle_rad(seen, index), strokes.contour, normal, (&seen.map, facing));
         let chance = Chance { seen, index };
-        let [length_px, width_px] =
-            chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
+        let size_px = chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
+        let flat = Shape { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
+        let Shape { angle_rad, length_px, width_px, skew } = match self.rotation {
+            Rotation::Mapped => {
+                let base = f64::from(coat.baked.base_angle_rad[index]);
+                let lift = match self.painting.solver {
+                    Solver::Horn | Solver::HornExact => lift.turned(base),
+                    Solver::Tangent => lift,
+                };
+                mapped(lift.map(jacobian), flat, f64::from(self.px_scale))
+            }
+            Rotation::On | Rotation::Off | Rotation::Random => flat,
+        };
         let (sin, cos) = angle_rad.sin_cos();
         let reach_px = |along: f32, across: f32| {
             (0.5 * QUAD * (along.abs() * length_px + across.abs() * width_px)) + 0.5 * length_px * along.abs()
@@ -110,7 +121,10 @@ impl Look<'_> {
             supply_ln,
             bits,
             body_id: coat.object as u32 + 1,
-            albedo_srgb8: coat.sampled.albedo_srgb8[index],
+            albedo_srgb8: match self.colors {
+                StrokeColors::Scene => coat.sampled.albedo_srgb8[index],
+                StrokeColors::Trust => trust_srgb8(map.kappa() as f32),
+            },
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
             paint: chance.paint(layer, strokes.size_jitter > 0.0),
             mixing: mixing(strokes, self.painting.palette_of_rule[region as usize]),
@@ -122,6 +136,7 @@ impl Look<'_> {
                 .clamp(-MOST_BEND, MOST_BEND),
             overrun_px: self.overrun_px(strokes.edges, layer.overrun, drift[1]),
             drift,
+            skew,
         };
         let count = coat.sampled.particles.len() as f32;
         let source = StrokeSource {
@@ -151,6 +166,40 @@ impl Look<'_> {
             Edges::Free => Stroke::FREE,
         }
     }
+}
+
+/// A stroke's outline in the picture.
+#[derive(Clone, Copy)]
+struct Shape {
+    angle_rad: f32,
+    length_px: f32,
+    width_px: f32,
+    skew: f32,
+}
+
+/// The outline that a screen map makes of a stroke which lay flat in the reference picture, of the scene's own size.
+fn mapped(map: PixelMap2, flat: Shape, px_scale: f64) -> Shape {
+    let along = DVec2::new(map.x.x, map.y.x) * f64::from(flat.length_px) / px_scale;
+    let across = DVec2::new(map.x.y, map.y.y) * f64::from(flat.width_px) / px_scale;
+    let axis = along.normalize_or(DVec2::X);
+    let width = across.dot(axis.perp()).abs().max(1e-3);
+    Shape {
+        angle_rad: axis.to_angle() as f32,
+        length_px: along.length() as f32,
+        width_px: width as f32,
+        skew: (across.dot(axis) / width) as f32,
+    }
+}
+
+/// Red up to κ = 0.72 (a mirrored map has at most 0.71), yellow half-way, green from 0.9: sRGB, as it is.
+fn trust_srgb8(kappa: f32) -> u32 {
+    const RED: [f32; 3] = [176.0, 38.0, 28.0];
+    const YELLOW: [f32; 3] = [240.0, 205.0, 70.0];
+    const GREEN: [f32; 3] = [28.0, 120.0, 96.0];
+    let trust = ((kappa - 0.72) / 0.18).clamp(0.0, 1.0) * 2.0;
+    let (from, to, t) = if trust < 1.0 { (RED, YELLOW, trust) } else { (YELLOW, GREEN, trust - 1.0) };
+    let byte = |channel: usize| (from[channel] + (to[channel] - from[channel]) * t).round() as u32;
+    u32::from(Stroke::AS_IT_IS) << 24 | byte(2) << 16 | byte(1) << 8 | byte(0)
 }
 
 /// Scumble lies in patches: how much of it, for slow noise of mean 0 and deviation 1.

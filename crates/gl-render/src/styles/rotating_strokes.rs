@@ -333,7 +333,7 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
         input(2, 4, std::mem::offset_of!(Stroke, bits), true),
         input(3, 2, std::mem::offset_of!(Stroke, paint), true),
         input(4, 4, std::mem::offset_of!(Stroke, normal_in_world), false),
-        input(5, 3, std::mem::offset_of!(Stroke, overrun_px), false),
+        input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
     ]
 }
 

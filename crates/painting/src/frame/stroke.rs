@@ -30,7 +30,8 @@ pub struct Stroke {
     pub bits: u32,
     /// Id of the body in the id target (index in `Frame::bodies` plus 1).
     pub body_id: u32,
-    /// Linear albedo at the stroke, 8 bits a channel, sRGB encoded, as 0xAABBGGRR; A is 0 where unlit.
+    /// Albedo at the stroke, 8 bits a channel, sRGB encoded, as 0xAABBGGRR; A is 0 where unlit, and [`Stroke::AS_IT_IS`] where
+    /// the stroke has this colour whatever the scene.
     pub albedo_srgb8: u32,
     /// Index of the mark in [`super::Frame::brushes`], counted over all brushes; bit 16 flips it across.
     pub mark: u32,
@@ -46,6 +47,8 @@ pub struct Stroke {
     pub overrun_px: f32,
     /// Slow drifts over the surface, of hue and of how firm the body's edge is; mean 0, standard deviation 1.
     pub drift: [f32; 2],
+    /// How far the stroke's far side is pushed along it, as a share of its width; 0 for a billboard.
+    pub skew: f32,
 }
 
 /// What the paint of a stroke is like, a byte each.
@@ -102,6 +105,9 @@ impl Default for Stroke {
 impl Stroke {
     /// The overrun of strokes that end where they end.
     pub const FREE: f32 = 1e6;
+
+    /// The A of a stroke that has its own colour.
+    pub const AS_IT_IS: u8 = 128;
 
     /// How much of the stroke is there, 0..=1, where its layer is wanted in full and nothing hides it. The resolve shader
     /// computes the same.
