@@ -208,7 +208,7 @@ const CASES: [Case; 35] = [
 /// Cases of other tests here, and those about where pictures go, which are no business of a scene.
 const CASES_ELSEWHERE: [&str; 4] = ["particles_sum", "text_crlf", "output_is_input", "output_unwritable"];
 
-fn scene_text(fields: &str) -> String {
+pub(crate) fn scene_text(fields: &str) -> String {
     let mut text = format!("(\n{fields},\n");
     for (field, default) in [
         ("version:", "version: 1,\n"),
@@ -223,7 +223,7 @@ fn scene_text(fields: &str) -> String {
 }
 
 /// A folder with meshes, a picture whose header claims 3.6 thousand million pixels, and the scene.
-fn load_in_folder(folder: &Path, scene: &[u8]) -> Result<LoadedScene, Report> {
+pub(crate) fn load_in_folder(folder: &Path, scene: &[u8]) -> Result<LoadedScene, Report> {
     fs::create_dir_all(folder.join("sub")).expect("a temporary folder can be written to");
     fs::write(folder.join("cube.obj"), CUBE).expect("a temporary folder can be written to");
     fs::write(folder.join("sub/cube.obj"), CUBE).expect("a temporary folder can be written to");

@@ -6,6 +6,7 @@ mod cli;
 mod corpus;
 mod directions;
 mod horn;
+mod hostile_directions;
 mod hostile_scenes;
 mod paint;
 mod progressive_order;

@@ -46,8 +46,23 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             object["particles"],
             object["area"].as_f64().unwrap_or(0.0)
         )?;
+        let singular = object["singularities"].as_array().map_or(&[][..], Vec::as_slice);
+        if !singular.is_empty() {
+            writeln!(out, "  strokes have no direction at {} points:", singular.len())?;
+            for point in singular {
+                writeln!(out, "    {} index {}", point["position"], point["index"])?;
+            }
+        }
     }
-    let regions: Vec<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
+    let regions: Vec<String> = scene
+        .regions
+        .iter()
+        .map(|region| match region.guides.len() {
+            0 => region.name.clone(),
+            1 => format!("{} (1 guide)", region.name),
+            guides => format!("{} ({guides} guides)", region.name),
+        })
+        .collect();
     writeln!(out, "regions: {}", if regions.is_empty() { "none".to_owned() } else { regions.join(", ") })?;
     writeln!(
         out,
@@ -94,6 +109,15 @@ fn facts(painting: &Painting) -> serde_json::Value {
                 "mesh": object.mesh,
                 "particles": counts[index],
                 "area": painting.surface_area(index),
+                // Where a combed field of directions runs round a point, or parts.
+                "singularities": painting
+                    .singularities(index)
+                    .iter()
+                    .map(|point| {
+                        let position = point.position.to_array().map(|at| (at * 1e4).round() / 1e4);
+                        serde_json::json!({ "position": position, "index": point.index })
+                    })
+                    .collect::<Vec<_>>(),
             })
         })
         .collect();

@@ -73,12 +73,6 @@ fn check_covers(field_path: &str, on: &Selector, file: &MeshFile, findings: &mut
     }
 }
 
-/// The nearest triangle to a point: its distance, and whether it has an area.
-struct Nearest {
-    distance: f64,
-    has_area: bool,
-}
-
 fn check_guide(
     guide_path: &str,
     guide: &Guide,
@@ -97,25 +91,20 @@ fn check_guide(
         })
     };
     let mut farthest = (0.0, 0);
-    let mut without_area = None;
     for (index, point) in guide.points.iter().enumerate() {
         let Some(rest) = left.checked_sub(mesh.triangles.len()) else { return };
         *left = rest;
         let at = DVec3::from(point.at);
-        let mut nearest = Nearest { distance: f64::INFINITY, has_area: true };
-        for triangle in (0..mesh.triangles.len()).filter(|&triangle| of_object(triangle)) {
+        let distance_to = |triangle: usize| {
             let corners = mesh.corners(triangle).map(|corner| model_from_file * corner.as_dvec3());
-            let distance = (at - nearest_point(at, corners)).length();
-            if distance < nearest.distance {
-                let [a, b, c] = corners;
-                nearest = Nearest { distance, has_area: (b - a).cross(c - a).length() > 0.0 };
-            }
-        }
-        if nearest.distance > farthest.0 {
-            farthest = (nearest.distance, index);
-        }
-        if !nearest.has_area && without_area.is_none() {
-            without_area = Some(index);
+            (at - nearest_point(at, corners)).length()
+        };
+        let nearest = (0..mesh.triangles.len())
+            .filter(|&triangle| of_object(triangle))
+            .map(distance_to)
+            .fold(f64::INFINITY, f64::min);
+        if nearest > farthest.0 {
+            farthest = (nearest, index);
         }
     }
     let (distance, index) = farthest;
@@ -127,11 +116,6 @@ fn check_guide(
             super::short(guide.radius)
         );
         let mend = "move its points onto the surface, in the object's own space; it holds where it reaches";
-        findings.warning(format!("{guide_path}.points[{index}].at"), message, mend);
-    }
-    if let Some(index) = without_area {
-        let message = "the triangle under this point has no area; nothing is painted there";
-        let mend = "mend the mesh, or move the point; strokes beside it follow the guide all the same";
         findings.warning(format!("{guide_path}.points[{index}].at"), message, mend);
     }
 }

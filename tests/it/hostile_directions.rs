@@ -1,0 +1,129 @@
+//! Painted directions that contradict each other, lie beside the surface, or are about things that are gone: each with its
+//! word and its place, and a picture all the same where that is honest.
+
+use std::fs;
+
+use impasto_painting::{FrameOptions, prepare};
+use impasto_scene::problem::Severity;
+
+use crate::hostile_scenes::{load_in_folder, scene_text};
+
+/// Fields of the scene from line 2 on, what is said, and whether there is a picture.
+const CASES: [(&str, &str, &str, bool); 14] = [
+    (
+        "contradicting regions",
+        r#"regions: [(name: "first", on: Group("a", "default"), direction: Up), (name: "second", on: Object("a"))]"#,
+        "scene.ron:2:31: warning: the region \"second\" after it covers all of it; a later region wins",
+        true,
+    ),
+    (
+        "guide off the surface",
+        r#"regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0, 0.5, 1), normal: (0, 0, 1)), (at: (0.5, 0.5, 4), normal: (0, 0, 1))], radius: 0.2)])]"#,
+        "scene.ron:2:102: warning: the guide is 3 away from \"a\", farther than it reaches (0.2)",
+        true,
+    ),
+    (
+        "guide on an object that is gone",
+        r#"regions: [(name: "r", on: Everything, guides: [(object: "b", points: [(at: (0, 0, 1), normal: (0, 0, 1)), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 0.2)])]"#,
+        "scene.ron:2:57: error: there is no object \"b\"",
+        false,
+    ),
+    (
+        "guide on another object than its region",
+        r#"objects: [(name: "a", mesh: "cube.obj"), (name: "b", mesh: "cube.obj")], regions: [(name: "r", on: Object("a"), guides: [(object: "b", points: [(at: (0, 0, 1), normal: (0, 0, 1)), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 0.2)])]"#,
+        "scene.ron:2:131: error: the region lies on \"a\"",
+        false,
+    ),
+    (
+        "region on an object that is gone",
+        r#"regions: [(name: "r", on: Dabs("b", [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2)]))]"#,
+        "scene.ron:2:27: error: there is no object \"b\"",
+        false,
+    ),
+    (
+        "zero radius of a guide",
+        r#"regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0, 0, 1), normal: (0, 0, 1)), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 0)])]"#,
+        "scene.ron:2:140: error: a guide with a radius of 0 reaches nothing; give a radius above 0",
+        false,
+    ),
+    (
+        "zero radius of a dab",
+        r#"regions: [(name: "r", on: Dabs("a", [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0)]))]"#,
+        "scene.ron:2:27: error: a dab with a radius of 0 reaches nothing",
+        false,
+    ),
+    (
+        "guide of one point",
+        r#"regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0, 0, 1), normal: (0, 0, 1))], radius: 0.2)])]"#,
+        "scene.ron:2:58: error: a guide of one point has no direction",
+        false,
+    ),
+    (
+        "group that is not there",
+        r#"regions: [(name: "r", on: Group("a", "empty"))]"#,
+        "scene.ron:2:27: error: there is no group \"empty\"",
+        false,
+    ),
+    (
+        "material that nothing wears",
+        r#"objects: [(name: "a", mesh: "worn.obj")], regions: [(name: "r", on: Material("a", "spare"))]"#,
+        "scene.ron:2:69: ",
+        false,
+    ),
+    (
+        "reference outside the timeline",
+        "timeline: (first: 0, last: 10), reference: Frame(11)",
+        "scene.ron:2:44: warning: frame 11 is outside the timeline (0 to 10)",
+        true,
+    ),
+    (
+        "degenerate triangle under a guide",
+        r#"objects: [(name: "a", mesh: "needle.obj")], regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0.2, 0.2, 0), normal: (0, 0, 1)), (at: (5, 0.5, 0), normal: (0, 0, 1))], radius: 0.2)])]"#,
+        "needle.obj:8:1: warning: this face has no area; it is left out",
+        true,
+    ),
+    (
+        "morph of another topology",
+        r#"objects: [(name: "a", mesh: "cube.obj", morph: "needle.obj")]"#,
+        "scene.ron:2:48: error: needle.obj does not go with cube.obj: 2 polygons instead of 6",
+        false,
+    ),
+    (
+        "morph without a target",
+        r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0, morph: 0.5)])]"#,
+        "scene.ron:2:66: error: the object has nothing to turn into",
+        false,
+    ),
+];
+
+#[test]
+fn every_bad_direction_has_its_word_and_its_place() {
+    let needle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 5 1 0\nv 5 0.5 0\nf 1 2 3\nf 4 5 6\n";
+    for (name, fields, says, is_painted) in CASES {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("needle.obj"), needle).unwrap();
+        fs::write(folder.path().join("worn.mtl"), "newmtl worn\nnewmtl spare\n").unwrap();
+        fs::write(
+            folder.path().join("worn.obj"),
+            "mtllib worn.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl worn\nf 1 2 3\n",
+        )
+        .unwrap();
+        let loaded = load_in_folder(folder.path(), scene_text(fields).as_bytes());
+        let said: Vec<String> = match &loaded {
+            Ok(scene) => scene.warnings.iter().map(ToString::to_string).collect(),
+            Err(report) => report.0.iter().map(ToString::to_string).collect(),
+        };
+        let count = said.iter().filter(|line| line.contains("scene.ron")).count();
+        assert!(
+            count == 1 && said.iter().any(|line| line.contains(says)),
+            "{name}: {said:?}\nexpected: {says}"
+        );
+        assert_eq!(loaded.is_ok(), is_painted, "{name}: {said:?}");
+        if let Ok(scene) = loaded {
+            assert!(scene.warnings.iter().all(|warning| warning.severity == Severity::Warning));
+            let frame = prepare(scene.into()).unwrap().at(0.0, &FrameOptions::new([160, 90]));
+            assert!(!frame.strokes.is_empty(), "{name}");
+            assert!(frame.strokes.iter().all(|stroke| stroke.angle_rad.is_finite()), "{name}");
+        }
+    }
+}
