@@ -85,7 +85,7 @@ const CASES: [(&str, &str, &str, bool); 14] = [
     (
         "morph of another topology",
         r#"objects: [(name: "a", mesh: "cube.obj", morph: "needle.obj")]"#,
-        "scene.ron:2:48: error: needle.obj does not go with cube.obj: 2 polygons instead of 6",
+        "scene.ron:2:48: error: needle.obj does not go with cube.obj: 1 polygons instead of 6",
         false,
     ),
     (

@@ -19,7 +19,7 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
         let Some(base) = meshes.get(&object.mesh) else { continue };
         if let Err(difference) = morph::target_of(base, target) {
             let message = format!("{} does not go with {}: {difference}", quoted(object), object.mesh);
-            let mend = "export both from the same mesh, with the same faces in the same order";
+            let mend = "export both from the same mesh, with the same faces in the same order; a face without area is no face";
             findings.error(format!("objects[{index}].morph"), message, mend);
         }
     }
