@@ -28,6 +28,9 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/light.frag",
 ];
 
+/// How surfaces move from one picture to another.
+pub(crate) const MOTION: &[ShaderFile] = shader_files!["motion/motion.vert", "motion/motion.frag"];
+
 /// Brush strokes.
 pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/layers.glsl",

@@ -1,0 +1,115 @@
+//! M4 on the shot, on a turntable, on a zoom.
+
+use impasto_painting::Rotation;
+use impasto_scene::motion::CameraPose;
+
+use crate::cameras::{orbited, zoomed};
+use crate::figures::Spread;
+use crate::looks::{Look, orbit_blockers};
+use crate::metric::Metric;
+use crate::options::MeasureError;
+use crate::popping::{Popping, popping};
+use crate::report::{LEAST_STROKES, Reading, Row, Series, Verdict};
+use crate::studio::Studio;
+
+/// Where round the target pairs of views are taken, one degree apart.
+const AROUND_DEG: [f64; 6] = [0.0, 47.0, 101.0, 180.0, 233.0, 312.0];
+
+/// Where on a zoom pairs of views are taken, one percent apart.
+const ZOOMS: [f64; 4] = [1.0, 1.6, 2.7, 5.0];
+
+pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
+    let mut row = Row::new(
+        Metric::M4,
+        "neighbouring frames as drawn, all layers: the shot; a turntable of the reference pose, 1 deg a frame; a zoom, 1 % a \
+         frame; strokes at the picture's border left out",
+        "turntable and zoom 0 %; shot ≤ 0.1 %",
+    );
+    let shot = shot(studio, Look::Board)?;
+    let around: Vec<[CameraPose; 2]> = {
+        let camera = studio.reference_camera();
+        AROUND_DEG.map(|angle| [angle, angle + 1.0].map(|angle| orbited(&camera, angle))).to_vec()
+    };
+    let zooms: Vec<[CameraPose; 2]> = {
+        let camera = studio.reference_camera();
+        ZOOMS.map(|factor| [factor, factor * 1.01].map(|factor| zoomed(&camera, factor))).to_vec()
+    };
+    let turntable = views(studio, Look::Orbit, &around)?;
+    let zoom = views(studio, Look::Board, &zooms)?;
+    let papers = [
+        ("the shot", self::shot(studio, Look::Paper)?),
+        ("turntable", views(studio, Look::OrbitPaper, &around[..3])?),
+    ];
+    let percent = |found: &[Popping]| Spread::of(found.iter().map(|pair| 100.0 * pair.share).collect());
+    for (name, found) in [("shot", &shot), ("turntable", &turntable), ("zoom", &zoom)] {
+        if found.is_empty() {
+            continue;
+        }
+        row.values.push(Reading::many(format!("{name}: strokes that pop, by area"), "%", percent(found)));
+        let largest = found.iter().map(|pair| pair.largest_step).fold(0.0, f64::max);
+        row.values.push(Reading::one(format!("{name}: largest step of alpha"), "", largest));
+        row.counts.strokes += found.iter().map(|pair| pair.strokes).sum::<usize>();
+        row.counts.frames += 2 * found.len();
+        if name != "shot" {
+            let fewest = found.iter().map(|pair| pair.strokes).min().unwrap_or(0);
+            row.notes.push(format!("{name}: {fewest} strokes or more in each pair"));
+        }
+    }
+    for (name, found) in papers.iter().filter(|(_, found)| !found.is_empty()) {
+        row.baselines.push(Reading::many(format!("the paper's rule on {name}"), "%", percent(found)));
+    }
+    left_out(studio, &mut row);
+    let worst = |found: &[Popping]| found.iter().map(|pair| pair.share).fold(0.0, f64::max);
+    let holds = worst(&turntable) == 0.0 && worst(&zoom) == 0.0 && worst(&shot) <= 1e-3;
+    let each = [&shot, &turntable, &zoom];
+    let enough = each.iter().all(|found| {
+        found.is_empty() || found.iter().map(|pair| pair.strokes).sum::<usize>() >= LEAST_STROKES
+    });
+    row.verdict = Verdict::of(holds, row.counts);
+    if !enough {
+        row.verdict = Verdict::TooFew("one of the motions shows fewer than 500 strokes".to_owned());
+    }
+    let pairs = studio.pairs();
+    let points = pairs.iter().map(|pair| pair[0]).zip(shot.iter().map(|pair| 100.0 * pair.share));
+    series.push(Series {
+        metric: Metric::M4,
+        title: "strokes that pop",
+        unit: "% of area",
+        points: points.collect(),
+    });
+    Ok(row)
+}
+
+/// Says what stands in the way of a camera that goes round.
+pub(super) fn left_out(studio: &Studio<'_>, row: &mut Row) {
+    let scene = &studio.loaded.scene;
+    let blockers = orbit_blockers(studio.loaded);
+    if !blockers.is_empty() && blockers.len() < scene.objects.len() {
+        let names: Vec<&str> = blockers.iter().map(|&index| scene.objects[index].name.as_str()).collect();
+        row.notes.push(format!("left out where the camera goes round: {}", names.join(", ")));
+    }
+}
+
+fn shot(studio: &mut Studio<'_>, look: Look) -> Result<Vec<Popping>, MeasureError> {
+    let mut found = Vec::new();
+    for [first, second] in studio.pairs() {
+        let before = studio.show(look, first, Rotation::On)?;
+        let after = studio.show(look, second, Rotation::On)?;
+        found.push(popping(&before.strokes, &after.strokes, studio.size_px));
+    }
+    Ok(found)
+}
+
+fn views(
+    studio: &mut Studio<'_>,
+    look: Look,
+    pairs: &[[CameraPose; 2]],
+) -> Result<Vec<Popping>, MeasureError> {
+    let mut found = Vec::new();
+    for [first, second] in pairs {
+        let before = studio.show_from(look, first)?;
+        let after = studio.show_from(look, second)?;
+        found.push(popping(&before.strokes, &after.strokes, studio.size_px));
+    }
+    Ok(found)
+}
