@@ -55,7 +55,7 @@ mod tests {
         let steady = (0..50).map(|t| [0, 1, 2].map(|step| curve(f64::from(t + step))));
         let jitter = Jitter::of(steady.clone().map(|triple| (triple, triple)));
         assert_eq!((jitter.excess(), jitter.triples), (0.0, 50));
-        let noisy = steady.map(|triple| ([triple[0], triple[1] + 0.03, triple[2]], triple));
+        let noisy = steady.map(|triple| ([triple[0], triple[1] + 0.1, triple[2]], triple));
         assert!(Jitter::of(noisy).excess() > 0.5);
     }
 }

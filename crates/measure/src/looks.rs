@@ -36,6 +36,8 @@ pub enum Look {
     Calm(TurnSolver),
     /// The paper's rule of that.
     CalmPaper,
+    /// On a board and unlit: light that stands still is no brushwork.
+    Unlit,
     /// Each object has one flat colour, and nothing mixes colours.
     Flat,
     /// Without chance in the angle.
@@ -96,6 +98,12 @@ impl Look {
                 paper(scene);
                 calm(scene);
                 leave_out(&mut version, &orbit_blockers(loaded));
+            }
+            Self::Unlit => {
+                board(scene);
+                for object in &mut scene.objects {
+                    object.material.get_or_insert_default().unlit = true;
+                }
             }
             Self::Flat => flat(scene),
             Self::Steady => steady(scene),

@@ -118,6 +118,12 @@ pub(crate) struct Taps {
 impl Taps {
     /// `None` where one of them is off the picture.
     pub(crate) fn new([width, height]: [usize; 2], x: f64, y: f64) -> Option<Self> {
+        // What rounding alone carries over the border lies on it.
+        let snapped = |at: f64, side: usize| {
+            let last = side as f64 - 1.0;
+            if at > -1e-6 && at < last + 1e-6 { at.clamp(0.0, last) } else { at }
+        };
+        let (x, y) = (snapped(x, width), snapped(y, height));
         let (left, top) = (x.floor(), y.floor());
         // A place in the last row or column has the pixel before it beside it.
         let (left, top) = (left.min(width as f64 - 2.0), top.min(height as f64 - 2.0));

@@ -46,9 +46,12 @@ pub fn svg(report: &MeasureReport) -> String {
 fn chart(text: &mut String, series: &Series) {
     let (first, last) = (series.points[0].0, series.points[series.points.len() - 1].0);
     let frames = if last > first { [first, last] } else { [first - 0.5, first + 0.5] };
-    let largest =
-        series.points.iter().map(|point| point.1).filter(|value| value.is_finite()).fold(0.0, f64::max);
-    // A value of nothing is drawn along the bottom of an axis that has a height.
+    let largest = series
+        .points
+        .iter()
+        .map(|point| point.1)
+        .filter(|value| value.is_finite())
+        .fold(series.target, f64::max);
     let step = round_step(if largest > 0.0 { largest } else { 1.0 });
     let top = step * (largest / step).ceil().max(1.0);
     let x = |frame: f64| LEFT + (frame - frames[0]) / (frames[1] - frames[0]) * (RIGHT - LEFT);
@@ -84,6 +87,14 @@ fn chart(text: &mut String, series: &Series) {
     }
     let _ = writeln!(text, "<path d=\"M{LEFT} {TOP}V{BOTTOM}H{RIGHT}\" fill=\"none\" stroke=\"#666\"/>");
     let _ = writeln!(text, "<text x=\"{RIGHT}\" y=\"{}\" text-anchor=\"end\">frame</text>", BOTTOM + 34.0);
+    let at = y(series.target);
+    let _ =
+        writeln!(text, "<path d=\"M{LEFT} {at:.1}H{RIGHT}\" stroke=\"#b3262a\" stroke-dasharray=\"5 4\"/>");
+    let _ = writeln!(
+        text,
+        "<text x=\"{RIGHT}\" y=\"{:.1}\" text-anchor=\"end\" fill=\"#b3262a\">target</text>",
+        at - 4.0
+    );
     let places: Vec<(f64, f64)> = series
         .points
         .iter()
@@ -112,9 +123,6 @@ fn round_step(length: f64) -> f64 {
 
 /// A number with the digits that its axis needs.
 fn label(value: f64, step: f64) -> String {
-    if value != 0.0 && step < 1e-4 {
-        return format!("{value:.0e}");
-    }
     let digits = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.digits$}")
 }
@@ -133,6 +141,7 @@ mod tests {
         let series = Series {
             metric: Metric::M4,
             title: "strokes that pop",
+            target: 0.1,
             unit: "% of area",
             points: vec![(0.0, 0.0), (10.0, 0.3), (20.0, 0.1)],
         };

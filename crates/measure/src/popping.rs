@@ -1,9 +1,12 @@
 //! M4: does paint pop in and out?
 
-use crate::strokes::{SeenStroke, SeenStrokes};
+use crate::strokes::{SeenStroke, SeenStrokes, StrokeKey};
 
 /// A step of alpha that is seen as a pop.
 const STEP: f64 = 0.2;
+
+/// A stroke that moves by less stands still.
+const STILL_PX: f64 = 1e-3;
 
 /// The reach of a stroke's quad over its length and width: quads are larger than strokes, and fitted ones slide.
 const QUAD: f64 = 1.0 / impasto_core::brush::FILL as f64;
@@ -15,6 +18,8 @@ pub struct Popping {
     pub share: f64,
     /// The largest step of alpha.
     pub largest_step: f64,
+    /// The stroke that made it.
+    pub worst: Option<StrokeKey>,
     /// How many strokes were compared.
     pub strokes: usize,
     /// How many of them popped.
@@ -28,9 +33,9 @@ pub fn popping(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> 
     let mut found = Popping::default();
     let (mut popped, mut shown) = (0.0, 0.0);
     let only_after =
-        after.iter().filter(|(key, _)| !before.contains_key(*key)).map(|(_, now)| (None, Some(now)));
-    let others = before.iter().map(|(key, then)| (Some(then), after.get(key)));
-    for (then, now) in others.chain(only_after) {
+        after.iter().filter(|(key, _)| !before.contains_key(*key)).map(|(key, now)| (key, None, Some(now)));
+    let others = before.iter().map(|(key, then)| (key, Some(then), after.get(key)));
+    for (key, then, now) in others.chain(only_after) {
         // Where a stroke is in one frame only, it was or will be at most this far away.
         let margin_px = if then.is_some() && now.is_some() { 0.0 } else { carried_px };
         if [then, now].into_iter().flatten().any(|stroke| touches_border(stroke, margin_px, size_px)) {
@@ -39,7 +44,9 @@ pub fn popping(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> 
         let alpha = |stroke: Option<&SeenStroke>| stroke.map_or(0.0, |stroke| stroke.alpha);
         let area = |stroke: Option<&SeenStroke>| stroke.map_or(0.0, SeenStroke::area_px);
         let step = (alpha(then) - alpha(now)).abs();
-        found.largest_step = found.largest_step.max(step);
+        if step > found.largest_step {
+            (found.largest_step, found.worst) = (step, Some(*key));
+        }
         found.strokes += 1;
         if step > STEP {
             popped += area(then).max(area(now));
@@ -67,15 +74,34 @@ fn touches_border(stroke: &SeenStroke, margin_px: f64, size_px: [u32; 2]) -> boo
 fn displacement_px(before: &SeenStrokes, after: &SeenStrokes) -> f64 {
     let moved = before.iter().filter_map(|(key, then)| {
         let now = after.get(key)?;
-        Some((now.center_px[0] - then.center_px[0]).hypot(now.center_px[1] - then.center_px[1]))
+        Some(displacement(then, now))
     });
     moved.fold(0.0, f64::max)
+}
+
+fn displacement(then: &SeenStroke, now: &SeenStroke) -> f64 {
+    let [dx, dy] = [0, 1].map(|axis| now.particle_px[axis] - then.particle_px[axis]);
+    dx.hypot(dy)
+}
+
+/// The strokes of the bodies that move from one frame to the other: those of still ones would water popping down.
+pub fn of_moving_bodies(before: &SeenStrokes, after: &SeenStrokes) -> [SeenStrokes; 2] {
+    let mut moving: Vec<u32> = before
+        .iter()
+        .filter(|(key, then)| after.get(*key).is_some_and(|now| displacement(then, now) > STILL_PX))
+        .map(|(key, _)| key.body_id)
+        .collect();
+    moving.sort_unstable();
+    moving.dedup();
+    let moves = |key: &StrokeKey| moving.binary_search(&key.body_id).is_ok();
+    [before, after].map(|strokes| {
+        strokes.iter().filter(|(key, _)| moves(key)).map(|(key, stroke)| (*key, *stroke)).collect()
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::strokes::StrokeKey;
     use impasto_painting::frame::LayerKind;
 
     fn strokes(alphas: &[(u32, f64, [f64; 2])]) -> SeenStrokes {
@@ -83,6 +109,7 @@ mod tests {
             let key = StrokeKey { body_id: 1, kind: LayerKind::Body, particle };
             let seen = SeenStroke {
                 center_px,
+                particle_px: center_px,
                 angle_rad: 0.0,
                 length_px: 10.0,
                 width_px: 4.0,

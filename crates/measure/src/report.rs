@@ -110,6 +110,8 @@ pub struct Series {
     pub metric: Metric,
     /// What the values are.
     pub title: &'static str,
+    /// They should be at most this.
+    pub target: f64,
     /// Their unit.
     pub unit: &'static str,
     /// Frames with values, in order.

@@ -20,8 +20,10 @@ pub struct StrokeKey {
 /// What is measured of a stroke. Pixels from the lower left, Y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenStroke {
-    /// Centre.
+    /// Centre, as drawn where it was drawn.
     pub center_px: [f64; 2],
+    /// Where its particle projects.
+    pub particle_px: [f64; 2],
     /// Counter-clockwise from +X.
     pub angle_rad: f64,
     /// Length.
@@ -58,6 +60,7 @@ pub fn seen(frame: &Frame, resolved: &[ResolvedStroke]) -> SeenStrokes {
             let center_px = drawn.map_or(stroke.center_px, |drawn| drawn.center_px);
             let seen = SeenStroke {
                 center_px: center_px.map(f64::from),
+                particle_px: stroke.center_px.map(f64::from),
                 angle_rad: f64::from(stroke.angle_rad),
                 length_px: f64::from(stroke.length_px),
                 width_px: f64::from(stroke.width_px),

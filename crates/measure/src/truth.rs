@@ -129,6 +129,11 @@ impl ScreenTurn {
         (polar_rad.is_finite() && determinant.abs() > 1e-12).then_some(Self { polar_rad, map })
     }
 
+    /// Whether nothing has moved.
+    pub fn is_still(&self) -> bool {
+        (self.map[0] - DVec2::X).length() + (self.map[1] - DVec2::Y).length() < 1e-9
+    }
+
     /// The direction into which a material line at this angle has gone: arg(A d).
     pub fn material_rad(&self, angle_rad: f64) -> f64 {
         let (sin, cos) = angle_rad.sin_cos();

@@ -9,7 +9,7 @@ use impasto_scene::presets;
 
 use crate::cameras::zoomed;
 use crate::density::{Placed, shown_over_wanted, spacing_over_ideal};
-use crate::looks::Look;
+use crate::looks::{Look, orbit_blockers};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
@@ -43,13 +43,13 @@ struct Seen {
 pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M14,
-        "body layer of the object that fills most of the reference picture, zoomed in up to 20 times; a flat sheet with its \
+        "body layer of the object that fills most of the reference picture (backdrops aside), zoomed in up to 20 times; a flat sheet with its \
          strokes, tilted up to 80 deg",
         "density 0.9 to 1.1 until particles run out; spacing ≥ 0.6 to 60 deg, ≥ 0.5 to 80 deg",
     );
     let camera = studio.reference_camera();
     let reference = studio.show_from(Look::Body, &camera)?;
-    let Some(object) = largest(&reference.reference.body_id) else {
+    let Some(object) = largest(&reference.reference.body_id, &orbit_blockers(studio.loaded)) else {
         row.verdict = Verdict::TooFew("no object is seen in the reference picture".to_owned());
         return Ok(row);
     };
@@ -86,11 +86,12 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     Ok(row)
 }
 
-/// The object with most pixels.
-fn largest(body_ids: &[u32]) -> Option<usize> {
+/// The object with most pixels; a backdrop only where there is nothing else.
+fn largest(body_ids: &[u32], backdrops: &[usize]) -> Option<usize> {
     let bodies = body_ids.iter().copied().max().unwrap_or(0);
     let pixels = |id: u32| body_ids.iter().filter(|&&other| other == id).count();
-    (1..=bodies).max_by_key(|&id| pixels(id)).map(|id| id as usize - 1)
+    let is_backdrop = |id: u32| backdrops.contains(&(id as usize - 1));
+    (1..=bodies).max_by_key(|&id| (pixels(id) > 0 && !is_backdrop(id), pixels(id))).map(|id| id as usize - 1)
 }
 
 fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, MeasureError> {

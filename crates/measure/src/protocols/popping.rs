@@ -1,6 +1,7 @@
 //! M4 on the shot, on a turntable, on a zoom.
 
 use impasto_painting::Rotation;
+use impasto_scene::document::Scene;
 use impasto_scene::motion::CameraPose;
 
 use crate::cameras::{orbited, zoomed};
@@ -8,7 +9,7 @@ use crate::figures::Spread;
 use crate::looks::{Look, orbit_blockers};
 use crate::metric::Metric;
 use crate::options::MeasureError;
-use crate::popping::{Popping, popping};
+use crate::popping::{Popping, of_moving_bodies, popping};
 use crate::report::{LEAST_STROKES, Reading, Row, Series, Verdict};
 use crate::studio::Studio;
 
@@ -21,7 +22,7 @@ const ZOOMS: [f64; 4] = [1.0, 1.6, 2.7, 5.0];
 pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M4,
-        "neighbouring frames as drawn, all layers: the shot; a turntable of the reference pose, 1 deg a frame; a zoom, 1 % a \
+        "neighbouring frames as drawn, all layers: the shot, bodies that move; a turntable of the reference pose, 1 deg a frame; a zoom, 1 % a \
          frame; strokes at the picture's border left out",
         "turntable and zoom 0 %; shot ≤ 0.1 %",
     );
@@ -46,8 +47,12 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
             continue;
         }
         row.values.push(Reading::many(format!("{name}: strokes that pop, by area"), "%", percent(found)));
-        let largest = found.iter().map(|pair| pair.largest_step).fold(0.0, f64::max);
-        row.values.push(Reading::one(format!("{name}: largest step of alpha"), "", largest));
+        let steepest = found.iter().max_by(|a, b| a.largest_step.total_cmp(&b.largest_step));
+        if let Some(Popping { largest_step, worst: Some(key), .. }) = steepest {
+            let object = scene_of(studio, name).objects[key.body_id as usize - 1].name.clone();
+            let what = format!("{name}: largest step of alpha ({} of {object})", key.kind.name());
+            row.values.push(Reading::one(what, "", *largest_step));
+        }
         row.counts.strokes += found.iter().map(|pair| pair.strokes).sum::<usize>();
         row.counts.frames += 2 * found.len();
         if name != "shot" {
@@ -74,10 +79,17 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     series.push(Series {
         metric: Metric::M4,
         title: "strokes that pop",
+        target: 0.1,
         unit: "% of area",
         points: points.collect(),
     });
     Ok(row)
+}
+
+/// The scene that a motion was taken on.
+fn scene_of(studio: &Studio<'_>, motion: &str) -> Scene {
+    let look = if motion == "turntable" { Look::Orbit } else { Look::Board };
+    look.of(studio.loaded, &[]).scene
 }
 
 /// Says what stands in the way of a camera that goes round.
@@ -95,7 +107,8 @@ fn shot(studio: &mut Studio<'_>, look: Look) -> Result<Vec<Popping>, MeasureErro
     for [first, second] in studio.pairs() {
         let before = studio.show(look, first, Rotation::On)?;
         let after = studio.show(look, second, Rotation::On)?;
-        found.push(popping(&before.strokes, &after.strokes, studio.size_px));
+        let [before, after] = of_moving_bodies(&before.strokes, &after.strokes);
+        found.push(popping(&before, &after, studio.size_px));
     }
     Ok(found)
 }

@@ -41,7 +41,7 @@ impl Mean {
 pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M7,
-        "pairs of frames of the shot, so far apart that half of what moves has moved by more than half a stroke; on a board, \
+        "pairs of frames of the shot, so far apart that half of what moves has moved by more than half a stroke; on a board, unlit, \
          luma finer than half a stroke within each body; pixels that moved so far",
         "abs S ≤ 0.1, C printed, abs arg L ≤ 0.1 deg",
     );
@@ -52,10 +52,10 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     let (mut ours, mut fixed, mut points, mut steps) =
         (Mean::default(), Mean::default(), Vec::new(), Vec::new());
     for &start in &starts {
-        let now = studio.show(Look::Board, start, Rotation::On)?;
+        let now = studio.show(Look::Unlit, start, Rotation::On)?;
         let stroke_px = median_length_px(&now.strokes);
         let Some(step) = least_step(studio, &now, start, stroke_px)? else { continue };
-        let then = studio.show(Look::Board, start + step, Rotation::On)?;
+        let then = studio.show(Look::Unlit, start + step, Rotation::On)?;
         let places = places_then(&studio.motion(&now.frame, &then.frame)?, &then.reference);
         let compare = |now: &Rc<Shown>, then: &Rc<Shown>| {
             shower_door(&Pair {
@@ -69,8 +69,8 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
         points.push((start, found.same_pixels.abs()));
         steps.push(step);
         ours.add(found);
-        let now = studio.show(Look::Board, start, Rotation::Off)?;
-        let then = studio.show(Look::Board, start + step, Rotation::Off)?;
+        let now = studio.show(Look::Unlit, start, Rotation::Off)?;
+        let then = studio.show(Look::Unlit, start + step, Rotation::Off)?;
         fixed.add(compare(&now, &then));
     }
     if steps.is_empty() {
@@ -101,7 +101,7 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     if row.verdict == Verdict::Holds {
         row.verdict = Verdict::of_pixels(true, row.counts);
     }
-    series.push(Series { metric: Metric::M7, title: "shower door |S|", unit: "", points });
+    series.push(Series { metric: Metric::M7, title: "shower door |S|", target: 0.1, unit: "", points });
     Ok(row)
 }
 
@@ -121,7 +121,7 @@ fn least_step(
     start: f64,
     stroke_px: f64,
 ) -> Result<Option<f64>, MeasureError> {
-    let painting = studio.painting(Look::Board)?;
+    let painting = studio.painting(Look::Unlit)?;
     let options = studio.frame_options(Rotation::On);
     let most = studio.loaded.scene.timeline.last as f64 - start;
     let mut moved = |step: f64| -> Result<bool, MeasureError> {
@@ -158,6 +158,10 @@ fn lag(studio: &mut Studio<'_>, rotation: Rotation) -> Result<(f64, f64, usize),
         let camera = motion::camera_at(&studio.loaded.scene, frame);
         let now = seen(&painting.at(frame, &options), &[]);
         for turn in reference.turns(&painting, &now, (&camera, frame), options.size_px).values() {
+            // What has not turned at all says nothing.
+            if turn.truth.is_still() {
+                continue;
+            }
             sum += glam::DVec2::from_angle(2.0 * (turn.angle_rad - turn.expected_rad()));
             strokes += 1;
         }

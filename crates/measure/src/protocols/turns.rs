@@ -167,6 +167,7 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     series.push(Series {
         metric: Metric::M3,
         title: "largest angle error",
+        target: 0.01,
         unit: "deg",
         points: ours.max_of_frame,
     });
