@@ -22,12 +22,15 @@ pub mod plot;
 pub mod popping;
 mod protocols;
 pub mod report;
+pub mod reveal;
+pub mod roll;
 pub mod sheet;
 pub mod shower_door;
 pub mod strokes;
 pub mod studio;
 pub mod truth;
 pub mod turning;
+pub mod turns;
 mod turntable;
 pub mod warp;
 

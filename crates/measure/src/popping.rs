@@ -84,6 +84,11 @@ fn displacement(then: &SeenStroke, now: &SeenStroke) -> f64 {
     dx.hypot(dy)
 }
 
+/// The same strokes as if nothing hid them and every layer were wanted in full: what the number of strokes alone decides.
+pub fn by_presence(strokes: &SeenStrokes) -> SeenStrokes {
+    strokes.iter().map(|(key, stroke)| (*key, SeenStroke { alpha: stroke.presence, ..*stroke })).collect()
+}
+
 /// The strokes of the bodies that move from one frame to the other: those of still ones would water popping down.
 pub fn of_moving_bodies(before: &SeenStrokes, after: &SeenStrokes) -> [SeenStrokes; 2] {
     let mut moving: Vec<u32> = before
@@ -114,6 +119,7 @@ mod tests {
                 length_px: 10.0,
                 width_px: 4.0,
                 alpha,
+                presence: alpha,
                 facing: 1.0,
                 region: 0,
             };

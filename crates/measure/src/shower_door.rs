@@ -2,6 +2,7 @@
 
 use crate::correlation;
 use crate::plane::{Plane, Taps};
+use crate::turns::Turn;
 
 /// Brushwork of two pictures of a moving thing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,6 +53,27 @@ pub fn shower_door(pair: &Pair<'_>) -> ShowerDoor {
     });
     let (same_points, _) = correlation::normalized(goes);
     ShowerDoor { same_pixels, same_points, pixels }
+}
+
+/// How strokes lag behind what they should do: L = mean e^{2i(θ − θ₀ − φ)}.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lag {
+    /// |arg L|, degrees.
+    pub arg_deg: f64,
+    /// |L|: 1 where all strokes agree.
+    pub length: f64,
+    /// How many strokes that rests on.
+    pub strokes: usize,
+}
+
+/// L over these turns.
+pub fn lag<'a>(turns: impl Iterator<Item = &'a Turn>) -> Lag {
+    let (mut sum, mut strokes) = (glam::DVec2::ZERO, 0);
+    for turn in turns {
+        sum += glam::DVec2::from_angle(2.0 * (turn.angle_rad - turn.expected_rad()));
+        strokes += 1;
+    }
+    Lag { arg_deg: sum.to_angle().abs().to_degrees(), length: sum.length() / strokes.max(1) as f64, strokes }
 }
 
 /// What is finer than strokes, each body for itself, so that no silhouette is taken for brushwork.

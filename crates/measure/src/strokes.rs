@@ -32,6 +32,8 @@ pub struct SeenStroke {
     pub width_px: f64,
     /// How much of it is there: as drawn where it was drawn, else its presence.
     pub alpha: f64,
+    /// How much of it there would be if nothing hid it and its layer were wanted in full.
+    pub presence: f64,
     /// Cosine between its surface's normal and the direction to the eye.
     pub facing: f64,
     /// Index of its region.
@@ -65,6 +67,7 @@ pub fn seen(frame: &Frame, resolved: &[ResolvedStroke]) -> SeenStrokes {
                 length_px: f64::from(stroke.length_px),
                 width_px: f64::from(stroke.width_px),
                 alpha: f64::from(drawn.map_or_else(|| stroke.presence(), |drawn| drawn.alpha)),
+                presence: f64::from(stroke.presence()),
                 facing: f64::from(source.facing),
                 region: source.region,
             };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use impasto_painting::frame::LayerKind;
+use impasto_painting::frame::{LayerKind, Stroke};
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::document::Selector;
 use impasto_scene::presets;
@@ -105,7 +105,7 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
         let run = shown.frame.layers.iter().find(|run| {
             run.kind == LayerKind::Body && (run.first..run.first + run.count).contains(&(index as u32))
         });
-        if stroke.body_id != id || run.is_none() || !is_seen(&shown, stroke.center_px, id) {
+        if stroke.body_id != id || run.is_none() || !is_seen(&shown, stroke) {
             continue;
         }
         let coverage =
@@ -131,12 +131,19 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
     })
 }
 
-/// Whether the pixel under a place shows this body.
-fn is_seen(shown: &Shown, [x, y]: [f32; 2], id: u32) -> bool {
+/// Depths of the same surface differ by less than this share within a pixel.
+const DEPTH_SHARE: f32 = 0.004;
+
+/// Whether the pixel under a stroke's centre shows its surface, not another one in front, be it of its own body.
+fn is_seen(shown: &Shown, stroke: &Stroke) -> bool {
+    let [x, y] = stroke.center_px;
     let [width, height] = shown.frame.size_px.map(|side| side as i64);
     let (column, row) = (x.floor() as i64, height - 1 - y.floor() as i64);
     let inside = (0..width).contains(&column) && (0..height).contains(&row);
-    inside && shown.reference.body_id[(row * width + column) as usize] == id
+    let at = (row * width + column) as usize;
+    inside
+        && shown.reference.body_id[at] == stroke.body_id
+        && shown.reference.depth[at] >= stroke.depth * (1.0 - DEPTH_SHARE)
 }
 
 fn on_sheet(studio: &mut Studio<'_>, object: usize, row: &mut Row) -> Result<bool, MeasureError> {

@@ -6,7 +6,7 @@ use impasto_painting::Rotation;
 use impasto_scene::motion;
 
 use super::ONE_FRAME;
-use super::turns::{Reference, Turn, uses_horn};
+use super::turns::uses_horn;
 use crate::jitter::Jitter;
 use crate::looks::{Look, TurnSolver};
 use crate::metric::Metric;
@@ -14,6 +14,7 @@ use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
 use crate::strokes::{StrokeKey, seen};
 use crate::studio::Studio;
+use crate::turns::{Reference, Turn};
 
 pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
@@ -44,7 +45,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
 
 fn jitter(studio: &mut Studio<'_>, rotation: Rotation) -> Result<Jitter, MeasureError> {
     let painting = studio.painting(Look::Truth(TurnSolver::Own))?;
-    let reference = Reference::of(studio, &painting);
+    let reference = Reference::of(&painting, studio.size_px);
     let options = studio.frame_options(rotation);
     let scene = &studio.loaded.scene;
     let last = scene.timeline.last as f64;

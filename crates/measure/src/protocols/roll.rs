@@ -11,9 +11,10 @@ use crate::options::MeasureError;
 use crate::orientation::{Tensors, error_rad};
 use crate::plane::Plane;
 use crate::report::{Counts, Reading, Row, Verdict};
-use crate::strokes::{SeenStrokes, degrees_apart, seen};
+use crate::roll::{quarter_difference, roll_errors_deg};
+use crate::strokes::seen;
 use crate::studio::Studio;
-use crate::turning::{disk, quarters_of_bytes};
+use crate::turning::disk;
 
 /// Side of M1's picture.
 const SIDE_PX: u32 = 400;
@@ -81,19 +82,10 @@ fn turned(studio: &mut Studio<'_>, rotation: Rotation, odd_deg: &[f64]) -> Resul
     let (mut sum, mut over) = (0.0, 0usize);
     for quarters in 1..=3 {
         let (picture, mask) = take(90.0 * f64::from(quarters))?;
-        // A camera rolled by +φ turns the picture by −φ.
-        let expected = quarters_of_bytes(&straight.rgba8, side, -quarters);
-        for (index, _) in mask.iter().enumerate().filter(|(_, inside)| **inside) {
-            let channels = index * 4..index * 4 + 3;
-            let differences =
-                picture.rgba8[channels.clone()].iter().zip(&expected[channels]).map(|(a, b)| a.abs_diff(*b));
-            let (total, largest) = differences.fold((0u32, 0), |(total, largest), difference| {
-                (total + u32::from(difference), difference.max(largest))
-            });
-            sum += f64::from(total) / 3.0;
-            over += usize::from(largest > 16);
-            found.pixels += 1;
-        }
+        let difference = quarter_difference(&straight, &picture, quarters, &mask);
+        sum += difference.mean * difference.pixels as f64;
+        over += difference.over_16;
+        found.pixels += difference.pixels;
     }
     found.mean = sum / found.pixels.max(1) as f64;
     found.over_16 = over as f64 / found.pixels.max(1) as f64;
@@ -148,13 +140,4 @@ pub(super) fn angles(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     row.baselines.push(Reading::many("fixed angle at 30:", "deg", Spread::of(fixed)));
     row.verdict = Verdict::of(spread.max <= 1e-3, row.counts);
     Ok(row)
-}
-
-/// M2: |wrap(θ(φ) − θ(0) + φ)| of the strokes that are in both, degrees.
-fn roll_errors_deg(straight: &SeenStrokes, rolled: &SeenStrokes, roll_deg: f64) -> Vec<f64> {
-    let errors = straight.iter().filter_map(|(key, before)| {
-        let now = rolled.get(key)?;
-        Some(degrees_apart(now.angle_rad + roll_deg.to_radians(), before.angle_rad))
-    });
-    errors.collect()
 }

@@ -7,14 +7,14 @@ use impasto_painting::frame::LayerKind;
 use impasto_scene::motion;
 
 use super::ONE_FRAME;
-use super::turns::Reference;
 use crate::looks::{Look, TurnSolver};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Reading, Row, Series, Verdict};
-use crate::shower_door::{Pair, ShowerDoor, share_moved, shower_door};
+use crate::shower_door::{Lag, Pair, ShowerDoor, lag, share_moved, shower_door};
 use crate::strokes::{SeenStrokes, of_layer, seen};
 use crate::studio::{Shown, Studio};
+use crate::turns::Reference;
 use crate::warp::places_then;
 
 /// Mean of several pairs of frames, weighted by pixels.
@@ -76,28 +76,28 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     if steps.is_empty() {
         return Ok(row.not_applicable("nothing in the shot moves by half a stroke"));
     }
-    let (arg_deg, length, strokes) = lag(studio, Rotation::On)?;
-    let (fixed_deg, fixed_length, _) = lag(studio, Rotation::Off)?;
+    let turned = lag_of(studio, Rotation::On)?;
+    let unturned = lag_of(studio, Rotation::Off)?;
     let [same_pixels, same_points] = ours.values();
     row.counts.pixels = ours.pixels;
-    row.counts.strokes = strokes;
+    row.counts.strokes = turned.strokes;
     row.counts.frames = 2 * steps.len();
     row.values = vec![
         Reading::one("S, at the same pixels", "", same_pixels),
         Reading::one("C, at the same surface points", "", same_points),
-        Reading::one("arg L, angles against the analytic turn", "deg", arg_deg),
-        Reading::one("|L|", "", length),
+        Reading::one("arg L, angles against the analytic turn", "deg", turned.arg_deg),
+        Reading::one("|L|", "", turned.length),
     ];
     let [fixed_pixels, fixed_points] = fixed.values();
     row.baselines = vec![
         Reading::one("fixed angle: S", "", fixed_pixels),
         Reading::one("fixed angle: C", "", fixed_points),
-        Reading::one("fixed angle: arg L", "deg", fixed_deg),
-        Reading::one("fixed angle: |L|", "", fixed_length),
+        Reading::one("fixed angle: arg L", "deg", unturned.arg_deg),
+        Reading::one("fixed angle: |L|", "", unturned.length),
     ];
     let distances: Vec<String> = steps.iter().map(|step| format!("{step}")).collect();
     row.notes.push(format!("frames between the pictures of a pair: {}", distances.join(", ")));
-    row.verdict = Verdict::of(same_pixels.abs() <= 0.1 && arg_deg <= 0.1, row.counts);
+    row.verdict = Verdict::of(same_pixels.abs() <= 0.1 && turned.arg_deg <= 0.1, row.counts);
     if row.verdict == Verdict::Holds {
         row.verdict = Verdict::of_pixels(true, row.counts);
     }
@@ -148,23 +148,16 @@ fn least_step(
     Ok(Some(far))
 }
 
-/// L = mean e^{2i(θ − θ₀ − φ)}: abs of its argument in degrees, its length, and how many strokes it rests on.
-fn lag(studio: &mut Studio<'_>, rotation: Rotation) -> Result<(f64, f64, usize), MeasureError> {
+/// L over the strokes of the shot that have turned at all.
+fn lag_of(studio: &mut Studio<'_>, rotation: Rotation) -> Result<Lag, MeasureError> {
     let painting = studio.painting(Look::Truth(TurnSolver::Own))?;
-    let reference = Reference::of(studio, &painting);
+    let reference = Reference::of(&painting, studio.size_px);
     let options = studio.frame_options(rotation);
-    let (mut sum, mut strokes) = (glam::DVec2::ZERO, 0);
+    let mut turns = Vec::new();
     for frame in studio.frames() {
         let camera = motion::camera_at(&studio.loaded.scene, frame);
         let now = seen(&painting.at(frame, &options), &[]);
-        for turn in reference.turns(&painting, &now, (&camera, frame), options.size_px).values() {
-            // What has not turned at all says nothing.
-            if turn.truth.is_still() {
-                continue;
-            }
-            sum += glam::DVec2::from_angle(2.0 * (turn.angle_rad - turn.expected_rad()));
-            strokes += 1;
-        }
+        turns.extend(reference.turns(&painting, &now, (&camera, frame), options.size_px).into_values());
     }
-    Ok((sum.to_angle().abs().to_degrees(), sum.length() / strokes.max(1) as f64, strokes))
+    Ok(lag(turns.iter().filter(|turn| !turn.truth.is_still())))
 }

@@ -1,9 +1,6 @@
-//! M3, and the turns that M7 and M10 compare with.
+//! M3 on the shot and on fixed views.
 
-use std::collections::BTreeMap;
-
-use impasto_painting::frame::LayerKind;
-use impasto_painting::{Painting, Rotation};
+use impasto_painting::Rotation;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::cameras::{moved_sideways, orbited, zoomed};
@@ -12,83 +9,9 @@ use crate::looks::{Look, TurnSolver};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Series, Verdict};
-use crate::strokes::{SeenStrokes, StrokeKey, degrees_apart, of_layer, seen};
+use crate::strokes::seen;
 use crate::studio::Studio;
-use crate::truth::{BodyView, ScreenTurn, SurfacePoint, TrueView};
-
-/// The reference must face a stroke by this cosine: then its lift is the reference's own.
-const FACED: f64 = 0.5;
-
-/// What a stroke did, and what it should have done.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Turn {
-    /// Its angle in the reference picture.
-    pub(super) base_rad: f64,
-    /// Its angle now.
-    pub(super) angle_rad: f64,
-    /// The analytic turn.
-    pub(super) truth: ScreenTurn,
-}
-
-impl Turn {
-    /// How far the stroke has turned too far, degrees.
-    pub(super) fn error_deg(&self) -> f64 {
-        degrees_apart(self.angle_rad, self.expected_rad())
-    }
-
-    /// Its angle as it should be.
-    pub(super) fn expected_rad(&self) -> f64 {
-        self.base_rad + self.truth.polar_rad
-    }
-
-    fn material_error_deg(&self) -> f64 {
-        degrees_apart(self.angle_rad, self.truth.material_rad(self.base_rad))
-    }
-}
-
-/// The reference picture of a painting: what its strokes are compared with.
-pub(super) struct Reference {
-    camera: CameraPose,
-    frame: f64,
-    strokes: SeenStrokes,
-}
-
-impl Reference {
-    pub(super) fn of(studio: &Studio<'_>, painting: &Painting) -> Self {
-        let (camera, frame) = (studio.reference_camera(), studio.reference_frame());
-        let frame_then = painting.seen_by(&camera, frame, &studio.frame_options(Rotation::On));
-        Self { camera, frame, strokes: seen(&frame_then, &[]) }
-    }
-
-    /// The turns of the body layer's strokes `now`, seen by `camera` at `frame`.
-    pub(super) fn turns(
-        &self,
-        painting: &Painting,
-        now: &SeenStrokes,
-        (camera, frame): (&CameraPose, f64),
-        size_px: [u32; 2],
-    ) -> BTreeMap<StrokeKey, Turn> {
-        let views = [TrueView::new(&self.camera, size_px), TrueView::new(camera, size_px)];
-        let poses = [self.frame, frame].map(|frame| motion::poses_at(painting.scene(), frame));
-        let turn = |key: &StrokeKey, angle_rad: f64| {
-            let base = self.strokes.get(key)?;
-            let object = key.body_id as usize - 1;
-            let particle = painting.particles(object).get(key.particle as usize)?;
-            let point =
-                SurfacePoint { position: particle.position.as_dvec3(), normal: particle.normal.as_dvec3() };
-            let [then, now] = [0, 1]
-                .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
-            if then.facing(point) < FACED {
-                return None;
-            }
-            let truth = ScreenTurn::between(point, then, now)?;
-            Some(Turn { base_rad: base.angle_rad, angle_rad, truth })
-        };
-        of_layer(now, LayerKind::Body)
-            .filter_map(|(key, stroke)| Some((*key, turn(key, stroke.angle_rad)?)))
-            .collect()
-    }
-}
+use crate::turns::{Reference, Turn};
 
 /// The fixed views: round the target, sideways, closer.
 fn fixed_views(camera: &CameraPose) -> Vec<CameraPose> {
@@ -113,7 +36,7 @@ struct Found {
 
 fn found(studio: &mut Studio<'_>, solver: TurnSolver, rotation: Rotation) -> Result<Found, MeasureError> {
     let painting = studio.painting(Look::Truth(solver))?;
-    let reference = Reference::of(studio, &painting);
+    let reference = Reference::of(&painting, studio.size_px);
     let options = studio.frame_options(rotation);
     let scene = &studio.loaded.scene;
     let at_rest = studio.reference_frame();
