@@ -6,6 +6,7 @@ mod cli;
 mod corpus;
 mod horn;
 mod hostile_scenes;
+mod measure;
 mod paint;
 mod progressive_order;
 mod roll_and_lateral;

@@ -127,6 +127,7 @@ pub(super) fn angles(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
             seen(&painting.seen_by(&camera, frame, &options), &[])
         };
         let straight = strokes(0.0, Rotation::On);
+        row.counts.strokes += straight.len();
         for degree in (1..=360u32).filter(|degree| all || *degree as usize % sizes.len() == which) {
             let roll_deg = f64::from(degree);
             errors.extend(roll_errors_deg(&straight, &strokes(roll_deg, Rotation::On), roll_deg));
@@ -134,7 +135,6 @@ pub(super) fn angles(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         }
         fixed.extend(roll_errors_deg(&straight, &strokes(30.0, Rotation::Off), 30.0));
     }
-    row.counts.strokes = errors.len();
     let spread = Spread::of(errors);
     row.values.push(Reading::many("error", "deg", spread));
     row.baselines.push(Reading::many("fixed angle at 30:", "deg", Spread::of(fixed)));
