@@ -241,7 +241,7 @@ fn m6_sees_the_papers_rule_on_what_the_first_frame_missed() {
         let strokes = seen(&painting.seen_by(&camera, 0.0, &options(Rotation::On)), &[]);
         let differences = revealed(&painting, &strokes, SMALL);
         assert!(differences.len() > 1000, "{}", differences.len());
-        Spread::of(differences)
+        Spread::of(differences.iter().map(|found| found.apart_deg).collect())
     };
     let ours = spread(Look::Calm(TurnSolver::Own));
     assert!(ours.median <= 3.0 && ours.p95 <= 12.0, "{ours:?}");

@@ -10,7 +10,7 @@ use crate::gl::{
     Blend, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program, ProgramSource, Texture, Vertices,
 };
 use crate::reference::ReferencePass;
-use crate::shader_files::{MOTION, SHARED};
+use crate::shader_files::{REFERENCE, SHARED};
 
 /// How the surfaces of one picture have moved in another, top row first.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,11 @@ pub(crate) struct MotionPass {
 
 impl MotionPass {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        Ok(Self { gpu: gpu.clone(), program: Program::new(gpu, &[SHARED, MOTION], &SOURCE)?, target: None })
+        Ok(Self {
+            gpu: gpu.clone(),
+            program: Program::new(gpu, &[SHARED, REFERENCE], &SOURCE)?,
+            target: None,
+        })
     }
 
     /// Draws the bodies of `now`. Those of both frames are in the same order; one that `then` lacks has not moved.
@@ -103,8 +107,8 @@ fn motion_pixels(size_px: [u32; 2], values: &[f32]) -> MotionPixels {
 }
 
 const SOURCE: ProgramSource = ProgramSource {
-    vertex: "motion/motion.vert",
-    fragment: Some("motion/motion.frag"),
+    vertex: "reference/motion.vert",
+    fragment: Some("reference/motion.frag"),
     captured: &[],
     uniforms: &[
         "world_from_model",

@@ -1,5 +1,7 @@
 //! M9: is the surface painted, and with its own colour?
 
+use std::collections::BTreeMap;
+
 /// How many of the pixels of a mask have less than half of paint on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Holes {
@@ -12,10 +14,16 @@ pub struct Holes {
 impl Holes {
     /// Of the alpha of the paint and the bodies of the picture (0 where none is).
     pub fn of(alpha: &[f32], body_ids: &[u32]) -> Self {
-        let mut found = Self::default();
-        for (alpha, _) in alpha.iter().zip(body_ids).filter(|(_, id)| **id > 0) {
-            found.pixels += 1;
-            found.holes += usize::from(*alpha < 0.5);
+        Self::by_body(alpha, body_ids).into_values().fold(Self::default(), Self::and)
+    }
+
+    /// The same for each body, by its id.
+    pub fn by_body(alpha: &[f32], body_ids: &[u32]) -> BTreeMap<u32, Self> {
+        let mut found: BTreeMap<u32, Self> = BTreeMap::new();
+        for (alpha, &id) in alpha.iter().zip(body_ids).filter(|(_, id)| **id > 0) {
+            let of_body = found.entry(id).or_default();
+            of_body.pixels += 1;
+            of_body.holes += usize::from(*alpha < 0.5);
         }
         found
     }

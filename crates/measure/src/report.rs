@@ -230,7 +230,14 @@ impl MeasureReport {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{}: {width} x {height}, {}, {:.0} s", self.scene, self.driver, self.seconds);
         for row in &self.rows {
-            let _ = writeln!(text, "{:<4}{:<20}{}", row.id.to_string(), row.title, row.verdict.words());
+            let _ = writeln!(
+                text,
+                "{:<4}{:<20}{} ({:.1} s)",
+                row.id.to_string(),
+                row.title,
+                row.verdict.words(),
+                row.seconds
+            );
             if !row.values.is_empty() {
                 let Counts { strokes, pixels, frames } = row.counts;
                 let parts = [(strokes, "strokes"), (pixels, "pixels"), (frames, "frames")];

@@ -1,5 +1,7 @@
 //! M9 on the shot.
 
+use std::collections::BTreeMap;
+
 use impasto_core::color::linear_from_srgb;
 use impasto_painting::Rotation;
 
@@ -27,7 +29,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     let step = all.len().div_ceil(FRAMES);
     let frames: Vec<f64> = all.into_iter().step_by(step.max(1)).collect();
     let (mut overdraw, mut surface_px) = (0.0, 0usize);
-    let mut holes = Holes::default();
+    let mut by_body: BTreeMap<u32, Holes> = BTreeMap::new();
     let painting = studio.painting(Look::Board)?;
     let options = studio.frame_options(Rotation::On);
     for &frame in &frames {
@@ -36,10 +38,14 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         let (_, cost) = studio.renderer.render_timed(&drawn)?;
         let ids = studio.renderer.read_reference().body_id;
         let alpha: Vec<f32> = studio.renderer.read_paint().iter().map(|paint| paint[3]).collect();
-        holes = holes.and(Holes::of(&alpha, &ids));
+        for (id, holes) in Holes::by_body(&alpha, &ids) {
+            let sum = by_body.entry(id).or_default();
+            *sum = sum.and(holes);
+        }
         surface_px += ids.iter().filter(|&&id| id > 0).count();
         overdraw += cost.overdraw * ids.len() as f64;
     }
+    let holes = by_body.values().copied().fold(Holes::default(), Holes::and);
     let overdraw = overdraw / surface_px.max(1) as f64;
     let body_alone = holes_of(studio, Look::Body, &frames)?;
     let paper = holes_of(studio, Look::Paper, &frames)?;
@@ -52,6 +58,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         Reading::one("overdraw: strokes on a pixel of a body", "", overdraw),
     ];
     row.baselines.push(Reading::one("the paper's rule: holes", "%", 100.0 * paper.share()));
+    row.notes.push(by_object(studio, &by_body));
     let mut holds = holes.share() <= 0.005 && body_alone.share() <= 0.08 && (2.0..=8.0).contains(&overdraw);
     match (studio.loaded.scene.objects.len(), flat_px) {
         (0..=1, _) => row.notes.push("one object: nothing to bleed from".to_owned()),
@@ -65,6 +72,17 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     }
     row.verdict = Verdict::of_pixels(holds, row.counts);
     Ok(row)
+}
+
+/// Which objects have holes, in words.
+fn by_object(studio: &Studio<'_>, by_body: &BTreeMap<u32, Holes>) -> String {
+    let objects = &studio.loaded.scene.objects;
+    let words: Vec<String> = by_body
+        .iter()
+        .filter(|(_, holes)| holes.holes > 0)
+        .map(|(&id, holes)| format!("{} {:.2} %", objects[id as usize - 1].name, 100.0 * holes.share()))
+        .collect();
+    format!("holes by object: {}", if words.is_empty() { "none".to_owned() } else { words.join(", ") })
 }
 
 fn holes_of(studio: &mut Studio<'_>, look: Look, frames: &[f64]) -> Result<Holes, MeasureError> {

@@ -9,7 +9,7 @@ use crate::looks::{Look, TurnSolver};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{LEAST_STROKES, Reading, Row, Verdict};
-use crate::reveal::{NEIGHBOURS, revealed};
+use crate::reveal::{Difference, NEIGHBOURS, revealed};
 use crate::studio::Studio;
 
 /// Views about a quarter and a half of the way round; several, for strokes enough.
@@ -40,10 +40,14 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
                 let painting = studio.painting(look)?;
                 differences.extend(revealed(&painting, &shown.strokes, studio.size_px));
             }
-            let spread = Spread::of(differences);
-            let reading = Reading::many(format!("{rule}{angle}: to a neighbour"), "deg", spread);
+            let all = spread(&differences, |_| true);
+            let spread = spread(&differences, |found| !found.near_pole);
+            let what = format!("{rule}{angle}: to a neighbour, away from poles");
+            let reading = Reading::many(what, "deg", spread);
             if index == 0 {
                 row.values.push(reading);
+                row.values.push(Reading::many(format!("{angle}: all"), "deg", all));
+                row.notes.push(format!("{angle}: {}", by_object(studio, &differences)));
                 row.counts.frames += views.len();
                 row.counts.strokes += spread.count / NEIGHBOURS;
                 judged.push(spread);
@@ -66,6 +70,28 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     Ok(row)
 }
 
+fn spread(differences: &[Difference], counts: impl Fn(&Difference) -> bool) -> Spread {
+    Spread::of(differences.iter().filter(|found| counts(found)).map(|found| found.apart_deg).collect())
+}
+
+/// Which objects are how coherent, in words.
+fn by_object(studio: &Studio<'_>, differences: &[Difference]) -> String {
+    let scene = Look::Orbit.of(studio.loaded, &[]).scene;
+    let words = scene.objects.iter().zip(1..).filter_map(|(object, id)| {
+        let spread = spread(differences, |found| found.body_id == id && !found.near_pole);
+        (spread.count > 0).then(|| {
+            format!(
+                "{} {:.1} and {:.1} ({})",
+                object.name,
+                spread.median,
+                spread.p95,
+                spread.count / NEIGHBOURS
+            )
+        })
+    });
+    format!("median and p95 by object: {}", words.collect::<Vec<_>>().join(", "))
+}
+
 /// What the shot itself reveals; printed, not judged.
 fn on_shot(studio: &mut Studio<'_>, row: &mut Row) -> Result<(), MeasureError> {
     let look = Look::Truth(TurnSolver::Own);
@@ -79,7 +105,7 @@ fn on_shot(studio: &mut Studio<'_>, row: &mut Row) -> Result<(), MeasureError> {
         row.values.push(Reading::many(
             "the shot, with its chance: to a neighbour",
             "deg",
-            Spread::of(differences),
+            spread(&differences, |_| true),
         ));
     }
     Ok(())
