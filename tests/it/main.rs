@@ -8,6 +8,7 @@ mod directions;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;
+mod measure;
 mod paint;
 mod progressive_order;
 mod roll_and_lateral;

@@ -9,8 +9,9 @@ use impasto_core::sampling::{Particle, Surface, progressive};
 use impasto_core::screen_map::{PixelLens, ScreenMap, facing};
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
-use impasto_painting::frame::LayerKind;
-use impasto_painting::{Frame, FrameOptions, Painting, prepare};
+use impasto_measure::popping::of_moving_bodies;
+use impasto_measure::strokes::seen;
+use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
@@ -99,42 +100,17 @@ fn flat_normals_would_show_facets() {
     assert!(differing > particles.len() / 4, "only {differing} normals differ from their facet's");
 }
 
-/// Drawn alpha and area of every stroke, read back.
-fn drawn(renderer: &mut Renderer, frame: &Frame) -> HashMap<(u32, LayerKind, u32), (f64, f64)> {
-    renderer.render(frame).unwrap();
-    let resolved = renderer.resolved_strokes();
-    let mut found = HashMap::new();
-    for layer in &frame.layers {
-        let range = layer.first as usize..(layer.first + layer.count) as usize;
-        let strokes = frame.strokes[range.clone()].iter().zip(&frame.sources[range.clone()]);
-        for ((stroke, source), resolved) in strokes.zip(&resolved[range]) {
-            let key = (stroke.body_id, layer.kind, source.particle);
-            found.insert(key, (f64::from(resolved.alpha), f64::from(stroke.length_px * stroke.width_px)));
-        }
-    }
-    found
-}
-
 /// M4 as drawn, on the bodies that move: the area of strokes whose alpha jumps by more than 0.2, over the area shown.
 fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
-    let moves = |id: u32| painting.scene().objects[id as usize - 1].keys.len() > 1;
-    let mut moving = |frame: f64| {
-        let mut all = drawn(renderer, &painting.at(frame, &OPTIONS));
-        all.retain(|key, _| moves(key.0));
-        all
-    };
-    let (before, after) = (moving(frame), moving(frame + 1.0));
-    assert!(before.len() >= 300, "{} strokes", before.len());
-    let (mut popped, mut shown) = (0.0, 0.0);
-    for (key, &(alpha, area)) in &before {
-        let now = after.get(key).map_or(0.0, |&(alpha, _)| alpha);
-        popped += if (alpha - now).abs() > 0.2 { area } else { 0.0 };
-        shown += alpha * area;
-    }
-    for (key, &(alpha, area)) in &after {
-        popped += if !before.contains_key(key) && alpha > 0.2 { area } else { 0.0 };
-    }
-    popped / shown
+    let [before, after] = [frame, frame + 1.0].map(|frame| {
+        let frame = painting.at(frame, &OPTIONS);
+        renderer.render(&frame).unwrap();
+        seen(&frame, &renderer.resolved_strokes())
+    });
+    let [before, after] = of_moving_bodies(&before, &after);
+    let found = impasto_measure::popping::popping(&before, &after, OPTIONS.size_px);
+    assert!(found.strokes >= 300, "{found:?}");
+    found.share
 }
 
 #[test]

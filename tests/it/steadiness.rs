@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use impasto_measure::popping as measure;
+use impasto_measure::strokes::seen;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, prepare};
 use impasto_scene::document::{ObjectKey, Scene, StrokeSettings};
@@ -9,32 +11,10 @@ use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
-/// Presence and area of every stroke, by layer kind and particle.
-fn presences(frame: &Frame) -> BTreeMap<(LayerKind, u32), (f64, f64)> {
-    let mut found = BTreeMap::new();
-    for run in &frame.layers {
-        for index in run.first as usize..(run.first + run.count) as usize {
-            let (stroke, source) = (&frame.strokes[index], &frame.sources[index]);
-            let area = f64::from(stroke.length_px * stroke.width_px);
-            found.insert((run.kind, source.particle), (f64::from(stroke.presence()), area));
-        }
-    }
-    found
-}
-
-/// M4: Σ a·[|Δα| > 0.2] / Σ a·α, and the largest step of α.
+/// M4 without what occlusion and the picture decide: the popping share, and the largest step of presence.
 fn popping(before: &Frame, after: &Frame) -> (f64, f64) {
-    let (before, after) = (presences(before), presences(after));
-    let (mut popped, mut shown, mut largest) = (0.0, 0.0, 0.0f64);
-    for key in before.keys().chain(after.keys().filter(|key| !before.contains_key(key))) {
-        let (alpha, area) = before.get(key).copied().unwrap_or((0.0, 0.0));
-        let (alpha_after, area_after) = after.get(key).copied().unwrap_or((0.0, 0.0));
-        let step = (alpha - alpha_after).abs();
-        largest = largest.max(step);
-        popped += if step > 0.2 { area.max(area_after) } else { 0.0 };
-        shown += area * alpha;
-    }
-    (popped / shown, largest)
+    let found = measure::popping(&seen(before, &[]), &seen(after, &[]), OPTIONS.size_px);
+    (found.share, found.largest_step)
 }
 
 fn turntable() -> Scene {

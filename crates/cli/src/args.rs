@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use impasto_measure::Metric;
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
@@ -24,6 +25,8 @@ pub(crate) enum Command {
     Info(InfoArguments),
     /// Write the strokes of a frame as they are drawn.
     Strokes(StrokesArguments),
+    /// Measure how steady scenes are: popping, turning, flatness and more, beside the source paper's rule.
+    Measure(MeasureArguments),
     /// Paint a sheet of all brushes, and of pictures of one's own as brushes.
     Brushes(BrushesArguments),
     /// Tell which OpenGL drivers work here, and draw a test picture.
@@ -222,6 +225,43 @@ pub(crate) struct StrokesArguments {
     /// Which library to take OpenGL from.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) driver: DriverChoice,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct MeasureArguments {
+    /// Scenes (.ron) or models (.obj).
+    #[arg(required = true)]
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Another folder that meshes and textures may come from; may be given again.
+    #[arg(long = "asset-dir", value_name = "DIR")]
+    pub(crate) asset_dirs: Vec<PathBuf>,
+    /// A value in place of the scene's own, such as strokes.width_px=12; may be given again.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// How many threads prepare and solve; all cores when left out. The result is the same.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// A whole turn of the camera about its target in place of the shot, for scenes without motion and for models.
+    #[arg(long)]
+    pub(crate) turntable: bool,
+    /// Only these metrics, such as M4,M5.
+    #[arg(long, value_name = "METRICS", value_delimiter = ',')]
+    pub(crate) only: Vec<Metric>,
+    /// Width x height of the pictures in pixels; half the scene's own when left out.
+    #[arg(long, value_parser = parse_size)]
+    pub(crate) size: Option<[u32; 2]>,
+    /// Print a line of JSON per scene.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Draw angle error, popping and shower door over the frames of the shot into this SVG file.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) plot: Option<PathBuf>,
+    /// Which library to take OpenGL from.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) driver: DriverChoice,
+    /// Say nothing but the results and errors.
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
 }
 
 #[derive(Args, Debug)]

@@ -7,6 +7,7 @@ mod doctor;
 mod failure;
 mod frame_list;
 mod info;
+mod measure;
 mod movie;
 mod new;
 mod output;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Strokes(arguments) => strokes::run(&arguments),
+        Command::Measure(arguments) => measure::run(&arguments),
         Command::Brushes(arguments) => brushes::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Completions { shell } => {

@@ -65,16 +65,20 @@ pub(crate) fn prepare_scene(loaded: LoadedScene, verbose: bool) -> Result<Painti
 
 /// Opens a renderer; which driver, and why, goes to stderr where `verbose`.
 pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Renderer, Failure> {
-    let driver = match driver {
-        DriverChoice::Auto => Driver::Auto,
-        DriverChoice::Egl => Driver::Egl,
-        DriverChoice::Osmesa => Driver::Osmesa,
-    };
-    let context = open(driver, &OpenOptions::default())?;
+    let context = open(self::driver(driver), &OpenOptions::default())?;
     if verbose {
         eprintln!("driver: {}", context.report());
     }
     Ok(Renderer::new(context)?)
+}
+
+/// The driver that was typed.
+pub(crate) fn driver(choice: DriverChoice) -> Driver {
+    match choice {
+        DriverChoice::Auto => Driver::Auto,
+        DriverChoice::Egl => Driver::Egl,
+        DriverChoice::Osmesa => Driver::Osmesa,
+    }
 }
 
 /// Every file that a command reads, for not writing over it.

@@ -9,10 +9,12 @@
 pub mod context;
 mod gl;
 mod meshes;
+mod motion;
 mod reference;
 mod renderer;
 mod shader_files;
 mod styles;
 
 pub use gl::GlError;
+pub use motion::MotionPixels;
 pub use renderer::{Cost, PassTime, Picture, ReferencePixels, RenderError, Renderer, ResolvedStroke};

@@ -263,7 +263,11 @@ impl ReferencePass {
         Ok(lights)
     }
 
-    fn bodies<'a>(&mut self, frame: &'a Frame) -> Result<Vec<(&'a FrameBody, Rc<MeshOnGpu>)>, GlError> {
+    /// The bodies of a frame with their surfaces on the GPU.
+    pub(crate) fn bodies<'a>(
+        &mut self,
+        frame: &'a Frame,
+    ) -> Result<Vec<(&'a FrameBody, Rc<MeshOnGpu>)>, GlError> {
         let gpu = self.gpu.clone();
         frame.bodies.iter().map(|body| Ok((body, self.meshes.get(&gpu, &body.surface)?))).collect()
     }

@@ -8,6 +8,7 @@ use impasto_painting::frame::FrameStyle;
 
 use crate::context::{Context, ContextReport};
 use crate::gl::{Filter, Format, Framebuffer, GlError, Texture};
+use crate::motion::{MotionPass, MotionPixels};
 use crate::reference::{ReferencePass, ReferenceTargets, targets_of_size};
 use crate::styles::{self, RotatingStrokes, Style, StyleInput};
 
@@ -82,6 +83,7 @@ pub struct Renderer {
     // Styles, passes and targets go before the context that they were made in.
     styles: HashMap<FrameStyle, Box<dyn Style>>,
     reference: ReferencePass,
+    motion: Option<MotionPass>,
     targets: Option<ReferenceTargets>,
     output: Option<Framebuffer>,
     last_style: FrameStyle,
@@ -99,6 +101,7 @@ impl Renderer {
         Ok(Self {
             styles: HashMap::new(),
             reference: ReferencePass::new(gpu)?,
+            motion: None,
             targets: None,
             output: None,
             last_style: FrameStyle::Reference,
@@ -121,13 +124,7 @@ impl Renderer {
     /// # Errors
     /// When the picture is too large for the driver, memory runs out, or (in a debug context) the driver complains.
     pub fn render(&mut self, frame: &Frame) -> Result<Picture, RenderError> {
-        let [width, height] = frame.size_px;
-        if width == 0 || height == 0 {
-            return Err(RenderError::Empty);
-        }
-        if width.max(height) > self.max_side_px() {
-            return Err(RenderError::TooLarge { size_px: frame.size_px, limit_px: self.max_side_px() });
-        }
+        self.check_size(frame.size_px)?;
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
         let targets = targets_of_size(&gpu, self.targets.take(), frame.size_px)?;
@@ -146,7 +143,7 @@ impl Renderer {
             }
         };
         style.draw(&StyleInput { frame, reference: &targets, lights: &lights }, &output)?;
-        let rgba8 = top_row_first(&output.read_bytes(0), width as usize * 4);
+        let rgba8 = top_row_first(&output.read_bytes(0), frame.size_px[0] as usize * 4);
         gpu.lap("read back");
         gpu.complaints()?;
         self.targets = Some(targets);
@@ -166,6 +163,36 @@ impl Renderer {
         let passes = laps.into_iter().map(|(name, seconds)| PassTime { name, seconds }).collect();
         let pixels = frame.size_px.map(f64::from);
         Ok((picture?, Cost { passes, overdraw: fragments as f64 / (pixels[0] * pixels[1]) }))
+    }
+
+    /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both pictures have one size
+    /// and the same bodies in the same order. What was drawn last stays as it is.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn motion(&mut self, now: &Frame, then: &Frame) -> Result<MotionPixels, RenderError> {
+        self.check_size(now.size_px)?;
+        let gpu = self.context.gpu().clone();
+        gpu.make_current()?;
+        let mut pass = match self.motion.take() {
+            Some(pass) => pass,
+            None => MotionPass::new(&gpu)?,
+        };
+        let motion = pass.draw(&mut self.reference, now, then)?;
+        self.motion = Some(pass);
+        gpu.complaints()?;
+        Ok(motion)
+    }
+
+    fn check_size(&self, size_px: [u32; 2]) -> Result<(), RenderError> {
+        if size_px.contains(&0) {
+            return Err(RenderError::Empty);
+        }
+        let limit_px = self.max_side_px();
+        if size_px[0].max(size_px[1]) > limit_px {
+            return Err(RenderError::TooLarge { size_px, limit_px });
+        }
+        Ok(())
     }
 
     /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.

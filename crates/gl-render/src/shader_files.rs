@@ -17,7 +17,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/oklab.glsl",
 ];
 
-/// The reference pass.
+/// The reference pass, and how its surfaces move from one picture to another.
 pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/lighting.glsl",
     "reference/surface.vert",
@@ -26,6 +26,8 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/shadow.frag",
     "reference/openness.frag",
     "reference/light.frag",
+    "reference/motion.vert",
+    "reference/motion.frag",
 ];
 
 /// Brush strokes.

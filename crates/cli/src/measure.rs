@@ -1,0 +1,91 @@
+//! `impasto measure`: how steady scenes are, in numbers.
+
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+use impasto_measure::{MeasureError, MeasureOptions, MeasureReport, Progress, measure, plot, turntable};
+
+use crate::args::{MeasureArguments, SceneArguments};
+use crate::failure::Failure;
+use crate::{output, picture_file, session};
+
+/// The exit code when a row does not hold.
+const MISSED: u8 = 1;
+
+pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
+    if let Some(plot) = &arguments.plot {
+        check_plot(plot, arguments.scenes.len())?;
+    }
+    let mut all_hold = true;
+    for (index, path) in arguments.scenes.iter().enumerate() {
+        let scene = SceneArguments {
+            scene: path.clone(),
+            asset_dirs: arguments.asset_dirs.clone(),
+            set: arguments.set.clone(),
+            // The threads are chosen once.
+            threads: arguments.threads.filter(|_| index == 0),
+        };
+        let mut loaded = session::read_scene(&scene, arguments.quiet)?;
+        if let Some(plot) = &arguments.plot {
+            output::not_an_input(plot, &session::inputs(&loaded))?;
+            output::ready_folder(plot)?;
+        }
+        if arguments.turntable {
+            loaded = turntable(&loaded);
+        }
+        let options = MeasureOptions {
+            size_px: arguments.size,
+            metrics: if arguments.only.is_empty() {
+                MeasureOptions::default().metrics
+            } else {
+                arguments.only.clone()
+            },
+            driver: session::driver(arguments.driver),
+            ..MeasureOptions::default()
+        };
+        let report = measure(&Arc::new(loaded), &options, &mut |progress: &Progress| {
+            if !arguments.quiet {
+                let Progress { metric, done, of } = progress;
+                eprintln!("{}: {metric} {} ({} of {of})", path.display(), metric.title(), done + 1);
+            }
+        })?;
+        all_hold &= report.holds();
+        print(&report, arguments)?;
+    }
+    if all_hold { Ok(()) } else { Err(Failure::Quiet(MISSED)) }
+}
+
+fn print(report: &MeasureReport, arguments: &MeasureArguments) -> Result<(), Failure> {
+    let mut out = std::io::stdout();
+    if arguments.json {
+        let text = serde_json::to_string(report).map_err(|error| Failure::Other(error.to_string()))?;
+        writeln!(out, "{text}")?;
+    } else {
+        write!(out, "{}", report.table())?;
+    }
+    let Some(path) = &arguments.plot else { return Ok(()) };
+    let text = plot::svg(report);
+    picture_file::whole(path, |file| Ok(file.write_all(text.as_bytes())?))
+        .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))
+}
+
+fn check_plot(plot: &Path, scenes: usize) -> Result<(), Failure> {
+    if plot.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case("svg")) {
+        return Err(Failure::Usage(format!("--plot {}: charts are written as .svg only", plot.display())));
+    }
+    if scenes > 1 {
+        return Err(Failure::Usage("--plot takes one scene at a time".to_owned()));
+    }
+    Ok(())
+}
+
+impl From<MeasureError> for Failure {
+    fn from(error: MeasureError) -> Self {
+        match error {
+            MeasureError::Context(error) => error.into(),
+            MeasureError::Render(error) => error.into(),
+            MeasureError::Prepare(error) => Self::Refused(error.to_string()),
+        }
+    }
+}

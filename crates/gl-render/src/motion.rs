@@ -1,0 +1,123 @@
+//! The motion pass: how far every surface point that shows in one picture lies from its place in another. For measuring, not
+//! for painting.
+
+use std::rc::Rc;
+
+use glam::UVec2;
+use impasto_painting::Frame;
+
+use crate::gl::{
+    Blend, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program, ProgramSource, Texture, Vertices,
+};
+use crate::reference::ReferencePass;
+use crate::shader_files::{REFERENCE, SHARED};
+
+/// How the surfaces of one picture have moved in another, top row first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionPixels {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// From a pixel's centre to where the same surface point projects in the other picture: columns to the right, rows
+    /// **down**, as these rows are counted. 0 where no body shows, or where the point is behind the other eye.
+    pub offset_px: Vec<[f32; 2]>,
+    /// Depth of that point along the other gaze, world units; 0 where no body shows, or behind the eye.
+    pub depth_then: Vec<f32>,
+    /// Index of the body plus 1; 0 where nothing is.
+    pub body_id: Vec<u32>,
+}
+
+/// The program, and the target that it was last used with.
+pub(crate) struct MotionPass {
+    gpu: Gpu,
+    program: Program,
+    target: Option<Framebuffer>,
+}
+
+impl MotionPass {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
+        Ok(Self {
+            gpu: gpu.clone(),
+            program: Program::new(gpu, &[SHARED, REFERENCE], &SOURCE)?,
+            target: None,
+        })
+    }
+
+    /// Draws the bodies of `now`. Those of both frames are in the same order; one that `then` lacks has not moved.
+    pub(crate) fn draw(
+        &mut self,
+        reference: &mut ReferencePass,
+        now: &Frame,
+        then: &Frame,
+    ) -> Result<MotionPixels, GlError> {
+        let target = match self.target.take() {
+            Some(target) if target.size_px() == now.size_px => target,
+            _ => {
+                let texture = |format: Format| {
+                    Texture::target(&self.gpu, format, now.size_px, Filter::Nearest).map(Rc::new)
+                };
+                let depth = texture(Format::Depth32F)?;
+                Framebuffer::new(&self.gpu, &[&texture(Format::Rgba32F)?], Some(&depth))?
+            }
+        };
+        let bodies = reference.bodies(now)?;
+        let state =
+            DrawState { depth_test: true, blend: Blend::Off, clear: Some([0.0; 4]), depth_offset: false };
+        self.gpu.begin_pass(&target, state);
+        for (index, (body, mesh)) in bodies.iter().enumerate() {
+            let body_then = then.bodies.get(index).unwrap_or(body);
+            for part in &mesh.parts {
+                let bound = self
+                    .program
+                    .bind()
+                    .set("world_from_model", body.world_from_model)
+                    .set("world_from_model_then", body_then.world_from_model)
+                    .set("view_from_world", now.view.view_from_world)
+                    .set("view_from_world_then", then.view.view_from_world)
+                    .set("clip_from_view", now.view.clip_from_view)
+                    .set("clip_from_view_then", then.view.clip_from_view)
+                    .set("size_px", UVec2::from(now.size_px).as_vec2())
+                    .set("body_id", (index + 1) as f32);
+                let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
+                self.gpu.draw(bound, &mesh.array, vertices)?;
+            }
+        }
+        let values = target.read_floats(0);
+        self.target = Some(target);
+        Ok(motion_pixels(now.size_px, &values))
+    }
+}
+
+/// From four floats a pixel, bottom row first and Y up.
+fn motion_pixels(size_px: [u32; 2], values: &[f32]) -> MotionPixels {
+    let pixels = values.len() / 4;
+    let mut motion = MotionPixels {
+        size_px,
+        offset_px: Vec::with_capacity(pixels),
+        depth_then: Vec::with_capacity(pixels),
+        body_id: Vec::with_capacity(pixels),
+    };
+    for row in values.chunks_exact(size_px[0] as usize * 4).rev() {
+        for pixel in row.chunks_exact(4) {
+            motion.offset_px.push([pixel[0], -pixel[1]]);
+            motion.depth_then.push(pixel[2]);
+            motion.body_id.push(pixel[3] as u32);
+        }
+    }
+    motion
+}
+
+const SOURCE: ProgramSource = ProgramSource {
+    vertex: "reference/motion.vert",
+    fragment: Some("reference/motion.frag"),
+    captured: &[],
+    uniforms: &[
+        "world_from_model",
+        "world_from_model_then",
+        "view_from_world",
+        "view_from_world_then",
+        "clip_from_view",
+        "clip_from_view_then",
+        "size_px",
+        "body_id",
+    ],
+};

@@ -1,0 +1,76 @@
+//! Fixed motions of a camera.
+
+use glam::{DMat3, DVec3};
+use impasto_scene::document::Lens;
+use impasto_scene::motion::CameraPose;
+
+/// Turned about its gaze, counter-clockwise as its user sees it.
+pub fn rolled(camera: &CameraPose, roll_rad: f64) -> CameraPose {
+    CameraPose { roll_rad: camera.roll_rad + roll_rad, ..camera.clone() }
+}
+
+/// Moved round what it looks at, about the vertical. A whole number of turns is exactly none.
+pub fn orbited(camera: &CameraPose, angle_deg: f64) -> CameraPose {
+    let turn = DMat3::from_rotation_y(angle_deg.rem_euclid(360.0).to_radians());
+    let offset = camera.eye - camera.target;
+    let eye = if angle_deg % 360.0 == 0.0 { camera.eye } else { camera.target + turn * offset };
+    CameraPose { eye, ..camera.clone() }
+}
+
+/// Zoomed in by this factor, by its lens: no wall is run through.
+pub fn zoomed(camera: &CameraPose, factor: f64) -> CameraPose {
+    let lens = match camera.lens {
+        Lens::Perspective { fov_y_deg, near, far } => {
+            let half = (0.5 * fov_y_deg.to_radians()).tan() / factor;
+            Lens::Perspective { fov_y_deg: 2.0 * half.atan().to_degrees(), near, far }
+        }
+        Lens::Orthographic { height, near, far } => Lens::Orthographic { height: height / factor, near, far },
+    };
+    CameraPose { lens, ..camera.clone() }
+}
+
+/// Eye and target moved together, in shares of the distance between them, to the right and up.
+pub fn moved_sideways(camera: &CameraPose, [right, up]: [f64; 2]) -> CameraPose {
+    let offset = camera.target - camera.eye;
+    let to_right = offset.cross(DVec3::Y).normalize_or(DVec3::X);
+    let upwards = to_right.cross(offset).normalize_or(DVec3::Y);
+    let shift = (to_right * right + upwards * up) * offset.length();
+    CameraPose { eye: camera.eye + shift, target: camera.target + shift, ..camera.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> CameraPose {
+        CameraPose {
+            eye: DVec3::new(1.0, 2.0, 4.0),
+            target: DVec3::new(0.0, 0.5, 0.0),
+            roll_rad: 0.1,
+            lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 50.0 },
+        }
+    }
+
+    #[test]
+    fn an_orbit_closes_and_keeps_height_and_distance() {
+        assert_eq!(orbited(&camera(), 360.0), camera());
+        let half = orbited(&camera(), 180.0);
+        assert!((half.eye - DVec3::new(-1.0, 2.0, -4.0)).length() < 1e-12);
+    }
+
+    #[test]
+    fn a_zoom_by_one_is_none_and_by_two_halves_the_field() {
+        let Lens::Perspective { fov_y_deg, .. } = zoomed(&camera(), 2.0).lens else {
+            panic!("a perspective lens")
+        };
+        let tangent = |degrees: f64| (0.5 * degrees.to_radians()).tan();
+        assert!((tangent(fov_y_deg) * 2.0 - tangent(35.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_sideways_move_keeps_the_gaze() {
+        let moved = moved_sideways(&camera(), [0.2, -0.1]);
+        assert!(((moved.target - moved.eye) - (camera().target - camera().eye)).length() < 1e-12);
+        assert!((moved.eye - camera().eye).dot(camera().target - camera().eye).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,62 @@
+//! M14: are there as many strokes as wanted, evenly spread?
+
+use impasto_core::sampling::hexagonal_spacing;
+
+/// One stroke of a layer, where it shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Pixels.
+    pub center_px: [f64; 2],
+    /// How much of it is there.
+    pub alpha: f64,
+    /// Pixels of picture that one whole stroke is wanted for.
+    pub wanted_area_px: f64,
+}
+
+/// Σ α times the pixels that each is wanted for, over the pixels that they lie on: 1 where there are as many as wanted.
+pub fn shown_over_wanted(strokes: &[Placed], pixels: usize) -> f64 {
+    strokes.iter().map(|stroke| stroke.alpha * stroke.wanted_area_px).sum::<f64>() / pixels.max(1) as f64
+}
+
+/// Mean distance to the nearest neighbour of the strokes that are more than half there, over that of the hexagonal lattice
+/// with as many points on as many pixels; and how many there are.
+pub fn spacing_over_ideal(strokes: &[Placed], pixels: usize) -> (f64, usize) {
+    let shown: Vec<[f64; 2]> =
+        strokes.iter().filter(|stroke| stroke.alpha > 0.5).map(|stroke| stroke.center_px).collect();
+    if shown.len() < 2 {
+        return (0.0, shown.len());
+    }
+    let nearest = |index: usize| {
+        let [x, y] = shown[index];
+        let others = shown.iter().enumerate().filter(|(other, _)| *other != index);
+        others.map(|(_, at)| (at[0] - x).hypot(at[1] - y)).fold(f64::INFINITY, f64::min)
+    };
+    let mean = (0..shown.len()).map(nearest).sum::<f64>() / shown.len() as f64;
+    (mean / hexagonal_spacing(pixels as f64, shown.len()), shown.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hexagonal_lattice_is_ideal_and_chance_is_not() {
+        let place =
+            |x: f64, y: f64| Placed { center_px: [x, y], alpha: 1.0, wanted_area_px: 3f64.sqrt() * 50.0 };
+        let lattice: Vec<Placed> = (0..40)
+            .flat_map(|row| (0..40).map(move |column| (row, column)))
+            .map(|(row, column)| {
+                place(10.0 * f64::from(column) + 5.0 * f64::from(row % 2), f64::from(row) * 5.0 * 3f64.sqrt())
+            })
+            .collect();
+        let pixels = (400.0 * 40.0 * 5.0 * 3f64.sqrt()) as usize;
+        let (spacing, count) = spacing_over_ideal(&lattice, pixels);
+        assert!((spacing - 1.0).abs() < 1e-3 && count == 1600, "{spacing}");
+        assert!((shown_over_wanted(&lattice, pixels) - 1.0).abs() < 1e-3);
+        let unit = |which: u32| f64::from(impasto_core::hash::unit(impasto_core::hash::scramble(which)));
+        let chance: Vec<Placed> =
+            (0..1600).map(|i| place(unit(2 * i) * 400.0, unit(2 * i + 1) * 346.0)).collect();
+        let (spacing, _) = spacing_over_ideal(&chance, pixels);
+        assert!(spacing < 0.55, "{spacing}");
+    }
+}

@@ -1,0 +1,61 @@
+//! M10: do strokes tremble?
+
+use impasto_core::angle::wrap_pi;
+
+/// |wrap(θ₊ − 2θ + θ₋)|: the angular acceleration over three neighbouring frames, degrees per frame squared.
+pub fn acceleration_deg([before, now, after]: [f64; 3]) -> f64 {
+    wrap_pi(wrap_pi(after - now) - wrap_pi(now - before)).abs().to_degrees()
+}
+
+/// Trembling over many strokes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Jitter {
+    /// Mean acceleration of the strokes, degrees per frame squared.
+    pub drawn_deg: f64,
+    /// That of the angles that they should have.
+    pub analytic_deg: f64,
+    /// How many triples of angles that rests on.
+    pub triples: usize,
+}
+
+/// Below this, degrees per frame squared, single precision is what is seen: a motion without acceleration has no more.
+const FLOOR_DEG: f64 = 2e-3;
+
+impl Jitter {
+    /// Of triples of angles with the triples that they should be.
+    pub fn of(triples: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Self {
+        let (mut drawn, mut analytic, mut count) = (0.0, 0.0, 0usize);
+        for (found, expected) in triples {
+            drawn += acceleration_deg(found);
+            analytic += acceleration_deg(expected);
+            count += 1;
+        }
+        let mean = |sum: f64| sum / count.max(1) as f64;
+        Self { drawn_deg: mean(drawn), analytic_deg: mean(analytic), triples: count }
+    }
+
+    /// What the strokes tremble more than they should, as a share of what they should or of what single precision does.
+    pub fn excess(&self) -> f64 {
+        let expected = self.analytic_deg.max(FLOOR_DEG);
+        (self.drawn_deg - expected).max(0.0) / expected
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steady_turning_does_not_tremble_and_noise_does() {
+        // Over the seam at half a turn.
+        assert!(acceleration_deg([3.0, 3.1, 3.2 - std::f64::consts::TAU]) < 1e-9);
+        assert!(acceleration_deg([0.1, 0.2, 0.3]) < 1e-9);
+        assert!((acceleration_deg([0.0, 0.0, 0.1]) - 0.1f64.to_degrees()).abs() < 1e-9);
+        let curve = |t: f64| 0.02 * t * t;
+        let steady = (0..50).map(|t| [0, 1, 2].map(|step| curve(f64::from(t + step))));
+        let jitter = Jitter::of(steady.clone().map(|triple| (triple, triple)));
+        assert_eq!((jitter.excess(), jitter.triples), (0.0, 50));
+        let noisy = steady.map(|triple| ([triple[0], triple[1] + 0.1, triple[2]], triple));
+        assert!(Jitter::of(noisy).excess() > 0.5);
+    }
+}

@@ -1,0 +1,81 @@
+//! How steady a painting is: the metrics M1 to M14.
+//!
+//! ```text
+//! pictures, strokes ─▶ formulas on plain data     plane, strokes, popping, warp, shower_door, coverage, ...
+//! scene ─▶ versions of it (looks), fixed motions (cameras) ─▶ a studio that prepares and draws
+//!       ─▶ protocols: one row per metric ─▶ report
+//! ```
+
+pub mod cameras;
+pub mod correlation;
+pub mod coverage;
+pub mod density;
+pub mod figures;
+pub mod flatness;
+pub mod jitter;
+pub mod looks;
+mod metric;
+mod options;
+pub mod orientation;
+pub mod plane;
+pub mod plot;
+pub mod popping;
+mod protocols;
+pub mod report;
+pub mod reveal;
+pub mod roll;
+pub mod sheet;
+pub mod shower_door;
+pub mod strokes;
+pub mod studio;
+pub mod truth;
+pub mod turning;
+pub mod turns;
+mod turntable;
+pub mod warp;
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use impasto_scene::loaded::LoadedScene;
+
+pub use metric::Metric;
+pub use options::{MeasureError, MeasureOptions, Progress};
+pub use report::{MeasureReport, Row, Verdict};
+pub use turntable::turntable;
+
+use studio::Studio;
+
+/// Measures a scene. Rows come in the order of the metrics.
+///
+/// # Errors
+/// Where there is no driver, or a version of the scene cannot be prepared or drawn.
+pub fn measure(
+    loaded: &Arc<LoadedScene>,
+    options: &MeasureOptions,
+    progress: &mut dyn FnMut(&Progress),
+) -> Result<MeasureReport, MeasureError> {
+    let start = Instant::now();
+    let mut studio = Studio::open(loaded, options)?;
+    let mut metrics = options.metrics.clone();
+    metrics.sort_unstable();
+    metrics.dedup();
+    let (mut rows, mut series) = (Vec::new(), Vec::new());
+    for (done, &metric) in metrics.iter().enumerate() {
+        progress(&Progress { metric, done, of: metrics.len() });
+        let since = Instant::now();
+        let mut row = protocols::row(metric, &mut studio, &mut series)?;
+        row.seconds = since.elapsed().as_secs_f64();
+        rows.push(row);
+        studio.forget();
+    }
+    Ok(MeasureReport {
+        scene: loaded.path.display().to_string(),
+        driver: studio.renderer.report().to_string(),
+        size_px: studio.size_px,
+        seconds: start.elapsed().as_secs_f64(),
+        rows,
+        series,
+        warnings: studio.warnings,
+    })
+}

@@ -1,0 +1,290 @@
+//! Versions of a scene that are measured beside it, or in its place where something in it would hide what is measured.
+
+use glam::DVec3;
+use impasto_scene::document::{
+    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, Reference, RotatingStrokes, Scene,
+    Solver, StrokeSettings, Style, Up,
+};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::motion;
+use impasto_scene::presets::{LayerKind, PAPER_PRESET};
+
+use crate::cameras;
+
+/// A version of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Look {
+    /// As it is.
+    Own,
+    /// On a smooth board: what stands still by design is left out.
+    Board,
+    /// On a board, without relief and varnish.
+    Bare,
+    /// By the source paper's rule, directions kept; on a board.
+    Paper,
+    /// On a board, without what would hide the target from a camera that goes round it.
+    Orbit,
+    /// The paper's rule of that.
+    OrbitPaper,
+    /// The body layer alone, without contour, which follows the view.
+    Truth(TurnSolver),
+    /// The body layer alone, with all that the scene states for it.
+    Body,
+    /// As `Body`, all strokes of a layer as large as it says.
+    Sized,
+    /// As `Truth`, without chance and second families, as for `Orbit`.
+    Calm(TurnSolver),
+    /// The paper's rule of that.
+    CalmPaper,
+    /// On a board and unlit: light that stands still is no brushwork.
+    Unlit,
+    /// Each object has one flat colour, and nothing mixes colours.
+    Flat,
+    /// Without chance in the angle.
+    Steady,
+    /// Likewise, with twice the particles.
+    SteadyTwice,
+}
+
+/// How turns are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum TurnSolver {
+    /// As the scene says.
+    Own,
+    /// Horn's estimate, baked.
+    Horn,
+    /// Horn's estimate over all neighbours, in every frame.
+    HornExact,
+}
+
+impl Look {
+    /// That version of a scene. `particles` are the counts of its objects' body layers.
+    pub fn of(self, loaded: &LoadedScene, particles: &[usize]) -> LoadedScene {
+        let mut version = loaded.clone();
+        let scene = &mut version.scene;
+        match self {
+            Self::Own => {}
+            Self::Board => board(scene),
+            Self::Bare => {
+                board(scene);
+                edit_style(scene, |style| (style.relief, style.varnish) = (0.0, 0.0));
+            }
+            Self::Paper => paper(scene),
+            Self::Orbit => {
+                board(scene);
+                leave_out(&mut version, &orbit_blockers(loaded));
+            }
+            Self::OrbitPaper => {
+                paper(scene);
+                leave_out(&mut version, &orbit_blockers(loaded));
+            }
+            Self::Truth(solver) => {
+                body_alone(scene);
+                each_settings(scene, |strokes| strokes.contour = Some(0.0));
+                turn_by(scene, solver);
+            }
+            Self::Body => body_alone(scene),
+            Self::Sized => {
+                body_alone(scene);
+                each_settings(scene, |strokes| strokes.size_jitter = Some(0.0));
+            }
+            Self::Calm(solver) => {
+                body_alone(scene);
+                calm(scene);
+                turn_by(scene, solver);
+                leave_out(&mut version, &orbit_blockers(loaded));
+            }
+            Self::CalmPaper => {
+                paper(scene);
+                calm(scene);
+                leave_out(&mut version, &orbit_blockers(loaded));
+            }
+            Self::Unlit => {
+                board(scene);
+                for object in &mut scene.objects {
+                    object.material.get_or_insert_default().unlit = true;
+                }
+            }
+            Self::Flat => flat(scene),
+            Self::Steady => steady(scene),
+            Self::SteadyTwice => {
+                steady(scene);
+                for (object, &count) in scene.objects.iter_mut().zip(particles) {
+                    object.particles = Some(2 * count as u64);
+                }
+            }
+        }
+        version
+    }
+}
+
+/// Edits the settings of the scene and of every region.
+fn each_settings(scene: &mut Scene, edit: impl Fn(&mut StrokeSettings)) {
+    edit(&mut scene.strokes);
+    scene.regions.iter_mut().for_each(|region| edit(&mut region.strokes));
+}
+
+fn edit_style(scene: &mut Scene, edit: impl FnOnce(&mut RotatingStrokes)) {
+    let mut style = match &scene.style {
+        Style::RotatingStrokes(style) => style.clone(),
+        Style::Reference => RotatingStrokes::default(),
+    };
+    edit(&mut style);
+    scene.style = Style::RotatingStrokes(style);
+}
+
+fn board(scene: &mut Scene) {
+    edit_style(scene, |style| (style.canvas, style.weave) = (Canvas::Board, 0.0));
+}
+
+fn turn_by(scene: &mut Scene, solver: TurnSolver) {
+    let solver = match solver {
+        TurnSolver::Own => return,
+        TurnSolver::Horn => Solver::Horn,
+        TurnSolver::HornExact => Solver::HornExact,
+    };
+    edit_style(scene, |style| style.solver = solver);
+}
+
+fn paper(scene: &mut Scene) {
+    board(scene);
+    each_settings(scene, |strokes| *strokes = StrokeSettings::default());
+    scene.strokes.preset = Some(PAPER_PRESET.to_owned());
+}
+
+fn layer(kind: LayerKind) -> LayerSettings {
+    LayerSettings {
+        name: kind.name().to_owned(),
+        brush: None,
+        length_px: None,
+        width_px: None,
+        coverage: None,
+        opacity: None,
+        thickness: None,
+        dryness: None,
+        pickup: None,
+        color: None,
+    }
+}
+
+/// Leaves out all layers but the body's.
+pub(crate) fn body_alone(scene: &mut Scene) {
+    board(scene);
+    edit_style(scene, |style| style.underpainting = false);
+    each_settings(scene, |strokes| {
+        let others = LayerKind::ALL.into_iter().filter(|&kind| kind != LayerKind::Body);
+        strokes.layers.extend(others.map(|kind| LayerSettings { coverage: Some(0.0), ..layer(kind) }));
+    });
+}
+
+fn steady(scene: &mut Scene) {
+    body_alone(scene);
+    each_settings(scene, |strokes| (strokes.angle_jitter_deg, strokes.swing_deg) = (Some(0.0), Some(0.0)));
+}
+
+fn calm(scene: &mut Scene) {
+    each_settings(scene, |strokes| {
+        (strokes.angle_jitter_deg, strokes.swing_deg) = (Some(0.0), Some(0.0));
+        strokes.contour = Some(0.0);
+    });
+    for region in &mut scene.regions {
+        if let Direction::Crossing(first_deg, _) = region.direction {
+            region.direction = Direction::Angle(first_deg);
+        }
+    }
+}
+
+/// Colours that lie far apart, as many as needed.
+pub fn flat_color(object: usize) -> Color {
+    let level = |digit: usize| [0.15, 0.85, 0.5][digit % 3];
+    // 0 is grey-black, 1 is red, ...
+    let number = object + 1;
+    Color([level(number), level(number / 3), level(number / 9)])
+}
+
+fn flat(scene: &mut Scene) {
+    board(scene);
+    edit_style(scene, |style| {
+        (style.relief, style.varnish, style.underpainting) = (0.0, 0.0, true);
+    });
+    each_settings(scene, |strokes| {
+        strokes.grading = Some(0.0);
+        strokes.color_jitter = Some(0.0);
+        strokes.temperature = Some(0.0);
+        strokes.edges = Some(Edges::Clip);
+        strokes.palette = Some(Vec::new());
+        strokes.layers.extend(LayerKind::ALL.map(|kind| LayerSettings { pickup: Some(0.0), ..layer(kind) }));
+    });
+    for (index, object) in scene.objects.iter_mut().enumerate() {
+        object.material = Some(MaterialOverride {
+            color: Some(flat_color(index)),
+            texture: None,
+            unlit: true,
+            gloss: Some(0.0),
+        });
+    }
+}
+
+/// Objects that a camera going round its target would meet, and that hide the target from it: walls and other backdrops.
+/// They are large against the camera's distance, and nobody's parents.
+pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
+    let scene = &loaded.scene;
+    let Reference::Frame(frame) = scene.reference;
+    let camera = motion::camera_at(scene, frame as f64);
+    let poses = motion::poses_at(scene, frame as f64);
+    let is_parent = |name: &str| scene.objects.iter().any(|object| object.parent.as_deref() == Some(name));
+    let blocks = |index: usize| {
+        let object = &scene.objects[index];
+        let Some(file) = loaded.meshes.get(&object.mesh) else { return false };
+        let scale = DVec3::from(object.scale.0);
+        let to_world = |at: glam::Vec3| {
+            let at = at.as_dvec3();
+            let upright = match object.up {
+                Up::Y => at,
+                Up::Z => DVec3::new(at.x, at.z, -at.y),
+            };
+            poses[index].transform_point3(upright * scale)
+        };
+        let Some((low, high)) = file.mesh.bounds() else { return false };
+        let half_diagonal = 0.5 * (to_world(high) - to_world(low)).length();
+        if is_parent(&object.name) || half_diagonal < 0.5 * (camera.eye - camera.target).length() {
+            return false;
+        }
+        (1..24).any(|step| {
+            let eye = cameras::orbited(&camera, 15.0 * f64::from(step)).eye;
+            (0..file.mesh.triangles.len()).any(|triangle| {
+                let corners = file.mesh.corners(triangle).map(to_world);
+                // What the target itself lies on is no blocker.
+                segment_hits(eye, eye + (camera.target - eye) * 0.95, corners)
+            })
+        })
+    };
+    (0..scene.objects.len()).filter(|&index| blocks(index)).collect()
+}
+
+/// Möller and Trumbore, between the ends of a segment.
+fn segment_hits(from: DVec3, to: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
+    let (along, ab, ac) = (to - from, b - a, c - a);
+    let p = along.cross(ac);
+    let determinant = ab.dot(p);
+    if determinant.abs() < 1e-15 {
+        return false;
+    }
+    let offset = from - a;
+    let u = offset.dot(p) / determinant;
+    let q = offset.cross(ab);
+    let v = along.dot(q) / determinant;
+    let t = ac.dot(q) / determinant;
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
+}
+
+pub(crate) fn leave_out(loaded: &mut LoadedScene, blockers: &[usize]) {
+    if blockers.len() == loaded.scene.objects.len() {
+        return;
+    }
+    let mut index = 0;
+    loaded.scene.objects.retain(|_| {
+        index += 1;
+        !blockers.contains(&(index - 1))
+    });
+}

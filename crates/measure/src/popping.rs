@@ -1,0 +1,143 @@
+//! M4: does paint pop in and out?
+
+use crate::strokes::{SeenStroke, SeenStrokes, StrokeKey};
+
+/// A step of alpha that is seen as a pop.
+const STEP: f64 = 0.2;
+
+/// A stroke that moves by less stands still.
+const STILL_PX: f64 = 1e-3;
+
+/// The reach of a stroke's quad over its length and width: quads are larger than strokes, and fitted ones slide.
+const QUAD: f64 = 1.0 / impasto_core::brush::FILL as f64;
+
+/// What popped from one frame to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Popping {
+    /// Area of the strokes whose alpha stepped by more than 0.2, over the area shown: Σ a·\[|Δα| > 0.2\] / Σ a·α.
+    pub share: f64,
+    /// The largest step of alpha.
+    pub largest_step: f64,
+    /// The stroke that made it.
+    pub worst: Option<StrokeKey>,
+    /// How many strokes were compared.
+    pub strokes: usize,
+    /// How many of them popped.
+    pub popped: usize,
+}
+
+/// M4 between two frames of one size. A stroke that is absent has an alpha of 0. One that touches the picture's border in
+/// either frame is left out: it enters or leaves, which is no pop.
+pub fn popping(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> Popping {
+    let carried_px = displacement_px(before, after);
+    let mut found = Popping::default();
+    let (mut popped, mut shown) = (0.0, 0.0);
+    let only_after =
+        after.iter().filter(|(key, _)| !before.contains_key(*key)).map(|(key, now)| (key, None, Some(now)));
+    let others = before.iter().map(|(key, then)| (key, Some(then), after.get(key)));
+    for (key, then, now) in others.chain(only_after) {
+        // Where a stroke is in one frame only, it was or will be at most this far away.
+        let margin_px = if then.is_some() && now.is_some() { 0.0 } else { carried_px };
+        if [then, now].into_iter().flatten().any(|stroke| touches_border(stroke, margin_px, size_px)) {
+            continue;
+        }
+        let alpha = |stroke: Option<&SeenStroke>| stroke.map_or(0.0, |stroke| stroke.alpha);
+        let area = |stroke: Option<&SeenStroke>| stroke.map_or(0.0, SeenStroke::area_px);
+        let step = (alpha(then) - alpha(now)).abs();
+        if step > found.largest_step {
+            (found.largest_step, found.worst) = (step, Some(*key));
+        }
+        found.strokes += 1;
+        if step > STEP {
+            popped += area(then).max(area(now));
+            found.popped += 1;
+        }
+        shown += area(then) * alpha(then);
+    }
+    found.share = if shown > 0.0 { popped / shown } else { 0.0 };
+    found
+}
+
+fn touches_border(stroke: &SeenStroke, margin_px: f64, size_px: [u32; 2]) -> bool {
+    let (sin, cos) = stroke.angle_rad.sin_cos();
+    let half = |along: f64, across: f64| {
+        0.5 * QUAD * (along.abs() * stroke.length_px + across.abs() * stroke.width_px) + margin_px + 1.0
+    };
+    let reach = [half(cos, sin), half(sin, cos)];
+    [0, 1].into_iter().any(|axis| {
+        let (at, side) = (stroke.center_px[axis], f64::from(size_px[axis]));
+        at - reach[axis] < 0.0 || at + reach[axis] > side
+    })
+}
+
+/// How far strokes that are in both frames have moved, at most.
+fn displacement_px(before: &SeenStrokes, after: &SeenStrokes) -> f64 {
+    let moved = before.iter().filter_map(|(key, then)| {
+        let now = after.get(key)?;
+        Some(displacement(then, now))
+    });
+    moved.fold(0.0, f64::max)
+}
+
+fn displacement(then: &SeenStroke, now: &SeenStroke) -> f64 {
+    let [dx, dy] = [0, 1].map(|axis| now.particle_px[axis] - then.particle_px[axis]);
+    dx.hypot(dy)
+}
+
+/// The same strokes as if nothing hid them and every layer were wanted in full: what the number of strokes alone decides.
+pub fn by_presence(strokes: &SeenStrokes) -> SeenStrokes {
+    strokes.iter().map(|(key, stroke)| (*key, SeenStroke { alpha: stroke.presence, ..*stroke })).collect()
+}
+
+/// The strokes of the bodies that move from one frame to the other: those of still ones would water popping down.
+pub fn of_moving_bodies(before: &SeenStrokes, after: &SeenStrokes) -> [SeenStrokes; 2] {
+    let mut moving: Vec<u32> = before
+        .iter()
+        .filter(|(key, then)| after.get(*key).is_some_and(|now| displacement(then, now) > STILL_PX))
+        .map(|(key, _)| key.body_id)
+        .collect();
+    moving.sort_unstable();
+    moving.dedup();
+    let moves = |key: &StrokeKey| moving.binary_search(&key.body_id).is_ok();
+    [before, after].map(|strokes| {
+        strokes.iter().filter(|(key, _)| moves(key)).map(|(key, stroke)| (*key, *stroke)).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impasto_painting::frame::LayerKind;
+
+    fn strokes(alphas: &[(u32, f64, [f64; 2])]) -> SeenStrokes {
+        let stroke = |&(particle, alpha, center_px): &(u32, f64, [f64; 2])| {
+            let key = StrokeKey { body_id: 1, kind: LayerKind::Body, particle };
+            let seen = SeenStroke {
+                center_px,
+                particle_px: center_px,
+                angle_rad: 0.0,
+                length_px: 10.0,
+                width_px: 4.0,
+                alpha,
+                presence: alpha,
+                facing: 1.0,
+                region: 0,
+            };
+            (key, seen)
+        };
+        alphas.iter().map(stroke).collect()
+    }
+
+    #[test]
+    fn a_step_a_birth_and_a_death_are_pops_and_the_border_is_not() {
+        let middle = [50.0, 50.0];
+        let before = strokes(&[(0, 1.0, middle), (1, 1.0, middle), (2, 0.5, middle), (3, 1.0, [2.0, 50.0])]);
+        let after = strokes(&[(0, 0.9, middle), (2, 0.1, middle), (4, 0.8, middle), (5, 1.0, [50.0, 99.0])]);
+        let found = popping(&before, &after, [100, 100]);
+        // 1 dies, 2 steps, 4 is born; 3 and 5 are at the border.
+        assert_eq!((found.strokes, found.popped), (4, 3));
+        assert!((found.share - 3.0 / 2.5).abs() < 1e-12);
+        assert_eq!(found.largest_step, 1.0);
+        assert_eq!(popping(&before, &before, [100, 100]).share, 0.0);
+    }
+}

@@ -1,0 +1,37 @@
+//! M8 on the shot and on a zoom.
+
+use impasto_painting::Rotation;
+
+use crate::cameras::zoomed;
+use crate::figures::Spread;
+use crate::flatness::flatness;
+use crate::looks::Look;
+use crate::metric::Metric;
+use crate::options::MeasureError;
+use crate::report::{Counts, Reading, Row, Verdict};
+use crate::strokes::{SeenStrokes, seen};
+use crate::studio::Studio;
+
+pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+    let mut row = Row::new(
+        Metric::M8,
+        "the shot, and the reference pose from 0.5 to 4 times as near; length and width as they are drawn, all layers",
+        "variation over the frames ≤ 0.0001",
+    );
+    let painting = studio.painting(Look::Board)?;
+    let options = studio.frame_options(Rotation::On);
+    let camera = studio.reference_camera();
+    let at_rest = studio.reference_frame();
+    let mut frames: Vec<SeenStrokes> =
+        studio.frames().into_iter().map(|frame| seen(&painting.at(frame, &options), &[])).collect();
+    for factor in [0.5, 2.0, 4.0] {
+        frames.push(seen(&painting.seen_by(&zoomed(&camera, factor), at_rest, &options), &[]));
+    }
+    let found = flatness(frames.iter());
+    row.counts = Counts { strokes: found.variation.len(), pixels: 0, frames: frames.len() };
+    let spread = Spread::of(found.variation);
+    row.values.push(Reading::many("variation of a stroke's length or width", "", spread));
+    row.notes.push("strokes are rectangles on the picture: they have no shear".to_owned());
+    row.verdict = Verdict::of(spread.max <= 1e-4, row.counts);
+    Ok(row)
+}

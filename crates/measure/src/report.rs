@@ -1,0 +1,288 @@
+//! What was measured: rows with values, targets, verdicts, and what they rest on.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::figures::Spread;
+use crate::metric::Metric;
+
+/// Fewer strokes than this say nothing.
+pub const LEAST_STROKES: usize = 500;
+
+/// All that was measured of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeasureReport {
+    /// The scene or mesh file.
+    pub scene: String,
+    /// The driver that drew.
+    pub driver: String,
+    /// Width and height of the pictures.
+    pub size_px: [u32; 2],
+    /// Wall clock seconds of the whole.
+    pub seconds: f64,
+    /// One per metric.
+    pub rows: Vec<Row>,
+    /// Values over the frames of the shot.
+    pub series: Vec<Series>,
+    /// What a person should know about the scene.
+    pub warnings: Vec<String>,
+}
+
+/// One metric.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Which.
+    pub id: Metric,
+    /// What it measures.
+    pub title: &'static str,
+    /// The shot or the protocol, and the version of the scene.
+    pub taken_on: String,
+    /// What was found.
+    pub values: Vec<Reading>,
+    /// The same of other rules.
+    pub baselines: Vec<Reading>,
+    /// What should be.
+    pub target: String,
+    /// Whether it is.
+    pub verdict: Verdict,
+    /// What it rests on.
+    pub counts: Counts,
+    /// What else is to be known.
+    pub notes: Vec<String>,
+    /// Wall clock seconds that it took.
+    pub seconds: f64,
+}
+
+/// Whether a metric holds.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub enum Verdict {
+    /// It does.
+    Holds,
+    /// It does not.
+    Misses,
+    /// This scene has nothing to measure it on.
+    NotApplicable(String),
+    /// It rests on too little to be believed; counts as a failure.
+    TooFew(String),
+}
+
+/// What a row rests on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Strokes, each counted in every view.
+    pub strokes: usize,
+    /// Pixels, likewise.
+    pub pixels: usize,
+    /// Frames or views.
+    pub frames: usize,
+}
+
+/// A value with its name and unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reading {
+    /// What was measured.
+    pub what: String,
+    /// Unit; empty for a plain number.
+    pub unit: &'static str,
+    /// The numbers.
+    #[serde(flatten)]
+    pub figures: Figures,
+}
+
+/// One number, or what is said of many.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Figures {
+    /// One.
+    One {
+        /// It.
+        value: f64,
+    },
+    /// Many.
+    Many(Spread),
+}
+
+/// Values over frames.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Series {
+    /// Which metric they belong to.
+    pub metric: Metric,
+    /// What the values are.
+    pub title: &'static str,
+    /// They should be at most this.
+    pub target: f64,
+    /// Their unit.
+    pub unit: &'static str,
+    /// Frames with values, in order.
+    pub points: Vec<(f64, f64)>,
+}
+
+impl Reading {
+    /// A single number.
+    pub fn one(what: impl Into<String>, unit: &'static str, value: f64) -> Self {
+        Self { what: what.into(), unit, figures: Figures::One { value } }
+    }
+
+    /// Mean, median, 95th percentile and largest of many.
+    pub fn many(what: impl Into<String>, unit: &'static str, spread: Spread) -> Self {
+        Self { what: what.into(), unit, figures: Figures::Many(spread) }
+    }
+
+    fn words(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        match self.figures {
+            Figures::One { value } => format!("{} {}{unit}", self.what, short(value)),
+            Figures::Many(spread) if spread.count == 0 => format!("{}: nothing to measure", self.what),
+            Figures::Many(spread) => format!(
+                "{} mean {}, median {}, p95 {}, max {}{unit} (of {})",
+                self.what,
+                short(spread.mean),
+                short(spread.median),
+                short(spread.p95),
+                short(spread.max),
+                spread.count
+            ),
+        }
+    }
+}
+
+/// A number with three digits that count.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{value:.1e}")
+    } else {
+        let digits = (2.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
+        format!("{value:.digits$}")
+    }
+}
+
+impl Verdict {
+    /// Holds where this is so, else misses; too few where the row rests on less strokes than say anything.
+    pub fn of(holds: bool, counts: Counts) -> Self {
+        if counts.strokes < LEAST_STROKES {
+            return Self::TooFew(format!("{} strokes; {LEAST_STROKES} are needed", counts.strokes));
+        }
+        if holds { Self::Holds } else { Self::Misses }
+    }
+
+    /// The same of pixels.
+    pub fn of_pixels(holds: bool, counts: Counts) -> Self {
+        if counts.pixels < LEAST_STROKES {
+            return Self::TooFew(format!("{} pixels; {LEAST_STROKES} are needed", counts.pixels));
+        }
+        if holds { Self::Holds } else { Self::Misses }
+    }
+
+    /// Whether nothing is wrong.
+    pub fn is_fine(&self) -> bool {
+        matches!(self, Self::Holds | Self::NotApplicable(_))
+    }
+
+    fn words(&self) -> String {
+        match self {
+            Self::Holds => "holds".to_owned(),
+            Self::Misses => "MISSES".to_owned(),
+            Self::NotApplicable(reason) => format!("not applicable: {reason}"),
+            Self::TooFew(reason) => format!("TOO FEW: {reason}"),
+        }
+    }
+}
+
+impl Row {
+    /// A row without values, holding.
+    pub fn new(id: Metric, taken_on: impl Into<String>, target: impl Into<String>) -> Self {
+        Self {
+            id,
+            title: id.title(),
+            taken_on: taken_on.into(),
+            values: Vec::new(),
+            baselines: Vec::new(),
+            target: target.into(),
+            verdict: Verdict::Holds,
+            counts: Counts::default(),
+            notes: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
+    /// The row of a metric that this scene has nothing for.
+    #[must_use]
+    pub fn not_applicable(mut self, reason: impl Into<String>) -> Self {
+        self.verdict = Verdict::NotApplicable(reason.into());
+        self
+    }
+}
+
+impl MeasureReport {
+    /// Whether every row holds or is not applicable.
+    pub fn holds(&self) -> bool {
+        self.rows.iter().all(|row| row.verdict.is_fine())
+    }
+
+    /// As text for people.
+    pub fn table(&self) -> String {
+        let mut text = String::new();
+        let [width, height] = self.size_px;
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}: {width} x {height}, {}, {:.0} s", self.scene, self.driver, self.seconds);
+        for row in &self.rows {
+            let _ = writeln!(
+                text,
+                "{:<4}{:<20}{} ({:.1} s)",
+                row.id.to_string(),
+                row.title,
+                row.verdict.words(),
+                row.seconds
+            );
+            if !row.values.is_empty() {
+                let Counts { strokes, pixels, frames } = row.counts;
+                let parts = [(strokes, "strokes"), (pixels, "pixels"), (frames, "frames")];
+                let rests: Vec<String> = parts
+                    .iter()
+                    .filter(|(count, _)| *count > 0)
+                    .map(|(count, what)| format!("{count} {what}"))
+                    .collect();
+                let _ = writeln!(text, "    on       {} ({})", row.taken_on, rests.join(", "));
+            }
+            for value in &row.values {
+                let _ = writeln!(text, "             {}", value.words());
+            }
+            for value in &row.baselines {
+                let _ = writeln!(text, "    beside   {}", value.words());
+            }
+            let _ = writeln!(text, "    target   {}", row.target);
+            for note in &row.notes {
+                let _ = writeln!(text, "    note     {note}");
+            }
+        }
+        for warning in &self.warnings {
+            let _ = writeln!(text, "warning: {warning}");
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_mask_is_a_failure() {
+        assert!(!Verdict::of(true, Counts::default()).is_fine());
+        assert!(!Verdict::of_pixels(true, Counts { strokes: 900, ..Counts::default() }).is_fine());
+        assert!(Verdict::of(true, Counts { strokes: 500, ..Counts::default() }).is_fine());
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, words) in
+            [(0.0, "0"), (12.345, "12.3"), (0.01234, "0.0123"), (1e-7, "1.0e-7"), (345.6, "346")]
+        {
+            assert_eq!(short(value), words);
+        }
+    }
+}

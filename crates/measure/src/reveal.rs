@@ -1,0 +1,97 @@
+//! M6: do strokes that the reference view did not see lie as their neighbours do?
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use impasto_core::angle::wrap_half_pi;
+use impasto_painting::Painting;
+use impasto_painting::frame::LayerKind;
+use impasto_scene::{document, motion};
+
+use crate::strokes::{SeenStrokes, of_layer};
+use crate::truth::{BodyView, SurfacePoint, TrueView};
+
+/// A stroke is seen when its surface faces the eye by this cosine, and this much of it was drawn.
+const FACED: f64 = 0.2;
+const DRAWN: f64 = 0.1;
+
+/// Neighbours face the same way by this cosine: those across a crease or on the other side of a sheet are none.
+const SAME_SIDE: f64 = 0.5;
+
+/// How many neighbours a stroke is compared with.
+pub const NEIGHBOURS: usize = 10;
+
+/// A surface that faces up or down by this cosine is near a pole: there every rule of direction has a singularity.
+const POLE: f64 = 0.9;
+
+/// How far a stroke lies from a neighbour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// |wrap_π(θᵢ − θⱼ)|, degrees.
+    pub apart_deg: f64,
+    /// Index of the object plus 1.
+    pub body_id: u32,
+    /// Whether its surface faces up or down in the reference pose.
+    pub near_pole: bool,
+}
+
+/// For each stroke that is seen now and that the reference view saw from behind, how far it lies from its nearest
+/// neighbours of the same region that face the same way.
+pub fn revealed(painting: &Painting, strokes: &SeenStrokes, size_px: [u32; 2]) -> Vec<Difference> {
+    let document::Reference::Frame(frame) = painting.scene().reference;
+    let reference = TrueView::new(&motion::camera_at(painting.scene(), frame as f64), size_px);
+    let poses = motion::poses_at(painting.scene(), frame as f64);
+    let mut groups: BTreeMap<(u32, u32), Vec<Visible>> = BTreeMap::new();
+    for (key, stroke) in of_layer(strokes, LayerKind::Body) {
+        let object = key.body_id as usize - 1;
+        let particle = painting.particles(object).get(key.particle as usize);
+        let Some(particle) = particle.filter(|_| stroke.facing > FACED && stroke.alpha > DRAWN) else {
+            continue;
+        };
+        let point =
+            SurfacePoint { position: particle.position.as_dvec3(), normal: particle.normal.as_dvec3() };
+        let body = BodyView { view: &reference, world_from_model: poses[object] };
+        let visible = Visible {
+            position: point.position,
+            normal: point.normal,
+            angle_rad: stroke.angle_rad,
+            near_pole: poses[object].transform_vector3(point.normal).y.abs() > POLE,
+            was_unseen: body.facing(point) <= 0.0,
+        };
+        groups.entry((key.body_id, stroke.region)).or_default().push(visible);
+    }
+    groups.iter().flat_map(|((body_id, _), group)| differences(*body_id, group)).collect()
+}
+
+/// A stroke that is seen.
+struct Visible {
+    position: DVec3,
+    normal: DVec3,
+    angle_rad: f64,
+    near_pole: bool,
+    was_unseen: bool,
+}
+
+/// Each stroke that was unseen against its nearest neighbours on the surface.
+fn differences(body_id: u32, group: &[Visible]) -> Vec<Difference> {
+    let mut found = Vec::new();
+    for (index, stroke) in group.iter().enumerate().filter(|(_, stroke)| stroke.was_unseen) {
+        let mut others: Vec<(f64, f64)> = group
+            .iter()
+            .enumerate()
+            .filter(|(other, near)| *other != index && near.normal.dot(stroke.normal) > SAME_SIDE)
+            .map(|(_, other)| {
+                let apart = wrap_half_pi(stroke.angle_rad - other.angle_rad);
+                (stroke.position.distance_squared(other.position), apart.abs().to_degrees())
+            })
+            .collect();
+        others.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let near_pole = stroke.near_pole;
+        found.extend(others.iter().take(NEIGHBOURS).map(|&(_, apart_deg)| Difference {
+            apart_deg,
+            body_id,
+            near_pole,
+        }));
+    }
+    found
+}

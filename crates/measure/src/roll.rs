@@ -1,0 +1,52 @@
+//! M1 and M2: what a roll of the camera does to pictures and to angles.
+
+use impasto_gl_render::Picture;
+
+use crate::strokes::{SeenStrokes, degrees_apart};
+use crate::turning::quarters_of_bytes;
+
+/// How far a picture is from another one turned.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct QuarterDifference {
+    /// Mean difference of a channel, levels of 255.
+    pub mean: f64,
+    /// Pixels of which a channel differs by more than 16 levels.
+    pub over_16: usize,
+    /// Pixels of the mask.
+    pub pixels: usize,
+}
+
+/// M1 of quarter turns: square pictures of a camera, straight and rolled by this many quarters, which turns the picture
+/// back by as many. Within a mask of the rolled one.
+pub fn quarter_difference(
+    straight: &Picture,
+    rolled: &Picture,
+    quarters: i32,
+    mask: &[bool],
+) -> QuarterDifference {
+    let expected = quarters_of_bytes(&straight.rgba8, straight.size_px[0] as usize, -quarters);
+    let mut found = QuarterDifference::default();
+    let mut sum = 0.0;
+    for (index, _) in mask.iter().enumerate().filter(|(_, inside)| **inside) {
+        let channels = index * 4..index * 4 + 3;
+        let differences =
+            rolled.rgba8[channels.clone()].iter().zip(&expected[channels]).map(|(a, b)| a.abs_diff(*b));
+        let (total, largest) = differences.fold((0u32, 0), |(total, largest), difference| {
+            (total + u32::from(difference), difference.max(largest))
+        });
+        sum += f64::from(total) / 3.0;
+        found.over_16 += usize::from(largest > 16);
+        found.pixels += 1;
+    }
+    found.mean = sum / found.pixels.max(1) as f64;
+    found
+}
+
+/// M2: |wrap(θ(φ) − θ(0) + φ)| of the strokes that are in both, degrees.
+pub fn roll_errors_deg(straight: &SeenStrokes, rolled: &SeenStrokes, roll_deg: f64) -> Vec<f64> {
+    let errors = straight.iter().filter_map(|(key, before)| {
+        let now = rolled.get(key)?;
+        Some(degrees_apart(now.angle_rad + roll_deg.to_radians(), before.angle_rad))
+    });
+    errors.collect()
+}

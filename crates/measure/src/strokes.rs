@@ -1,0 +1,88 @@
+//! The strokes of a frame by what they belong to, so that two frames can be compared.
+
+use std::collections::BTreeMap;
+
+use impasto_gl_render::ResolvedStroke;
+use impasto_painting::Frame;
+use impasto_painting::frame::LayerKind;
+
+/// Which stroke: the same particle in every frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct StrokeKey {
+    /// Index of the object plus 1.
+    pub body_id: u32,
+    /// Layer of paint.
+    pub kind: LayerKind,
+    /// Index in the progressive order of its object's layer.
+    pub particle: u32,
+}
+
+/// What is measured of a stroke. Pixels from the lower left, Y up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenStroke {
+    /// Centre, as drawn where it was drawn.
+    pub center_px: [f64; 2],
+    /// Where its particle projects.
+    pub particle_px: [f64; 2],
+    /// Counter-clockwise from +X.
+    pub angle_rad: f64,
+    /// Length.
+    pub length_px: f64,
+    /// Width.
+    pub width_px: f64,
+    /// How much of it is there: as drawn where it was drawn, else its presence.
+    pub alpha: f64,
+    /// How much of it there would be if nothing hid it and its layer were wanted in full.
+    pub presence: f64,
+    /// Cosine between its surface's normal and the direction to the eye.
+    pub facing: f64,
+    /// Index of its region.
+    pub region: u32,
+}
+
+impl SeenStroke {
+    /// Length times width.
+    pub fn area_px(&self) -> f64 {
+        self.length_px * self.width_px
+    }
+}
+
+/// All strokes of a frame.
+pub type SeenStrokes = BTreeMap<StrokeKey, SeenStroke>;
+
+/// The strokes of a frame. `resolved` is what was drawn of each, parallel to the frame's strokes; empty where nothing was
+/// drawn.
+pub fn seen(frame: &Frame, resolved: &[ResolvedStroke]) -> SeenStrokes {
+    let mut strokes = SeenStrokes::new();
+    for run in &frame.layers {
+        for index in run.first as usize..(run.first + run.count) as usize {
+            let (stroke, source) = (&frame.strokes[index], &frame.sources[index]);
+            let key = StrokeKey { body_id: stroke.body_id, kind: run.kind, particle: source.particle };
+            let drawn = resolved.get(index);
+            let center_px = drawn.map_or(stroke.center_px, |drawn| drawn.center_px);
+            let seen = SeenStroke {
+                center_px: center_px.map(f64::from),
+                particle_px: stroke.center_px.map(f64::from),
+                angle_rad: f64::from(stroke.angle_rad),
+                length_px: f64::from(stroke.length_px),
+                width_px: f64::from(stroke.width_px),
+                alpha: f64::from(drawn.map_or_else(|| stroke.presence(), |drawn| drawn.alpha)),
+                presence: f64::from(stroke.presence()),
+                facing: f64::from(source.facing),
+                region: source.region,
+            };
+            strokes.insert(key, seen);
+        }
+    }
+    strokes
+}
+
+/// The strokes of one layer.
+pub fn of_layer(strokes: &SeenStrokes, kind: LayerKind) -> impl Iterator<Item = (&StrokeKey, &SeenStroke)> {
+    strokes.iter().filter(move |(key, _)| key.kind == kind)
+}
+
+/// How far two angles are apart, degrees in 0..=180.
+pub fn degrees_apart(first_rad: f64, second_rad: f64) -> f64 {
+    impasto_core::angle::wrap_pi(first_rad - second_rad).abs().to_degrees()
+}

@@ -1,0 +1,178 @@
+//! What a stroke should do, in closed form: the local screen map by finite differences through a 4×4 matrix written out
+//! here, so that it shares no function with the code that paints.
+
+use glam::{DAffine3, DVec2, DVec3, DVec4};
+use impasto_scene::document::Lens;
+use impasto_scene::motion::CameraPose;
+
+/// A camera and the picture that it fills.
+#[derive(Clone, Debug)]
+pub struct TrueView {
+    /// Rows of clip_from_world, row by row; depth is not needed.
+    rows: [DVec4; 3],
+    half_px: DVec2,
+    eye: DVec3,
+    /// The gaze of an orthographic lens.
+    parallel: Option<DVec3>,
+}
+
+impl TrueView {
+    /// The view of a camera in a picture of this size.
+    pub fn new(camera: &CameraPose, size_px: [u32; 2]) -> Self {
+        let gaze = (camera.target - camera.eye).normalize();
+        let up = if gaze.cross(DVec3::Y).length() > 1e-10 { DVec3::Y } else { DVec3::Z };
+        let right = gaze.cross(up).normalize();
+        let above = right.cross(gaze);
+        // The camera's own axes turn counter-clockwise by the roll.
+        let (sin, cos) = camera.roll_rad.sin_cos();
+        let axes = [right * cos + above * sin, above * cos - right * sin];
+        let size = DVec2::new(f64::from(size_px[0]), f64::from(size_px[1]));
+        let row = |axis: DVec3, scale: f64| (axis * scale).extend(-axis.dot(camera.eye) * scale);
+        let (scale, w) = match camera.lens {
+            Lens::Perspective { fov_y_deg, .. } => {
+                (1.0 / (0.5 * fov_y_deg.to_radians()).tan(), gaze.extend(-gaze.dot(camera.eye)))
+            }
+            Lens::Orthographic { height, .. } => (2.0 / height, DVec4::W),
+        };
+        Self {
+            rows: [row(axes[0], scale * size.y / size.x), row(axes[1], scale), w],
+            half_px: size * 0.5,
+            eye: camera.eye,
+            parallel: matches!(camera.lens, Lens::Orthographic { .. }).then_some(gaze),
+        }
+    }
+
+    /// Where a point of world space shows, pixels from the picture's centre, Y up.
+    pub fn pixel(&self, at: DVec3) -> DVec2 {
+        let [x, y, w] = self.rows.map(|row| row.dot(at.extend(1.0)));
+        DVec2::new(x / w, y / w) * self.half_px
+    }
+
+    /// Whether a point is in front of the eye.
+    pub fn is_in_front(&self, at: DVec3) -> bool {
+        self.rows[2].dot(at.extend(1.0)) > 0.0
+    }
+
+    /// Cosine between a unit normal and the direction to the eye.
+    pub fn facing(&self, at: DVec3, normal: DVec3) -> f64 {
+        let towards_eye = self.parallel.map_or_else(|| (self.eye - at).normalize_or_zero(), |gaze| -gaze);
+        normal.dot(towards_eye)
+    }
+
+    /// Pixels per unit along two tangents, columns of a 2×2 matrix: central differences.
+    fn columns(&self, at: DVec3, tangents: [DVec3; 2], step: f64) -> [DVec2; 2] {
+        tangents
+            .map(|tangent| (self.pixel(at + tangent * step) - self.pixel(at - tangent * step)) / (2.0 * step))
+    }
+}
+
+/// A point of a surface in model space.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// Position.
+    pub position: DVec3,
+    /// Unit normal.
+    pub normal: DVec3,
+}
+
+/// A view of a body in a pose.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyView<'a> {
+    /// The camera.
+    pub view: &'a TrueView,
+    /// World space from model space.
+    pub world_from_model: DAffine3,
+}
+
+impl BodyView<'_> {
+    fn place(&self, point: SurfacePoint) -> (DVec3, DVec3) {
+        let at = self.world_from_model.transform_point3(point.position);
+        (at, self.world_from_model.transform_vector3(point.normal).normalize_or_zero())
+    }
+
+    /// Cosine between the point's normal and the direction to the eye; 0 behind the eye.
+    pub fn facing(&self, point: SurfacePoint) -> f64 {
+        let (at, normal) = self.place(point);
+        if self.view.is_in_front(at) { self.view.facing(at, normal) } else { 0.0 }
+    }
+
+    /// J B: the tangents in pixels.
+    fn tangents_px(&self, point: SurfacePoint, tangents: [DVec3; 2]) -> [DVec2; 2] {
+        let (at, _) = self.place(point);
+        let in_world = tangents.map(|tangent| self.world_from_model.transform_vector3(tangent));
+        let step = 1e-6 * (at - self.view.eye).length().max(1e-3);
+        self.view.columns(at, in_world, step)
+    }
+}
+
+/// What the picture of a surface does between two views at one of its points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScreenTurn {
+    /// φ(A): the turn of the best similarity, radians.
+    pub polar_rad: f64,
+    /// A, by columns.
+    pub map: [DVec2; 2],
+}
+
+impl ScreenTurn {
+    /// From the reference view to the current one: `A = (J_now B)(J_ref B)⁻¹`. `None` where the reference sees the surface
+    /// edge-on.
+    pub fn between(point: SurfacePoint, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
+        let first = point.normal.any_orthonormal_vector();
+        let tangents = [first, point.normal.cross(first)];
+        let [a, b] = reference.tangents_px(point, tangents);
+        let [c, d] = now.tangents_px(point, tangents);
+        let determinant = a.x * b.y - b.x * a.y;
+        // A [a b] = [c d].
+        let map = [(c * b.y - d * a.y) / determinant, (d * a.x - c * b.x) / determinant];
+        let polar_rad = (map[0].y - map[1].x).atan2(map[0].x + map[1].y);
+        (polar_rad.is_finite() && determinant.abs() > 1e-12).then_some(Self { polar_rad, map })
+    }
+
+    /// Whether nothing has moved.
+    pub fn is_still(&self) -> bool {
+        (self.map[0] - DVec2::X).length() + (self.map[1] - DVec2::Y).length() < 1e-9
+    }
+
+    /// The direction into which a material line at this angle has gone: arg(A d).
+    pub fn material_rad(&self, angle_rad: f64) -> f64 {
+        let (sin, cos) = angle_rad.sin_cos();
+        let line = self.map[0] * cos + self.map[1] * sin;
+        line.y.atan2(line.x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera(eye: DVec3, roll_deg: f64) -> CameraPose {
+        CameraPose {
+            eye,
+            target: DVec3::new(0.1, 0.2, 0.0),
+            roll_rad: roll_deg.to_radians(),
+            lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.1, far: 50.0 },
+        }
+    }
+
+    const POINT: SurfacePoint =
+        SurfacePoint { position: DVec3::new(0.2, 0.1, 0.3), normal: DVec3::new(0.0, 0.6, 0.8) };
+
+    #[test]
+    fn a_roll_turns_back_by_itself() {
+        let size = [640, 360];
+        let reference = TrueView::new(&camera(DVec3::new(0.3, 0.9, 3.0), 0.0), size);
+        let rolled = TrueView::new(&camera(DVec3::new(0.3, 0.9, 3.0), 37.0), size);
+        let body = |view| BodyView { view, world_from_model: DAffine3::from_rotation_y(0.3) };
+        let turn = ScreenTurn::between(POINT, body(&reference), body(&rolled)).unwrap();
+        assert!((turn.polar_rad.to_degrees() + 37.0).abs() < 1e-5, "{}", turn.polar_rad.to_degrees());
+        assert!((turn.material_rad(0.4).to_degrees() - 0.4f64.to_degrees() + 37.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_middle_of_the_picture_is_the_target() {
+        let view = TrueView::new(&camera(DVec3::new(2.0, 1.0, 3.0), 20.0), [640, 360]);
+        assert!(view.pixel(DVec3::new(0.1, 0.2, 0.0)).length() < 1e-9);
+        assert!(view.is_in_front(DVec3::ZERO) && !view.is_in_front(DVec3::new(4.0, 2.0, 6.0)));
+    }
+}

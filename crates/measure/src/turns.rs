@@ -1,0 +1,90 @@
+//! What strokes did between the reference picture and another, and what they should have done: M3, and what M7 and M10
+//! compare with.
+
+use std::collections::BTreeMap;
+
+use impasto_painting::frame::LayerKind;
+use impasto_painting::{FrameOptions, Painting};
+use impasto_scene::document;
+use impasto_scene::motion::{self, CameraPose};
+
+use crate::strokes::{SeenStrokes, StrokeKey, degrees_apart, of_layer, seen};
+use crate::truth::{BodyView, ScreenTurn, SurfacePoint, TrueView};
+
+/// The reference must face a stroke by this cosine: then its lift is the reference's own.
+const FACED: f64 = 0.5;
+
+/// What a stroke did, and what it should have done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Its angle in the reference picture.
+    pub base_rad: f64,
+    /// Its angle now.
+    pub angle_rad: f64,
+    /// The analytic turn.
+    pub truth: ScreenTurn,
+}
+
+impl Turn {
+    /// How far the stroke has turned too far, degrees.
+    pub fn error_deg(&self) -> f64 {
+        degrees_apart(self.angle_rad, self.expected_rad())
+    }
+
+    /// Its angle as it should be.
+    pub fn expected_rad(&self) -> f64 {
+        self.base_rad + self.truth.polar_rad
+    }
+
+    /// How far the stroke is from where a line on the surface has gone, degrees.
+    pub fn material_error_deg(&self) -> f64 {
+        degrees_apart(self.angle_rad, self.truth.material_rad(self.base_rad))
+    }
+}
+
+/// The reference picture of a painting: what its strokes are compared with.
+pub struct Reference {
+    camera: CameraPose,
+    frame: f64,
+    strokes: SeenStrokes,
+}
+
+impl Reference {
+    /// That of a painting, in pictures of this size.
+    pub fn of(painting: &Painting, size_px: [u32; 2]) -> Self {
+        let document::Reference::Frame(frame) = painting.scene().reference;
+        let frame = frame as f64;
+        let camera = motion::camera_at(painting.scene(), frame);
+        let then = painting.seen_by(&camera, frame, &FrameOptions::new(size_px));
+        Self { camera, frame, strokes: seen(&then, &[]) }
+    }
+
+    /// The turns of the body layer's strokes `now`, seen by `camera` at `frame`.
+    pub fn turns(
+        &self,
+        painting: &Painting,
+        now: &SeenStrokes,
+        (camera, frame): (&CameraPose, f64),
+        size_px: [u32; 2],
+    ) -> BTreeMap<StrokeKey, Turn> {
+        let views = [TrueView::new(&self.camera, size_px), TrueView::new(camera, size_px)];
+        let poses = [self.frame, frame].map(|frame| motion::poses_at(painting.scene(), frame));
+        let turn = |key: &StrokeKey, angle_rad: f64| {
+            let base = self.strokes.get(key)?;
+            let object = key.body_id as usize - 1;
+            let particle = painting.particles(object).get(key.particle as usize)?;
+            let point =
+                SurfacePoint { position: particle.position.as_dvec3(), normal: particle.normal.as_dvec3() };
+            let [then, now] = [0, 1]
+                .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
+            if then.facing(point) < FACED {
+                return None;
+            }
+            let truth = ScreenTurn::between(point, then, now)?;
+            Some(Turn { base_rad: base.angle_rad, angle_rad, truth })
+        };
+        of_layer(now, LayerKind::Body)
+            .filter_map(|(key, stroke)| Some((*key, turn(key, stroke.angle_rad)?)))
+            .collect()
+    }
+}

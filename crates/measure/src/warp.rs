@@ -1,0 +1,90 @@
+//! M5 and the visible part of motion: what is seen in two pictures, and how alike it looks.
+
+use impasto_gl_render::{MotionPixels, ReferencePixels};
+
+use crate::plane::{Plane, Taps};
+
+/// Depths agree when they differ by less than this share, or by what a slanted surface has within a pixel.
+const DEPTH_SHARE: f32 = 0.01;
+
+/// For each pixel of the first picture, where its surface point shows in the second, in columns and rows; `None` where no
+/// body is, or where the point is off the second picture or hidden in it: all pixels about the place must show the same
+/// body, and one of them the same depth.
+pub fn places_then(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Option<[f64; 2]>> {
+    let size_px = motion.size_px.map(|side| side as usize);
+    let place = |index: usize| {
+        let id = motion.body_id[index];
+        let [dx, dy] = motion.offset_px[index].map(f64::from);
+        let (x, y) = ((index % size_px[0]) as f64 + dx, (index / size_px[0]) as f64 + dy);
+        let taps = Taps::new(size_px, x, y).filter(|_| id > 0 && motion.depth_then[index] > 0.0)?;
+        if !taps.all(|tap| then.body_id[tap] == id) {
+            return None;
+        }
+        let depth = taps.mix(|tap| then.depth[tap]);
+        let agree = (depth - motion.depth_then[index]).abs() <= DEPTH_SHARE * motion.depth_then[index];
+        agree.then_some([x, y])
+    };
+    (0..motion.body_id.len()).map(place).collect()
+}
+
+/// What a picture fails to carry along.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Warp {
+    /// Mean squared difference at the same surface points, squares of levels of 255.
+    pub error: f64,
+    /// How many pixels that rests on.
+    pub pixels: usize,
+}
+
+/// M5: W = Σ M ‖I_then(x + v) − I_now(x)‖² / Σ M over the pixels whose point is seen in both pictures.
+pub fn warp_error(now: &Plane, then: &Plane, places: &[Option<[f64; 2]>]) -> Warp {
+    let (mut sum, mut pixels) = (0.0, 0);
+    for (value, place) in now.values.iter().zip(places) {
+        let Some([x, y]) = place else { continue };
+        if let Some(there) = then.sample(*x, *y) {
+            sum += f64::from(there - value).powi(2);
+            pixels += 1;
+        }
+    }
+    Warp { error: sum / pixels.max(1) as f64, pixels }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One body all over, moved by whole pixels.
+    fn moved(size: u32, by: [f32; 2]) -> (MotionPixels, ReferencePixels) {
+        let pixels = (size * size) as usize;
+        let motion = MotionPixels {
+            size_px: [size, size],
+            offset_px: vec![by; pixels],
+            depth_then: vec![2.0; pixels],
+            body_id: vec![1; pixels],
+        };
+        (motion, ReferencePixels { depth: vec![2.0; pixels], body_id: vec![1; pixels] })
+    }
+
+    #[test]
+    fn a_picture_that_moves_with_its_surface_has_no_error() {
+        let texture = |x: i64, y: i64| ((x * 37 + y * 91) % 251) as f32;
+        let now = Plane::of([32, 32], |x, y| texture(x as i64, y as i64));
+        let carried = Plane::of([32, 32], |x, y| texture(x as i64 - 3, y as i64 + 2));
+        let (motion, then) = moved(32, [3.0, -2.0]);
+        let places = places_then(&motion, &then);
+        let warp = warp_error(&now, &carried, &places);
+        assert_eq!((warp.error, warp.pixels), (0.0, 29 * 30));
+        let left_behind = warp_error(&now, &now, &places);
+        assert!(left_behind.error > 100.0, "{left_behind:?}");
+    }
+
+    #[test]
+    fn what_is_hidden_then_does_not_count() {
+        let (motion, mut then) = moved(8, [0.0, 0.0]);
+        then.body_id[9] = 2;
+        then.depth[18] = 1.0;
+        let places = places_then(&motion, &then);
+        assert_eq!(places.iter().filter(|place| place.is_none()).count(), 2);
+        assert!(places[9].is_none() && places[18].is_none());
+    }
+}

@@ -1,0 +1,17 @@
+// From each pixel to where its surface point is in another picture: offset in px (Y up), depth along the gaze there, body.
+// Both places are interpolated alike, so that what stands still has moved by exactly nothing.
+in vec4 clip_now;
+in vec4 clip_then;
+in float depth_then;
+
+uniform vec2 size_px;
+uniform float body_id;
+
+layout(location = 0) out vec4 motion;
+
+void main() {
+    // Behind the eye there is no place in the picture: depth 0 says so.
+    bool in_front = clip_then.w > 0.0;
+    vec2 offset = clip_then.xy / clip_then.w - clip_now.xy / clip_now.w;
+    motion = vec4(in_front ? offset * 0.5 * size_px : vec2(0.0), in_front ? depth_then : 0.0, body_id);
+}
