@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use impasto_scene::document::{
-    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, Reference, RotatingStrokes, Scene,
-    Solver, StrokeSettings, Style, Up,
+    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, RotatingStrokes, Scene, Solver,
+    StrokeSettings, Style,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
@@ -229,22 +229,14 @@ fn flat(scene: &mut Scene) {
 /// They are large against the camera's distance, and nobody's parents.
 pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
     let scene = &loaded.scene;
-    let Reference::Frame(frame) = scene.reference;
-    let camera = motion::camera_at(scene, frame as f64);
-    let poses = motion::poses_at(scene, frame as f64);
+    let (camera, frame) = motion::referred_to(scene, &scene.reference);
+    let poses = motion::poses_at(scene, frame);
     let is_parent = |name: &str| scene.objects.iter().any(|object| object.parent.as_deref() == Some(name));
     let blocks = |index: usize| {
         let object = &scene.objects[index];
         let Some(file) = loaded.meshes.get(&object.mesh) else { return false };
-        let scale = DVec3::from(object.scale.0);
-        let to_world = |at: glam::Vec3| {
-            let at = at.as_dvec3();
-            let upright = match object.up {
-                Up::Y => at,
-                Up::Z => DVec3::new(at.x, at.z, -at.y),
-            };
-            poses[index].transform_point3(upright * scale)
-        };
+        let model_from_file = object.model_from_file();
+        let to_world = |at: glam::Vec3| poses[index].transform_point3(model_from_file * at.as_dvec3());
         let Some((low, high)) = file.mesh.bounds() else { return false };
         let half_diagonal = 0.5 * (to_world(high) - to_world(low)).length();
         if is_parent(&object.name) || half_diagonal < 0.5 * (camera.eye - camera.target).length() {

@@ -1,7 +1,9 @@
 //! What a stroke should do, in closed form: the local screen map by finite differences through a 4×4 matrix written out
 //! here, so that it shares no function with the code that paints.
 
-use glam::{DAffine3, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4, Vec3};
+use impasto_core::sampling::Particle;
+use impasto_painting::frame::BodySurface;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
@@ -75,6 +77,57 @@ pub struct SurfacePoint {
     pub normal: DVec3,
 }
 
+/// A point of a surface in the reference pose and now.
+#[derive(Clone, Copy, Debug)]
+pub struct Ride {
+    /// In the reference pose.
+    pub before: SurfacePoint,
+    /// Now.
+    pub after: SurfacePoint,
+    /// F: what has become of directions in model space; the identity on a surface that keeps its shape.
+    pub carry: DMat3,
+}
+
+impl Ride {
+    /// A point of a surface that keeps its shape.
+    pub fn rigid(point: SurfacePoint) -> Self {
+        Self { before: point, after: point, carry: DMat3::IDENTITY }
+    }
+
+    /// A particle of a surface that has turned into its morph by these shares in the reference pose and now: its triangle's
+    /// edges and its normal carry it.
+    pub fn of(surface: &BodySurface, particle: &Particle, shares: [f64; 2]) -> Self {
+        let mesh = &surface.mesh;
+        let corners = mesh.triangles[particle.triangle as usize].map(|vertex| vertex as usize);
+        let weights = {
+            let [v, w] = particle.barycentric.map(f64::from);
+            [1.0 - v - w, v, w]
+        };
+        let at = |share: f64| {
+            let mix = |base: Vec3, target: Option<Vec3>| {
+                let base = base.as_dvec3();
+                target.map_or(base, |target| base + (target.as_dvec3() - base) * share)
+            };
+            let target = surface.morph.as_ref();
+            let places = corners
+                .map(|vertex| mix(mesh.positions[vertex], target.map(|target| target.positions[vertex])));
+            let normals = corners.map(|vertex| {
+                mix(mesh.normals[vertex], target.map(|target| target.normals[vertex])).normalize_or_zero()
+            });
+            let blend = |values: [DVec3; 3]| (0..3).map(|i| values[i] * weights[i]).sum::<DVec3>();
+            let side = if particle.flipped { -1.0 } else { 1.0 };
+            let across = (places[1] - places[0]).cross(places[2] - places[0]) * side;
+            let smooth = blend(normals);
+            let normal = if smooth.dot(across) < 0.0 { -smooth } else { smooth }.normalize_or_zero();
+            let frame = DMat3::from_cols(places[1] - places[0], places[2] - places[0], normal);
+            (SurfacePoint { position: blend(places), normal }, frame)
+        };
+        let ((before, from), (after, to)) = (at(shares[0]), at(shares[1]));
+        let carry = if shares[0] == shares[1] { DMat3::IDENTITY } else { to * from.inverse() };
+        Self { before, after, carry }
+    }
+}
+
 /// A view of a body in a pose.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyView<'a> {
@@ -115,13 +168,14 @@ pub struct ScreenTurn {
 }
 
 impl ScreenTurn {
-    /// From the reference view to the current one: `A = (J_now B)(J_ref B)⁻¹`. `None` where the reference sees the surface
+    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference sees the surface
     /// edge-on.
-    pub fn between(point: SurfacePoint, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
+    pub fn between(ride: &Ride, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
+        let point = ride.before;
         let first = point.normal.any_orthonormal_vector();
         let tangents = [first, point.normal.cross(first)];
         let [a, b] = reference.tangents_px(point, tangents);
-        let [c, d] = now.tangents_px(point, tangents);
+        let [c, d] = now.tangents_px(ride.after, tangents.map(|tangent| ride.carry * tangent));
         let determinant = a.x * b.y - b.x * a.y;
         // A [a b] = [c d].
         let map = [(c * b.y - d * a.y) / determinant, (d * a.x - c * b.x) / determinant];
@@ -164,7 +218,7 @@ mod tests {
         let reference = TrueView::new(&camera(DVec3::new(0.3, 0.9, 3.0), 0.0), size);
         let rolled = TrueView::new(&camera(DVec3::new(0.3, 0.9, 3.0), 37.0), size);
         let body = |view| BodyView { view, world_from_model: DAffine3::from_rotation_y(0.3) };
-        let turn = ScreenTurn::between(POINT, body(&reference), body(&rolled)).unwrap();
+        let turn = ScreenTurn::between(&Ride::rigid(POINT), body(&reference), body(&rolled)).unwrap();
         assert!((turn.polar_rad.to_degrees() + 37.0).abs() < 1e-5, "{}", turn.polar_rad.to_degrees());
         assert!((turn.material_rad(0.4).to_degrees() - 0.4f64.to_degrees() + 37.0).abs() < 1e-5);
     }

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{FrameOptions, Painting};
-use impasto_scene::document;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::strokes::{SeenStrokes, StrokeKey, degrees_apart, of_layer, seen};
-use crate::truth::{BodyView, ScreenTurn, SurfacePoint, TrueView};
+use crate::truth::{BodyView, Ride, ScreenTurn, TrueView};
 
 /// The reference must face a stroke by this cosine: then its lift is the reference's own.
 const FACED: f64 = 0.5;
@@ -52,9 +51,7 @@ pub struct Reference {
 impl Reference {
     /// That of a painting, in pictures of this size.
     pub fn of(painting: &Painting, size_px: [u32; 2]) -> Self {
-        let document::Reference::Frame(frame) = painting.scene().reference;
-        let frame = frame as f64;
-        let camera = motion::camera_at(painting.scene(), frame);
+        let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
         let then = painting.seen_by(&camera, frame, &FrameOptions::new(size_px));
         Self { camera, frame, strokes: seen(&then, &[]) }
     }
@@ -68,19 +65,24 @@ impl Reference {
         size_px: [u32; 2],
     ) -> BTreeMap<StrokeKey, Turn> {
         let views = [TrueView::new(&self.camera, size_px), TrueView::new(camera, size_px)];
-        let poses = [self.frame, frame].map(|frame| motion::poses_at(painting.scene(), frame));
+        let scene = painting.scene();
+        let poses = [self.frame, frame].map(|frame| motion::poses_at(scene, frame));
+        let morphs = [self.frame, frame].map(|frame| motion::morphs_at(scene, frame));
+        // A region with a reference of its own states its directions in another picture.
+        let is_own =
+            |region: u32| scene.regions.get(region as usize).is_none_or(|region| region.reference.is_none());
         let turn = |key: &StrokeKey, angle_rad: f64| {
             let base = self.strokes.get(key)?;
             let object = key.body_id as usize - 1;
             let particle = painting.particles(object).get(key.particle as usize)?;
-            let point =
-                SurfacePoint { position: particle.position.as_dvec3(), normal: particle.normal.as_dvec3() };
+            let shares = [0, 1].map(|side: usize| morphs[side][object]);
+            let ride = Ride::of(painting.surface(object), particle, shares);
             let [then, now] = [0, 1]
                 .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
-            if then.facing(point) < FACED {
+            if then.facing(ride.before) < FACED || !is_own(base.region) {
                 return None;
             }
-            let truth = ScreenTurn::between(point, then, now)?;
+            let truth = ScreenTurn::between(&ride, then, now)?;
             Some(Turn { base_rad: base.angle_rad, angle_rad, truth })
         };
         of_layer(now, LayerKind::Body)

@@ -12,9 +12,9 @@ use crate::looks::{leave_out, orbit_blockers};
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();
     let scene = &mut version.scene;
-    let Reference::Frame(frame) = scene.reference;
-    let camera = motion::camera_at(scene, frame as f64);
-    let poses = motion::poses_at(scene, frame as f64);
+    let (camera, frame) = motion::referred_to(scene, &scene.reference);
+    let poses = motion::poses_at(scene, frame);
+    let morphs = motion::morphs_at(scene, frame);
     scene.reference = Reference::Frame(0);
     (scene.timeline.first, scene.timeline.last) = (0, 360);
     scene.camera.lens = camera.lens.clone();
@@ -28,14 +28,15 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
             ease: Ease::default(),
         })
         .collect();
-    for (object, pose) in scene.objects.iter_mut().zip(&poses) {
+    for (object, (pose, morph)) in scene.objects.iter_mut().zip(poses.iter().zip(morphs)) {
         object.parent = None;
         object.hold = 1;
         object.keys = vec![ObjectKey {
-            frame: 0.0,
             translation: pose.translation.to_array(),
-            rotation_deg: euler_deg(pose.matrix3),
-            ease: Ease::default(),
+            rotation_deg: euler_deg(pose.matrix3 / pose.matrix3.x_axis.length()),
+            scale: pose.matrix3.x_axis.length(),
+            morph,
+            ..ObjectKey::at(0.0)
         }];
     }
     let blockers = orbit_blockers(&version);

@@ -268,6 +268,11 @@ impl Painting {
         self.coat(object, LayerKind::Body).map_or(&[], |coat| &coat.sampled.particles)
     }
 
+    /// The surface of one object.
+    pub fn surface(&self, object: usize) -> &Arc<BodySurface> {
+        &self.bodies[object].surface
+    }
+
     /// Area of the visible sides of one object, model units squared.
     pub fn surface_area(&self, object: usize) -> f64 {
         self.coat(object, LayerKind::Body).map_or(0.0, |coat| coat.sampled.area)

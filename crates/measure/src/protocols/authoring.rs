@@ -8,6 +8,7 @@ use impasto_painting::{Frame, Rotation, prepare};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{load, save};
 
+use super::guides;
 use crate::figures::Spread;
 use crate::looks::Look;
 use crate::metric::Metric;
@@ -21,7 +22,8 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         Metric::M11,
         "frames of the shot: after saving and reading, in another order, and the reference picture with twice the particles \
          (without chance in the angle)",
-        "strokes bit-equal after saving and in any order; at twice the density angles on average ≤ 3 deg apart",
+        "strokes bit-equal after saving and in any order; at twice the density angles on average ≤ 3 deg apart; \
+         at a guide, as drawn within 0.5 deg",
     );
     let painting = studio.painting(Look::Own)?;
     let options = studio.frame_options(Rotation::On);
@@ -61,14 +63,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         Reading::one("bit-equal in any order (1 is yes)", "", yes(scrubbed)),
         Reading::many("change of angles at twice the density", "deg", spread),
     ];
-    let guides = guides(studio, &mut row);
+    let guides = guides::add(studio, &mut row)?;
     row.verdict = Verdict::of(reread && scrubbed && guides && spread.mean <= 3.0, row.counts);
     Ok(row)
-}
-
-/// Painted against shown directions at the scene's guides, from the reference view and from 60 degrees off: at most 0.5
-/// degrees. Scenes have no guides yet.
-fn guides(_studio: &Studio<'_>, row: &mut Row) -> bool {
-    row.notes.push("no guides are painted in this scene: painted against shown is not measured".to_owned());
-    true
 }

@@ -4,6 +4,7 @@ mod authoring;
 mod coverage;
 mod density;
 mod flatness;
+mod guides;
 mod jitter;
 mod popping;
 mod replay;

@@ -1,0 +1,116 @@
+//! Painted against shown directions at a scene's guides: each seen from where it was drawn.
+
+use glam::DVec3;
+use impasto_painting::frame::LayerKind;
+use impasto_scene::document::{Falloff, Guide, Scene};
+use impasto_scene::motion::{self, CameraPose};
+
+use crate::figures::Spread;
+use crate::looks::Look;
+use crate::options::MeasureError;
+use crate::report::{Reading, Row};
+use crate::strokes::{of_layer, seen};
+use crate::studio::Studio;
+use crate::truth::TrueView;
+
+/// Strokes within this share of a guide's radius lie on it.
+const ON_IT: f64 = 0.05;
+
+/// They face the eye by this cosine.
+const FACED: f64 = 0.35;
+
+/// The largest difference that is allowed, degrees.
+const MOST_DEG: f64 = 0.5;
+
+/// Adds what is found to the row of M11; false where a stroke on a guide does not show as drawn.
+pub(super) fn add(studio: &mut Studio<'_>, row: &mut Row) -> Result<bool, MeasureError> {
+    let scene = studio.loaded.scene.clone();
+    let (mut errors, mut guides) = (Vec::new(), 0);
+    for (region, guide) in scene
+        .regions
+        .iter()
+        .enumerate()
+        .flat_map(|(index, region)| region.guides.iter().map(move |g| (index, g)))
+    {
+        if guide.strength >= 1.0 && guide.falloff != Falloff::Flat {
+            errors.extend(at_guide(studio, &scene, region, guide)?);
+            guides += 1;
+        }
+    }
+    if guides == 0 {
+        row.notes.push("no guide of full strength: painted against shown is not measured".to_owned());
+        return Ok(true);
+    }
+    let spread = Spread::of(errors);
+    row.values.push(Reading::many("painted against shown at the guides", "deg", spread));
+    row.notes.push(format!("{guides} guides, each from the view that it was drawn in"));
+    Ok(spread.count > 0 && spread.max <= MOST_DEG)
+}
+
+/// How far the strokes on a guide lie from it as drawn, degrees.
+fn at_guide(
+    studio: &mut Studio<'_>,
+    scene: &Scene,
+    region: usize,
+    guide: &Guide,
+) -> Result<Vec<f64>, MeasureError> {
+    let name = guide.object.as_deref().or(scene.regions[region].on.object());
+    let Some(object) = scene.objects.iter().position(|object| Some(object.name.as_str()) == name) else {
+        return Ok(Vec::new());
+    };
+    let frame = studio.reference_frame();
+    let pose = motion::poses_at(scene, frame)[object];
+    let camera = match &guide.view {
+        None => studio.reference_camera(),
+        Some(view) => CameraPose {
+            eye: pose.transform_point3(DVec3::from(view.eye)),
+            target: pose.transform_point3(DVec3::from(view.target)),
+            ..studio.reference_camera()
+        },
+    };
+    let painting = studio.painting(Look::Steady)?;
+    let options = studio.frame_options(impasto_painting::Rotation::On);
+    let strokes = seen(&painting.seen_by(&camera, frame, &options), &[]);
+    let view = TrueView::new(&camera, studio.size_px);
+    let others: Vec<&Guide> = scene.regions[region].guides.iter().filter(|other| *other != guide).collect();
+    let mut errors = Vec::new();
+    for (key, stroke) in of_layer(&strokes, LayerKind::Body) {
+        let is_its = key.body_id as usize == object + 1 && stroke.region as usize == region;
+        if !is_its || stroke.facing < FACED {
+            continue;
+        }
+        let at = painting.particles(object)[key.particle as usize].position.as_dvec3();
+        let Some((distance, along)) = nearest(guide, at) else { continue };
+        let is_combed_again = others
+            .iter()
+            .any(|other| nearest(other, at).is_some_and(|(distance, _)| distance < other.radius));
+        if distance > ON_IT * guide.radius || is_combed_again {
+            continue;
+        }
+        let step = along * 1e-5;
+        let pixel = |at: DVec3| view.pixel(pose.transform_point3(at));
+        let drawn = pixel(at + step) - pixel(at - step);
+        let off = impasto_core::angle::wrap_half_pi(stroke.angle_rad - drawn.y.atan2(drawn.x));
+        errors.push(off.abs().to_degrees());
+    }
+    Ok(errors)
+}
+
+/// Distance of a point to a guide's line, and the direction of the gesture there (turning evenly from the middle of one piece
+/// to that of the next).
+fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3)> {
+    let points: Vec<DVec3> = guide.points.iter().map(|point| DVec3::from(point.at)).collect();
+    let pieces: Vec<DVec3> = points.windows(2).map(|pair| (pair[1] - pair[0]).normalize_or_zero()).collect();
+    let at_point = |index: usize| {
+        let before = pieces[index.saturating_sub(1)];
+        let after = pieces[index.min(pieces.len() - 1)];
+        (before + after).normalize_or_zero()
+    };
+    let on_piece = |index: usize| {
+        let (from, to) = (points[index], points[index + 1]);
+        let t = ((at - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+        let along = at_point(index) * (1.0 - t) + at_point(index + 1) * t;
+        ((from + (to - from) * t - at).length(), along.normalize_or_zero())
+    };
+    (0..pieces.len()).map(on_piece).min_by(|a, b| a.0.total_cmp(&b.0))
+}
