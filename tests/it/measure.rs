@@ -46,12 +46,7 @@ fn ball() -> Arc<LoadedScene> {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 12_000)]);
     scene.timeline.last = 90;
     scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.9, 3.4], [0.0; 3])];
-    let key = |frame: f64, y: f64| ObjectKey {
-        frame,
-        translation: [0.0; 3],
-        rotation_deg: [12.0, y, 0.0],
-        ease: Default::default(),
-    };
+    let key = |frame: f64, y: f64| ObjectKey { rotation_deg: [12.0, y, 0.0], ..ObjectKey::at(frame) };
     scene.objects[0].keys = vec![key(0.0, 0.0), key(90.0, 90.0)];
     shapes::speckled(&shapes::loaded(scene, [shapes::sphere(32, 16)]))
 }
@@ -264,6 +259,11 @@ fn m8_sees_strokes_that_shrink_with_distance() {
         Spread::of(found.variation).max
     };
     assert!(largest(&frames) <= 1e-4);
+    let mapped = [0.0, 0.3, -0.5].map(|share| {
+        let eye = camera.eye + (camera.target - camera.eye) * share;
+        painting.seen_by(&motion::CameraPose { eye, ..camera.clone() }, 0.0, &options(Rotation::Mapped))
+    });
+    assert!(largest(&mapped) > 0.05, "strokes mapped as a texture pass");
     let shrinking = frames.map(|mut frame| {
         for stroke in &mut frame.strokes {
             stroke.length_px /= stroke.depth;
@@ -279,12 +279,7 @@ fn two_balls(edit: impl FnOnce(&mut Scene)) -> LoadedScene {
     let mut scene = shapes::scene(vec![shapes::object("one", 12_000), shapes::object("two", 12_000)]);
     scene.timeline.last = 1;
     for (object, x) in scene.objects.iter_mut().zip([-0.7, 0.7]) {
-        let key = ObjectKey {
-            frame: 0.0,
-            translation: [x, 0.0, 0.0],
-            rotation_deg: [0.0; 3],
-            ease: Default::default(),
-        };
+        let key = ObjectKey { translation: [x, 0.0, 0.0], ..ObjectKey::at(0.0) };
         object.keys = vec![key];
     }
     scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.9, 5.0], [0.0; 3])];

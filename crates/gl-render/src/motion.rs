@@ -71,6 +71,8 @@ impl MotionPass {
                     .bind()
                     .set("world_from_model", body.world_from_model)
                     .set("world_from_model_then", body_then.world_from_model)
+                    .set("morph", body.morph)
+                    .set("morph_then", body_then.morph)
                     .set("view_from_world", now.view.view_from_world)
                     .set("view_from_world_then", then.view.view_from_world)
                     .set("clip_from_view", now.view.clip_from_view)
@@ -113,6 +115,8 @@ const SOURCE: ProgramSource = ProgramSource {
     uniforms: &[
         "world_from_model",
         "world_from_model_then",
+        "morph",
+        "morph_then",
         "view_from_world",
         "view_from_world_then",
         "clip_from_view",

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use impasto_scene::document::{
-    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, Reference, RotatingStrokes, Scene,
-    Solver, StrokeSettings, Style, Up,
+    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, RotatingStrokes, Scene, Solver,
+    StrokeSettings, Style, Up,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
@@ -229,9 +229,8 @@ fn flat(scene: &mut Scene) {
 /// They are large against the camera's distance, and nobody's parents.
 pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
     let scene = &loaded.scene;
-    let Reference::Frame(frame) = scene.reference;
-    let camera = motion::camera_at(scene, frame as f64);
-    let poses = motion::poses_at(scene, frame as f64);
+    let (camera, frame) = motion::referred_to(scene, &scene.reference);
+    let poses = motion::poses_at(scene, frame);
     let is_parent = |name: &str| scene.objects.iter().any(|object| object.parent.as_deref() == Some(name));
     let blocks = |index: usize| {
         let object = &scene.objects[index];

@@ -6,7 +6,7 @@ use glam::DVec3;
 use impasto_core::angle::wrap_half_pi;
 use impasto_painting::Painting;
 use impasto_painting::frame::LayerKind;
-use impasto_scene::{document, motion};
+use impasto_scene::motion;
 
 use crate::strokes::{SeenStrokes, of_layer};
 use crate::truth::{BodyView, SurfacePoint, TrueView};
@@ -38,9 +38,9 @@ pub struct Difference {
 /// For each stroke that is seen now and that the reference view saw from behind, how far it lies from its nearest
 /// neighbours of the same region that face the same way.
 pub fn revealed(painting: &Painting, strokes: &SeenStrokes, size_px: [u32; 2]) -> Vec<Difference> {
-    let document::Reference::Frame(frame) = painting.scene().reference;
-    let reference = TrueView::new(&motion::camera_at(painting.scene(), frame as f64), size_px);
-    let poses = motion::poses_at(painting.scene(), frame as f64);
+    let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
+    let reference = TrueView::new(&camera, size_px);
+    let poses = motion::poses_at(painting.scene(), frame);
     let mut groups: BTreeMap<(u32, u32), Vec<Visible>> = BTreeMap::new();
     for (key, stroke) in of_layer(strokes, LayerKind::Body) {
         let object = key.body_id as usize - 1;

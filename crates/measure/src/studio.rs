@@ -7,7 +7,6 @@ use std::sync::Arc;
 use impasto_gl_render::context::{OpenOptions, open};
 use impasto_gl_render::{MotionPixels, Picture, ReferencePixels, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Rotation};
-use impasto_scene::document::Reference;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
 
@@ -55,6 +54,7 @@ fn rotation_key(rotation: Rotation) -> RotationKey {
         Rotation::On => 0,
         Rotation::Off => 1,
         Rotation::Random => 2,
+        Rotation::Mapped => 3,
     }
 }
 
@@ -99,13 +99,12 @@ impl<'a> Studio<'a> {
 
     /// The reference frame.
     pub fn reference_frame(&self) -> f64 {
-        let Reference::Frame(frame) = self.loaded.scene.reference;
-        frame as f64
+        motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).1
     }
 
     /// The camera at the reference frame.
     pub fn reference_camera(&self) -> CameraPose {
-        motion::camera_at(&self.loaded.scene, self.reference_frame())
+        motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).0
     }
 
     /// How frames are seen.

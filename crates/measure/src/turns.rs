@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{FrameOptions, Painting};
-use impasto_scene::document;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::strokes::{SeenStrokes, StrokeKey, degrees_apart, of_layer, seen};
@@ -52,14 +51,13 @@ pub struct Reference {
 impl Reference {
     /// That of a painting, in pictures of this size.
     pub fn of(painting: &Painting, size_px: [u32; 2]) -> Self {
-        let document::Reference::Frame(frame) = painting.scene().reference;
-        let frame = frame as f64;
-        let camera = motion::camera_at(painting.scene(), frame);
+        let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
         let then = painting.seen_by(&camera, frame, &FrameOptions::new(size_px));
         Self { camera, frame, strokes: seen(&then, &[]) }
     }
 
-    /// The turns of the body layer's strokes `now`, seen by `camera` at `frame`.
+    /// The turns of the body layer's strokes `now`, seen by `camera` at `frame`. Left out: surfaces that change their shape,
+    /// and regions with a reference of their own.
     pub fn turns(
         &self,
         painting: &Painting,
@@ -72,6 +70,12 @@ impl Reference {
         let turn = |key: &StrokeKey, angle_rad: f64| {
             let base = self.strokes.get(key)?;
             let object = key.body_id as usize - 1;
+            let region = painting.scene().regions.get(base.region as usize);
+            if painting.scene().objects[object].morph.is_some()
+                || region.is_some_and(|region| region.reference.is_some())
+            {
+                return None;
+            }
             let particle = painting.particles(object).get(key.particle as usize)?;
             let point =
                 SurfacePoint { position: particle.position.as_dvec3(), normal: particle.normal.as_dvec3() };

@@ -12,9 +12,9 @@ use crate::looks::{leave_out, orbit_blockers};
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();
     let scene = &mut version.scene;
-    let Reference::Frame(frame) = scene.reference;
-    let camera = motion::camera_at(scene, frame as f64);
-    let poses = motion::poses_at(scene, frame as f64);
+    let (camera, frame) = motion::referred_to(scene, &scene.reference);
+    let poses = motion::poses_at(scene, frame);
+    let morphs = motion::morphs_at(scene, frame);
     scene.reference = Reference::Frame(0);
     (scene.timeline.first, scene.timeline.last) = (0, 360);
     scene.camera.lens = camera.lens.clone();
@@ -28,13 +28,16 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
             ease: Ease::default(),
         })
         .collect();
-    for (object, pose) in scene.objects.iter_mut().zip(&poses) {
+    for (object, (pose, &morph)) in scene.objects.iter_mut().zip(poses.iter().zip(&morphs)) {
+        let scale = pose.matrix3.x_axis.length();
         object.parent = None;
         object.hold = 1;
         object.keys = vec![ObjectKey {
             frame: 0.0,
             translation: pose.translation.to_array(),
-            rotation_deg: euler_deg(pose.matrix3),
+            rotation_deg: euler_deg(pose.matrix3 * (1.0 / scale)),
+            scale,
+            morph,
             ease: Ease::default(),
         }];
     }
