@@ -259,6 +259,11 @@ fn m8_sees_strokes_that_shrink_with_distance() {
         Spread::of(found.variation).max
     };
     assert!(largest(&frames) <= 1e-4);
+    let mapped = [0.0, 0.3, -0.5].map(|share| {
+        let eye = camera.eye + (camera.target - camera.eye) * share;
+        painting.seen_by(&motion::CameraPose { eye, ..camera.clone() }, 0.0, &options(Rotation::Mapped))
+    });
+    assert!(largest(&mapped) > 0.05, "strokes mapped as a texture pass");
     let shrinking = frames.map(|mut frame| {
         for stroke in &mut frame.strokes {
             stroke.length_px /= stroke.depth;

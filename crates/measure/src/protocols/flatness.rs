@@ -1,6 +1,7 @@
 //! M8 on the shot and on a zoom.
 
 use impasto_painting::Rotation;
+use impasto_scene::presets;
 
 use crate::cameras::zoomed;
 use crate::figures::Spread;
@@ -27,10 +28,31 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     for factor in [0.5, 2.0, 4.0] {
         frames.push(seen(&painting.seen_by(&zoomed(&camera, factor), at_rest, &options), &[]));
     }
+    // What follows the size of its surface is meant to change.
+    let scene = &studio.loaded.scene;
+    let follows: Vec<bool> = (0..=scene.regions.len())
+        .map(|region| {
+            presets::resolve(scene, Some(region).filter(|&r| r < scene.regions.len())).size_follow > 0.0
+        })
+        .collect();
+    let mut left_out = 0;
+    for strokes in &mut frames {
+        let all = strokes.len();
+        strokes.retain(|_, stroke| !follows[stroke.region as usize]);
+        left_out += all - strokes.len();
+    }
+    if left_out > 0 {
+        row.notes.push(format!("left out, since they follow the size of their surface: {left_out} strokes"));
+    }
     let found = flatness(frames.iter());
+    let mapped = studio.frame_options(Rotation::Mapped);
+    let as_texture = [1.0, 2.0, 4.0]
+        .map(|factor| seen(&painting.seen_by(&zoomed(&camera, factor), at_rest, &mapped), &[]));
+    let as_texture = Spread::of(flatness(as_texture.iter()).variation);
     row.counts = Counts { strokes: found.variation.len(), pixels: 0, frames: frames.len() };
     let spread = Spread::of(found.variation);
     row.values.push(Reading::many("variation of a stroke's length or width", "", spread));
+    row.baselines.push(Reading::many("as a texture, on the zoom", "", as_texture));
     row.notes.push("strokes are rectangles on the picture: they have no shear".to_owned());
     row.verdict = Verdict::of(spread.max <= 1e-4, row.counts);
     Ok(row)
