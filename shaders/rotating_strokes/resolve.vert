@@ -31,7 +31,7 @@ float seen(mat2 turn) {
     vec3 n = mat3(view_from_world) * normal_and_bend.xyz;
     float unit = units_per_px(place.z);
     float slant = max(abs(n.z), 0.2);
-    float radius_px = clamp(0.28 * sqrt(size.x * size.y), 2.0, 14.0 * max(px_scale, 1.0));
+    float radius_px = clamp(0.28 * sqrt(size.x * size.y), 3.0, 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
     for (int index = 0; index < 17; index++) {
@@ -87,8 +87,8 @@ float fullness(float lightness, float grading) {
 float wanted(vec3 detail) {
     if (kind == LIGHTS) return smoothstep(0.03, 0.15, detail.b);
     // Edges are lost in places.
-    float rim = min(1.8 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
-    float inside = kind == FORM ? 1.7 * detail.r - 0.15 : 1.7 * detail.r - 0.36;
+    float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
+    float inside = kind == FORM ? 1.3 * detail.r - 0.09 : 1.3 * detail.r - 0.25;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 

@@ -56,8 +56,8 @@ impl Reference {
         Self { camera, frame, strokes: seen(&then, &[]) }
     }
 
-    /// The turns of the body layer's strokes `now`, seen by `camera` at `frame`. Left out: surfaces that change their shape,
-    /// and regions with a reference of their own.
+    /// The turns of the body layer's strokes `now`, seen by `camera` at `frame`. Regions with a reference of their own are
+    /// left out.
     pub fn turns(
         &self,
         painting: &Painting,
@@ -75,12 +75,6 @@ impl Reference {
         let turn = |key: &StrokeKey, angle_rad: f64| {
             let base = self.strokes.get(key)?;
             let object = key.body_id as usize - 1;
-            let region = painting.scene().regions.get(base.region as usize);
-            if painting.scene().objects[object].morph.is_some()
-                || region.is_some_and(|region| region.reference.is_some())
-            {
-                return None;
-            }
             let particle = painting.particles(object).get(key.particle as usize)?;
             let shares = [0, 1].map(|side: usize| morphs[side][object]);
             let ride = Ride::of(painting.surface(object), particle, shares);
