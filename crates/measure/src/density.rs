@@ -21,15 +21,23 @@ pub fn shown_over_wanted(strokes: &[Placed], pixels: usize) -> f64 {
 /// Mean distance to the nearest neighbour of the strokes that are more than half there, over that of the hexagonal lattice
 /// with as many points on as many pixels; and how many there are.
 pub fn spacing_over_ideal(strokes: &[Placed], pixels: usize) -> (f64, usize) {
-    let shown: Vec<[f64; 2]> =
+    let mut shown: Vec<[f64; 2]> =
         strokes.iter().filter(|stroke| stroke.alpha > 0.5).map(|stroke| stroke.center_px).collect();
     if shown.len() < 2 {
         return (0.0, shown.len());
     }
+    shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    // Outwards to either side, until all that is left is farther away in x alone.
     let nearest = |index: usize| {
         let [x, y] = shown[index];
-        let others = shown.iter().enumerate().filter(|(other, _)| *other != index);
-        others.map(|(_, at)| (at[0] - x).hypot(at[1] - y)).fold(f64::INFINITY, f64::min)
+        let mut least = f64::INFINITY;
+        let mut look = |[other_x, other_y]: [f64; 2]| {
+            least = least.min((other_x - x).hypot(other_y - y));
+            (other_x - x).abs() <= least
+        };
+        let _ = shown[..index].iter().rev().all(|&other| look(other));
+        let _ = shown[index + 1..].iter().all(|&other| look(other));
+        least
     };
     let mean = (0..shown.len()).map(nearest).sum::<f64>() / shown.len() as f64;
     (mean / hexagonal_spacing(pixels as f64, shown.len()), shown.len())
