@@ -7,6 +7,7 @@ mod ci;
 mod demo;
 mod gallery;
 mod layers;
+mod measure;
 mod meshes;
 mod packages;
 mod steps;
@@ -28,6 +29,7 @@ cargo xtask <command>
   layers                      every arrow between crates is one that ARCHITECTURE.md allows
   tidy                        long files, empty names, half a technique, big pictures, unfinished work
   gallery [NAME …]            render the pictures of the README and the docs into docs/pictures/
+  measure [SCENE …]           measure the shipped scenes and write the table of docs/techniques/rotating_strokes.md
   bench [-- …]                the benchmarks of bench/
   meshes                      write the meshes of scenes/meshes/ anew";
 
@@ -53,7 +55,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
     for flag in own {
         match (command.as_str(), flag.as_str()) {
             ("test" | "demo", "--no-install") => install = Install::PrintOnly,
-            ("gallery", name) if !name.starts_with('-') => {}
+            ("gallery" | "measure", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }
     }
@@ -67,6 +69,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "layers" => layers::run(&root),
         "tidy" => tidy::run(&root),
         "gallery" => gallery::run(&root, own),
+        "measure" => measure::run(&root, own),
         "bench" => bench::run(&root, passed_on),
         "meshes" => meshes::run(&root),
         "help" | "--help" | "-h" => {
