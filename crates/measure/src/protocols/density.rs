@@ -64,7 +64,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         row.counts.frames += 1;
         row.counts.strokes += seen.strokes;
         row.counts.pixels += seen.pixels;
-        let supplied = seen.demand <= RUN_OUT;
+        let supplied = run_out.is_none() && seen.demand <= RUN_OUT;
         let words = if supplied { "" } else { ", particles run out" };
         row.values.push(Reading::one(format!("density at zoom {zoom}{words}"), "", seen.density));
         if supplied {
@@ -100,6 +100,12 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
     let id = object as u32 + 1;
     let pixels = shown.reference.body_id.iter().filter(|&&other| other == id).count();
     let scene = &studio.loaded.scene;
+    let coverages: Vec<f32> = (0..=scene.regions.len())
+        .map(|region| {
+            let region = Some(region).filter(|&region| region < scene.regions.len());
+            presets::resolve(scene, region).body().coverage
+        })
+        .collect();
     let (mut placed, mut demands) = (Vec::new(), Vec::new());
     for (index, (stroke, source)) in shown.frame.strokes.iter().zip(&shown.frame.sources).enumerate() {
         let run = shown.frame.layers.iter().find(|run| {
@@ -108,10 +114,7 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
         if stroke.body_id != id || run.is_none() || !is_seen(&shown, stroke) {
             continue;
         }
-        let coverage =
-            presets::resolve(scene, Some(source.region as usize).filter(|&r| r < scene.regions.len()))
-                .body()
-                .coverage;
+        let coverage = coverages[source.region as usize];
         let area_px = f64::from(stroke.length_px * stroke.width_px);
         placed.push(Placed {
             center_px: stroke.center_px.map(f64::from),
