@@ -2,7 +2,7 @@
 // what is decided by it fades and never switches.
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
-uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id
+uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
 
 vec2 surface_at(vec2 at_px) {
@@ -76,11 +76,11 @@ vec3 detail_at(vec2 center_px, float id) {
         ivec2 texel_at = corner + ivec2(index & 3, index >> 2);
         vec4 texel = texelFetch(detail, clamp(texel_at, ivec2(0), last), 0);
         vec2 near = max(1.0 - 0.5 * abs(at - vec2(texel_at)), 0.0);
-        float share = texel.a == id ? near.x * near.x * near.y * near.y : 0.0;
+        float share = floor(texel.a) == id ? 2.0 * fract(texel.a) * near.x * near.x * near.y * near.y : 0.0;
         sum += texel.rgb * share;
         weight += share;
     }
-    return sum / max(weight, 0.1);
+    return sum / max(weight, 0.7);
 }
 
 // How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on three lines, so that it

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use impasto_core::angle::wrap_half_pi;
+use impasto_core::direction::singularities::Singularity;
 use impasto_painting::Painting;
 use impasto_painting::frame::LayerKind;
 use impasto_scene::motion;
@@ -21,8 +22,11 @@ const SAME_SIDE: f64 = 0.5;
 /// How many neighbours a stroke is compared with.
 pub const NEIGHBOURS: usize = 10;
 
-/// A surface that faces up or down by this cosine is near a pole: there every rule of direction has a singularity.
-const POLE: f64 = 0.9;
+/// Neighbours lie within this many of a stroke's lengths on the picture: strokes farther apart do not touch.
+const TOUCHING: f64 = 1.5;
+
+/// A stroke with a singular point within this many times the distance of its farthest neighbour has no one direction round it.
+const ROUND_A_POINT: f64 = 1.5;
 
 /// How far a stroke lies from a neighbour.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +35,7 @@ pub struct Difference {
     pub apart_deg: f64,
     /// Index of the object plus 1.
     pub body_id: u32,
-    /// Whether its surface faces up or down in the reference pose.
+    /// Whether directions have a singular point there.
     pub near_pole: bool,
 }
 
@@ -41,6 +45,7 @@ pub fn revealed(painting: &Painting, strokes: &SeenStrokes, size_px: [u32; 2]) -
     let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
     let reference = TrueView::new(&camera, size_px);
     let poses = motion::poses_at(painting.scene(), frame);
+    let poles: Vec<Vec<bool>> = (0..poses.len()).map(|object| painting.poles(object)).collect();
     let mut groups: BTreeMap<(u32, u32), Vec<Visible>> = BTreeMap::new();
     for (key, stroke) in of_layer(strokes, LayerKind::Body) {
         let object = key.body_id as usize - 1;
@@ -55,12 +60,19 @@ pub fn revealed(painting: &Painting, strokes: &SeenStrokes, size_px: [u32; 2]) -
             position: point.position,
             normal: point.normal,
             angle_rad: stroke.angle_rad,
-            near_pole: poses[object].transform_vector3(point.normal).y.abs() > POLE,
+            at_px: DVec2::from(stroke.particle_px),
+            length_px: stroke.length_px,
+            near_pole: poles[object][key.particle as usize],
             was_unseen: body.facing(point) <= 0.0,
         };
         groups.entry((key.body_id, stroke.region)).or_default().push(visible);
     }
-    groups.iter().flat_map(|((body_id, _), group)| differences(*body_id, group)).collect()
+    groups
+        .iter()
+        .flat_map(|((body_id, _), group)| {
+            differences(*body_id, group, painting.singularities(*body_id as usize - 1))
+        })
+        .collect()
 }
 
 /// A stroke that is seen.
@@ -68,30 +80,32 @@ struct Visible {
     position: DVec3,
     normal: DVec3,
     angle_rad: f64,
+    at_px: DVec2,
+    length_px: f64,
     near_pole: bool,
     was_unseen: bool,
 }
 
 /// Each stroke that was unseen against its nearest neighbours on the surface.
-fn differences(body_id: u32, group: &[Visible]) -> Vec<Difference> {
+fn differences(body_id: u32, group: &[Visible], singular: &[Singularity]) -> Vec<Difference> {
     let mut found = Vec::new();
     for (index, stroke) in group.iter().enumerate().filter(|(_, stroke)| stroke.was_unseen) {
         let mut others: Vec<(f64, f64)> = group
             .iter()
             .enumerate()
             .filter(|(other, near)| *other != index && near.normal.dot(stroke.normal) > SAME_SIDE)
+            .filter(|(_, near)| near.at_px.distance(stroke.at_px) < TOUCHING * stroke.length_px)
             .map(|(_, other)| {
                 let apart = wrap_half_pi(stroke.angle_rad - other.angle_rad);
                 (stroke.position.distance_squared(other.position), apart.abs().to_degrees())
             })
             .collect();
         others.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let near_pole = stroke.near_pole;
-        found.extend(others.iter().take(NEIGHBOURS).map(|&(_, apart_deg)| Difference {
-            apart_deg,
-            body_id,
-            near_pole,
-        }));
+        others.truncate(NEIGHBOURS);
+        let farthest = others.last().map_or(0.0, |(distance_sq, _)| distance_sq.sqrt());
+        let round = |point: &Singularity| point.position.distance(stroke.position) < ROUND_A_POINT * farthest;
+        let near_pole = stroke.near_pole || singular.iter().any(round);
+        found.extend(others.iter().map(|&(_, apart_deg)| Difference { apart_deg, body_id, near_pole }));
     }
     found
 }

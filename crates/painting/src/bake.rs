@@ -170,6 +170,21 @@ impl BakeInputs {
         point.position + point.normal * f64::from(self.rules[point.rule].strokes.offset)
     }
 
+    /// Which particles lie near a singular point of their stated direction.
+    pub(crate) fn poles(&self) -> Vec<bool> {
+        let stated = Stated {
+            rules: &self.rules,
+            automatic: self.parts.directions(self.references.own()),
+            extent: self.extent,
+        };
+        let up_in_model = self.references.own().up_in_model;
+        (0..self.particles.len())
+            .map(|index| {
+                stated.is_pole(self.point(index, self.regions.of(&self.particles[index])), up_in_model)
+            })
+            .collect()
+    }
+
     fn part_of(&self, particle: usize) -> usize {
         self.parts.of_triangle[self.particles[particle].triangle as usize] as usize
     }

@@ -283,6 +283,12 @@ impl Painting {
         self.bodies[object].field.as_ref().map_or(&[], |field| &field.singularities)
     }
 
+    /// For each particle of an object's body layer, whether the direction that is stated there has a singular point near by:
+    /// the surface faces along the axis that it is stated by.
+    pub fn poles(&self, object: usize) -> Vec<bool> {
+        self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.inputs.poles())
+    }
+
     fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
         self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
     }

@@ -102,6 +102,21 @@ impl Stated<'_> {
         }
     }
 
+    /// Whether the surface faces along the axis that the direction of a point is stated by, within 26 degrees; for a stated
+    /// angle, along the world's up, which the guess about unseen surfaces goes by.
+    pub(crate) fn is_pole(&self, point: Point, up_in_model: DVec3) -> bool {
+        const COSINE: f64 = 0.9;
+        let axis = match *self.direction(point) {
+            Direction::Around(axis) | Direction::Along(axis) => DVec3::from(axis),
+            Direction::Up => DVec3::Y,
+            Direction::Toward(target) => DVec3::from(target) - point.position,
+            Direction::Auto | Direction::Angle(_) | Direction::Crossing(..) | Direction::Curvature(_) => {
+                up_in_model
+            }
+        };
+        axis.normalize_or_zero().dot(point.normal).abs() > COSINE
+    }
+
     /// What the second of two crossing families adds, radians; `None` where there is one family.
     pub(crate) fn second_family_rad(&self, point: Point) -> Option<f64> {
         match *self.direction(point) {

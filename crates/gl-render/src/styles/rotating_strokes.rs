@@ -83,9 +83,10 @@ impl Targets {
         let half = size_px.map(|side| side.div_ceil(2));
         let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;
         let blocks = size_px.map(|side| side.div_ceil(block_px));
+        // The id of a body and its share of a block in one number.
         let detail = [
-            target(Format::Rgba16F, blocks, Filter::Nearest)?,
-            target(Format::Rgba16F, blocks, Filter::Nearest)?,
+            target(Format::Rgba32F, blocks, Filter::Nearest)?,
+            target(Format::Rgba32F, blocks, Filter::Nearest)?,
         ];
         Ok(Self {
             detail_passes: [
