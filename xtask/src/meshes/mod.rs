@@ -3,18 +3,24 @@
 mod apple;
 mod apple_fine;
 mod blocks;
+mod board;
 mod cloth;
 mod cottage;
 mod curve;
+mod deer;
 mod fish;
+mod globe;
 mod head;
 mod hills;
 mod jug;
 mod lemon;
+mod limb;
 mod orange;
 mod poly_mesh;
+mod puppet;
 mod room;
 mod sky;
+mod surface_net;
 mod tree;
 mod valley;
 mod walker;
@@ -51,8 +57,10 @@ fn shipped() -> Vec<PolyMesh> {
         apple_fine::apple_fine(),
         cloth::cloth(),
         blocks::cube(),
+        deer::deer(),
         head::bust(),
         fish::fish(),
+        globe::globe(),
         head::head(),
         jug::jug(),
         lemon::lemon(),
@@ -60,6 +68,10 @@ fn shipped() -> Vec<PolyMesh> {
         orange::orange(),
         lemon::pear(),
         room::plane(),
+        board::plank(),
+        board::plate(),
+        puppet::puppet_long(),
+        puppet::puppet_round(),
         blocks::simple_objects(),
         room::table(),
         room::wall(),

@@ -176,8 +176,13 @@ impl PolyMesh {
 
     /// Rounds every coordinate to thousandths: enough for what is seen from afar, and a shorter file.
     pub fn round_to_thousandths(&mut self) {
+        self.round_to(1e3);
+    }
+
+    /// Rounds every coordinate to one part in `parts` of a unit.
+    pub fn round_to(&mut self, parts: f64) {
         for point in &mut self.positions {
-            *point = (*point * 1000.0).round() / 1000.0;
+            *point = (*point * parts).round() / parts;
         }
     }
 
