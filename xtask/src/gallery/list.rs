@@ -7,7 +7,7 @@ pub(super) struct Picture {
     /// Rendered at the scene's own size.
     pub(super) own_size: bool,
     pub(super) columns: usize,
-    /// One panel for each: what is set in the scene for it.
+    /// One panel for each: what is set in the scene for it; `--frames`, `--rotation` and `--colors` go to the command.
     pub(super) panels: &'static [&'static [(&'static str, &'static str)]],
 }
 
@@ -45,6 +45,11 @@ const fn sweep(
     Picture { name, view, own_size: false, columns, panels }
 }
 
+/// The source paper's rule.
+const PAPER: &[(&str, &str)] = &[("strokes.preset", "paper")];
+
+const NO_GUIDES: (&str, &str) = ("regions.deer.guides", "[]");
+
 pub(super) const PICTURES: &[Picture] = &[
     whole("still_life", "still_life", 0),
     whole("still_life_rolled", "still_life", 90),
@@ -54,6 +59,54 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("simple_objects", "simple_objects", 0),
     whole("fish", "fish", 0),
     whole("falling_log", "falling_log", 12),
+    // A globe and a deer, combed, all the way round.
+    Picture {
+        columns: 2,
+        panels: &[
+            &[("--frames", "0")],
+            &[("--frames", "90")],
+            &[("--frames", "180")],
+            &[("--frames", "270")],
+        ],
+        ..whole("reveal", "reveal", 0)
+    },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("reveal_paper_and_ours", "reveal", 140) },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("grain_paper_and_ours", "grain", 15) },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("thin_plate_paper_and_ours", "thin_plate", 50) },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("orbit_paper_and_ours", "orbit_still_life", 30) },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("morph_paper_and_ours", "morph", 30) },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("zoom_paper_and_ours", "zoom", 30) },
+    Picture {
+        columns: 3,
+        panels: &[&[("--frames", "0")], &[("--frames", "15")], &[("--frames", "30")]],
+        ..whole("morph", "morph", 0)
+    },
+    Picture {
+        columns: 2,
+        panels: &[&[("--frames", "0")], &[("--frames", "24")]],
+        ..whole("scale_pulse", "scale_pulse", 0)
+    },
+    // What the source paper's figure 2 and 3 show: strokes laid on as a texture, and as billboards.
+    Picture {
+        columns: 2,
+        panels: &[&[("strokes.preset", "paper"), ("--rotation", "mapped")], PAPER],
+        ..whole("mapped", "orbit_still_life", 30)
+    },
+    Picture { columns: 2, panels: &[&[], &[("--colors", "trust")]], ..whole("trust", "reveal", 110) },
+    Picture {
+        name: "directions",
+        view: View::Scene { scene: "reveal", frame: 0, crop: Some([590, 60, 440, 510]) },
+        own_size: false,
+        columns: 3,
+        panels: &[
+            &[NO_GUIDES],
+            &[NO_GUIDES, ("regions.deer.direction", "Angle(35)")],
+            &[NO_GUIDES, ("regions.deer.direction", "Up")],
+            &[NO_GUIDES, ("regions.deer.direction", "Around((1, 0, 0))")],
+            &[NO_GUIDES, ("regions.deer.direction", "Curvature(Min)")],
+            &[],
+        ],
+    },
     // The camera rolled by 30°, strokes with it.
     Picture {
         name: "roll",

@@ -72,8 +72,19 @@ impl Work<'_> {
             View::Scene { scene, frame, .. } => {
                 let scene = format!("scenes/{scene}.ron");
                 let (frame, size) = (frame.to_string(), format!("{}x{}", SIZE_PX[0], SIZE_PX[1]));
-                let set: Vec<String> = set.iter().map(|(path, value)| format!("{path}={value}")).collect();
-                let mut arguments = vec!["render", &scene, "--quiet", "--frames", &frame, "-o", &output];
+                let stated = |flag: &str| set.iter().find(|(path, _)| *path == flag).map(|&(_, value)| value);
+                let frame = stated("--frames").unwrap_or(&frame);
+                let mut arguments = vec!["render", &scene, "--quiet", "--frames", frame, "-o", &output];
+                for flag in ["--rotation", "--colors"] {
+                    if let Some(value) = stated(flag) {
+                        arguments.extend([flag, value]);
+                    }
+                }
+                let set: Vec<String> = set
+                    .iter()
+                    .filter(|(path, _)| !path.starts_with("--"))
+                    .map(|(path, value)| format!("{path}={value}"))
+                    .collect();
                 if !picture.own_size {
                     arguments.extend(["--size", &size]);
                 }
