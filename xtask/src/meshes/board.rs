@@ -31,12 +31,13 @@ pub fn plank() -> PolyMesh {
             let ring = ((at.y + 0.12).hypot(0.8 * at.z) * 32.0).sin();
             return Look { group: "ends", material: if ring > 0.0 { "end_pale" } else { "end_dark" } };
         }
-        let group = if outward.y.abs() > 0.6 { "face" } else { "edges" };
+        // Sawn edges are darker than the planed faces, so that the plank keeps its arrises under broad strokes.
+        let (group, shade) = if outward.y.abs() > 0.6 { ("face", -0.15) } else { ("edges", 0.55) };
         // Long streaks; the line of a streak wanders a little on its way.
         let across = at.z + 1.7 * at.y + 0.03 * (2.4 * at.x).sin();
         let streak = noise(0.5 + 0.04 * at.x, 26.0 * across, 24, 7)
             + 0.5 * noise(0.5 + 0.12 * at.x, 55.0 * across, 24, 8);
-        let material = match streak {
+        let material = match streak - shade {
             streak if streak < -0.55 => "wood_dark",
             streak if streak < -0.20 => "wood_brown",
             streak if streak < 0.25 => "wood",

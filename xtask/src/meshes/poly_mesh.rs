@@ -52,12 +52,22 @@ pub struct PolyMesh {
     pub positions: Vec<DVec3>,
     /// The polygons, in the order in which they were made.
     pub faces: Vec<Face>,
+    /// Whether the file gives one normal per point, so that no edge shows; else whoever reads it finds the creases.
+    pub has_normals: bool,
 }
 
 impl PolyMesh {
     /// An empty mesh.
     pub fn new(name: &'static str, about: &'static str, palette: &'static [Pigment]) -> Self {
-        Self { name, about, palette, shines: Vec::new(), positions: Vec::new(), faces: Vec::new() }
+        Self {
+            name,
+            about,
+            palette,
+            shines: Vec::new(),
+            positions: Vec::new(),
+            faces: Vec::new(),
+            has_normals: false,
+        }
     }
 
     /// Makes some materials of the palette shine, all alike.
@@ -187,12 +197,18 @@ impl PolyMesh {
     }
 
     /// The mesh file's text: faces sorted by group, then by material, in the order in which each first appears.
-    /// Positions are rounded to 5 decimals.
+    /// Positions are rounded to 5 decimals, normals to 3.
     pub fn to_obj(&self) -> anyhow::Result<String> {
         let mut text = format!("# {}\nmtllib {}.mtl\n", self.about, self.name);
         for point in &self.positions {
             ensure!(point.is_finite(), "{}: a point is not finite", self.name);
             writeln!(text, "v {} {} {}", decimal(point.x), decimal(point.y), decimal(point.z))?;
+        }
+        if self.has_normals {
+            for normal in self.normals() {
+                let [x, y, z] = normal.to_array().map(|value| decimal((value * 1e3).round() / 1e3));
+                writeln!(text, "vn {x} {y} {z}")?;
+            }
         }
         let mut groups = Vec::new();
         let mut looks = Vec::new();
@@ -212,12 +228,30 @@ impl PolyMesh {
                     text.push('f');
                     for corner in &face.corners {
                         write!(text, " {}", corner + 1)?;
+                        if self.has_normals {
+                            write!(text, "//{}", corner + 1)?;
+                        }
                     }
                     text.push('\n');
                 }
             }
         }
         Ok(text)
+    }
+
+    /// A unit normal per point: the mean of those of the faces round it, weighted by their areas.
+    fn normals(&self) -> Vec<DVec3> {
+        let mut sums = vec![DVec3::ZERO; self.positions.len()];
+        for face in &self.faces {
+            let at = |corner: usize| self.positions[face.corners[corner]];
+            let area: DVec3 = (2..face.corners.len())
+                .map(|corner| (at(corner - 1) - at(0)).cross(at(corner) - at(0)))
+                .sum();
+            for &corner in &face.corners {
+                sums[corner] += area;
+            }
+        }
+        sums.into_iter().map(|sum| sum.normalize_or(DVec3::Y)).collect()
     }
 
     /// The material file's text: one base colour per material of the palette, and the highlight of those that shine.

@@ -113,6 +113,7 @@ fn weave(name: &'static str, about: &'static str, shape: &Shape) -> PolyMesh {
     }
     mesh.rest_on_ground();
     mesh.round_to(1e4);
+    mesh.has_normals = true;
     mesh
 }
 

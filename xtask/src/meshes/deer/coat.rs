@@ -32,7 +32,7 @@ fn group(point: DVec3) -> &'static str {
         "hooves"
     } else if x > 0.972 - 0.25 * (y - 1.21) && y > 1.185 {
         "nose"
-    } else if x < -0.605 && y > 0.6 {
+    } else if x < -0.612 - 0.18 * (0.87 - y).max(0.0) && y > 0.6 && point.z.abs() < 0.048 {
         "tail"
     } else if y < 0.56 {
         "legs"

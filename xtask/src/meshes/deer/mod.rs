@@ -62,6 +62,7 @@ pub fn deer() -> PolyMesh {
         *point = (*point - middle) * WITHERS;
     }
     mesh.round_to(1e4);
+    mesh.has_normals = true;
     mesh
 }
 
