@@ -16,8 +16,9 @@ use crate::truth::{BodyView, SurfacePoint, TrueView};
 const FACED: f64 = 0.2;
 const DRAWN: f64 = 0.1;
 
-/// Neighbours face the same way by this cosine: those across a crease or on the other side of a sheet are none.
-const SAME_SIDE: f64 = 0.5;
+/// Neighbours face the same way by this cosine (37 degrees): those across a crease, round a limb or on the other side of a
+/// sheet are none.
+const SAME_SIDE: f64 = 0.8;
 
 /// How many neighbours a stroke is compared with.
 pub const NEIGHBOURS: usize = 10;
