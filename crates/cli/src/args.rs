@@ -141,6 +141,9 @@ pub(crate) struct RenderArguments {
     /// What strokes are coloured by: the scene, or how far their turn can be trusted.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) colors: ColorsChoice,
+    /// Go all the way round in place of the scene's own shot: 360 frames, a degree each.
+    #[arg(long)]
+    pub(crate) turntable: bool,
     /// Strokes keep their size in pixels whatever the picture's size.
     #[arg(long)]
     pub(crate) keep_stroke_px: bool,

@@ -81,6 +81,9 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let quiet = arguments.talk.quiet;
     let verbose = arguments.talk.verbose > 0;
     let mut loaded = session::read_scene(&arguments.scene, quiet)?;
+    if arguments.turntable {
+        loaded = impasto_measure::turntable(&loaded);
+    }
     match arguments.style {
         Some(StyleChoice::Reference) => loaded.scene.style = Style::Reference,
         Some(StyleChoice::RotatingStrokes) if loaded.scene.style == Style::Reference => {

@@ -232,9 +232,30 @@ pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
     let (camera, frame) = motion::referred_to(scene, &scene.reference);
     let poses = motion::poses_at(scene, frame);
     let is_parent = |name: &str| scene.objects.iter().any(|object| object.parent.as_deref() == Some(name));
+    let corners_of = |index: usize| {
+        let object = &scene.objects[index];
+        let file = loaded.meshes.get(&object.mesh);
+        let to_world = poses[index].matrix3 * object.model_from_file();
+        let from = poses[index].translation;
+        (0..file.map_or(0, |file| file.mesh.triangles.len())).filter_map(move |triangle| {
+            Some(file?.mesh.corners(triangle).map(|corner| to_world * corner.as_dvec3() + from))
+        })
+    };
+    // What the reference camera sees in its middle is what it goes round.
+    let first_hit = |index: &usize| {
+        let hits = corners_of(*index).filter_map(|corners| segment_hit(camera.eye, camera.target, corners));
+        hits.fold(f64::INFINITY, f64::min)
+    };
+    let subject = (0..scene.objects.len())
+        .map(|index| (first_hit(&index), index))
+        .filter(|(at, _)| at.is_finite())
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, index)| index);
     let blocks = |index: usize| {
         let object = &scene.objects[index];
-        let Some(file) = loaded.meshes.get(&object.mesh) else { return false };
+        let Some(file) = loaded.meshes.get(&object.mesh).filter(|_| subject != Some(index)) else {
+            return false;
+        };
         let model_from_file = object.model_from_file();
         let to_world = |at: glam::Vec3| poses[index].transform_point3(model_from_file * at.as_dvec3());
         let Some((low, high)) = file.mesh.bounds() else { return false };
@@ -244,30 +265,28 @@ pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
         }
         (1..24).any(|step| {
             let eye = cameras::orbited(&camera, 15.0 * f64::from(step)).eye;
-            (0..file.mesh.triangles.len()).any(|triangle| {
-                let corners = file.mesh.corners(triangle).map(to_world);
-                // What the target itself lies on is no blocker.
-                segment_hits(eye, eye + (camera.target - eye) * 0.95, corners)
-            })
+            // What the target itself lies on is no blocker.
+            let to = eye + (camera.target - eye) * 0.95;
+            corners_of(index).any(|corners| segment_hit(eye, to, corners).is_some())
         })
     };
     (0..scene.objects.len()).filter(|&index| blocks(index)).collect()
 }
 
-/// Möller and Trumbore, between the ends of a segment.
-fn segment_hits(from: DVec3, to: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
+/// Where a segment meets a triangle, 0 at its beginning and 1 at its end (Möller and Trumbore 1997).
+fn segment_hit(from: DVec3, to: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let (along, ab, ac) = (to - from, b - a, c - a);
     let p = along.cross(ac);
     let determinant = ab.dot(p);
     if determinant.abs() < 1e-15 {
-        return false;
+        return None;
     }
     let offset = from - a;
     let u = offset.dot(p) / determinant;
     let q = offset.cross(ab);
     let v = along.dot(q) / determinant;
     let t = ac.dot(q) / determinant;
-    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)).then_some(t)
 }
 
 pub(crate) fn leave_out(loaded: &mut LoadedScene, blockers: &[usize]) {

@@ -75,7 +75,7 @@ pub(super) const PICTURES: &[Picture] = &[
     Picture { columns: 2, panels: &[PAPER, &[]], ..whole("thin_plate_paper_and_ours", "thin_plate", 50) },
     Picture { columns: 2, panels: &[PAPER, &[]], ..whole("orbit_paper_and_ours", "orbit_still_life", 30) },
     Picture { columns: 2, panels: &[PAPER, &[]], ..whole("morph_paper_and_ours", "morph", 30) },
-    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("zoom_paper_and_ours", "zoom", 30) },
+    Picture { columns: 2, panels: &[PAPER, &[]], ..whole("zoom_paper_and_ours", "zoom", 60) },
     Picture {
         columns: 3,
         panels: &[&[("--frames", "0")], &[("--frames", "15")], &[("--frames", "30")]],
