@@ -4,8 +4,6 @@
 //! the power n of the field's [`Symmetry`] (`e^{iα}` for arrows, `e^{2iα}` for lines), so that the two ends of a line are one
 //! number and means make sense.
 
-use std::f64::consts::FRAC_PI_2;
-
 use glam::{DVec2, DVec3};
 
 pub mod carry;
@@ -88,16 +86,12 @@ pub fn toward(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
     along_surface((target - position).normalize_or_zero(), normal)
 }
 
-/// A tangent turned by a quarter about the normal, counter-clockwise as seen from outside.
-pub fn quarter_turn(tangent: DVec3, normal: DVec3) -> DVec3 {
-    normal.cross(tangent)
-}
-
 /// The least angle between two directions, radians: up to π for arrows, π/2 for lines.
-pub fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
+#[cfg(test)]
+fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
     let angle = a.angle_between(b);
     match symmetry {
-        Symmetry::Lines if angle > FRAC_PI_2 => std::f64::consts::PI - angle,
+        Symmetry::Lines if angle > std::f64::consts::FRAC_PI_2 => std::f64::consts::PI - angle,
         _ => angle,
     }
 }

@@ -10,7 +10,7 @@ use impasto_core::direction::carry::{Carried, Stencils};
 use impasto_core::direction::curvature;
 use impasto_core::direction::field::{Constraint, FieldGraph, MAX_SAMPLES};
 use impasto_core::direction::singularities::{self, Singularity};
-use impasto_core::direction::tangent_axes;
+use impasto_core::direction::{Symmetry, tangent_axes};
 use impasto_core::neighbours::Points;
 use impasto_core::sampling::{self, Particle, Surface};
 use impasto_core::screen_map::{PixelLens, facing};
@@ -63,6 +63,7 @@ pub(crate) struct FieldInputs {
 /// The field of a body, solved.
 pub(crate) struct BodyField {
     inputs: FieldInputs,
+    symmetry: Symmetry,
     points: Vec<SamplePoint>,
     solved: Vec<DVec2>,
     anchors: Vec<f64>,
@@ -179,16 +180,15 @@ impl FieldInputs {
         let solved = graph.solve(symmetry, &constraints);
         let places = (&samples.positions[..], &samples.normals[..]);
         let singularities = singularities::find(&graph, places, &solved, symmetry);
-        Some(BodyField { inputs: self.clone(), points, solved, anchors, singularities })
+        Some(BodyField { inputs: self.clone(), symmetry, points, solved, anchors, singularities })
     }
 
-    fn symmetry(&self, points: &[SamplePoint]) -> impasto_core::direction::Symmetry {
+    fn symmetry(&self, points: &[SamplePoint]) -> Symmetry {
         let of = |sample: &SamplePoint| symmetry(&self.rules[sample.point.rule]);
-        let arrows = impasto_core::direction::Symmetry::Arrows;
-        if !points.is_empty() && points.iter().all(|sample| of(sample) == arrows) {
-            arrows
+        if !points.is_empty() && points.iter().all(|sample| of(sample) == Symmetry::Arrows) {
+            Symmetry::Arrows
         } else {
-            impasto_core::direction::Symmetry::Lines
+            Symmetry::Lines
         }
     }
 
@@ -355,7 +355,7 @@ impl FieldInputs {
             let slope = if flatness < 1.0 { wrap_pi(off - error(turned(tangent, 1e-4))) / 1e-4 } else { 1.0 };
             tangent = turned(tangent, (off / slope.clamp(0.2, 20.0)).clamp(-0.6, 0.6));
         }
-        let lines = impasto_core::direction::Symmetry::Lines;
+        let lines = Symmetry::Lines;
         let mix = |tangent: DVec3| lines.encode(tangent, views.axes);
         if trust >= 1.0 {
             return tangent;
@@ -381,11 +381,7 @@ impl FieldInputs {
         let Some(along) = combed else { return tangent };
         let found = symmetry.decode(z, views.axes);
         // Of a line's two ends, the one that the last gesture points to.
-        if found.dot(along) < 0.0 && symmetry == impasto_core::direction::Symmetry::Lines {
-            -found
-        } else {
-            found
-        }
+        if found.dot(along) < 0.0 && symmetry == Symmetry::Lines { -found } else { found }
     }
 }
 
@@ -397,8 +393,7 @@ impl BodyField {
         point: Point,
         base: &Base,
     ) -> DVec3 {
-        let inputs = &self.inputs;
-        let symmetry = inputs.symmetry(&self.points);
+        let (inputs, symmetry) = (&self.inputs, self.symmetry);
         let axes = tangent_axes(point.normal);
         let stated = symmetry.encode(base.tangent, axes);
         let sample = |index: usize| {
@@ -421,7 +416,7 @@ impl BodyField {
         }
         let mixed = (found * (1.0 - hold) + stated * hold).try_normalize().unwrap_or(stated);
         let tangent = symmetry.decode(mixed, axes);
-        let nearer = symmetry == impasto_core::direction::Symmetry::Lines && tangent.dot(base.tangent) < 0.0;
+        let nearer = symmetry == Symmetry::Lines && tangent.dot(base.tangent) < 0.0;
         if nearer { -tangent } else { tangent }
     }
 }

@@ -42,16 +42,6 @@ impl Stencils {
         Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MOST), spacing }
     }
 
-    /// How many particles.
-    pub fn len(&self) -> usize {
-        self.lists.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The direction of a particle and its anchor, from the samples that `counts`: `stated` turned by what the solve has
     /// turned its samples, or, where that does not hang together (stated directions whirl), what the samples have been solved
     /// to, transported. `None` where no sample counts.

@@ -30,8 +30,6 @@ pub struct FieldGraph {
     /// First edge of each sample, and the end.
     starts: Vec<u32>,
     edges: Vec<Edge>,
-    /// Mean distance of samples, model units.
-    spacing: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +89,7 @@ impl FieldGraph {
             edges.extend(list);
             starts.push(edges.len() as u32);
         }
-        Self { starts, edges, spacing }
+        Self { starts, edges }
     }
 
     /// How many samples.
@@ -102,11 +100,6 @@ impl FieldGraph {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
-    }
-
-    /// About how far samples stand apart, model units.
-    pub fn spacing(&self) -> f64 {
-        self.spacing
     }
 
     /// The neighbours of a sample.

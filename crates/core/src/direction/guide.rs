@@ -80,16 +80,6 @@ impl Guide {
         Some(Self { points: kept, radius, strength, falloff, ball })
     }
 
-    /// How far it reaches, model units.
-    pub fn radius(&self) -> f64 {
-        self.radius
-    }
-
-    /// Its points with the direction of the gesture there (unit), in order.
-    pub fn points(&self) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
-        self.points.iter().map(|point| (point.position, point.along))
-    }
-
     /// What it says about a point with this unit normal, as if it reached at least `least_reach` far. `None` where it does not
     /// reach.
     pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
