@@ -1,0 +1,1 @@
+//! The editor's window: egui panels and the viewport over `editor-model`.
