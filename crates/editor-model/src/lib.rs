@@ -7,12 +7,15 @@
 //!
 //! A script of commands in a test can do whatever a hand can do in the window.
 
+pub mod camera_rig;
 mod change;
 pub mod command;
 pub mod document;
 mod euler;
 mod history;
 mod names;
+pub mod path;
+pub mod picking;
 mod refusal;
 pub mod selection;
 pub mod session;
