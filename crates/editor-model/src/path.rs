@@ -114,8 +114,8 @@ impl SurfacePath {
         world_from_model: DAffine3,
         settings: &PathSettings,
     ) -> Self {
-        let px_per_unit = view.px_per_unit(hit.position_in_world)
-            * world_units_per_model_unit(world_from_model);
+        let px_per_unit =
+            view.px_per_unit(hit.position_in_world) * world_units_per_model_unit(world_from_model);
         Self {
             object: hit.object,
             radius: settings.radius_px / px_per_unit,

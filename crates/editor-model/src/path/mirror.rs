@@ -23,7 +23,9 @@ impl MirrorAxes {
         let on = [self.x, self.y, self.z];
         (1..8usize)
             .filter(|image| (0..3).all(|axis| image >> axis & 1 == 0 || on[axis]))
-            .map(|image| DVec3::from_array([0, 1, 2].map(|axis| if image >> axis & 1 == 1 { -1.0 } else { 1.0 })))
+            .map(|image| {
+                DVec3::from_array([0, 1, 2].map(|axis| if image >> axis & 1 == 1 { -1.0 } else { 1.0 }))
+            })
             .collect()
     }
 }
