@@ -12,7 +12,9 @@ use impasto_editor_model::path::{
 use impasto_editor_model::picking::{Picker, View};
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{FrameOptions, Painting, prepare};
-use impasto_scene::document::{Direction, Falloff, Guide, Lens, ObjectKey, Region, Scene, Selector};
+use impasto_scene::document::{
+    Direction, Falloff, Guide, GuideMode, Lens, ObjectKey, Region, Scene, Selector,
+};
 use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::shapes;
 
@@ -91,7 +93,13 @@ impl Bench {
 }
 
 fn style() -> GuideStyle {
-    GuideStyle { object: None, strength: 1.0, falloff: Falloff::Smooth, sense: PathSense::Along }
+    GuideStyle {
+        mode: GuideMode::Comb,
+        object: None,
+        strength: 1.0,
+        falloff: Falloff::Smooth,
+        sense: PathSense::Along,
+    }
 }
 
 fn lines_apart(a: f64, b: f64) -> f64 {

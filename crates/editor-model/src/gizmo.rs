@@ -4,7 +4,8 @@
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use crate::picking::View;
-use crate::transform::{Axis, Constraint, Operation, Space, axes_of};
+use crate::session::Axes;
+use crate::transform::{Axis, Constraint, Operation, axes_of};
 
 #[cfg(test)]
 mod tests;
@@ -73,7 +74,7 @@ pub struct Gizmo {
 
 impl Gizmo {
     /// The handles of an operation on an object; none where its origin does not show.
-    pub fn new(operation: Operation, space: Space, world_from_model: DAffine3, view: &View) -> Self {
+    pub fn new(operation: Operation, space: Axes, world_from_model: DAffine3, view: &View) -> Self {
         let origin = world_from_model.translation;
         let Some(centre_px) = view.project(origin).filter(|at_px| at_px.is_finite()) else {
             return Self { handles: Vec::new() };

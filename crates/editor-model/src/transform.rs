@@ -6,6 +6,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use impasto_scene::document::Lens;
 
 use crate::picking::{Ray, View};
+use crate::session::Axes;
 
 #[cfg(test)]
 mod tests;
@@ -33,18 +34,6 @@ pub enum Axis {
     Y,
     /// Blue.
     Z,
-}
-
-/// Whose axes hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Space {
-    /// The world's.
-    #[default]
-    World,
-    /// The object's own.
-    Local,
-    /// The camera's: X right, Y up, Z towards the eye.
-    View,
 }
 
 /// What a transform is held to.
@@ -126,9 +115,9 @@ pub struct Transforming {
     name: String,
     operation: Operation,
     constraint: Constraint,
-    space: Space,
+    space: Axes,
     /// The space that axes mean when they are first named.
-    first_space: Space,
+    first_space: Axes,
     typed: Typed,
     view: View,
     /// The object's pose when it began.
@@ -160,7 +149,7 @@ pub struct TransformStart {
     /// The pointer, pixels.
     pub at_px: DVec2,
     /// Whose axes the options name.
-    pub space: Space,
+    pub space: Axes,
 }
 
 impl Transforming {
@@ -198,7 +187,7 @@ impl Transforming {
     }
 
     /// Whose axes its delta counts in.
-    pub fn space(&self) -> Space {
+    pub fn space(&self) -> Axes {
         self.space
     }
 
@@ -268,9 +257,9 @@ impl Transforming {
 
     fn value_words(&self) -> String {
         let space = match (self.constraint, self.space) {
-            (Constraint::None, _) | (_, Space::World) => "",
-            (_, Space::Local) => " local",
-            (_, Space::View) => " view",
+            (Constraint::None, _) | (_, Axes::World) => "",
+            (_, Axes::Local) => " local",
+            (_, Axes::View) => " view",
         };
         let held = match self.constraint {
             Constraint::None => String::new(),
@@ -304,7 +293,7 @@ impl Transforming {
 
     /// The same axis again means the object's own, a third time none.
     fn hold(&mut self, constraint: Constraint) {
-        let other = if self.first_space == Space::Local { Space::World } else { Space::Local };
+        let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
         if self.constraint != constraint {
             (self.constraint, self.space) = (constraint, self.first_space);
         } else if self.space == self.first_space {
@@ -431,14 +420,12 @@ impl TransformDelta {
         }
     }
 
-    /// What becomes of a pose: turned and scaled about its own origin. `world_from_space` are the axes that the delta counts
-    /// in. A pose that is scaled unevenly is returned as it is told; scenes keep the mean ([`mean_factor`]).
-    pub fn applied(&self, world_from_model: DAffine3, world_from_space: DMat3) -> DAffine3 {
-        let pivot = world_from_model.translation;
-        let about_pivot =
-            |linear: DMat3| DAffine3::from_mat3_translation(linear * world_from_model.matrix3, pivot);
+    /// Where each point of the world goes, turned and scaled about a pivot. `world_from_space` are the axes that the delta
+    /// counts in. Uneven factors make an uneven map: poses cannot hold it, see `Arrange::Stretch`.
+    pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
+        let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {
-            Self::Move(by) => DAffine3::from_translation(world_from_space * by) * world_from_model,
+            Self::Move(by) => DAffine3::from_translation(world_from_space * by),
             Self::Turn { axis, angle_rad } => {
                 let axis = (world_from_space * axis).normalize_or(DVec3::Y);
                 about_pivot(DMat3::from_quat(DQuat::from_axis_angle(axis, angle_rad)))
@@ -450,20 +437,15 @@ impl TransformDelta {
     }
 }
 
-/// The even factor of the same volume.
-pub fn mean_factor(factors: DVec3) -> f64 {
-    (factors.x * factors.y * factors.z).abs().cbrt()
-}
-
 /// The axes of a space in the world, unit columns, for an object at a pose in a view.
-pub fn axes_of(space: Space, world_from_model: DAffine3, view: &View) -> DMat3 {
+pub fn axes_of(space: Axes, world_from_model: DAffine3, view: &View) -> DMat3 {
     match space {
-        Space::World => DMat3::IDENTITY,
-        Space::Local => {
+        Axes::World => DMat3::IDENTITY,
+        Axes::Local => {
             let [x, y, z] = world_from_model.matrix3.to_cols_array_2d().map(DVec3::from);
             DMat3::from_cols(x.normalize_or(DVec3::X), y.normalize_or(DVec3::Y), z.normalize_or(DVec3::Z))
         }
-        Space::View => {
+        Axes::View => {
             let [right, up, gaze] = view.axes();
             DMat3::from_cols(right, up, -gaze)
         }

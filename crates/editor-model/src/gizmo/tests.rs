@@ -35,7 +35,7 @@ fn arm(gizmo: &Gizmo, axis: Axis) -> Option<[DVec2; 2]> {
 fn handles_keep_their_size_at_any_distance() {
     for far in [1.0, 3.0, 30.0] {
         let eye = DVec3::new(0.4, 0.3, 0.2) + DVec3::new(1.0, 0.8, 2.0) * far;
-        let gizmo = Gizmo::new(Operation::Move, Space::World, pose(), &view(eye.to_array()));
+        let gizmo = Gizmo::new(Operation::Move, Axes::World, pose(), &view(eye.to_array()));
         let shown = Axis::ALL.map(|axis| {
             let [from, to] = arm(&gizmo, axis).unwrap();
             (to - from).length_squared()
@@ -49,7 +49,7 @@ fn handles_keep_their_size_at_any_distance() {
 #[test]
 fn every_handle_is_hit_where_it_is_drawn() {
     for operation in [Operation::Move, Operation::Turn, Operation::Scale] {
-        for space in [Space::World, Space::Local, Space::View] {
+        for space in [Axes::World, Axes::Local, Axes::View] {
             let gizmo = Gizmo::new(operation, space, pose(), &view([3.4, 2.7, 6.2]));
             assert!(gizmo.handles().len() >= 4, "{operation:?} {space:?}");
             for handle in gizmo.handles() {
@@ -71,7 +71,7 @@ fn every_handle_is_hit_where_it_is_drawn() {
 
 #[test]
 fn an_arm_that_points_at_the_eye_is_left_out() {
-    let gizmo = Gizmo::new(Operation::Move, Space::World, pose(), &view([0.4, 0.3, 9.0]));
+    let gizmo = Gizmo::new(Operation::Move, Axes::World, pose(), &view([0.4, 0.3, 9.0]));
     assert!(arm(&gizmo, Axis::Z).is_none() && arm(&gizmo, Axis::X).is_some());
     let squares: Vec<_> = gizmo
         .handles()
@@ -87,7 +87,7 @@ fn an_arm_that_points_at_the_eye_is_left_out() {
 #[test]
 fn rings_show_the_half_that_faces_the_eye() {
     let view = view([3.4, 2.7, 6.2]);
-    let gizmo = Gizmo::new(Operation::Turn, Space::World, pose(), &view);
+    let gizmo = Gizmo::new(Operation::Turn, Axes::World, pose(), &view);
     let centre = view.project(pose().translation).unwrap();
     for handle in gizmo.handles() {
         let HandleShape::Ring { points_px } = &handle.shape else { panic!() };
@@ -116,6 +116,6 @@ fn rings_show_the_half_that_faces_the_eye() {
 #[test]
 fn behind_the_camera_there_are_no_handles() {
     let away = DAffine3::from_translation(DVec3::new(3.4, 2.7, 16.2));
-    let gizmo = Gizmo::new(Operation::Move, Space::World, away, &view([3.4, 2.7, 6.2]));
+    let gizmo = Gizmo::new(Operation::Move, Axes::World, away, &view([3.4, 2.7, 6.2]));
     assert!(gizmo.handles().is_empty() && gizmo.hit(DVec2::ZERO).is_none());
 }
