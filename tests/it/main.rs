@@ -5,6 +5,7 @@
 mod cli;
 mod corpus;
 mod directions;
+mod editor_gestures;
 mod editor_script;
 mod guides;
 mod horn;

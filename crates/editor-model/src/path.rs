@@ -85,6 +85,8 @@ pub struct SurfacePath {
 /// How the guides of a path are written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GuideStyle {
+    /// What it does with the strokes that it reaches.
+    pub mode: GuideMode,
     /// Name of the object, where the region covers more than one.
     pub object: Option<String>,
     /// How far strokes follow, 0..=1.
@@ -201,7 +203,7 @@ impl SurfacePath {
                 points.reverse();
             }
             guides.push(Guide {
-                mode: GuideMode::Comb,
+                mode: style.mode,
                 object: style.object.clone(),
                 view: seen.guide_view(reference, piece[piece.len() / 2].position),
                 points,

@@ -40,6 +40,8 @@ pub fn mirrored(
     reference: &ObjectView,
     nearest: &mut dyn FnMut(DVec3, DVec3, f64) -> Option<SurfacePoint>,
 ) -> Vec<Guide> {
+    // A mirror image turns the other way.
+    let handedness = flip.x * flip.y * flip.z;
     let mut pieces: Vec<Vec<GuidePoint>> = vec![Vec::new()];
     for point in &guide.points {
         let [at, normal] = [point.at, point.normal].map(|v| DVec3::from(v) * flip);
@@ -48,7 +50,7 @@ pub fn mirrored(
                 let point = GuidePoint {
                     at: found.position.to_array(),
                     normal: found.normal.to_array(),
-                    turn_deg: 0.0,
+                    turn_deg: point.turn_deg * handedness,
                 };
                 if let Some(piece) = pieces.last_mut() {
                     piece.push(point);

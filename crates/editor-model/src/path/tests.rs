@@ -1,5 +1,5 @@
 use glam::DQuat;
-use impasto_scene::document::{GuideView, Lens};
+use impasto_scene::document::{GuideMode, GuideView, Lens};
 use impasto_scene::motion::CameraPose;
 
 use super::*;
@@ -54,7 +54,13 @@ fn on_plane(view: &View, at_px: DVec2) -> Option<Hit> {
 const SETTINGS: PathSettings = PathSettings { radius_px: 40.0, steady: 0.0, faces: Faces::Front };
 
 fn style() -> GuideStyle {
-    GuideStyle { object: None, strength: 0.8, falloff: Falloff::Smooth, sense: PathSense::Along }
+    GuideStyle {
+        mode: GuideMode::Comb,
+        object: None,
+        strength: 0.8,
+        falloff: Falloff::Smooth,
+        sense: PathSense::Along,
+    }
 }
 
 fn drag(
