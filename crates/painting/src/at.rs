@@ -15,7 +15,8 @@ use rayon::prelude::*;
 use crate::coat::Coat;
 use crate::frame::{Frame, FrameBody, LayerRun, Stroke, StrokeSource};
 use crate::lights;
-use crate::prepare::{OrderEntry, Painting};
+use crate::order::OrderEntry;
+use crate::prepare::Painting;
 use crate::view::PictureView;
 
 /// How to see a painting.
@@ -224,7 +225,7 @@ impl Look<'_> {
     }
 
     pub(crate) fn region(&self, entry: OrderEntry) -> u16 {
-        self.seen[entry.coat as usize].coat.baked.region[entry.particle as usize]
+        self.seen[entry.coat as usize].coat.seats.region[entry.particle as usize]
     }
 
     /// The region's layer and the layer of paint.
@@ -267,7 +268,7 @@ impl SeenCoat<'_> {
     /// How much larger than stated the stroke of a particle is, since it follows the size of its surface: m^γ, m the pixels
     /// per unit of surface now over those in the reference picture, γ the region's `size_follow`.
     pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
-        let region = usize::from(self.coat.baked.region[index]);
+        let region = usize::from(self.coat.seats.region[index]);
         let follow = painting.rules[region].strokes.size_follow;
         if follow <= 0.0 {
             return 1.0;
@@ -284,6 +285,6 @@ impl SeenCoat<'_> {
 
     /// Random bits of a particle.
     pub(crate) fn bits(&self, index: usize, which: u32) -> u32 {
-        hash::combine(self.coat.baked.bits[index], which)
+        hash::combine(self.coat.seats.bits[index], which)
     }
 }
