@@ -15,6 +15,7 @@ mod deform;
 mod field;
 mod finish;
 pub mod frame;
+mod hairs;
 mod lights;
 mod order;
 mod paper;
@@ -31,5 +32,6 @@ mod surface;
 mod view;
 
 pub use at::{FrameOptions, Rotation, StrokeColors};
-pub use frame::Frame;
+pub use frame::{Frame, Quality};
+pub use hairs::{Hair, ShownDirection, SurfacePlace};
 pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};

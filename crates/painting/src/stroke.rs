@@ -219,7 +219,7 @@ fn mixing(strokes: &ResolvedStrokes, palette: u8) -> Mixing {
 
 /// Turns a stroke near the limb to lie along its body's contour, by the share `contour`; of two directions of the contour,
 /// towards the nearer.
-fn along_contour(
+pub(crate) fn along_contour(
     angle_rad: f32,
     contour: f32,
     normal: DVec3,
