@@ -62,6 +62,7 @@ impl Casters {
     fn new(bodies: &[(&FrameBody, Rc<MeshOnGpu>)], shadow_from_world: Mat4) -> Self {
         let bodies = bodies
             .iter()
+            .filter(|(body, _)| !body.hidden)
             .map(|(body, _)| (Arc::downgrade(&body.surface), body.world_from_model, body.morph))
             .collect();
         Self { bodies, shadow_from_world }
@@ -351,9 +352,6 @@ impl ReferencePass {
         if lights.shadowed_light < 0 {
             return Ok(());
         }
-<<<<<<< HEAD
-        for (body, mesh) in bodies.iter().filter(|(body, _)| !body.hidden) {
-=======
         let casters = Casters::new(bodies, lights.shadow_from_world);
         // Taken away while it is drawn anew.
         let before = self.shadow_of.take();
@@ -363,8 +361,7 @@ impl ReferencePass {
         }
         let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
         self.gpu.begin_pass(&self.shadow_pass, state);
-        for (body, mesh) in bodies {
->>>>>>> live
+        for (body, mesh) in bodies.iter().filter(|(body, _)| !body.hidden) {
             for part in &mesh.parts {
                 let bound = self
                     .shadow

@@ -65,8 +65,8 @@ impl PartialEq for BakeInputs {
             && self.used == other.used
             && self.used.iter().all(|&rule| {
                 let of = |rules: &[RegionRule]| {
-                    let RegionRule { sense, strokes, .. } = &rules[usize::from(rule)];
-                    (*sense, strokes.flatness, strokes.offset)
+                    let RegionRule { sense, turn_rad, strokes, .. } = &rules[usize::from(rule)];
+                    (*sense, *turn_rad, strokes.flatness, strokes.offset)
                 };
                 let direction = |rules: &'_ [RegionRule]| rules[usize::from(rule)].direction.clone();
                 of(&self.rules) == of(&other.rules) && direction(&self.rules) == direction(&other.rules)
@@ -173,18 +173,7 @@ impl BakeInputs {
             let relaxed = || combed.field.as_ref()?.relaxed((&combed.stencils, index), point, &base);
             tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
         }
-<<<<<<< HEAD
-        let second = stated.second_family_rad(point);
-        let mut stray = self.stray(index, &self.rules[point.rule], second.is_some(), scales[point.part]);
-        stray += self.rules[point.rule].turn_rad;
-        if let Some(second) = second
-            && hash::unit(hash::combine(self.bits_of(index), FAMILY)) < SECOND_FAMILY
-        {
-            stray += second;
-        }
-=======
-        let stray = self.seats.stray_rad[index];
->>>>>>> live
+        let stray = self.seats.stray_rad[index] + self.rules[point.rule].turn_rad;
         let base_rad =
             if tangent == base.tangent { base.in_reference_rad } else { views.angle_in_reference(tangent) };
         (views.lift(tangent).turned(stray), if base_rad.is_finite() { base_rad + stray } else { stray })

@@ -180,13 +180,8 @@ impl FieldInputs {
             })
             .collect();
         let settled = |sample: &SamplePoint| sample.base.exact >= 1.0 && !free[sample.point.rule];
-<<<<<<< HEAD
-        let soft = self.rules.iter().any(|rule| rule.seam != Seam::Hard);
-        if !soft && !self.smooths() && points.iter().all(settled) {
-=======
         let soft = self.used.iter().any(|&rule| self.rules[usize::from(rule)].seam != Seam::Hard);
-        if !soft && points.iter().all(settled) {
->>>>>>> live
+        if !soft && !self.smooths() && points.iter().all(settled) {
             return None;
         }
         let graph = self.graph(&points);
