@@ -19,10 +19,13 @@ use crate::prepare::{OrderEntry, Painting};
 use crate::view::PictureView;
 
 /// How to see a painting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
     /// Width and height of the picture, each at least 1.
     pub size_px: [u32; 2],
+    /// How high the shot is in a picture that shows more than the shot, pixels, > 0: strokes are as large as in a shot of
+    /// this height. `None` where the picture is the shot.
+    pub shot_height_px: Option<f32>,
     /// Strokes keep their size in pixels, whatever the picture's height.
     pub keep_stroke_px: bool,
     /// No ground under the strokes.
@@ -63,6 +66,7 @@ impl FrameOptions {
     pub const fn new(size_px: [u32; 2]) -> Self {
         Self {
             size_px,
+            shot_height_px: None,
             keep_stroke_px: false,
             transparent: false,
             rotation: Rotation::On,
@@ -111,8 +115,8 @@ impl Painting {
         let poses = motion::poses_at(scene, frame);
         let morphs = motion::morphs_at(scene, frame);
         let frame_view = view.frame_view();
-        let px_scale =
-            if options.keep_stroke_px { 1.0 } else { options.size_px[1] as f32 / scene.size.1 as f32 };
+        let shot_height_px = options.shot_height_px.unwrap_or(options.size_px[1] as f32);
+        let px_scale = if options.keep_stroke_px { 1.0 } else { shot_height_px / scene.size.1 as f32 };
         let look = Look {
             painting: self,
             seen: self.see(&view, (&poses, &morphs), px_scale),
@@ -145,7 +149,7 @@ impl Painting {
             layers,
             brushes: Arc::clone(&self.brushes),
             palettes: Arc::clone(&self.palettes),
-            finish: self.finish.at(&view),
+            finish: self.finish.at(&view, f64::from(shot_height_px)),
             style: self.style,
         }
     }
