@@ -228,6 +228,7 @@ fn step_over_a_seam(seam: Seam) -> f64 {
             at: [0.25 + 0.25 * f64::from(index % 4), -1.0 + 0.22 * f64::from(index / 4), 0.0],
             normal: [0.0, 0.0, 1.0],
             radius: 0.3,
+            take_away: false,
         })
         .collect();
     let mut scene = combed(Direction::Angle(0.0), Vec::new(), 20_000);

@@ -5,6 +5,7 @@
 mod cli;
 mod corpus;
 mod directions;
+mod editor_script;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;

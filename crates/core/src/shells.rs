@@ -80,7 +80,7 @@ fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
 }
 
 /// Gives vertices at the same position the same number.
-fn weld(positions: &[Vec3]) -> Vec<u32> {
+pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
     let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(positions.len());
     positions
         .iter()

@@ -312,7 +312,7 @@ impl ReferencePass {
         if lights.shadowed_light < 0 {
             return Ok(());
         }
-        for (body, mesh) in bodies {
+        for (body, mesh) in bodies.iter().filter(|(body, _)| !body.hidden) {
             for part in &mesh.parts {
                 let bound = self
                     .shadow
@@ -342,7 +342,7 @@ impl ReferencePass {
         } else {
             view.eye_in_world.extend(1.0)
         };
-        for (index, (body, mesh)) in bodies.iter().enumerate() {
+        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
             for part in &mesh.parts {
                 let material = body.surface.materials.get(part.material);
                 let albedo = material.map_or([0.8; 3], |material| material.albedo);

@@ -142,6 +142,7 @@ impl Painting {
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: morph as f32,
+                    hidden: body.hidden,
                 })
                 .collect(),
             strokes,
@@ -239,6 +240,10 @@ impl Look<'_> {
 
     fn is_in_picture(&self, entry: OrderEntry) -> bool {
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
+        let region = self.painting.scene().regions.get(usize::from(self.region(entry)));
+        if self.painting.bodies[seen.coat.object].hidden || region.is_some_and(|region| region.hidden) {
+            return false;
+        }
         let solved = &seen.solved;
         let depth = solved.depth[index];
         let layer = self.painting.rules[self.region(entry) as usize].strokes.layer_of(seen.coat.kind);

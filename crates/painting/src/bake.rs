@@ -236,6 +236,7 @@ impl BakeInputs {
         }
         let second = stated.second_family_rad(point);
         let mut stray = self.stray(index, &self.rules[point.rule], second.is_some(), scales[point.part]);
+        stray += self.rules[point.rule].turn_rad;
         if let Some(second) = second
             && hash::unit(hash::combine(self.bits_of(index), FAMILY)) < SECOND_FAMILY
         {

@@ -78,6 +78,8 @@ pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
     /// The largest strokes that each part carries.
     pub(crate) caps: Vec<Cap>,
+    /// Left out of the picture.
+    pub(crate) hidden: bool,
     /// Where directions were combed, their field.
     pub(crate) field: Option<Arc<BodyField>>,
 }
@@ -162,7 +164,9 @@ impl Preparer {
         let mut bodies: Vec<PreparedBody> = kept
             .iter()
             .zip(&of_body)
-            .map(|(kept, references)| PreparedBody {
+            .zip(&scene.objects)
+            .map(|((kept, references), object)| PreparedBody {
+                hidden: object.hidden,
                 surface: kept.surface(),
                 caps: kept.parts().caps(&references.own().map),
                 field: None,

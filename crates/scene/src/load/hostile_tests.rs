@@ -138,7 +138,7 @@ fn assert_handled(text: &str) -> bool {
     let Parsed { scene, located } = parsed;
     let findings = check::check(&scene);
     let is_good = !findings.iter().any(|finding| finding.severity.is_fatal());
-    let told = Told { path, written: Some(&located), applied: &[] };
+    let told = Told { path, written: Some(&located), applied: &[], edited: None };
     findings.into_iter().for_each(|finding| assert_told(&told.problem(finding)));
     if is_good {
         let saved = crate::save::to_ron(&scene);

@@ -159,7 +159,14 @@ impl<'a> Shelf<'a> {
 
     fn warning(&self, place: Option<Place>, message: String, mend: &str) -> Problem {
         let path = self.path.to_owned();
-        Problem { severity: Severity::Warning, path, place, message, mend: mend.to_owned() }
+        Problem {
+            severity: Severity::Warning,
+            path,
+            place,
+            field_path: String::new(),
+            message,
+            mend: mend.to_owned(),
+        }
     }
 
     fn open(&self, name: &str) -> Result<Asset, AssetError> {
@@ -217,6 +224,7 @@ impl<'a> Shelf<'a> {
             severity: Severity::Limit,
             path: mtl.to_owned(),
             place: None,
+            field_path: String::new(),
             message: format!("the pictures of this model have more than {MAX_KEPT_PIXELS} pixels altogether"),
             mend: "scale them down: 2048 x 2048 is more than a painting shows".to_owned(),
         });

@@ -1,0 +1,85 @@
+//! A document that was edited in memory, with the files that are held already.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::files::{Files, Readers};
+use super::{Told, read_brush, read_mesh, read_texture, shared, sort_and_cap};
+use crate::assets::AssetFolders;
+use crate::check;
+use crate::document::Scene;
+use crate::loaded::LoadedScene;
+use crate::problem::{Problem, Report};
+
+impl LoadedScene {
+    /// Another document in place of this one, checked as if it had been read from the same path. Files that are held already
+    /// are shared, others that it names are read, and what it no longer names is dropped.
+    ///
+    /// # Errors
+    /// All problems, warnings included; at least one is fatal. There is no text, so they have no line: each has its
+    /// `field_path`, and its message begins with it, by names where things have them (`objects.apple.keys[1].scale: …`).
+    pub fn with_scene(&self, scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
+        let path = &self.path;
+        let told = Told { path, written: None, applied: &[], edited: Some(&scene) };
+        let mut problems: Vec<Problem> =
+            check::check(&scene).into_iter().map(|finding| told.problem(finding)).collect();
+        let readers = Readers {
+            mesh: &|name| match self.meshes.get(name) {
+                Some(mesh) => Ok((Arc::clone(mesh), Vec::new())),
+                None => read_mesh(path, name, folders).map(shared),
+            },
+            texture: &|name| match self.textures.get(name) {
+                Some(texture) => Ok((Arc::clone(texture), Vec::new())),
+                None => read_texture(path, name, folders).map(shared),
+            },
+            brush: &|name| match self.brushes.get(name) {
+                Some(brush) => Ok((Arc::clone(brush), Vec::new())),
+                None => read_brush(path, name, folders).map(shared),
+            },
+        };
+        let mut files =
+            Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
+        let in_meshes = check::check_with_meshes(&scene, &files.meshes);
+        problems.extend(in_meshes.into_iter().map(|finding| told.problem(finding)));
+        files.problems.splice(..0, self.warnings_of_files(&files.meshes));
+        sort_and_cap(path, &mut problems, files.problems);
+        if problems.iter().any(|problem| problem.severity.is_fatal()) {
+            return Err(Report(problems));
+        }
+        let Files { meshes, textures, brushes, .. } = files;
+        Ok(Self { path: path.clone(), scene, meshes, textures, brushes, warnings: problems })
+    }
+
+    /// What was odd in files that are still in use: it is not read again, so it is not said again.
+    fn warnings_of_files<T>(&self, still_named: &BTreeMap<String, T>) -> Vec<Problem> {
+        let is_dropped = |problem: &Problem| {
+            let mut dropped = self.meshes.keys().filter(|name| !still_named.contains_key(*name));
+            dropped.any(|name| problem.path.ends_with(name))
+        };
+        // What is about the document has a field, and was found anew.
+        let of_files = self.warnings.iter().filter(|problem| problem.field_path.is_empty());
+        let of_files = of_files.filter(|problem| problem.path != self.path || problem.place.is_some());
+        of_files.filter(|problem| !is_dropped(problem)).cloned().collect()
+    }
+}
+
+/// A field path with names in place of numbers, where things have names: `objects.apple.keys[1].scale`.
+pub(super) fn named_path(scene: &Scene, field_path: &str) -> String {
+    let named = |list: &str, index: usize| -> Option<&str> {
+        let name = match list {
+            "objects" => &scene.objects.get(index)?.name,
+            "regions" => &scene.regions.get(index)?.name,
+            "lights" => &scene.lights.get(index)?.name,
+            _ => return None,
+        };
+        let is_plain =
+            !name.is_empty() && !name.contains(['.', '[', ']']) && !name.contains(char::is_control);
+        is_plain.then_some(name)
+    };
+    let found = || {
+        let (list, rest) = field_path.split_once('[')?;
+        let (index, rest) = rest.split_once(']')?;
+        Some(format!("{list}.{}{rest}", named(list, index.parse().ok()?)?))
+    };
+    found().unwrap_or_else(|| field_path.to_owned())
+}
