@@ -44,12 +44,13 @@ fn build_object(document: &mut Document, wanted: &Object) {
     }
     // Wherever the import put it, it goes to the origin first.
     let placed = motion::key_at(document.scene(), document.scene().objects.last().unwrap(), 0.0);
-    let shift = Shift {
-        world_from_world: DAffine3::from_translation(-DVec3::from(placed.translation)),
-        frame: 0.0,
-    };
+    let shift =
+        Shift { world_from_world: DAffine3::from_translation(-DVec3::from(placed.translation)), frame: 0.0 };
     if placed.translation != [0.0; 3] {
-        run(document, Command::Arrange(Arrange::ShiftMotion { objects: vec![name.clone()], shift, verb: "Move" }));
+        run(
+            document,
+            Command::Arrange(Arrange::ShiftMotion { objects: vec![name.clone()], shift, verb: "Move" }),
+        );
     }
     for key in &wanted.keys {
         let pose = Pose::Object(name.clone(), key.clone());
@@ -57,7 +58,13 @@ fn build_object(document: &mut Document, wanted: &Object) {
         let _ = document.apply(&Command::Time(Time::PoseAtFrame(pose, key.frame))).unwrap();
         let _ = document.apply(&Command::Time(Time::SetEase(vec![(of, key.frame)], key.ease))).unwrap();
     }
-    let extra: Vec<(KeyOf, f64)> = document.scene().objects.last().unwrap().keys.iter()
+    let extra: Vec<(KeyOf, f64)> = document
+        .scene()
+        .objects
+        .last()
+        .unwrap()
+        .keys
+        .iter()
         .filter(|key| !wanted.keys.iter().any(|other| other.frame == key.frame))
         .map(|key| (KeyOf::Object(name.clone()), key.frame))
         .collect();
@@ -77,7 +84,8 @@ fn build(document: &mut Document, wanted: &Scene) {
         run(document, Command::Arrange(Arrange::AddLight { kind: light.kind, at, toward: DVec3::ZERO }));
         let name = document.scene().lights.last().unwrap().name.clone();
         let light = Light { name: light.name.clone(), ..light.clone() };
-        let set = Arrange::SetLight { name: name.clone(), light: light.clone(), what: "as wanted".to_owned() };
+        let set =
+            Arrange::SetLight { name: name.clone(), light: light.clone(), what: "as wanted".to_owned() };
         run(document, Command::Arrange(set));
         if name != light.name {
             run(document, Command::Edit(Edit::Rename(Item::Light(name), light.name.clone())));
@@ -87,7 +95,9 @@ fn build(document: &mut Document, wanted: &Scene) {
     for key in &wanted.camera.keys {
         let pose = CameraPose { lens: wanted.camera.lens.clone(), ..motion::camera_at(wanted, key.frame) };
         run(document, Command::Time(Time::PoseAtFrame(Pose::Camera(pose), key.frame)));
-        let _ = document.apply(&Command::Time(Time::SetEase(vec![(KeyOf::Camera, key.frame)], key.ease))).unwrap();
+        let _ = document
+            .apply(&Command::Time(Time::SetEase(vec![(KeyOf::Camera, key.frame)], key.ease)))
+            .unwrap();
     }
     for object in &wanted.objects {
         build_object(document, object);

@@ -5,7 +5,9 @@
 mod cli;
 mod corpus;
 mod directions;
+mod editor_gestures;
 mod editor_script;
+mod guides;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;

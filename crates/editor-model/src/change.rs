@@ -84,7 +84,8 @@ impl SceneChange {
 
     /// About how many bytes it keeps.
     pub(crate) fn bytes(&self) -> usize {
-        let of_guides = |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();
+        let of_guides =
+            |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();
         let of_regions =
             |regions: &[Region]| regions.iter().map(|region| 512 + of_guides(&region.guides)).sum::<usize>();
         let of_objects =

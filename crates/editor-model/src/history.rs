@@ -42,7 +42,14 @@ impl History {
         self.undone.clear();
         let serial = self.next_serial;
         self.next_serial += 1;
-        self.done.push(Entry { text, change, selections, merge_key: None, at_secs: f64::NEG_INFINITY, serial });
+        self.done.push(Entry {
+            text,
+            change,
+            selections,
+            merge_key: None,
+            at_secs: f64::NEG_INFINITY,
+            serial,
+        });
         let mut bytes: usize = self.done.iter().map(|entry| entry.change.bytes()).sum();
         while bytes > BUDGET_BYTES && self.done.len() > 1 {
             let oldest = self.done.remove(0);

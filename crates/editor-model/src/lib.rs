@@ -12,7 +12,9 @@ mod change;
 pub mod command;
 pub mod document;
 mod euler;
+pub mod gizmo;
 mod history;
+pub mod keymap;
 mod names;
 pub mod path;
 pub mod picking;
@@ -20,6 +22,7 @@ mod refusal;
 pub mod selection;
 pub mod session;
 pub mod stroke_fields;
+pub mod transform;
 
 pub use command::Command;
 pub use document::Document;

@@ -5,7 +5,7 @@
 //! ```
 
 use glam::{DAffine3, DVec2, DVec3};
-use impasto_scene::document::{Falloff, Guide, GuidePoint};
+use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint};
 
 use crate::picking::{Hit, View, world_units_per_model_unit};
 
@@ -85,6 +85,8 @@ pub struct SurfacePath {
 /// How the guides of a path are written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GuideStyle {
+    /// What it does with the strokes that it reaches.
+    pub mode: GuideMode,
     /// Name of the object, where the region covers more than one.
     pub object: Option<String>,
     /// How far strokes follow, 0..=1.
@@ -114,8 +116,8 @@ impl SurfacePath {
         world_from_model: DAffine3,
         settings: &PathSettings,
     ) -> Self {
-        let px_per_unit = view.px_per_unit(hit.position_in_world)
-            * world_units_per_model_unit(world_from_model);
+        let px_per_unit =
+            view.px_per_unit(hit.position_in_world) * world_units_per_model_unit(world_from_model);
         Self {
             object: hit.object,
             radius: settings.radius_px / px_per_unit,
@@ -201,6 +203,7 @@ impl SurfacePath {
                 points.reverse();
             }
             guides.push(Guide {
+                mode: style.mode,
                 object: style.object.clone(),
                 view: seen.guide_view(reference, piece[piece.len() / 2].position),
                 points,
@@ -287,6 +290,6 @@ impl PathPoint {
     }
 
     fn to_guide(&self) -> GuidePoint {
-        GuidePoint { at: self.position.to_array(), normal: self.normal.to_array() }
+        GuidePoint { at: self.position.to_array(), normal: self.normal.to_array(), turn_deg: 0.0 }
     }
 }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{
-    CameraKey, Dab, Direction, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Patch, Scene, Seed, Selector, Up,
+    CameraKey, Dab, Direction, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Patch, Scene,
+    Seed, Selector, Up,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::MeshFile;
@@ -220,7 +221,7 @@ fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) 
     if mesh.trim().is_empty() {
         return Err(Refusal::new("That file has no name"));
     }
-    let name = new_scene::add_mesh(scene, &before.meshes, mesh, file);
+    let name = new_scene::add_mesh(scene, (mesh, file), &before.meshes);
     let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
     Ok(Done::new(format!("Import {file_name}")).selecting(Selection::only(Item::Object(name))))
 }

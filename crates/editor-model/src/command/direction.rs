@@ -318,7 +318,8 @@ pub(crate) fn thinned(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePoint> 
         let line = at(last) - at(first);
         let farthest = (first + 1..last)
             .map(|index| {
-                let share = ((at(index) - at(first)).dot(line) / line.length_squared().max(1e-300)).clamp(0.0, 1.0);
+                let share =
+                    ((at(index) - at(first)).dot(line) / line.length_squared().max(1e-300)).clamp(0.0, 1.0);
                 (index, at(index).distance(at(first) + line * share))
             })
             .max_by(|a, b| a.1.total_cmp(&b.1));
@@ -343,7 +344,8 @@ fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let view_of = |object: Option<&str>| {
         let index = scene.objects.iter().position(|other| Some(other.name.as_str()) == object)?;
         let model_from_world = poses[index].inverse();
-        let [eye, target] = [camera.eye, camera.target].map(|at| model_from_world.transform_point3(at).to_array());
+        let [eye, target] =
+            [camera.eye, camera.target].map(|at| model_from_world.transform_point3(at).to_array());
         Some(GuideView { eye, target })
     };
     let mut regions = std::mem::take(&mut scene.regions);

@@ -176,7 +176,8 @@ fn set_stroke(settings: &mut StrokeSettings, change: &StrokeChange) -> Result<Do
             preset.as_ref().map_or("Reset preset".to_owned(), |preset| format!("Preset {preset}"))
         }
         StrokeChange::Palette(palette) => {
-            settings.palette = palette.as_ref().map(|colors| colors.iter().map(|&color| in_file(color)).collect());
+            settings.palette =
+                palette.as_ref().map(|colors| colors.iter().map(|&color| in_file(color)).collect());
             palette.as_ref().map_or("Any colour", |_| "Palette").to_owned()
         }
         StrokeChange::PaintLayer(layer) => {

@@ -23,7 +23,9 @@ impl MirrorAxes {
         let on = [self.x, self.y, self.z];
         (1..8usize)
             .filter(|image| (0..3).all(|axis| image >> axis & 1 == 0 || on[axis]))
-            .map(|image| DVec3::from_array([0, 1, 2].map(|axis| if image >> axis & 1 == 1 { -1.0 } else { 1.0 })))
+            .map(|image| {
+                DVec3::from_array([0, 1, 2].map(|axis| if image >> axis & 1 == 1 { -1.0 } else { 1.0 }))
+            })
             .collect()
     }
 }
@@ -38,12 +40,18 @@ pub fn mirrored(
     reference: &ObjectView,
     nearest: &mut dyn FnMut(DVec3, DVec3, f64) -> Option<SurfacePoint>,
 ) -> Vec<Guide> {
+    // A mirror image turns the other way.
+    let handedness = flip.x * flip.y * flip.z;
     let mut pieces: Vec<Vec<GuidePoint>> = vec![Vec::new()];
     for point in &guide.points {
         let [at, normal] = [point.at, point.normal].map(|v| DVec3::from(v) * flip);
         match nearest(at, normal, guide.radius * 0.5) {
             Some(found) => {
-                let point = GuidePoint { at: found.position.to_array(), normal: found.normal.to_array() };
+                let point = GuidePoint {
+                    at: found.position.to_array(),
+                    normal: found.normal.to_array(),
+                    turn_deg: point.turn_deg * handedness,
+                };
                 if let Some(piece) = pieces.last_mut() {
                     piece.push(point);
                 }

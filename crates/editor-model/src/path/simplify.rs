@@ -4,12 +4,21 @@ use glam::DVec3;
 
 use super::PathPoint;
 
+/// So many steps from its ends, a path keeps a point: a short last piece says where it was headed.
+const END_STEPS: usize = 3;
+
 /// Those points of a path that keep it within `tolerance` (model units); both ends stay.
 pub(super) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
     let Some(last) = path.len().checked_sub(1) else { return Vec::new() };
     let mut keep = vec![false; path.len()];
-    (keep[0], keep[last]) = (true, true);
-    let mut spans = vec![(0, last)];
+    let mut ends = vec![0, last];
+    if last > 4 * END_STEPS {
+        ends = vec![0, END_STEPS, last - END_STEPS, last];
+    }
+    for &end in &ends {
+        keep[end] = true;
+    }
+    let mut spans: Vec<(usize, usize)> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
     while let Some((from, to)) = spans.pop() {
         let farthest = (from + 1..to)
             .map(|index| (off(path[index].position, path[from].position, path[to].position), index))

@@ -1,5 +1,5 @@
 use glam::DQuat;
-use impasto_scene::document::{GuideView, Lens};
+use impasto_scene::document::{GuideMode, GuideView, Lens};
 use impasto_scene::motion::CameraPose;
 
 use super::*;
@@ -54,7 +54,13 @@ fn on_plane(view: &View, at_px: DVec2) -> Option<Hit> {
 const SETTINGS: PathSettings = PathSettings { radius_px: 40.0, steady: 0.0, faces: Faces::Front };
 
 fn style() -> GuideStyle {
-    GuideStyle { object: None, strength: 0.8, falloff: Falloff::Smooth, sense: PathSense::Along }
+    GuideStyle {
+        mode: GuideMode::Comb,
+        object: None,
+        strength: 0.8,
+        falloff: Falloff::Smooth,
+        sense: PathSense::Along,
+    }
 }
 
 fn drag(
@@ -88,9 +94,8 @@ fn own_view() -> ObjectView {
 fn the_same_drag_gives_the_same_guide_at_any_event_rate() {
     for steady in [0.0, 0.2] {
         let settings = PathSettings { steady, ..SETTINGS };
-        let drags = [7, 60, 1000].map(|count| {
-            drag(&swing(count), &settings, &mut |at_px| on_ball(&front(), at_px))
-        });
+        let drags =
+            [7, 60, 1000].map(|count| drag(&swing(count), &settings, &mut |at_px| on_ball(&front(), at_px)));
         let finest = &drags[2];
         for path in &drags[..2] {
             assert_eq!(path.pieces().len(), 1);
@@ -203,7 +208,10 @@ fn a_fold_in_front_of_the_same_object_is_not_drawn_across() {
     let steep = drag(&across, &SETTINGS, &mut |at_px| {
         let hit = on_plane(&front(), at_px)?;
         let nearer = ((at_px.x - 318.0) / 4.0).clamp(0.0, 1.0) * 0.5;
-        Some(Hit { position_in_model: hit.position_in_model * (1.0 - nearer / 4.0) + DVec3::Z * nearer, ..hit })
+        Some(Hit {
+            position_in_model: hit.position_in_model * (1.0 - nearer / 4.0) + DVec3::Z * nearer,
+            ..hit
+        })
     });
     assert_eq!(steep.pieces().len(), 1);
 }
@@ -214,14 +222,23 @@ fn a_string_steadies_a_trembling_hand() {
         .map(|index| DVec2::new(200.0 + f64::from(index), 180.0 + [0.0, 3.0, 0.0, -3.0][index as usize % 4]))
         .collect();
     let spread = |steady: f64| {
-        let path = drag(&trembling, &PathSettings { steady, ..SETTINGS }, &mut |at_px| on_plane(&front(), at_px));
+        let path =
+            drag(&trembling, &PathSettings { steady, ..SETTINGS }, &mut |at_px| on_plane(&front(), at_px));
         let inner = &path.pieces()[0][20..];
         inner.iter().map(|point| (point.at_px.y - 180.0).abs()).fold(0.0, f64::max)
     };
     let (free, steadied) = (spread(0.0), spread(0.5));
     assert!(free > 2.5 && steadied < 0.5, "{free} {steadied}");
-    let still = drag(&[DVec2::new(300.0, 180.0), DVec2::new(310.0, 180.0)], &PathSettings { steady: 0.5, ..SETTINGS }, &mut |at_px| on_plane(&front(), at_px));
-    assert_eq!(still.guides(&style(), &own_view(), &own_view()), [], "shorter than the string, nothing is drawn");
+    let still = drag(
+        &[DVec2::new(300.0, 180.0), DVec2::new(310.0, 180.0)],
+        &PathSettings { steady: 0.5, ..SETTINGS },
+        &mut |at_px| on_plane(&front(), at_px),
+    );
+    assert_eq!(
+        still.guides(&style(), &own_view(), &own_view()),
+        [],
+        "shorter than the string, nothing is drawn"
+    );
 }
 
 #[test]
@@ -251,7 +268,8 @@ fn the_view_is_stated_unless_it_is_the_reference() {
     // The object and the camera moved as one.
     let moved = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.7), DVec3::new(-3.0, 0.0, 1.0));
     let mut carried = camera([0.0, 1.0, 4.0], [0.0, 0.5, 0.0]);
-    (carried.eye, carried.target) = (moved.transform_point3(carried.eye), moved.transform_point3(carried.target));
+    (carried.eye, carried.target) =
+        (moved.transform_point3(carried.eye), moved.transform_point3(carried.target));
     assert_eq!(ObjectView::new(&carried, moved * turned).guide_view(&reference, at), None);
     let other = ObjectView::new(&camera([1.0, 1.0, 4.0], [0.0, 0.5, 0.0]), turned).guide_view(&reference, at);
     let GuideView { eye, .. } = other.expect("it is another view");

@@ -55,12 +55,12 @@ impl SurfaceTree {
         let mesh = &surface.mesh;
         let corners = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
         let used = mesh.triangles.iter().flat_map(corners);
-        let (low, high) = used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| {
-            (low.min(at), high.max(at))
-        });
+        let (low, high) =
+            used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
         let bounds = (!mesh.triangles.is_empty()).then(|| [low.as_dvec3(), high.as_dvec3()]);
         // Boxes are met in single precision: they are wider than the triangles by a few roundings.
-        let margin = bounds.map_or(0.0, |_| 1e-6 * (low.abs().max(high.abs()).max_element() + f32::MIN_POSITIVE));
+        let margin =
+            bounds.map_or(0.0, |_| 1e-6 * (low.abs().max(high.abs()).max_element() + f32::MIN_POSITIVE));
         let boxes: Vec<TriangleBox> = mesh
             .triangles
             .iter()
@@ -165,11 +165,8 @@ impl SurfaceTree {
                 }
             } else {
                 let children = [node.first_index, node.first_index + 1].map(|child| (gap_sq(child), child));
-                let [nearer, farther] = if children[0].0 <= children[1].0 {
-                    children
-                } else {
-                    [children[1], children[0]]
-                };
+                let [nearer, farther] =
+                    if children[0].0 <= children[1].0 { children } else { [children[1], children[0]] };
                 stack.extend([farther, nearer]);
             }
         }

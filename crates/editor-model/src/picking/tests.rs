@@ -51,8 +51,10 @@ fn ball(columns: u32, rows: u32) -> TriangleMesh {
     };
     for row in 0..rows {
         for column in 0..columns {
-            let [a, b, c, d] = [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
-            triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
+            let [a, b, c, d] =
+                [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
+            triangles
+                .extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
         }
     }
     let normals = positions.clone();
@@ -125,8 +127,11 @@ fn rays_meet_what_a_search_of_all_triangles_meets() {
                 let at = ray.origin + ray.direction * distance;
                 assert!((hit.position_in_world - at).length() < 1e-8 * far);
                 let corners = bodies[object].0.mesh.corners(triangle as usize);
-                let blend: DVec3 =
-                    corners.iter().zip(hit.barycentric).map(|(corner, share)| corner.as_dvec3() * share).sum();
+                let blend: DVec3 = corners
+                    .iter()
+                    .zip(hit.barycentric)
+                    .map(|(corner, share)| corner.as_dvec3() * share)
+                    .sum();
                 assert!((blend - hit.position_in_model).length() < 1e-9);
             }
             (None, None) => missed += 1,
@@ -211,8 +216,12 @@ fn a_pixel_its_ray_and_back() {
     ];
     for lens in lenses {
         for roll_rad in [0.0, 0.6, -2.4] {
-            let camera =
-                CameraPose { eye: DVec3::new(1.0, 2.0, 4.0), target: DVec3::ZERO, roll_rad, lens: lens.clone() };
+            let camera = CameraPose {
+                eye: DVec3::new(1.0, 2.0, 4.0),
+                target: DVec3::ZERO,
+                roll_rad,
+                lens: lens.clone(),
+            };
             let view = View { camera, size_px: DVec2::new(640.0, 360.0) };
             for at_px in [[320.0, 180.0], [0.0, 0.0], [600.5, 40.25]].map(DVec2::from) {
                 let ray = view.ray(at_px);
