@@ -6,6 +6,7 @@ use impasto_editor_model::picking::View;
 
 mod floor_grid;
 mod foreseen;
+mod gizmo;
 mod guide_curve;
 mod hairs;
 mod ink;
@@ -21,13 +22,14 @@ mod stand_ins;
 
 pub use floor_grid::floor_grid;
 pub use foreseen::{Comb, ForeseenStroke, foreseen};
+pub use gizmo::gizmo;
 pub use guide_curve::{CurvePart, GuideCurve, guide_curve};
 pub use hairs::{HairInk, HairMark, hairs, trust_legend};
 pub use motion_path::{MotionPath, motion_path};
 pub use needle::{Needle, needle, needle_tag};
 pub use outline::{Outline, outline};
 pub use region_tint::{RegionTint, region_tint};
-pub use ring::{Ring, RingManner, hollow_ring, ring};
+pub use ring::{Ring, ring};
 pub use shot_border::shot_border;
 pub use sight::Sight;
 pub use singular_points::{SingularPoint, singular_points};

@@ -1,5 +1,5 @@
 use egui::{Color32, Pos2, Stroke, vec2};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::ink::{self, EDGE, Ink, OVER_PAINT};
 use super::{Sheet, Sight};
@@ -7,21 +7,21 @@ use super::{Sheet, Sight};
 /// Radius of a handle; it can be gripped within 12.
 const HANDLE: f32 = 5.0;
 
-/// A guide on a surface.
-#[derive(Clone, Debug, PartialEq)]
+/// A guide as it shows, points from the upper left corner of the picture.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct GuideCurve {
-    /// The curve, close enough to draw as a line: places and surface normals, world space.
-    pub line: Vec<[DVec3; 2]>,
-    /// The points that the user set, likewise.
-    pub handles: Vec<[DVec3; 2]>,
-    /// Whether handles show.
+    /// The pieces of the line that can be seen.
+    pub runs_px: Vec<Vec<DVec2>>,
+    /// The points that the user set, those that can be seen; with each, its index.
+    pub handles_px: Vec<(usize, DVec2)>,
+    /// Whether the last run's end is the guide's end: only then has it an arrow.
+    pub end_shows: bool,
+    /// Whether handles and the arrow show.
     pub selected: bool,
     /// What the pointer is on, or holds.
     pub lit: Option<CurvePart>,
-    /// Whether strokes have a head: then the curve has one.
-    pub directed: bool,
     /// Points that are not on the surface any more.
-    pub adrift: Vec<DVec3>,
+    pub adrift_px: Vec<DVec2>,
 }
 
 /// A part of a guide.
@@ -35,33 +35,49 @@ pub enum CurvePart {
     Arrow,
 }
 
-/// Draws a guide: where it faces the eye and nothing is before it.
-pub fn guide_curve(sheet: &Sheet<'_>, guide: &GuideCurve, sight: &Sight<'_>) {
+impl GuideCurve {
+    /// What shows of a guide on a surface: where it faces the eye and nothing is before it. Of line and handles, places and
+    /// surface normals in world space.
+    pub fn seen(line: &[[DVec3; 2]], handles: &[[DVec3; 2]], sight: &Sight<'_>) -> Self {
+        let seen = |[at, normal]: &[DVec3; 2]| {
+            sight.view.project(*at).filter(|at_px| at_px.is_finite() && sight.sees(*at, *normal))
+        };
+        let points: Vec<Option<DVec2>> = line.iter().map(seen).collect();
+        let runs = points.split(Option::is_none).filter(|run| run.len() > 1);
+        Self {
+            runs_px: runs.map(|run| run.iter().flatten().copied().collect()).collect(),
+            handles_px: handles.iter().enumerate().filter_map(|(index, at)| Some((index, seen(at)?))).collect(),
+            end_shows: points.len() > 1 && points[points.len() - 2..].iter().all(Option::is_some),
+            ..Self::default()
+        }
+    }
+}
+
+/// Draws a guide.
+pub fn guide_curve(sheet: &Sheet<'_>, guide: &GuideCurve) {
     let strong = guide.selected || guide.lit.is_some();
     let width = if strong { 3.0 } else { 1.6 };
     let colour = if guide.lit == Some(CurvePart::Line) { ink::WHITE } else { OVER_PAINT.accent_text };
     let line_ink = Ink::new(width, colour, (width + 2.0, EDGE.gamma_multiply(0.85)));
-    let seen = |[at, normal]: &[DVec3; 2]| sight.sees(*at, *normal).then(|| sheet.project(*at)).flatten();
-    let points: Vec<Option<Pos2>> = guide.line.iter().map(seen).collect();
-    for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
-        let run: Vec<Pos2> = run.iter().flatten().copied().collect();
+    let mut arrow = None;
+    for run in &guide.runs_px {
+        let run: Vec<Pos2> = run.iter().map(|&at| sheet.at(at)).collect();
         line_ink.line(sheet.painter, &run);
+        arrow = run.last_chunk::<2>().copied();
     }
-    let end = points.len().checked_sub(2).map(|last| [points[last], points[last + 1]]);
-    if let Some([Some(from), Some(to)]) = end.filter(|_| guide.directed && strong) {
+    if let Some([from, to]) = arrow.filter(|_| guide.end_shows && strong) {
         let direction = (to - from).normalized();
         let fill = if guide.lit == Some(CurvePart::Arrow) { ink::WHITE } else { OVER_PAINT.accent_text };
         let tip = to + direction * 8.0;
         sheet.painter.add(ink::head(tip, direction, (12.0, 11.0), (fill, Stroke::new(1.2, EDGE))));
     }
-    if guide.selected {
-        for (index, handle) in guide.handles.iter().enumerate() {
-            let Some(at) = seen(handle) else { continue };
-            let fill = if guide.lit == Some(CurvePart::Handle(index)) { OVER_PAINT.accent_text } else { ink::WHITE };
-            sheet.painter.circle(at, HANDLE, fill, Stroke::new(1.6, EDGE));
-        }
+    for &(index, at_px) in guide.handles_px.iter().filter(|_| guide.selected) {
+        let lit = guide.lit == Some(CurvePart::Handle(index));
+        let fill = if lit { OVER_PAINT.accent_text } else { ink::WHITE };
+        sheet.painter.circle(sheet.at(at_px), HANDLE, fill, Stroke::new(1.6, EDGE));
     }
-    for at in guide.adrift.iter().filter_map(|&at| sheet.project(at)) {
+    for &at_px in &guide.adrift_px {
+        let at = sheet.at(at_px);
         sheet.painter.circle_stroke(at, HANDLE, Stroke::new(3.6, ink::black(0.5)));
         sheet.painter.circle_stroke(at, HANDLE, Stroke::new(1.8, OVER_PAINT.vermilion));
         let font = crate::theme::type_face::small();
