@@ -7,6 +7,7 @@ mod corpus;
 mod directions;
 mod editor_gestures;
 mod editor_script;
+mod guides;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;

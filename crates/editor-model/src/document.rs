@@ -81,8 +81,18 @@ impl Document {
     /// # Errors
     /// Everything that is wrong with the files, each with its place.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Report> {
-        let loaded = load::load(path, options)?;
+        let mut loaded = load::load(path, options)?;
         let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
+        if !is_scene {
+            // What the mesh is made of can be painted at once.
+            let mesh = loaded
+                .scene
+                .objects
+                .first()
+                .and_then(|object| Some((object, loaded.meshes.get(&object.mesh)?)));
+            let regions = mesh.map_or_else(Vec::new, |(object, mesh)| new_scene::regions_of(object, mesh));
+            loaded.scene.regions.extend(regions);
+        }
         let file = is_scene.then(|| path.to_owned());
         Ok(Self::of(loaded, file, options.clone()))
     }
@@ -194,7 +204,7 @@ impl Document {
 
     /// An edited scene with its files; what is wrong with it is the refusal.
     fn with_files(&self, scene: Scene) -> Result<LoadedScene, Refusal> {
-        self.loaded.with_scene(scene, &self.options).map_err(|report| Refusal::of(&report))
+        self.loaded.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
     /// Reads a mesh by its path from the scene's folder and adds an object for it, with a region for each of its groups.
@@ -206,7 +216,8 @@ impl Document {
             Some(file) => Arc::clone(file),
             None => {
                 let path = self.folder().join(mesh);
-                let read = load::mesh(&path).map_err(|report| Refusal::of(&report))?;
+                let read =
+                    load::load_mesh(&path, &self.options.folders).map_err(|report| Refusal::of(&report))?;
                 Arc::new(read.0)
             }
         };

@@ -4,7 +4,7 @@ use impasto_scene::document::{Region, Scene, Selector, StrokeSettings};
 use impasto_scene::presets::{self, ResolvedStrokes};
 
 /// One number of [`StrokeSettings`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct StrokeField {
     /// What people call it: *Length*.
     pub label: &'static str,

@@ -232,7 +232,8 @@ impl BakeInputs {
             if let Some(field) = &combed.field {
                 tangent = field.direction((&combed.stencils, index), point, &base);
             }
-            tangent = combed.inputs.with_guides(point, &views, tangent);
+            let relaxed = || combed.field.as_ref()?.relaxed((&combed.stencils, index), point, &base);
+            tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
         }
         let second = stated.second_family_rad(point);
         let mut stray = self.stray(index, &self.rules[point.rule], second.is_some(), scales[point.part]);

@@ -21,6 +21,7 @@ mod parts;
 mod prepare;
 mod references;
 mod regions;
+mod smooth;
 mod stated;
 mod stroke;
 mod surface;

@@ -221,7 +221,7 @@ fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) 
     if mesh.trim().is_empty() {
         return Err(Refusal::new("That file has no name"));
     }
-    let name = new_scene::add_mesh(scene, &before.meshes, mesh, file);
+    let name = new_scene::add_mesh(scene, (mesh, file), &before.meshes);
     let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
     Ok(Done::new(format!("Import {file_name}")).selecting(Selection::only(Item::Object(name))))
 }

@@ -1,6 +1,5 @@
 //! Keys and the timeline.
 
-use glam::DVec3;
 use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
 use impasto_scene::motion::{self, CameraPose};
 
@@ -169,7 +168,7 @@ fn put_key(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<(), Refusal> {
             let at = keys.partition_point(|key| key.frame < frame);
             let old = keys.get(at).filter(|key| key.frame == frame).cloned();
             let ease = old.as_ref().map_or(Ease::Smooth, |old| old.ease);
-            let [eye, target] = [pose.eye, pose.target].map(DVec3::to_array);
+            let [eye, target] = [pose.eye, pose.target].map(|at| at.to_array());
             let fov_y_deg = old.as_ref().and_then(|old| old.fov_y_deg);
             let roll_deg = pose.roll_rad.to_degrees();
             let key = CameraKey { frame, eye, target, roll_deg, fov_y_deg, ease };
