@@ -195,7 +195,6 @@ impl<'a> Look<'a> {
         options: &FrameOptions,
         wanted: impl Fn(&Coat) -> bool,
     ) -> Self {
-        let scene_height_px = painting.scene().size.1;
         let px_scale = if options.keep_stroke_px {
             1.0
         } else {
