@@ -44,7 +44,11 @@ fn a_question_and_toasts_look_as_they_did() {
     let mut harness = harness(Theme::Dark);
     harness.state_mut().toasts = vec![
         Toast { words: "Saved still_life.ron".to_owned(), action: String::new(), error: false },
-        Toast { words: "Deleted region \u{201c}stem\u{201d}".to_owned(), action: "Undo".to_owned(), error: false },
+        Toast {
+            words: "Deleted region \u{201c}stem\u{201d}".to_owned(),
+            action: "Undo".to_owned(),
+            error: false,
+        },
     ];
     harness.state_mut().asks = true;
     harness.run();
@@ -70,12 +74,50 @@ fn every_control_has_its_name_and_can_be_hit() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     for name in [
-        "File", "Undo", "Redo", "Arrange", "Paint", "Animate", "Find a command", "Render", "Comb", "Guide curve",
-        "Pick direction", "Along", "Against", "Brush radius", "Brush strength", "Mirror X", "More tool options", "View",
-        "Shading", "Directions", "Compare", "Axis ball", "Search scene", "Expand apple", "skin, region, 4 guides",
-        "Lock table", "Hide skin", "Region colour", "Direction", "Base direction", "Base angle", "Brush oval", "Length",
-        "Width", "Coverage", "Reset Coverage", "Guides", "Play", "Loop", "Show keys", "Don\u{2019}t show this at start",
-        "Dark", "Light", "Auto key",
+        "File",
+        "Undo",
+        "Redo",
+        "Arrange",
+        "Paint",
+        "Animate",
+        "Find a command",
+        "Render",
+        "Comb",
+        "Guide curve",
+        "Pick direction",
+        "Along",
+        "Against",
+        "Brush radius",
+        "Brush strength",
+        "Mirror X",
+        "More tool options",
+        "View",
+        "Shading",
+        "Directions",
+        "Compare",
+        "Axis ball",
+        "Search scene",
+        "Expand apple",
+        "skin, region, 4 guides",
+        "Lock table",
+        "Hide skin",
+        "Region colour",
+        "Direction",
+        "Base direction",
+        "Base angle",
+        "Brush oval",
+        "Length",
+        "Width",
+        "Coverage",
+        "Reset Coverage",
+        "Guides",
+        "Play",
+        "Loop",
+        "Show keys",
+        "Don\u{2019}t show this at start",
+        "Dark",
+        "Light",
+        "Auto key",
     ] {
         let nodes = harness.get_all_by_label(name);
         let controls: Vec<_> = nodes.filter(|node| node.accesskit_node().role() != Role::Label).collect();
@@ -239,7 +281,8 @@ fn a_toast_is_answered_by_its_verb() {
     harness.state_mut().toasts = ["one", "two", "three", "four"].map(toast).to_vec();
     harness.run();
     assert!(harness.query_by_label("one").is_none(), "the newest three are shown");
-    let last = harness.get_all_by_label("Undo").map(|node| node.rect()).max_by(|a, b| a.top().total_cmp(&b.top()));
+    let last =
+        harness.get_all_by_label("Undo").map(|node| node.rect()).max_by(|a, b| a.top().total_cmp(&b.top()));
     let at = last.expect("verbs are shown").center();
     harness.drag_at(at);
     harness.drop_at(at);

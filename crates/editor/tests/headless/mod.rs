@@ -45,7 +45,8 @@ impl TestRenderer for Headless {
             self.painter.clear([width, height], [0.0, 0.0, 0.0, 1.0]);
             self.painter.paint_primitives([width, height], scale, &primitives);
         });
-        let image = image::RgbaImage::from_raw(width, height, pixels).ok_or("the picture has another size")?;
+        let image =
+            image::RgbaImage::from_raw(width, height, pixels).ok_or("the picture has another size")?;
         Ok(image::imageops::flip_vertical(&image))
     }
 }
@@ -68,7 +69,12 @@ fn draw(gl: &glow::Context, [width, height]: [u32; 2], pixels: &mut [u8], paint:
         gl.bind_renderbuffer(glow::RENDERBUFFER, Some(colour));
         gl.renderbuffer_storage(glow::RENDERBUFFER, glow::RGBA8, width as i32, height as i32);
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target));
-        gl.framebuffer_renderbuffer(glow::FRAMEBUFFER, glow::COLOR_ATTACHMENT0, glow::RENDERBUFFER, Some(colour));
+        gl.framebuffer_renderbuffer(
+            glow::FRAMEBUFFER,
+            glow::COLOR_ATTACHMENT0,
+            glow::RENDERBUFFER,
+            Some(colour),
+        );
         paint();
         let out = glow::PixelPackData::Slice(Some(pixels));
         gl.read_pixels(0, 0, width as i32, height as i32, glow::RGBA, glow::UNSIGNED_BYTE, out);

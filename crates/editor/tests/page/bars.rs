@@ -60,13 +60,20 @@ pub fn options(page: &mut Page, ui: &mut Ui) {
         widgets::segmented(ui, &["Along", "Against"], &mut page.sense);
         divider(ui);
         weak(ui, "Radius");
-        NumberField::new("Brush radius", &mut page.radius_px, 1.0..=100.0).unlabelled(78.0).unit("px").show(ui);
+        NumberField::new("Brush radius", &mut page.radius_px, 1.0..=100.0)
+            .unlabelled(78.0)
+            .unit("px")
+            .show(ui);
         weak(ui, "Strength");
-        NumberField::new("Brush strength", &mut page.strength, 0.0..=100.0).unlabelled(72.0).unit("%").show(ui);
+        NumberField::new("Brush strength", &mut page.strength, 0.0..=100.0)
+            .unlabelled(72.0)
+            .unit("%")
+            .show(ui);
         divider(ui);
         weak(ui, "Mirror");
         for (axis, on) in ["X", "Y", "Z"].into_iter().zip(&mut page.mirror) {
-            if Button::new(axis).name(["Mirror X", "Mirror Y", "Mirror Z"][usize::from(axis.as_bytes()[0] - b'X')])
+            if Button::new(axis)
+                .name(["Mirror X", "Mirror Y", "Mirror Z"][usize::from(axis.as_bytes()[0] - b'X')])
                 .on(*on)
                 .plain()
                 .show(ui)

@@ -86,7 +86,11 @@ fn strokes(page: &mut Page, ui: &mut Ui) {
         .step(0.1, 1)
         .default_value(2.5)
         .show(ui);
-    NumberField::new("Flatness", &mut page.flatness, 0.0..=1.0).unit("2D").step(0.1, 1).default_value(1.0).show(ui);
+    NumberField::new("Flatness", &mut page.flatness, 0.0..=1.0)
+        .unit("2D")
+        .step(0.1, 1)
+        .default_value(1.0)
+        .show(ui);
 }
 
 fn note(edits: &mut Vec<&'static str>, field: &FieldResponse) {
@@ -116,7 +120,10 @@ fn tree(page: &mut Page, ui: &mut Ui) {
         TreeRow { keyed: true, ..plain("shot", "shot, camera", RowMark::Icon(icons::CAMERA), 0) },
         plain("window", "window, light", RowMark::Icon(icons::LIGHT), 0),
         TreeRow { keyed: true, expanded: Some(true), ..plain("apple", "apple, object", object, 0) },
-        TreeRow { note: "4 guides", ..plain("skin", "skin, region, 4 guides", RowMark::Colour(page.skin), 1) },
+        TreeRow {
+            note: "4 guides",
+            ..plain("skin", "skin, region, 4 guides", RowMark::Colour(page.skin), 1)
+        },
         TreeRow { note: "around", ..plain("stem", "stem, region", stem, 1) },
         plain("leaf", "leaf, object", object, 1),
         plain("lemon", "lemon, object", object, 0),

@@ -76,14 +76,29 @@ impl Page {
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let tokens = Tokens::of(ui);
         let bar = |fill| Frame::new().fill(fill);
-        Panel::top("top bar").exact_size(measure::TOP_BAR).frame(bar(tokens.alt)).show(ui, |ui| bars::top(self, ui));
-        Panel::bottom("status").exact_size(measure::STATUS_LINE).frame(bar(tokens.alt)).show(ui, bars::status);
-        Panel::bottom("strip").exact_size(measure::STRIP).frame(bar(tokens.alt)).show(ui, |ui| bars::strip(self, ui));
-        Panel::right("column").exact_size(280.0).frame(bar(tokens.panel)).show(ui, |ui| column::column(self, ui));
+        Panel::top("top bar")
+            .exact_size(measure::TOP_BAR)
+            .frame(bar(tokens.alt))
+            .show(ui, |ui| bars::top(self, ui));
+        Panel::bottom("status")
+            .exact_size(measure::STATUS_LINE)
+            .frame(bar(tokens.alt))
+            .show(ui, bars::status);
+        Panel::bottom("strip")
+            .exact_size(measure::STRIP)
+            .frame(bar(tokens.alt))
+            .show(ui, |ui| bars::strip(self, ui));
+        Panel::right("column")
+            .exact_size(280.0)
+            .frame(bar(tokens.panel))
+            .show(ui, |ui| column::column(self, ui));
         Panel::top("options").exact_size(measure::OPTIONS_BAR).frame(bar(tokens.panel)).show(ui, |ui| {
             bars::options(self, ui);
         });
-        Panel::left("rail").exact_size(measure::RAIL).frame(bar(tokens.panel)).show(ui, |ui| bars::rail(self, ui));
+        Panel::left("rail")
+            .exact_size(measure::RAIL)
+            .frame(bar(tokens.panel))
+            .show(ui, |ui| bars::rail(self, ui));
         CentralPanel::default().frame(bar(tokens.app)).show(ui, |ui| self.viewport(ui));
         if self.asks {
             let asked = Dialog {
@@ -109,13 +124,24 @@ impl Page {
         let corner = Rect::from_min_size(whole.min + vec2(12.0, 12.0), vec2(400.0, measure::CHIP));
         ui.scope_builder(at(corner), |ui| {
             widgets::chip(ui, |ui| {
-                widgets::combo(ui, ("View", Some(icons::CAMERA)), &["Shot camera", "Free view"], &mut self.view);
+                widgets::combo(
+                    ui,
+                    ("View", Some(icons::CAMERA)),
+                    &["Shot camera", "Free view"],
+                    &mut self.view,
+                );
                 widgets::chip_divider(ui);
-                widgets::combo(ui, ("Shading", Some(icons::SHADING)), &["Painted", "Lit", "Trust"], &mut self.shading);
+                widgets::combo(
+                    ui,
+                    ("Shading", Some(icons::SHADING)),
+                    &["Painted", "Lit", "Trust"],
+                    &mut self.shading,
+                );
             });
         });
         let wide = 5.0 * 26.0 + 4.0 * 2.0 + 8.0;
-        let corner = Rect::from_min_size(pos2(whole.right() - 12.0 - wide, whole.top() + 12.0), vec2(wide, 32.0));
+        let corner =
+            Rect::from_min_size(pos2(whole.right() - 12.0 - wide, whole.top() + 12.0), vec2(wide, 32.0));
         ui.scope_builder(at(corner), |ui| {
             widgets::chip(ui, |ui| {
                 let overlays = [
