@@ -4,6 +4,7 @@
 
 mod cli;
 mod corpus;
+mod covered;
 mod directions;
 mod guides;
 mod horn;
