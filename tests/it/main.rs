@@ -6,6 +6,8 @@ mod cli;
 mod corpus;
 mod covered;
 mod directions;
+mod editor_gestures;
+mod editor_script;
 mod guides;
 mod horn;
 mod hostile_directions;

@@ -43,7 +43,7 @@ struct Corner {
     position: DVec3,
     normal: DVec3,
     turn_rad: f64,
-    /// Unit, along the gesture: the mean of the pieces before and after.
+    /// Unit, along the gesture: the tangent of the arc through this point and its neighbours.
     along: DVec3,
 }
 
@@ -81,12 +81,14 @@ impl Guide {
         if kept.len() < 2 {
             return None;
         }
-        let pieces: Vec<DVec3> =
-            kept.windows(2).map(|pair| (pair[1].position - pair[0].position).normalize_or_zero()).collect();
+        let pieces: Vec<DVec3> = kept.windows(2).map(|pair| pair[1].position - pair[0].position).collect();
         for (index, point) in kept.iter_mut().enumerate() {
             let before = pieces[index.saturating_sub(1)];
             let after = pieces[index.min(pieces.len() - 1)];
-            point.along = (before + after).try_normalize().unwrap_or(after);
+            // The shorter piece is nearer to the tangent.
+            let (unit_before, unit_after) = (before.normalize_or_zero(), after.normalize_or_zero());
+            let mean = unit_before * after.length() + unit_after * before.length();
+            point.along = mean.try_normalize().unwrap_or(unit_after);
         }
         let low = kept.iter().fold(DVec3::INFINITY, |low, point| low.min(point.position));
         let high = kept.iter().fold(DVec3::NEG_INFINITY, |high, point| high.max(point.position));
