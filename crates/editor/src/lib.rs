@@ -1,1 +1,6 @@
 //! The editor's window: egui panels and the viewport over `editor-model`.
+
+pub mod icons;
+pub mod theme;
+pub mod widgets;
+pub mod window;
