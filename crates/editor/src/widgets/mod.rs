@@ -27,6 +27,7 @@ pub use check::{checkbox, radio};
 pub use chip::{chip, chip_divider};
 pub use color_square::color_square;
 pub use combo::combo;
+pub(crate) use dialog::sheet;
 pub use dialog::{Dialog, DialogResponse, dialog};
 pub use field::{FieldResponse, NumberField};
 pub use key_cap::{key_cap, key_hint};
