@@ -6,7 +6,8 @@ use std::sync::Arc;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{ContextReport, Driver, Mend, OpenOptions, open};
 use impasto_painting::frame::{
-    Brushes, Finish, Frame, FrameLights, FrameStyle, FrameView, LayerKind, LayerRun, Stroke, StrokeSource,
+    Brushes, Finish, Frame, FrameLights, FrameStyle, FrameView, LayerKind, LayerRun, Quality, Stroke,
+    StrokeSource,
 };
 
 use crate::args::DoctorArguments;
@@ -118,6 +119,7 @@ fn test_frame() -> Frame {
         palettes: Arc::default(),
         finish: Finish::default(),
         style: FrameStyle::RotatingStrokes,
+        quality: Quality::Exact,
     }
 }
 

@@ -137,6 +137,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
                 ColorsChoice::Scene => StrokeColors::Scene,
                 ColorsChoice::Trust => StrokeColors::Trust,
             },
+            ..FrameOptions::new(size_px)
         },
         destination,
         scene_name,

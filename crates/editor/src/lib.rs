@@ -3,6 +3,7 @@
 pub mod icons;
 pub mod panels;
 pub mod theme;
+pub mod viewport;
 pub mod widgets;
 pub mod window;
 pub mod worker;

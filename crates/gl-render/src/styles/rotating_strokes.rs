@@ -16,11 +16,12 @@ use impasto_painting::frame::{LayerRun, Stroke};
 
 use super::{Style, StyleInput, ground};
 use crate::gl::{
-    Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program,
+    Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
     ProgramSource, Records, Texture, VertexArray, Vertices,
 };
 use crate::reference::{LENS_UNIFORMS, LensSetup, LightSetup};
 use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
+use crate::watch::Watch;
 use marks::Marks;
 
 /// How much of a body's own colour its toned ground carries.
@@ -34,6 +35,9 @@ const BLOCK_PX: f32 = 4.0;
 
 /// How far what happens at a place is spread over the body: the deviation of a Gaussian, pixels at the scene's size.
 const SPREAD_PX: f32 = 16.0;
+
+/// The most that is painted between two questions whether to stop, pixels of strokes.
+const PIECE_PX: f32 = 400_000.0;
 
 /// Texels in a row of palettes.
 const PALETTE: usize = 16;
@@ -131,7 +135,7 @@ impl RotatingStrokes {
     }
 
     /// Where small strokes are wanted; the result lies in the first of the two targets.
-    fn find_detail(&self, input: &StyleInput<'_>) -> Result<(), GlError> {
+    fn find_detail(&self, input: &StyleInput<'_>, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
         let bound = self
@@ -150,8 +154,7 @@ impl RotatingStrokes {
             let bound = self.spread.bind().texture("detail", &targets.detail[from]).set("axis", axis * step);
             self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         }
-        self.gpu.lap("detail");
-        Ok(())
+        watch.passed("detail")
     }
 
     fn resolve(&mut self, input: &StyleInput<'_>) -> Result<(), GlError> {
@@ -182,7 +185,24 @@ impl RotatingStrokes {
         Ok(())
     }
 
-    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun) -> Result<(), GlError> {
+    /// Lays a layer of paint; in several pieces where somebody may ask to stop.
+    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let strokes = &input.frame.strokes[layer.first as usize..][..layer.count as usize];
+        if strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
+            targets.paint_pass.copy_to(&targets.below_pass);
+        }
+        let mut first = layer.first;
+        let most_px = if watch.may_stop() { PIECE_PX } else { f32::INFINITY };
+        for count in pieces(strokes, most_px) {
+            self.paint_piece(input, LayerRun { first, count, ..layer })?;
+            watch.passed(layer.kind.name())?;
+            first += count;
+        }
+        Ok(())
+    }
+
+    fn paint_piece(&self, input: &StyleInput<'_>, layer: LayerRun) -> Result<(), GlError> {
         let (Some(targets), Some(marks)) = (&self.targets, &self.marks) else { return Ok(()) };
         let frame = input.frame;
         let first = layer.first as i32;
@@ -199,10 +219,6 @@ impl RotatingStrokes {
             });
         }
         self.stroke_quads.set(&inputs, None);
-        let strokes = &frame.strokes[first as usize..][..layer.count as usize];
-        if strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
-            targets.paint_pass.copy_to(&targets.below_pass);
-        }
         self.gpu.begin_pass(&targets.paint_pass, DrawState { blend: Blend::Over, ..DrawState::default() });
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let bound = lens
@@ -212,12 +228,15 @@ impl RotatingStrokes {
             .texture("below", &targets.below)
             .texture("brush_marks", &marks.texture)
             .texture("depth_and_id", &input.reference.depth_and_id);
-        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })?;
-        self.gpu.lap(layer.kind.name());
-        Ok(())
+        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })
     }
 
-    fn encode(&self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
+    fn encode(
+        &self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         let frame = input.frame;
         let finish = &frame.finish;
@@ -225,7 +244,7 @@ impl RotatingStrokes {
         let bound =
             self.soften.bind().texture("height", &targets.height).set("step_px", frame.px_scale.max(0.5));
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.gpu.lap("soften");
+        watch.passed("soften")?;
 
         self.gpu.begin_pass(output, DrawState::default());
         let (tone, wash) = match finish.ground {
@@ -255,8 +274,7 @@ impl RotatingStrokes {
             .set("canvas_axes", axes)
             .set("canvas_origin", origin);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.gpu.lap("encode");
-        Ok(())
+        watch.passed("encode")
     }
 
     /// Colour and alpha of every stroke of the last frame, then its fit, eight floats each.
@@ -273,7 +291,12 @@ impl RotatingStrokes {
 }
 
 impl Style for RotatingStrokes {
-    fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
+    fn draw(
+        &mut self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         let frame = input.frame;
         let block_px = (BLOCK_PX * frame.px_scale).round().clamp(1.0, 8.0) as u32;
         let fits =
@@ -282,22 +305,40 @@ impl Style for RotatingStrokes {
             self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
         }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
-        self.find_detail(input)?;
+        self.find_detail(input, watch)?;
         self.resolve(input)?;
-        self.gpu.lap("resolve");
+        watch.passed("resolve")?;
         if let Some(targets) = &self.targets {
             let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
             self.gpu.begin_pass(&targets.paint_pass, clear);
         }
         for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
-            self.paint(input, layer)?;
+            self.paint(input, layer, watch)?;
         }
-        self.encode(input, output)
+        self.encode(input, output, watch)
     }
 
     fn as_strokes(&self) -> Option<&RotatingStrokes> {
         Some(self)
     }
+}
+
+/// Numbers of strokes, one run after the other, whose quads cover at most about so many pixels each.
+fn pieces(strokes: &[Stroke], most_px: f32) -> Vec<u32> {
+    let mut pieces = vec![0];
+    let mut covered_px = 0.0;
+    for stroke in strokes {
+        let px = stroke.length_px * stroke.width_px;
+        if covered_px + px > most_px && covered_px > 0.0 {
+            pieces.push(0);
+            covered_px = 0.0;
+        }
+        covered_px += px;
+        if let Some(count) = pieces.last_mut() {
+            *count += 1;
+        }
+    }
+    pieces
 }
 
 /// Palettes as a texture, a row each; one empty row where there are none.
@@ -364,6 +405,7 @@ const RESOLVE: ProgramSource = ProgramSource {
         "px_scale",
         "kind",
     ],
+    defined: &[],
 };
 
 const DETAIL: ProgramSource = ProgramSource {
@@ -371,6 +413,7 @@ const DETAIL: ProgramSource = ProgramSource {
     fragment: Some("rotating_strokes/detail.frag"),
     captured: &[],
     uniforms: &["reference_color", "depth_and_id", "glint", "px_scale", "block_px"],
+    defined: &[],
 };
 
 const SPREAD: ProgramSource = ProgramSource {
@@ -378,6 +421,7 @@ const SPREAD: ProgramSource = ProgramSource {
     fragment: Some("rotating_strokes/spread.frag"),
     captured: &[],
     uniforms: &["detail", "axis"],
+    defined: &[],
 };
 
 const PAINT: ProgramSource = ProgramSource {
@@ -393,6 +437,7 @@ const PAINT: ProgramSource = ProgramSource {
         "units_per_px_at_1",
         "orthographic",
     ],
+    defined: &[],
 };
 
 const SOFTEN: ProgramSource = ProgramSource {
@@ -400,6 +445,7 @@ const SOFTEN: ProgramSource = ProgramSource {
     fragment: Some("rotating_strokes/soften.frag"),
     captured: &[],
     uniforms: &["height", "step_px"],
+    defined: &[],
 };
 
 const ENCODE: ProgramSource = ProgramSource {
@@ -420,4 +466,5 @@ const ENCODE: ProgramSource = ProgramSource {
         "canvas_axes",
         "canvas_origin",
     ],
+    defined: &[],
 };
