@@ -15,6 +15,7 @@ mod marks;
 pub mod overlay;
 mod pictures;
 mod pointer;
+mod seen_hairs;
 pub mod surface_map;
 
 use crate::panels::Ask;
@@ -25,6 +26,7 @@ pub use layout::Layout;
 pub use marks::Marks;
 pub use pictures::Pictures;
 pub use pointer::{PointerEvent, PointerKind};
+pub use seen_hairs::{HairLook, hair_marks};
 
 /// What the viewport shows.
 #[derive(Clone, Copy)]
