@@ -6,6 +6,7 @@ pub mod files;
 pub mod icons;
 pub mod panels;
 pub mod theme;
+pub mod viewport;
 pub mod widgets;
 pub mod window;
 pub mod worker;

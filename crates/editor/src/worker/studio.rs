@@ -6,14 +6,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::ColorImage;
+use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
-use impasto_painting::{Frame, FrameOptions, Painting, Preparer, StrokeColors};
+use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, StrokeColors};
 
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
-use super::{Picture, Report, Shading, ViewJob};
+use super::{Picture, Report, ViewJob};
 
 /// A job that is this old, without a later one, is drawn exactly.
 const REST: Duration = Duration::from_millis(100);
@@ -213,6 +214,7 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
     let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
     let options = FrameOptions {
         shot_height_px: Some(view.shot_height_px * share),
+        quality: if manner.exact { Quality::Exact } else { Quality::Draft },
         colors: match view.shading {
             Shading::Trust => StrokeColors::Trust,
             Shading::Painted | Shading::Shaded => StrokeColors::Scene,
@@ -234,10 +236,10 @@ fn render(
     frame: &Frame,
     manner: &Manner<'_>,
 ) -> Result<Option<ColorImage>, RenderError> {
-    if (manner.give_up)() {
-        return Ok(None);
-    }
-    let picture = renderer.render(frame)?;
-    let size = picture.size_px.map(|side| side as usize);
-    Ok(Some(ColorImage::from_rgba_unmultiplied(size, &picture.rgba8)))
+    let picture = renderer.render_unless(frame, &mut || (manner.give_up)())?;
+    let image = |picture: impasto_gl_render::Picture| {
+        // Pictures of the window have a ground: they are opaque.
+        ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
+    };
+    Ok(picture.map(image))
 }
