@@ -4,6 +4,7 @@
 
 mod cli;
 mod corpus;
+mod covered;
 mod directions;
 mod editor_gestures;
 mod editor_script;

@@ -5,3 +5,4 @@ pub mod panels;
 pub mod theme;
 pub mod widgets;
 pub mod window;
+pub mod worker;

@@ -269,6 +269,11 @@ impl Painting {
         &self.loaded
     }
 
+    /// The same painting, drawn in another style.
+    pub fn in_style(&self, style: FrameStyle) -> Self {
+        Self { style, ..self.clone() }
+    }
+
     /// How long each step of preparing took.
     pub fn steps(&self) -> &[Step] {
         &self.steps

@@ -83,3 +83,6 @@ pub(super) fn named_path(scene: &Scene, field_path: &str) -> String {
     };
     found().unwrap_or_else(|| field_path.to_owned())
 }
+
+#[cfg(test)]
+mod tests;
