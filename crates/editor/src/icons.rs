@@ -158,7 +158,8 @@ mod tests {
         crate::theme::apply(&ctx, crate::theme::Theme::Dark, 1.0);
         let output = ctx.run_ui(egui::RawInput::default(), |ui| {
             for (name, icon) in ALL {
-                let found = ui.fonts_mut(|fonts| fonts.has_glyphs(&crate::theme::type_face::icon(18.0), icon.glyph()));
+                let found = ui
+                    .fonts_mut(|fonts| fonts.has_glyphs(&crate::theme::type_face::icon(18.0), icon.glyph()));
                 assert!(found, "{name} is not in the icon font");
             }
         });

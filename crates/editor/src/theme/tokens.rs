@@ -188,7 +188,10 @@ mod tests {
                 }
             }
             for fill in [tokens.hov, tokens.act] {
-                assert!(contrast(tokens.text, fill) >= 4.5, "{theme}: only `text` stands on these, and it must read");
+                assert!(
+                    contrast(tokens.text, fill) >= 4.5,
+                    "{theme}: only `text` stands on these, and it must read"
+                );
             }
             assert!(contrast(tokens.on_accent, tokens.accent) >= 4.5, "{theme}: white on the accent");
             assert!(contrast(tokens.out, tokens.panel) >= 3.0, "{theme}: a control's outline");

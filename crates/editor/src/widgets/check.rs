@@ -1,8 +1,8 @@
 use egui::{Align2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::draw;
-use crate::theme::{Tokens, measure, type_face};
 use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
 
 const BOX: f32 = 16.0;
 

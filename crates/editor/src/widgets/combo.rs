@@ -7,12 +7,18 @@ use crate::theme::{Tokens, measure, type_face};
 /// Picks one of `choices` from a menu; `chosen` is its place in them. With an icon it has no fill at rest, as on a chip.
 ///
 /// Changed where another was picked.
-pub fn combo(ui: &mut Ui, (name, icon): (&str, Option<Icon>), choices: &[&str], chosen: &mut usize) -> Response {
+pub fn combo(
+    ui: &mut Ui,
+    (name, icon): (&str, Option<Icon>),
+    choices: &[&str],
+    chosen: &mut usize,
+) -> Response {
     let tokens = Tokens::of(ui);
     let shown = choices.get(*chosen).copied().unwrap_or_default();
     let before = icon.map_or(0.0, |_| measure::ICON + 5.0);
     let padding = if icon.is_some() { 7.0 } else { 8.0 };
-    let size = vec2(draw::width(ui, shown, type_face::body()) + before + 2.0 * padding + 18.0, measure::FIELD);
+    let size =
+        vec2(draw::width(ui, shown, type_face::body()) + before + 2.0 * padding + 18.0, measure::FIELD);
     let (rect, mut response) = ui.allocate_exact_size(size, Sense::click());
     let rest = if icon.is_some() { Color32::TRANSPARENT } else { tokens.wid };
     let fill = draw::fill(tokens, &response, rest);
@@ -54,7 +60,12 @@ fn menu_row(ui: &mut Ui, words: &str, on: bool) -> Response {
     let fill = if response.hovered() || response.has_focus() { tokens.hov } else { Color32::TRANSPARENT };
     ui.painter().rect_filled(rect, draw::corner(), fill);
     if on {
-        draw::icon(ui.painter(), rect.left_center() + vec2(14.0, 0.0), (icons::CHECK, 16.0), tokens.accent_text);
+        draw::icon(
+            ui.painter(),
+            rect.left_center() + vec2(14.0, 0.0),
+            (icons::CHECK, 16.0),
+            tokens.accent_text,
+        );
     }
     let at = rect.left_center() + vec2(28.0, 0.0);
     draw::words(ui.painter(), at, Align2::LEFT_CENTER, (words, type_face::body()), tokens.text);

@@ -38,7 +38,8 @@ pub fn dialog(ctx: &Context, asked: &Dialog<'_>) -> DialogResponse {
                 }
             }
         });
-        let (enter, escape) = ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
+        let (enter, escape) =
+            ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
         // `Enter` on a verb that has the focus is a click on that verb.
         if chosen.is_none() && enter && ui.memory(|memory| memory.focused()).is_none() {
             chosen = asked.verbs.len().checked_sub(1);

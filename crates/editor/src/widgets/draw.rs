@@ -1,4 +1,7 @@
-use egui::{Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui, WidgetInfo};
+use egui::{
+    Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui,
+    WidgetInfo,
+};
 
 use crate::icons::Icon;
 use crate::theme::{Tokens, measure, type_face};
@@ -41,7 +44,12 @@ pub(super) fn words(
 }
 
 /// Text in one line that ends with an ellipsis where it would pass `width`.
-pub(super) fn words_within(ui: &Ui, at: Pos2, (text, font): (&str, FontId), (colour, width): (Color32, f32)) -> Rect {
+pub(super) fn words_within(
+    ui: &Ui,
+    at: Pos2,
+    (text, font): (&str, FontId),
+    (colour, width): (Color32, f32),
+) -> Rect {
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(0.0));
     let galley = ui.painter().layout_job(job);

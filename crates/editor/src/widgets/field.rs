@@ -2,8 +2,8 @@ use std::ops::RangeInclusive;
 
 use egui::accesskit::{Action, ActionData};
 use egui::{
-    Align2, CornerRadius, CursorIcon, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder,
-    WidgetInfo, pos2, vec2,
+    Align2, CornerRadius, CursorIcon, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::{Tip, draw};
@@ -198,7 +198,8 @@ impl<'a> NumberField<'a> {
             .show(&mut inside);
         let response = output.response.response;
         let name = self.name;
-        response.widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
+        response
+            .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
         if fresh {
             response.request_focus();
             let mut state = output.state;
@@ -283,7 +284,8 @@ impl<'a> NumberField<'a> {
         if let Some((from, raw)) = &mut memory.dragged {
             let fine = if ui.input(|input| input.modifiers.shift) { 0.1 } else { 1.0 };
             let span = self.range.end() - self.range.start();
-            let per_point = if span.is_finite() { span / f64::from(response.rect.width()) } else { self.step };
+            let per_point =
+                if span.is_finite() { span / f64::from(response.rect.width()) } else { self.step };
             *raw += f64::from(response.drag_delta().x) * per_point * fine;
             *raw = raw.clamp(*self.range.start(), *self.range.end());
             let (from, raw) = (*from, *raw);
@@ -300,7 +302,9 @@ impl<'a> NumberField<'a> {
     }
 
     fn reset(&mut self, ui: &mut Ui, row: Rect) -> bool {
-        let Some(default) = self.default.filter(|default| self.label && self.text_of(*default) != self.shown()) else {
+        let Some(default) =
+            self.default.filter(|default| self.label && self.text_of(*default) != self.shown())
+        else {
             return false;
         };
         let centre = pos2(row.right() - measure::ROW_END / 2.0 + 4.0, row.center().y);
@@ -327,9 +331,14 @@ impl<'a> NumberField<'a> {
         if part > 0.0 {
             let mut filled = frame;
             filled.set_width(frame.width() * part.min(1.0) as f32);
-            let right = if filled.right() > frame.right() - measure::CORNER { measure::CORNER as u8 } else { 0 };
+            let right =
+                if filled.right() > frame.right() - measure::CORNER { measure::CORNER as u8 } else { 0 };
             let left = measure::CORNER as u8;
-            painter.rect_filled(filled, CornerRadius { nw: left, sw: left, ne: right, se: right }, tokens.sel);
+            painter.rect_filled(
+                filled,
+                CornerRadius { nw: left, sw: left, ne: right, se: right },
+                tokens.sel,
+            );
         }
         let line = if self.error.is_some() {
             Stroke::new(1.0, tokens.vermilion)

@@ -13,7 +13,8 @@ const INSET: f32 = 2.0;
 pub fn mode_switch(ui: &mut Ui, mode: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     // As wide as the bold words, so that nothing moves when the mode changes.
-    let widths = MODES.map(|(words, _)| draw::width(ui, words, type_face::head()) + measure::SMALL_ICON + 32.0);
+    let widths =
+        MODES.map(|(words, _)| draw::width(ui, words, type_face::head()) + measure::SMALL_ICON + 32.0);
     let size = vec2(widths.iter().sum::<f32>() + 2.0 * INSET, HEIGHT);
     let (rect, mut whole) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter().rect_filled(rect, draw::group_corner(), tokens.field);

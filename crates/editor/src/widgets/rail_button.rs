@@ -7,7 +7,8 @@ use crate::theme::{Tokens, measure, type_face};
 /// A tool on the rail, with the letter of its key in the corner.
 pub fn rail_button(ui: &mut Ui, (icon, name): (Icon, &str), letter: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(measure::RAIL_BUTTON, measure::RAIL_BUTTON), Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(measure::RAIL_BUTTON, measure::RAIL_BUTTON), Sense::click());
     let (fill, colour, weak) = if on {
         (tokens.accent, tokens.on_accent, tokens.on_accent)
     } else {

@@ -10,8 +10,10 @@ const PADDING: f32 = 9.0;
 /// A few choices side by side, one of them on; each is found by its words. Changed where another was picked.
 pub fn segmented(ui: &mut Ui, choices: &[&str], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
-    let widths: Vec<f32> =
-        choices.iter().map(|words| draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING).collect();
+    let widths: Vec<f32> = choices
+        .iter()
+        .map(|words| draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING)
+        .collect();
     let size = vec2(widths.iter().sum::<f32>() + 2.0 * INSET, HEIGHT);
     let (rect, mut whole) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter().rect_filled(rect, draw::group_corner(), tokens.field);

@@ -44,7 +44,12 @@ fn line(ui: &mut egui::Ui, toast: &Toast) -> bool {
         .fill(fill)
         .stroke((1.0, edge))
         .corner_radius(draw::group_corner())
-        .inner_margin(Margin { left: 12, right: if toast.action.is_empty() { 12 } else { 2 }, top: 2, bottom: 2 })
+        .inner_margin(Margin {
+            left: 12,
+            right: if toast.action.is_empty() { 12 } else { 2 },
+            top: 2,
+            bottom: 2,
+        })
         .show(ui, |ui| {
             ui.horizontal(|ui| {
                 ui.set_height(measure::CHIP - 4.0);

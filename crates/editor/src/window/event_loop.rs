@@ -103,13 +103,20 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
             let at = Instant::now().checked_add(asked.delay);
             if let Some(at) = at {
                 // The only error is that the loop has ended.
-                let _ended = proxy.send_event(Happening::Repaint { at, pass: asked.current_cumulative_pass_nr });
+                let _ended =
+                    proxy.send_event(Happening::Repaint { at, pass: asked.current_cumulative_pass_nr });
             }
         });
         let scale = window.scale_factor() as f32;
         let most = painter.max_texture_side();
-        let mut state =
-            egui_winit::State::new(ctx.clone(), ViewportId::ROOT, event_loop, Some(scale), window.theme(), Some(most));
+        let mut state = egui_winit::State::new(
+            ctx.clone(),
+            ViewportId::ROOT,
+            event_loop,
+            Some(scale),
+            window.theme(),
+            Some(most),
+        );
         // It must know the window before the window shows.
         state.init_accesskit(event_loop, &window, self.proxy.clone());
 
@@ -206,7 +213,9 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
                     open.state.on_accesskit_action_request(request);
                     open.window.request_redraw();
                 }
-                accesskit_winit::WindowEvent::AccessibilityDeactivated => open.state.egui_ctx().disable_accesskit(),
+                accesskit_winit::WindowEvent::AccessibilityDeactivated => {
+                    open.state.egui_ctx().disable_accesskit()
+                }
             },
         }
     }
@@ -267,7 +276,13 @@ impl<A: App> OpenWindow<A> {
             self.state.handle_platform_output(&self.window, output.platform_output);
             for (_, viewport) in output.viewport_output {
                 let mut asked = Vec::new();
-                egui_winit::process_viewport_commands(&ctx, &mut self.info, viewport.commands, &self.window, &mut asked);
+                egui_winit::process_viewport_commands(
+                    &ctx,
+                    &mut self.info,
+                    viewport.commands,
+                    &self.window,
+                    &mut asked,
+                );
             }
             shapes = output.shapes;
             scale = output.pixels_per_point;

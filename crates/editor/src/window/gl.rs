@@ -1,6 +1,9 @@
 //! The window's OpenGL: opening it, and keeping the app's leftovers away from egui.
 
-#![expect(unsafe_code, reason = "a window's OpenGL is reached through C libraries that are loaded at run time")]
+#![expect(
+    unsafe_code,
+    reason = "a window's OpenGL is reached through C libraries that are loaded at run time"
+)]
 
 use std::num::NonZeroU32;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,7 +13,9 @@ use glow::HasContext as _;
 use glutin::config::{Config, ConfigTemplateBuilder};
 use glutin::context::{ContextApi, ContextAttributesBuilder, PossiblyCurrentContext};
 use glutin::display::GetGlDisplay as _;
-use glutin::prelude::{GlDisplay as _, GlSurface as _, NotCurrentGlContext as _, PossiblyCurrentGlContext as _};
+use glutin::prelude::{
+    GlDisplay as _, GlSurface as _, NotCurrentGlContext as _, PossiblyCurrentGlContext as _,
+};
 use glutin::surface::{Surface, SurfaceAttributesBuilder, SwapInterval, WindowSurface};
 use glutin_winit::DisplayBuilder;
 use winit::event_loop::ActiveEventLoop;
@@ -26,7 +31,10 @@ pub(super) struct WindowGl {
 
 impl WindowGl {
     /// Opens a window and an OpenGL context for it, and makes it current.
-    pub(super) fn open(event_loop: &ActiveEventLoop, window: WindowAttributes) -> Result<(Window, Self), String> {
+    pub(super) fn open(
+        event_loop: &ActiveEventLoop,
+        window: WindowAttributes,
+    ) -> Result<(Window, Self), String> {
         // glutin asks for a config where there may be none, and drivers panic below it.
         catch_unwind(AssertUnwindSafe(|| open(event_loop, window)))
             .unwrap_or_else(|_| Err("the driver broke off while it was asked".to_owned()))
@@ -87,7 +95,9 @@ fn open(event_loop: &ActiveEventLoop, attributes: WindowAttributes) -> Result<(W
     let template = ConfigTemplateBuilder::new().with_depth_size(0).with_stencil_size(0);
     let (window, config) = DisplayBuilder::new()
         .with_window_attributes(Some(attributes))
-        .build(event_loop, template, |mut configs| configs.next().expect("a driver offers at least one config"))
+        .build(event_loop, template, |mut configs| {
+            configs.next().expect("a driver offers at least one config")
+        })
         .map_err(|error| error.to_string())?;
     let window = window.ok_or("the window system made no window")?;
     let gl = open_on(&window, &config)?;
@@ -98,7 +108,8 @@ fn open_on(window: &Window, config: &Config) -> Result<WindowGl, String> {
     let display = config.display();
     let handle = window.window_handle().map_err(|error| error.to_string())?.as_raw();
     let wanted = ContextAttributesBuilder::new().build(Some(handle));
-    let embedded = ContextAttributesBuilder::new().with_context_api(ContextApi::Gles(None)).build(Some(handle));
+    let embedded =
+        ContextAttributesBuilder::new().with_context_api(ContextApi::Gles(None)).build(Some(handle));
     let size = window.inner_size();
     let least = |length| NonZeroU32::new(length).unwrap_or(NonZeroU32::MIN);
     let surface =
@@ -106,7 +117,9 @@ fn open_on(window: &Window, config: &Config) -> Result<WindowGl, String> {
     // SAFETY: the handle is of `window`, which its owner keeps longer than what is made here.
     let (context, surface) = unsafe {
         let context = display.create_context(config, &wanted).or_else(|first| {
-            display.create_context(config, &embedded).map_err(|second| format!("{first}; OpenGL ES: {second}"))
+            display
+                .create_context(config, &embedded)
+                .map_err(|second| format!("{first}; OpenGL ES: {second}"))
         })?;
         (context, display.create_window_surface(config, &surface).map_err(|error| error.to_string())?)
     };
