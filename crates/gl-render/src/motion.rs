@@ -124,4 +124,5 @@ const SOURCE: ProgramSource = ProgramSource {
         "size_px",
         "body_id",
     ],
+    defined: &[],
 };

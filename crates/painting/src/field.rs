@@ -53,6 +53,8 @@ pub(crate) struct FieldInputs {
     pub(crate) samples: Arc<FieldSamples>,
     pub(crate) references: Arc<BodyReferences>,
     pub(crate) regions: Arc<BodyRegions>,
+    /// The rules that may show on the body.
+    pub(crate) used: Arc<Vec<u16>>,
     pub(crate) guides: Arc<Vec<BodyGuide>>,
     /// Directions and seams of all rules.
     pub(crate) rules: Arc<Vec<RegionRule>>,
@@ -95,12 +97,15 @@ impl FieldSamples {
 
     /// The samples where they are at a share of the body's morph.
     pub(crate) fn posed(self, surface: &BodySurface, morph: f64) -> Self {
-        let particles = surface.posed(&Arc::new(self.particles), morph);
+        if surface.is_at_rest(morph) {
+            return self;
+        }
+        let particles = surface.posed(&self.particles, morph);
         Self {
             positions: particles.iter().map(|particle| particle.position).collect(),
             normals: particles.iter().map(|particle| particle.normal).collect(),
             spacing: self.spacing,
-            particles: Arc::unwrap_or_clone(particles),
+            particles,
         }
     }
 
@@ -118,14 +123,9 @@ impl FieldSamples {
 
 impl PartialEq for FieldInputs {
     fn eq(&self, other: &Self) -> bool {
-        let directions_equal = self.rules.len() == other.rules.len()
-            && self.rules.iter().zip(other.rules.iter()).all(|(a, b)| {
-                (&a.direction, a.seam, a.sense, a.strokes.flatness)
-                    == (&b.direction, b.seam, b.sense, b.strokes.flatness)
-            });
         Arc::ptr_eq(&self.samples, &other.samples)
             && Arc::ptr_eq(&self.parts, &other.parts)
-            && directions_equal
+            && self.same_rules(other)
             && self.references == other.references
             && self.regions == other.regions
             && self.guides == other.guides
@@ -136,12 +136,23 @@ impl PartialEq for FieldInputs {
 
 impl FieldInputs {
     /// Whether any rule of the body may need a field; where not, nothing is sampled.
-    pub(crate) fn may_be_needed(regions: &BodyRegions, rules: &[RegionRule], guides: &[BodyGuide]) -> bool {
+    pub(crate) fn may_be_needed(used: &[u16], rules: &[RegionRule], guides: &[BodyGuide]) -> bool {
         let needs = |rule: &RegionRule| {
             matches!(rule.direction, Direction::Angle(_) | Direction::Crossing(..) | Direction::Curvature(_))
                 || rule.seam != Seam::Hard
         };
-        !guides.is_empty() || regions.all().iter().any(|&rule| needs(&rules[usize::from(rule)]))
+        !guides.is_empty() || used.iter().any(|&rule| needs(&rules[usize::from(rule)]))
+    }
+
+    /// Whether directions and seams of the body's rules are the same.
+    fn same_rules(&self, other: &Self) -> bool {
+        self.used == other.used
+            && self.rules.len() == other.rules.len()
+            && self.used.iter().all(|&rule| {
+                let (a, b) = (&self.rules[usize::from(rule)], &other.rules[usize::from(rule)]);
+                (&a.direction, a.seam, a.sense, a.strokes.flatness)
+                    == (&b.direction, b.seam, b.sense, b.strokes.flatness)
+            })
     }
 
     /// The field, or none where every direction is stated outright.
@@ -169,7 +180,7 @@ impl FieldInputs {
             })
             .collect();
         let settled = |sample: &SamplePoint| sample.base.exact >= 1.0 && !free[sample.point.rule];
-        let soft = self.rules.iter().any(|rule| rule.seam != Seam::Hard);
+        let soft = self.used.iter().any(|&rule| self.rules[usize::from(rule)].seam != Seam::Hard);
         if !soft && !self.smooths() && points.iter().all(settled) {
             return None;
         }
@@ -233,7 +244,7 @@ impl FieldInputs {
             Seam::Soft(distance) => distance,
             Seam::Hard => 0.0,
         };
-        let widest = (0..self.rules.len()).map(reach_of).fold(0.0, f64::max);
+        let widest = self.used.iter().map(|&rule| reach_of(usize::from(rule))).fold(0.0, f64::max);
         let plain = |sample: &SamplePoint| if free[sample.point.rule] { 0.0 } else { 1.0 };
         if widest == 0.0 {
             return points.iter().map(plain).collect();

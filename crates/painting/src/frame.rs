@@ -42,6 +42,18 @@ pub struct Frame {
     pub finish: Finish,
     /// How to draw.
     pub style: FrameStyle,
+    /// How much care to take.
+    pub quality: Quality,
+}
+
+/// How much care a picture is drawn with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Quality {
+    /// As films are drawn: the same bits whatever was drawn before.
+    #[default]
+    Exact,
+    /// For a view that moves: the same strokes at the same places, looked at with fewer taps and laid as flat paint.
+    Draft,
 }
 
 /// The style, with what it needs.

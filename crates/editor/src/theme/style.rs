@@ -17,6 +17,8 @@ pub fn apply(ctx: &Context, theme: Theme, scale: f32) {
     });
     ctx.set_style_of(egui::Theme::Dark, style(Theme::Dark));
     ctx.set_style_of(egui::Theme::Light, style(Theme::Light));
+    // The scale is a setting of the editor, and its keys are commands.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
     ctx.set_zoom_factor(scale);
 }
 

@@ -28,7 +28,8 @@ pub fn dialog(ctx: &Context, asked: &Dialog<'_>) -> DialogResponse {
         ui.add_space(4.0);
         ui.label(RichText::new(asked.words).font(type_face::body()).color(tokens.weak));
         ui.add_space(20.0);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let row = egui::vec2(ui.available_width(), measure::SHEET_BUTTON);
+        ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
             for (index, verb) in asked.verbs.iter().enumerate().rev() {
                 let safe = index + 1 == asked.verbs.len();
                 let button = Button::new(verb).on_sheet();

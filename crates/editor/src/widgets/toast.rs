@@ -1,7 +1,7 @@
 use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
 
 use super::{Button, draw};
-use crate::theme::{Theme, Tokens, measure, type_face};
+use crate::theme::{Tokens, measure, type_face};
 
 /// A line that comes up at the bottom and goes by itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,10 +38,8 @@ pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
 fn line(ui: &mut egui::Ui, toast: &Toast) -> bool {
     let tokens = Tokens::of(ui);
     let edge = if toast.error { tokens.vermilion } else { tokens.div };
-    // A toast stands on the picture, so it is never see-through.
-    let fill = if ui.visuals().dark_mode { Theme::Dark.tokens().wid } else { tokens.panel };
     Frame::new()
-        .fill(fill)
+        .fill(tokens.wid)
         .stroke((1.0, edge))
         .corner_radius(draw::group_corner())
         .inner_margin(Margin {

@@ -83,7 +83,7 @@ impl TreeRow<'_> {
             if on || wanted {
                 let at = pos2(end - measure::SMALL_ICON / 2.0, middle);
                 let icon = if on { shut } else { open };
-                clicks[slot] = self.small_button(ui, (at, &response), (icon, weak), verb);
+                clicks[slot] = self.small_button(ui, (at, &response), (icon, weak), (verb, on));
                 end -= measure::SMALL_ICON + measure::GAP;
             }
         }
@@ -130,9 +130,8 @@ impl TreeRow<'_> {
 
     fn expander(&self, ui: &Ui, at: egui::Pos2, row: &Response) -> bool {
         let Some(open) = self.expanded else { return false };
-        let verb = if open { "Fold" } else { "Expand" };
         let icon = if open { icons::EXPANDED } else { icons::FOLDED };
-        self.small_button(ui, (at, row), (icon, Tokens::of(ui).text), verb)
+        self.small_button(ui, (at, row), (icon, Tokens::of(ui).text), ("Expand", open))
     }
 
     fn small_button(
@@ -140,14 +139,14 @@ impl TreeRow<'_> {
         ui: &Ui,
         (at, row): (egui::Pos2, &Response),
         (icon, colour): (Icon, Color32),
-        verb: &str,
+        (verb, on): (&str, bool),
     ) -> bool {
         let hit = Rect::from_center_size(at, vec2(measure::HIT, measure::HIT));
         let response = ui.interact(hit, row.id.with(verb), Sense::click());
         let colour = if response.hovered() { Tokens::of(ui).text } else { colour };
         draw::icon(ui.painter(), at, (icon, measure::SMALL_ICON), colour);
         draw::focus_ring(ui, &response, hit.shrink(2.0), measure::CORNER);
-        draw::named(&response, Role::Button, &format!("{verb} {}", self.name));
+        draw::named_state(&response, Role::Button, &format!("{verb} {}", self.name), on);
         response.clicked()
     }
 }
