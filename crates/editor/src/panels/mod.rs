@@ -1,9 +1,18 @@
 //! The panels round the viewport. Each is a function from what is shown to what is asked for; none changes anything itself.
 
+pub mod brush_thumbnails;
+mod column_state;
+mod inspector;
+mod tree;
+
 use impasto_editor_model::command::Command;
 use impasto_editor_model::keymap::{Action, Preset};
 use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
+
+pub use column_state::rename;
+pub use inspector::inspector;
+pub use tree::tree;
 
 /// What the panels show.
 #[derive(Clone, Copy)]
@@ -46,6 +55,8 @@ pub enum Ask {
     EndPreview,
     /// Select this.
     Select(Selection),
+    /// Ask for a mesh file and give it to this object.
+    ChooseMesh(String),
     /// Do what a key would do.
     Act(Action),
     /// Mode, tools, overlays and frame as they are in this session.

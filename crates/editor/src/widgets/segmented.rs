@@ -9,6 +9,11 @@ const PADDING: f32 = 9.0;
 
 /// A few choices side by side, one of them on; each is found by its words. Changed where another was picked.
 pub fn segmented(ui: &mut Ui, choices: &[&str], chosen: &mut usize) -> Response {
+    segmented_of(ui, "", choices, chosen)
+}
+
+/// As [`segmented`], where the words alone do not say of what: each is found by `of` and its words, *Ease smooth*.
+pub fn segmented_of(ui: &mut Ui, of: &str, choices: &[&str], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     let widths: Vec<f32> = choices
         .iter()
@@ -37,7 +42,8 @@ pub fn segmented(ui: &mut Ui, choices: &[&str], chosen: &mut usize) -> Response 
         let colour = if on || response.hovered() { tokens.text } else { tokens.weak };
         draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, (words, type_face::small()), colour);
         draw::focus_ring(ui, &response, seen, measure::CORNER);
-        draw::named_state(&response, Role::RadioButton, words, on);
+        let name = if of.is_empty() { (*words).to_owned() } else { format!("{of} {}", words.to_lowercase()) };
+        draw::named_state(&response, Role::RadioButton, &name, on);
     }
     whole
 }
