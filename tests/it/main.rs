@@ -4,6 +4,7 @@
 
 mod cli;
 mod corpus;
+mod covered;
 mod directions;
 mod editor_gestures;
 mod editor_script;
@@ -19,3 +20,4 @@ mod rotating_strokes;
 mod scenes_in_motion;
 mod shipped_scenes;
 mod steadiness;
+mod warm_prepare;

@@ -370,9 +370,41 @@ const READABLE: &str = r##"#![enable(implicit_some)]
                 (frame: 60, translation: (0.8, 0, 0), rotation_deg: (0, 0, -140)),
             ],
         ),
-        (name: "leaf", mesh: "meshes/apple.obj", group: "leaf", parent: "apple"),
+        (name: "leaf", mesh: "meshes/apple.obj", group: "leaf", parent: "apple", hidden: true, locked: true),
     ],
     strokes: (preset: "oil study"),
+    regions: [
+        (
+            name: "skin",
+            on: Several(
+                "apple",
+                [
+                    Group("skin"),
+                    Flood((at: (0, 0.5, 0.2), normal: (0, 0, 1)), 30),
+                    Dabs(
+                        [
+                            (at: (0, 0.4, 0.2), normal: (0, 0, 1), radius: 0.1, take_away: true),
+                            (at: (0, 0.4, 0.2), normal: (0, 0, 1), radius: 0.02),
+                        ],
+                    ),
+                ],
+            ),
+            guides: [
+                (
+                    mode: Smooth,
+                    points: [
+                        (at: (0, 0.4, 0.2), normal: (0, 0, 1)),
+                        (at: (0, 0.6, 0.2), normal: (0, 0, 1), turn_deg: 30),
+                    ],
+                    radius: 0.2,
+                ),
+            ],
+            turn_deg: -15,
+            hidden: true,
+            locked: true,
+            color: "#008df9",
+        ),
+    ],
     style: RotatingStrokes(solver: Tangent),
 )
 "##;
