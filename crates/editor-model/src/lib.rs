@@ -22,6 +22,7 @@ mod refusal;
 pub mod selection;
 pub mod session;
 pub mod stroke_fields;
+pub mod tools;
 pub mod transform;
 
 pub use command::Command;
