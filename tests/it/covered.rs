@@ -112,8 +112,9 @@ fn a_flood_stops_at_the_edges_of_a_cube() {
 fn three_things(edit: impl FnOnce(&mut Scene)) -> std::sync::Arc<LoadedScene> {
     let names = ["front", "back", "wall"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 3000)).into());
-    for (object, at) in scene.objects.iter_mut().zip([[0.3, 0.0, 0.6], [-0.3, 0.0, -0.4], [0.0, 0.0, -1.5]]) {
-        object.keys = vec![ObjectKey { translation: at, scale: 0.6, ..ObjectKey::at(0.0) }];
+    let places = [([0.3, 0.0, 0.6], 0.6), ([-0.3, 0.0, -0.4], 0.6), ([0.0, 0.0, -1.5], 2.0)];
+    for (object, (translation, scale)) in scene.objects.iter_mut().zip(places) {
+        object.keys = vec![ObjectKey { translation, scale, ..ObjectKey::at(0.0) }];
     }
     scene.regions = names.map(|name| Region::new(name, Selector::Object(name.to_owned()))).into();
     edit(&mut scene);
@@ -161,6 +162,7 @@ fn a_hidden_body_is_not_drawn_and_casts_no_shadow() {
     let mut picture = |edit: &dyn Fn(&mut Scene)| {
         let painting = prepare(three_things(|scene| {
             scene.lights = impasto_scene::new_scene::empty().lights;
+            scene.lights[0].direction = Some([0.5, -0.2, -1.0]);
             scene.style = Style::Reference;
             edit(scene);
         }));

@@ -103,23 +103,31 @@ impl Studio {
         let Some(painting) = self.prepare(order, tell) else { return };
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
-        let wanted: Vec<usize> = (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
+        let wanted: Vec<usize> =
+            (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
         let drafts: Vec<usize> = drafts.collect();
         if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
             let began = Instant::now();
             for &index in &drafts {
                 let size_px = self.draft_size.of(views[index].size_px);
-                if !self.draw(&painting, order, index, &Manner { size_px, exact: false, give_up: &|| false }, tell) {
+                if !self.draw(
+                    &painting,
+                    order,
+                    index,
+                    &Manner { size_px, exact: false, give_up: &|| false },
+                    tell,
+                ) {
                     return;
                 }
             }
             self.draft_size.took(began.elapsed().as_secs_f64());
         }
         let quick = DraftSize::is_needless(self.exact_s);
-        let exact = wanted.iter().copied().filter(|&index| {
-            (quick || !views[index].moving) && !self.shows_exactly(order, index)
-        });
+        let exact = wanted
+            .iter()
+            .copied()
+            .filter(|&index| (quick || !views[index].moving) && !self.shows_exactly(order, index));
         let exact: Vec<usize> = exact.collect();
         if exact.is_empty() || (!quick && !desk.rests(order, REST)) {
             return;
@@ -213,7 +221,9 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
     };
     match view.shading {
         // The scene stays as it was prepared: only the style differs.
-        Shading::Shaded => painting.in_style(FrameStyle::Reference).seen_by(&view.camera, view.frame, &options),
+        Shading::Shaded => {
+            painting.in_style(FrameStyle::Reference).seen_by(&view.camera, view.frame, &options)
+        }
         Shading::Painted | Shading::Trust => painting.seen_by(&view.camera, view.frame, &options),
     }
 }
