@@ -313,6 +313,20 @@ impl Keymap {
         chords.first().map(Chord::text)
     }
 
+    /// Every binding as a list of keys shows it, in the order of the menus.
+    pub fn listed(&self) -> impl Iterator<Item = Listed> {
+        self.bindings().filter(|(_, chords)| !chords.is_empty()).map(|(binding, chords)| {
+            let keys: Vec<String> = chords.iter().map(Chord::text).collect();
+            let scope = match binding.holds.first() {
+                Some(Where::In(scope)) => Some(*scope),
+                _ => None,
+            };
+            let everywhere = binding.holds.contains(&Where::Everywhere);
+            let scope = scope.filter(|_| !everywhere);
+            Listed { action: binding.action, scope, keys: keys.join(", ") }
+        })
+    }
+
     /// What the pointer's buttons do to the view. `None`: the tool gets the drag.
     pub fn navigation(&self, button: Button, held: Modifiers) -> Option<Navigation> {
         let Modifiers { ctrl, shift, alt } = held;
@@ -347,6 +361,17 @@ impl Keymap {
             (binding, chords)
         })
     }
+}
+
+/// One line of a list of keys.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Listed {
+    /// What the keys do.
+    pub action: Action,
+    /// The first scope in which they do it; none for everywhere.
+    pub scope: Option<Scope>,
+    /// The keys: *Ctrl Z, Z*.
+    pub keys: String,
 }
 
 /// A button of the pointer.

@@ -1,5 +1,7 @@
 //! What the window shows and how, which is no part of the document: mode, tool, view, overlays.
 
+use impasto_scene::document::LightKind;
+
 /// What the left drag means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mode {
@@ -173,6 +175,8 @@ pub struct ToolOptions {
     pub axes: Axes,
     /// Moves snap to tenths of a unit, turns to 5 degrees.
     pub snap: bool,
+    /// What kind of light Add light adds.
+    pub light: LightKind,
     /// Strokes inside the ring are shown as a comb would lay them, before the press.
     pub foresee: bool,
 }
@@ -200,6 +204,8 @@ pub struct Session {
     pub frame: f64,
     /// The frame to come back to when Paint is left.
     pub frame_before_paint: Option<f64>,
+    /// Playing begins again at the end of the range.
+    pub looped: bool,
 }
 
 impl Default for Session {
@@ -215,6 +221,7 @@ impl Default for Session {
             compare: false,
             frame: 0.0,
             frame_before_paint: None,
+            looped: true,
         }
     }
 }
@@ -238,6 +245,7 @@ impl Default for ToolOptions {
             flood_deg: 30.0,
             axes: Axes::default(),
             snap: false,
+            light: LightKind::Point,
             foresee: true,
         }
     }

@@ -9,6 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use egui::ColorImage;
+use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{ContextReport, Driver};
 use impasto_painting::Painting;
 use impasto_scene::loaded::LoadedScene;
@@ -53,18 +54,6 @@ pub struct ViewJob {
     pub moving: bool,
 }
 
-/// What a picture shows of the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shading {
-    /// The painting, as it will be rendered.
-    #[default]
-    Painted,
-    /// The lit surfaces under the strokes.
-    Shaded,
-    /// The painting, coloured by how far each turn can be trusted.
-    Trust,
-}
-
 /// What the thread has to tell.
 pub enum Report {
     /// The driver that draws.
@@ -89,6 +78,8 @@ pub struct Picture {
     pub image: Arc<ColorImage>,
     /// Whether it is what a file would get, not a draft.
     pub exact: bool,
+    /// How many strokes it has.
+    pub strokes: usize,
     /// How long it took to draw, seconds.
     pub seconds: f64,
 }

@@ -6,14 +6,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::ColorImage;
+use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
-use impasto_painting::{Frame, FrameOptions, Painting, Preparer, StrokeColors};
+use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, StrokeColors};
 
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
-use super::{Picture, Report, Shading, ViewJob};
+use super::{Picture, Report, ViewJob};
 
 /// A job that is this old, without a later one, is drawn exactly.
 const REST: Duration = Duration::from_millis(100);
@@ -180,7 +181,9 @@ impl Studio {
         let Some(renderer) = &mut self.renderer else { return false };
         let view = &order.job.views[index];
         let began = Instant::now();
-        let picture = match render(renderer, &frame_of(painting, view, manner), manner) {
+        let frame = frame_of(painting, view, manner);
+        let strokes = frame.strokes.len();
+        let picture = match render(renderer, &frame, manner) {
             Ok(Some(picture)) => picture,
             Ok(None) => return false,
             Err(error) => {
@@ -196,7 +199,8 @@ impl Studio {
         let serial = order.job.serial;
         self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact });
         let (view, exact) = (view.clone(), manner.exact);
-        tell(Report::Picture(Picture { index, view, serial, image: Arc::new(picture), exact, seconds }));
+        let image = Arc::new(picture);
+        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, seconds }));
         true
     }
 }
@@ -213,6 +217,7 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
     let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
     let options = FrameOptions {
         shot_height_px: Some(view.shot_height_px * share),
+        quality: if manner.exact { Quality::Exact } else { Quality::Draft },
         colors: match view.shading {
             Shading::Trust => StrokeColors::Trust,
             Shading::Painted | Shading::Shaded => StrokeColors::Scene,
@@ -234,10 +239,10 @@ fn render(
     frame: &Frame,
     manner: &Manner<'_>,
 ) -> Result<Option<ColorImage>, RenderError> {
-    if (manner.give_up)() {
-        return Ok(None);
-    }
-    let picture = renderer.render(frame)?;
-    let size = picture.size_px.map(|side| side as usize);
-    Ok(Some(ColorImage::from_rgba_unmultiplied(size, &picture.rgba8)))
+    let picture = renderer.render_unless(frame, &mut || (manner.give_up)())?;
+    let image = |picture: impasto_gl_render::Picture| {
+        // Pictures of the window have a ground: they are opaque.
+        ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
+    };
+    Ok(picture.map(image))
 }
