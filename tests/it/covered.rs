@@ -121,6 +121,8 @@ fn three_things(edit: impl FnOnce(&mut Scene)) -> std::sync::Arc<LoadedScene> {
     shapes::loaded(scene, [shapes::sphere(32, 16), shapes::sphere(32, 16), shapes::sheet(8)])
 }
 
+type Edit<'a> = &'a dyn Fn(&mut Scene);
+
 fn strokes_by_source(frame: &Frame) -> BTreeMap<(u32, u32, u32), Stroke> {
     let mut found = BTreeMap::new();
     for run in &frame.layers {
@@ -137,7 +139,7 @@ fn what_is_hidden_is_left_out_and_no_bit_of_the_rest_changes() {
     let shown =
         |edit: &dyn Fn(&mut Scene)| prepare(three_things(edit)).unwrap().at(0.0, &FrameOptions::new(SIZE_PX));
     let all = strokes_by_source(&shown(&|_| {}));
-    let cases: [(&str, &dyn Fn(&mut Scene)); 3] = [
+    let cases: [(&str, Edit<'_>); 3] = [
         ("object", &|scene| scene.objects[0].hidden = true),
         ("region", &|scene| scene.regions[0].hidden = true),
         ("both, and locks", &|scene| {
