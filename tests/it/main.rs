@@ -4,7 +4,11 @@
 
 mod cli;
 mod corpus;
+mod covered;
 mod directions;
+mod editor_gestures;
+mod editor_script;
+mod guides;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;

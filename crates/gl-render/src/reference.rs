@@ -64,6 +64,7 @@ impl Casters {
     fn new(bodies: &[(&FrameBody, Rc<MeshOnGpu>)], shadow_from_world: Mat4) -> Self {
         let bodies = bodies
             .iter()
+            .filter(|(body, _)| !body.hidden)
             .map(|(body, _)| (Arc::downgrade(&body.surface), body.world_from_model, body.morph))
             .collect();
         Self { bodies, shadow_from_world }
@@ -350,7 +351,7 @@ impl ReferencePass {
         }
         let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
         self.gpu.begin_pass(&self.shadow_pass, state);
-        for (body, mesh) in bodies {
+        for (body, mesh) in bodies.iter().filter(|(body, _)| !body.hidden) {
             for part in &mesh.parts {
                 let bound = self
                     .shadow
@@ -381,7 +382,7 @@ impl ReferencePass {
         } else {
             view.eye_in_world.extend(1.0)
         };
-        for (index, (body, mesh)) in bodies.iter().enumerate() {
+        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
             for part in &mesh.parts {
                 let material = body.surface.materials.get(part.material);
                 let albedo = material.map_or([0.8; 3], |material| material.albedo);

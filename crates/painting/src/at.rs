@@ -21,10 +21,13 @@ use crate::prepare::Painting;
 use crate::view::PictureView;
 
 /// How to see a painting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
     /// Width and height of the picture, each at least 1.
     pub size_px: [u32; 2],
+    /// How high the shot is in a picture that shows more than the shot, pixels, > 0: strokes are as large as in a shot of
+    /// this height. `None` where the picture is the shot.
+    pub shot_height_px: Option<f32>,
     /// Strokes keep their size in pixels, whatever the picture's height.
     pub keep_stroke_px: bool,
     /// No ground under the strokes.
@@ -63,10 +66,16 @@ pub enum Rotation {
 }
 
 impl FrameOptions {
+    /// How high the shot is in the picture, pixels.
+    pub(crate) fn shot_height_px(&self) -> f32 {
+        self.shot_height_px.unwrap_or(self.size_px[1] as f32)
+    }
+
     /// A picture of this size; all else as usual.
     pub const fn new(size_px: [u32; 2]) -> Self {
         Self {
             size_px,
+            shot_height_px: None,
             keep_stroke_px: false,
             transparent: false,
             rotation: Rotation::On,
@@ -132,6 +141,7 @@ impl Painting {
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: morph as f32,
+                    hidden: body.hidden,
                 })
                 .collect(),
             strokes,
@@ -139,7 +149,7 @@ impl Painting {
             layers,
             brushes: Arc::clone(&self.brushes),
             palettes: Arc::clone(&self.palettes),
-            finish: self.finish.at(&view),
+            finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style,
             quality: options.quality,
         }
@@ -187,9 +197,11 @@ impl<'a> Look<'a> {
         options: &FrameOptions,
         wanted: impl Fn(&Coat) -> bool,
     ) -> Self {
-        let scene_height_px = painting.scene().size.1;
-        let px_scale =
-            if options.keep_stroke_px { 1.0 } else { options.size_px[1] as f32 / scene_height_px as f32 };
+        let px_scale = if options.keep_stroke_px {
+            1.0
+        } else {
+            options.shot_height_px() / painting.scene().size.1 as f32
+        };
         let seen = |coat: &'a Arc<Coat>| {
             painting.see_coat(coat, view, (poses[coat.object], morphs[coat.object]), px_scale)
         };
@@ -265,6 +277,10 @@ impl Look<'_> {
 
     fn is_in_picture(&self, entry: OrderEntry) -> bool {
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
+        let region = self.painting.scene().regions.get(usize::from(self.region(entry)));
+        if self.painting.bodies[seen.coat.object].hidden || region.is_some_and(|region| region.hidden) {
+            return false;
+        }
         let solved = &seen.solved;
         let depth = solved.depth[index];
         let layer = self.painting.rules[self.region(entry) as usize].strokes.layer_of(seen.coat.kind);

@@ -65,8 +65,8 @@ impl PartialEq for BakeInputs {
             && self.used == other.used
             && self.used.iter().all(|&rule| {
                 let of = |rules: &[RegionRule]| {
-                    let RegionRule { sense, strokes, .. } = &rules[usize::from(rule)];
-                    (*sense, strokes.flatness, strokes.offset)
+                    let RegionRule { sense, turn_rad, strokes, .. } = &rules[usize::from(rule)];
+                    (*sense, *turn_rad, strokes.flatness, strokes.offset)
                 };
                 let direction = |rules: &'_ [RegionRule]| rules[usize::from(rule)].direction.clone();
                 of(&self.rules) == of(&other.rules) && direction(&self.rules) == direction(&other.rules)
@@ -170,9 +170,10 @@ impl BakeInputs {
             if let Some(field) = &combed.field {
                 tangent = field.direction((&combed.stencils, index), point, &base);
             }
-            tangent = combed.inputs.with_guides(point, &views, tangent);
+            let relaxed = || combed.field.as_ref()?.relaxed((&combed.stencils, index), point, &base);
+            tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
         }
-        let stray = self.seats.stray_rad[index];
+        let stray = self.seats.stray_rad[index] + self.rules[point.rule].turn_rad;
         let base_rad =
             if tangent == base.tangent { base.in_reference_rad } else { views.angle_in_reference(tangent) };
         (views.lift(tangent).turned(stray), if base_rad.is_finite() { base_rad + stray } else { stray })

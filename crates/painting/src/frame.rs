@@ -116,6 +116,8 @@ pub struct PointLight {
 /// One object at one time.
 #[derive(Clone, Debug)]
 pub struct FrameBody {
+    /// Not drawn, and casts no shadow; it keeps its id.
+    pub hidden: bool,
     /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
     pub surface: Arc<BodySurface>,
     /// Pose: turned, moved, evenly scaled.

@@ -26,6 +26,7 @@ mod prepare;
 mod references;
 mod regions;
 mod seats;
+mod smooth;
 mod stated;
 mod stroke;
 mod surface;

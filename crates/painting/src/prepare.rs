@@ -79,8 +79,12 @@ pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
     /// The largest strokes that each part carries.
     pub(crate) caps: Vec<Cap>,
+    /// Left out of the picture.
+    pub(crate) hidden: bool,
     /// Where directions were combed, their field.
     pub(crate) field: Option<Arc<BodyField>>,
+    /// Which region lies where.
+    pub(crate) regions: Arc<BodyRegions>,
 }
 
 /// Prepares scenes and keeps what can be kept from one to the next.
@@ -158,10 +162,13 @@ impl Preparer {
         let mut bodies: Vec<PreparedBody> = kept
             .iter()
             .zip(&of_body)
-            .map(|(kept, references)| PreparedBody {
+            .zip(&scene.objects)
+            .map(|((kept, references), object)| PreparedBody {
+                hidden: object.hidden,
                 surface: kept.surface(),
                 caps: kept.parts().caps(&references.own().map),
                 field: None,
+                regions: Arc::default(),
             })
             .collect();
         let regions: Vec<Arc<BodyRegions>> = inputs
@@ -171,6 +178,9 @@ impl Preparer {
                 Arc::new(BodyRegions::new(scene, &inputs.name, inputs.file(), &body.surface.mesh))
             })
             .collect();
+        for (body, regions) in bodies.iter_mut().zip(&regions) {
+            body.regions = Arc::clone(regions);
+        }
         let guides: Vec<Arc<Vec<BodyGuide>>> =
             inputs.iter().map(|inputs| Arc::new(regions::guides(scene, &inputs.name))).collect();
         let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
@@ -259,6 +269,11 @@ impl Painting {
         &self.loaded
     }
 
+    /// The same painting, drawn in another style.
+    pub fn in_style(&self, style: FrameStyle) -> Self {
+        Self { style, ..self.clone() }
+    }
+
     /// How long each step of preparing took.
     pub fn steps(&self) -> &[Step] {
         &self.steps
@@ -287,6 +302,11 @@ impl Painting {
     /// The surface of one object.
     pub fn surface(&self, object: usize) -> &Arc<BodySurface> {
         &self.bodies[object].surface
+    }
+
+    /// Index of the region that a place of an object's surface belongs to: `regions.len()` of the scene for none of them.
+    pub fn region_at(&self, object: usize, place: &Particle) -> usize {
+        usize::from(self.bodies[object].regions.of(place))
     }
 
     /// Area of the visible sides of one object, model units squared.

@@ -42,6 +42,21 @@ impl Context {
         &self.report
     }
 
+    /// OpenGL's functions, for another painter in the same context. They call whatever context is current
+    /// ([`Context::make_current`]), and must not be called once this one is dropped.
+    pub fn glow(&self) -> Arc<glow::Context> {
+        self.gpu.functions()
+    }
+
+    /// Makes this the current context of the thread.
+    ///
+    /// # Errors
+    ///
+    /// The driver's words, where it refuses.
+    pub fn make_current(&self) -> Result<(), String> {
+        self.gpu.make_current().map_err(|error| error.to_string())
+    }
+
     pub(crate) fn gpu(&self) -> &Gpu {
         &self.gpu
     }

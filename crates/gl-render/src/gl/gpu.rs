@@ -134,6 +134,11 @@ impl Gpu {
         self.shared.messages.is_some()
     }
 
+    /// The functions, for whoever else draws in this context.
+    pub(crate) fn functions(&self) -> Arc<glow::Context> {
+        self.shared.gl.clone()
+    }
+
     /// Makes the context current on this thread; to be called before a run of calls into it.
     pub(crate) fn make_current(&self) -> Result<(), GlError> {
         self.shared.platform.make_current().map_err(GlError::Context)

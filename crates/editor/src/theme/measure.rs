@@ -1,0 +1,52 @@
+//! Lengths of the window in points. The grid is 4.
+
+/// Height of the top bar.
+pub const TOP_BAR: f32 = 40.0;
+/// Height of the bar under it, with the tool's settings.
+pub const OPTIONS_BAR: f32 = 40.0;
+/// Height of the status line.
+pub const STATUS_LINE: f32 = 24.0;
+/// Height of the timeline while it is one strip.
+pub const STRIP: f32 = 44.0;
+/// Width of the tool rail.
+pub const RAIL: f32 = 48.0;
+/// Height of a row in the inspector.
+pub const ROW: f32 = 28.0;
+/// Height of a row in the scene tree.
+pub const TREE_ROW: f32 = 26.0;
+/// Height of a section's head.
+pub const SECTION_HEAD: f32 = 30.0;
+/// Height of a field.
+pub const FIELD: f32 = 24.0;
+/// Width of the label at the left of a field.
+pub const LABEL: f32 = 100.0;
+/// Width of the place at a row's end for its reset icon.
+pub const ROW_END: f32 = 24.0;
+/// Height of a button.
+pub const BUTTON: f32 = 28.0;
+/// Height of a sheet's buttons.
+pub const SHEET_BUTTON: f32 = 34.0;
+/// Side of a button on the rail.
+pub const RAIL_BUTTON: f32 = 38.0;
+/// Height of a chip over the picture.
+pub const CHIP: f32 = 32.0;
+/// Space around what stands in a panel.
+pub const PANEL_PADDING: f32 = 12.0;
+/// Space between controls.
+pub const GAP: f32 = 8.0;
+/// Space around what stands in a sheet.
+pub const SHEET_PADDING: f32 = 24.0;
+/// Corners of fields and buttons.
+pub const CORNER: f32 = 4.0;
+/// Corners of groups and chips.
+pub const GROUP_CORNER: f32 = 6.0;
+/// Corners of sheets and dialogs.
+pub const SHEET_CORNER: f32 = 8.0;
+/// The least side of anything that can be hit.
+pub const HIT: f32 = 24.0;
+/// An icon in a button.
+pub const ICON: f32 = 18.0;
+/// An icon beside small text.
+pub const SMALL_ICON: f32 = 16.0;
+/// An icon on the rail.
+pub const RAIL_ICON: f32 = 20.0;

@@ -1,0 +1,74 @@
+use egui::{Align2, Color32, Popup, Response, Role, Sense, Ui, vec2};
+
+use super::draw;
+use crate::icons::{self, Icon};
+use crate::theme::{Tokens, measure, type_face};
+
+/// Picks one of `choices` from a menu; `chosen` is its place in them. With an icon it has no fill at rest, as on a chip.
+///
+/// Changed where another was picked.
+pub fn combo(
+    ui: &mut Ui,
+    (name, icon): (&str, Option<Icon>),
+    choices: &[&str],
+    chosen: &mut usize,
+) -> Response {
+    let tokens = Tokens::of(ui);
+    let shown = choices.get(*chosen).copied().unwrap_or_default();
+    let before = icon.map_or(0.0, |_| measure::ICON + 5.0);
+    let padding = if icon.is_some() { 7.0 } else { 8.0 };
+    let size =
+        vec2(draw::width(ui, shown, type_face::body()) + before + 2.0 * padding + 18.0, measure::FIELD);
+    let (rect, mut response) = ui.allocate_exact_size(size, Sense::click());
+    let rest = if icon.is_some() { Color32::TRANSPARENT } else { tokens.wid };
+    let fill = draw::fill(tokens, &response, rest);
+    let painter = ui.painter();
+    painter.rect_filled(rect, draw::corner(), fill);
+    let mut at = rect.left_center() + vec2(padding, 0.0);
+    if let Some(icon) = icon {
+        draw::icon(painter, at + vec2(measure::ICON / 2.0, 0.0), (icon, measure::ICON), tokens.text);
+        at.x += before;
+    }
+    draw::words(painter, at, Align2::LEFT_CENTER, (shown, type_face::body()), tokens.text);
+    let down = rect.right_center() - vec2(padding + 5.0, 0.0);
+    draw::icon(painter, down, (icons::MENU_DOWN, measure::ICON), tokens.text);
+    draw::focus_ring(ui, &response, rect, measure::CORNER);
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(Role::ComboBox, response.enabled(), name);
+        info.current_text_value = Some(shown.to_owned());
+        info
+    });
+    let mut picked = None;
+    Popup::menu(&response).width(rect.width().max(120.0)).show(|ui| {
+        for (index, choice) in choices.iter().enumerate() {
+            if menu_row(ui, choice, index == *chosen).clicked() {
+                picked = Some(index);
+            }
+        }
+    });
+    if let Some(index) = picked.filter(|index| index != chosen) {
+        *chosen = index;
+        response.mark_changed();
+    }
+    response
+}
+
+fn menu_row(ui: &mut Ui, words: &str, on: bool) -> Response {
+    let tokens = Tokens::of(ui);
+    let wide = ui.available_width().max(draw::width(ui, words, type_face::body()) + 40.0);
+    let (rect, response) = ui.allocate_exact_size(vec2(wide, measure::ROW), Sense::click());
+    let fill = if response.hovered() || response.has_focus() { tokens.hov } else { Color32::TRANSPARENT };
+    ui.painter().rect_filled(rect, draw::corner(), fill);
+    if on {
+        draw::icon(
+            ui.painter(),
+            rect.left_center() + vec2(14.0, 0.0),
+            (icons::CHECK, 16.0),
+            tokens.accent_text,
+        );
+    }
+    let at = rect.left_center() + vec2(28.0, 0.0);
+    draw::words(ui.painter(), at, Align2::LEFT_CENTER, (words, type_face::body()), tokens.text);
+    draw::named_state(&response, Role::MenuItemRadio, words, on);
+    response
+}

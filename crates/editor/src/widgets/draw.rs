@@ -1,0 +1,79 @@
+use egui::{
+    Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui,
+    WidgetInfo,
+};
+
+use crate::icons::Icon;
+use crate::theme::{Tokens, measure, type_face};
+
+/// The fill of a control that is `rest` while nobody touches it.
+pub(super) fn fill(tokens: &Tokens, response: &Response, rest: Color32) -> Color32 {
+    if response.is_pointer_button_down_on() {
+        tokens.act
+    } else if response.hovered() {
+        tokens.hov
+    } else {
+        rest
+    }
+}
+
+/// The ring around the control that the keyboard stands on.
+pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect, corner: f32) {
+    if response.has_focus() {
+        let ring = Stroke::new(2.0, Tokens::of(ui).accent_text);
+        ui.painter().rect_stroke(rect.expand(1.0), corner + 1.0, ring, StrokeKind::Outside);
+    }
+}
+
+pub(super) fn icon(painter: &Painter, centre: Pos2, (icon, size): (Icon, f32), colour: Color32) {
+    words(painter, centre, Align2::CENTER_CENTER, (icon.glyph(), type_face::icon(size)), colour);
+}
+
+/// Text whose box stands at `at` by `align`. Returns the box.
+pub(super) fn words(
+    painter: &Painter,
+    at: Pos2,
+    align: Align2,
+    (text, font): (&str, FontId),
+    colour: Color32,
+) -> Rect {
+    let galley = painter.layout_no_wrap(text.to_owned(), font, colour);
+    let rect = align.anchor_size(at, galley.size());
+    painter.galley(rect.min, galley, colour);
+    rect
+}
+
+/// Text in one line that ends with an ellipsis where it would pass `width`.
+pub(super) fn words_within(
+    ui: &Ui,
+    at: Pos2,
+    (text, font): (&str, FontId),
+    (colour, width): (Color32, f32),
+) -> Rect {
+    let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(0.0));
+    let galley = ui.painter().layout_job(job);
+    let rect = Align2::LEFT_CENTER.anchor_size(at, galley.size());
+    ui.painter().galley(rect.min, galley, colour);
+    rect
+}
+
+pub(super) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
+}
+
+pub(super) fn named(response: &Response, role: Role, name: &str) {
+    response.widget_info(|| WidgetInfo::labeled(role, response.enabled(), name));
+}
+
+pub(super) fn named_state(response: &Response, role: Role, name: &str, on: bool) {
+    response.widget_info(|| WidgetInfo::selected(role, response.enabled(), on, name));
+}
+
+pub(super) fn corner() -> CornerRadius {
+    CornerRadius::same(measure::CORNER as u8)
+}
+
+pub(super) fn group_corner() -> CornerRadius {
+    CornerRadius::same(measure::GROUP_CORNER as u8)
+}

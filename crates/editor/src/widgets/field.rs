@@ -1,0 +1,435 @@
+use std::ops::RangeInclusive;
+
+use egui::accesskit::{Action, ActionData};
+use egui::{
+    Align2, CornerRadius, CursorIcon, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
+};
+
+use super::{Tip, draw};
+use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
+
+/// A number: a box whose filled part is its place in the range. Drag it, scroll over it, press the arrows on it, or type
+/// after a double click or `Enter`.
+pub struct NumberField<'a> {
+    name: &'a str,
+    value: &'a mut f64,
+    range: RangeInclusive<f64>,
+    label: bool,
+    letter: &'a str,
+    unit: &'a str,
+    step: f64,
+    decimals: usize,
+    default: Option<f64>,
+    width: Option<f32>,
+    error: Option<&'a str>,
+    tip: Tip<'a>,
+}
+
+/// What the user did to a [`NumberField`]. What lies between `began` and `ended` is one step to undo.
+#[derive(Clone, Debug)]
+pub struct FieldResponse {
+    /// The box.
+    pub response: Response,
+    /// The value is another than before.
+    pub changed: bool,
+    /// A drag, a typed number or a step began in this pass.
+    pub began: bool,
+    /// It ended in this pass.
+    pub ended: bool,
+}
+
+/// What a field remembers between passes.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    /// The number as it is typed.
+    typed: Option<String>,
+    /// While it is dragged: the value at the press, and the value before rounding.
+    dragged: Option<(f64, f64)>,
+    /// Points scrolled since the last step.
+    scrolled: f32,
+}
+
+impl<'a> NumberField<'a> {
+    /// A field named `name` with its label at the left. The ends of `range` may be infinite.
+    pub fn new(name: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
+        Self {
+            name,
+            value,
+            range,
+            label: true,
+            letter: "",
+            unit: "",
+            step: 1.0,
+            decimals: 0,
+            default: None,
+            width: None,
+            error: None,
+            tip: Tip::default(),
+        }
+    }
+
+    /// No label: the name is only spoken.
+    pub fn unlabelled(self, width: f32) -> Self {
+        Self { label: false, width: Some(width), ..self }
+    }
+
+    /// A letter in the box before the number: X, Y, Z.
+    pub fn letter(self, letter: &'a str) -> Self {
+        Self { letter, ..self }
+    }
+
+    /// The unit at the box's right end: `px`, `°`, `%`, `×`.
+    pub fn unit(self, unit: &'a str) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// How far the wheel and the arrows go, and how many decimals are shown.
+    pub fn step(self, step: f64, decimals: usize) -> Self {
+        Self { step, decimals, ..self }
+    }
+
+    /// The value that the reset icon at the row's end brings back.
+    pub fn default_value(self, default: f64) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
+    /// What is wrong with the value: the box gets a vermilion outline, and the words stand under it.
+    pub fn error(self, error: Option<&'a str>) -> Self {
+        Self { error, ..self }
+    }
+
+    /// What the tooltip says; its range and default are filled in.
+    pub fn tip(self, key: &'a str, effect: &'a str) -> Self {
+        let tip = Tip { name: self.name, key, effect, range: "" };
+        Self { tip, ..self }
+    }
+
+    /// Draws it.
+    pub fn show(mut self, ui: &mut Ui) -> FieldResponse {
+        let before = *self.value;
+        let (row, frame) = self.place(ui);
+        let response = ui.interact(frame, ui.next_auto_id().with(self.name), Sense::click_and_drag());
+        ui.skip_ahead_auto_ids(1);
+        let id = response.id;
+        let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
+        let (mut began, mut ended) = (false, false);
+
+        let mut editor = None;
+        if memory.typed.is_some() {
+            let (done, cancelled) = self.type_in(ui, (id, frame), &mut memory, &mut editor);
+            began |= done && !cancelled;
+            ended |= done && !cancelled;
+        } else {
+            let stepped = self.step_by_keys(ui, &response) + self.step_by_wheel(ui, &response, &mut memory);
+            if stepped != 0.0 {
+                self.set(before + stepped * self.step);
+            }
+            let spoken = self.set_by_reader(ui, &response);
+            began |= stepped != 0.0 || spoken;
+            ended |= stepped != 0.0 || spoken;
+            let (drag_began, drag_ended) = self.drag(ui, &response, &mut memory);
+            began |= drag_began;
+            ended |= drag_ended;
+            let enter = response.has_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            if response.double_clicked() || enter {
+                memory.typed = Some(self.shown());
+                memory.dragged = None;
+            }
+        }
+        if self.reset(ui, row) {
+            (began, ended) = (true, true);
+        }
+        if editor.is_none() {
+            self.draw(ui, &response, frame);
+        }
+        ui.data_mut(|data| data.insert_temp(id, memory));
+        let changed = *self.value != before;
+        let response = self.describe(response.on_hover_cursor(CursorIcon::ResizeHorizontal), changed);
+        FieldResponse { response, changed, began, ended }
+    }
+
+    /// The row, and the box in it.
+    fn place(&self, ui: &mut Ui) -> (Rect, Rect) {
+        if !self.label {
+            let width = self.width.unwrap_or(78.0);
+            let (row, _) = ui.allocate_exact_size(vec2(width, measure::FIELD), Sense::hover());
+            return (row, row);
+        }
+        let below = if self.error.is_some() { 18.0 } else { 0.0 };
+        let size = vec2(ui.available_width(), measure::FIELD + below);
+        let (mut row, _) = ui.allocate_exact_size(size, Sense::hover());
+        let tokens = Tokens::of(ui);
+        row.set_height(measure::FIELD);
+        let mut frame = row;
+        frame.min.x += measure::LABEL;
+        frame.max.x = (frame.max.x - measure::ROW_END).max(frame.min.x + 48.0);
+        let room = measure::LABEL - measure::GAP;
+        draw::words_within(ui, row.left_center(), (self.name, type_face::body()), (tokens.weak, room));
+        if let Some(error) = self.error {
+            let at = pos2(frame.left(), row.bottom() + 10.0);
+            let room = row.right() - frame.left();
+            draw::words_within(ui, at, (error, type_face::small()), (tokens.vermilion, room));
+        }
+        (row, frame)
+    }
+
+    fn type_in(
+        &mut self,
+        ui: &mut Ui,
+        (id, frame): (egui::Id, Rect),
+        memory: &mut Memory,
+        editor: &mut Option<Response>,
+    ) -> (bool, bool) {
+        let mut typed = memory.typed.take().unwrap_or_default();
+        let edit_id = id.with("typed");
+        let fresh = egui::text_edit::TextEditState::load(ui.ctx(), edit_id).is_none();
+        let tokens = Tokens::of(ui);
+        let line = Stroke::new(2.0, tokens.accent_text);
+        ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
+        let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
+        let output = egui::TextEdit::singleline(&mut typed)
+            .id(edit_id)
+            .frame(egui::Frame::NONE)
+            .margin(egui::Margin::symmetric(8, 4))
+            .desired_width(frame.width() - 16.0)
+            .font(type_face::number())
+            .show(&mut inside);
+        let response = output.response.response;
+        let name = self.name;
+        response
+            .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
+        if fresh {
+            response.request_focus();
+            let mut state = output.state;
+            let all = egui::text::CCursorRange::two(
+                egui::text::CCursor::default(),
+                egui::text::CCursor::new(egui::text::CharIndex(typed.chars().count())),
+            );
+            state.cursor.set_char_range(Some(all));
+            state.store(ui.ctx(), edit_id);
+        }
+        let done = response.lost_focus() && !fresh;
+        let cancelled = done && ui.input(|input| input.key_pressed(Key::Escape));
+        if done {
+            ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
+            if !cancelled {
+                if let Some(number) = number_of(&typed, self.unit) {
+                    self.set(number);
+                }
+            }
+        } else {
+            memory.typed = Some(typed);
+        }
+        *editor = Some(response);
+        (done, cancelled)
+    }
+
+    fn step_by_keys(&self, ui: &Ui, response: &Response) -> f64 {
+        if !response.has_focus() {
+            return 0.0;
+        }
+        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        ui.input(|input| {
+            let up = input.num_presses(Key::ArrowRight) as f64;
+            up - input.num_presses(Key::ArrowLeft) as f64
+        })
+    }
+
+    fn step_by_wheel(&self, ui: &Ui, response: &Response, memory: &mut Memory) -> f64 {
+        const POINTS_A_STEP: f32 = 40.0;
+        if !response.hovered() {
+            memory.scrolled = 0.0;
+            return 0.0;
+        }
+        // Taken away, so that the panel under the field stays where it is.
+        memory.scrolled += ui.input_mut(|input| std::mem::take(&mut input.smooth_scroll_delta).y);
+        let steps = (memory.scrolled / POINTS_A_STEP).round();
+        memory.scrolled -= steps * POINTS_A_STEP;
+        f64::from(steps)
+    }
+
+    fn set_by_reader(&mut self, ui: &Ui, response: &Response) -> bool {
+        let before = *self.value;
+        let (up, down, told) = ui.input(|input| {
+            let told = input.accesskit_action_requests(response.id, Action::SetValue).last();
+            (
+                input.num_accesskit_action_requests(response.id, Action::Increment) as f64,
+                input.num_accesskit_action_requests(response.id, Action::Decrement) as f64,
+                told.and_then(|request| request.data.clone()),
+            )
+        });
+        if up != down {
+            self.set(before + (up - down) * self.step);
+        }
+        match told {
+            Some(ActionData::NumericValue(value)) => self.set(value),
+            Some(ActionData::Value(text)) => {
+                if let Some(number) = number_of(&text, self.unit) {
+                    self.set(number);
+                }
+            }
+            _ => (),
+        }
+        *self.value != before
+    }
+
+    fn drag(&mut self, ui: &Ui, response: &Response, memory: &mut Memory) -> (bool, bool) {
+        let began = response.drag_started();
+        if began {
+            memory.dragged = Some((*self.value, *self.value));
+        }
+        if let Some((from, raw)) = &mut memory.dragged {
+            let fine = if ui.input(|input| input.modifiers.shift) { 0.1 } else { 1.0 };
+            let span = self.range.end() - self.range.start();
+            let per_point =
+                if span.is_finite() { span / f64::from(response.rect.width()) } else { self.step };
+            *raw += f64::from(response.drag_delta().x) * per_point * fine;
+            *raw = raw.clamp(*self.range.start(), *self.range.end());
+            let (from, raw) = (*from, *raw);
+            self.set(raw);
+            if ui.input(|input| input.key_pressed(Key::Escape)) {
+                *self.value = from;
+                memory.dragged = None;
+                ui.ctx().stop_dragging();
+                return (began, true);
+            }
+        }
+        let ended = response.drag_stopped() && memory.dragged.take().is_some();
+        (began, ended)
+    }
+
+    fn reset(&mut self, ui: &mut Ui, row: Rect) -> bool {
+        let Some(default) =
+            self.default.filter(|default| self.label && self.text_of(*default) != self.shown())
+        else {
+            return false;
+        };
+        let centre = pos2(row.right() - measure::ROW_END / 2.0 + 4.0, row.center().y);
+        let hit = Rect::from_center_size(centre, vec2(measure::HIT, measure::HIT));
+        let name = format!("Reset {}", self.name);
+        let response = ui.interact(hit, ui.scope_id().with(&name), Sense::click());
+        let tokens = Tokens::of(ui);
+        let colour = if response.hovered() { tokens.text } else { tokens.weak };
+        draw::icon(ui.painter(), centre, (icons::UNDO, 14.0), colour);
+        draw::focus_ring(ui, &response, hit, measure::CORNER);
+        draw::named(&response, Role::Button, &name);
+        if response.clicked() {
+            *self.value = default;
+        }
+        response.clicked()
+    }
+
+    fn draw(&self, ui: &Ui, response: &Response, frame: Rect) {
+        let tokens = Tokens::of(ui);
+        let painter = ui.painter();
+        painter.rect_filled(frame, draw::corner(), tokens.field);
+        let (least, most) = (*self.range.start(), *self.range.end());
+        let part = if (most - least).is_finite() { (*self.value - least) / (most - least) } else { 0.0 };
+        if part > 0.0 {
+            let mut filled = frame;
+            filled.set_width(frame.width() * part.min(1.0) as f32);
+            let right =
+                if filled.right() > frame.right() - measure::CORNER { measure::CORNER as u8 } else { 0 };
+            let left = measure::CORNER as u8;
+            painter.rect_filled(
+                filled,
+                CornerRadius { nw: left, sw: left, ne: right, se: right },
+                tokens.sel,
+            );
+        }
+        let line = if self.error.is_some() {
+            Stroke::new(1.0, tokens.vermilion)
+        } else if response.hovered() || response.dragged() {
+            Stroke::new(1.0, tokens.out)
+        } else {
+            Stroke::NONE
+        };
+        painter.rect_stroke(frame, draw::corner(), line, StrokeKind::Inside);
+        let mut at = frame.left_center() + vec2(8.0, 0.0);
+        if !self.letter.is_empty() {
+            draw::words(painter, at, Align2::LEFT_CENTER, (self.letter, type_face::small()), tokens.weak);
+            at.x += 11.0;
+        }
+        draw::words(painter, at, Align2::LEFT_CENTER, (&self.shown(), type_face::number()), tokens.text);
+        let end = frame.right_center() - vec2(8.0, 0.0);
+        draw::words(painter, end, Align2::RIGHT_CENTER, (self.unit, type_face::small()), tokens.weak);
+        draw::focus_ring(ui, response, frame, measure::CORNER);
+    }
+
+    fn describe(&self, mut response: Response, changed: bool) -> Response {
+        if changed {
+            response.mark_changed();
+        }
+        let (value, name) = (*self.value, self.name);
+        response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(Role::SpinButton, response.enabled(), name);
+            info.value = Some(value);
+            info
+        });
+        let (least, most, step) = (*self.range.start(), *self.range.end(), self.step);
+        let spoken = format!("{}{}", self.shown(), self.unit);
+        response.ctx.accesskit_node_builder(response.id, |node| {
+            node.add_action(Action::Increment);
+            node.add_action(Action::Decrement);
+            node.add_action(Action::SetValue);
+            node.set_value(spoken);
+            node.set_numeric_value_step(step);
+            if (most - least).is_finite() {
+                node.set_min_numeric_value(least);
+                node.set_max_numeric_value(most);
+            }
+        });
+        if self.tip.effect.is_empty() {
+            return response;
+        }
+        let mut range = String::new();
+        if (most - least).is_finite() {
+            range = format!("{} to {}", self.text_of(least), self.text_of(most));
+        }
+        if let Some(default) = self.default {
+            range = format!("{range}, default {}", self.text_of(default));
+        }
+        Tip { range: range.trim_start_matches(", "), ..self.tip }.on(response)
+    }
+
+    fn set(&mut self, value: f64) {
+        let shift = 10_f64.powi(self.decimals as i32);
+        let value = (value * shift).round() / shift;
+        *self.value = value.clamp(*self.range.start(), *self.range.end());
+    }
+
+    fn shown(&self) -> String {
+        self.text_of(*self.value)
+    }
+
+    fn text_of(&self, value: f64) -> String {
+        let text = format!("{value:.*}", self.decimals);
+        text.strip_prefix('-').map_or(text.clone(), |rest| format!("\u{2212}{rest}"))
+    }
+}
+
+/// The number in what was typed, with a comma or a point, and with or without the unit.
+fn number_of(typed: &str, unit: &str) -> Option<f64> {
+    let text = typed.trim();
+    let text = text.strip_suffix(unit).unwrap_or(text).trim();
+    let text = text.replace('\u{2212}', "-").replace(',', ".");
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn typed_numbers_are_read_the_way_people_write_them() {
+        assert_eq!(number_of(" 34 px", "px"), Some(34.0));
+        assert_eq!(number_of("\u{2212}2,5\u{b0}", "\u{b0}"), Some(-2.5));
+        assert_eq!(number_of("", "px"), None);
+        assert_eq!(number_of("NaN", ""), None);
+        assert_eq!(number_of("inf", ""), None);
+        assert_eq!(number_of("four", ""), None);
+    }
+}

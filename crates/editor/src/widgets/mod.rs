@@ -1,0 +1,44 @@
+//! The house's own controls. Every one takes the name that a screen reader says and a test finds it by, can be reached by
+//! the keyboard, and is at least 24 points high.
+
+mod axis_ball;
+mod brush_thumbnail;
+mod button;
+mod check;
+mod chip;
+mod color_square;
+mod combo;
+mod dialog;
+mod draw;
+mod field;
+mod key_cap;
+mod menu_row;
+mod mode_switch;
+mod rail_button;
+mod section;
+mod segmented;
+mod tip;
+mod toast;
+mod toggle_group;
+mod tree_row;
+
+pub use axis_ball::{AxisBall, BallResponse};
+pub use brush_thumbnail::brush_thumbnail;
+pub use button::{Button, icon_button, icon_toggle, primary_button};
+pub use check::{checkbox, radio, radio_named};
+pub use chip::{chip, chip_divider};
+pub use color_square::color_square;
+pub use combo::combo;
+pub(crate) use dialog::sheet;
+pub use dialog::{Dialog, DialogResponse, dialog};
+pub use field::{FieldResponse, NumberField};
+pub use key_cap::{key_cap, key_hint};
+pub use menu_row::MenuRow;
+pub use mode_switch::mode_switch;
+pub use rail_button::rail_button;
+pub use section::section;
+pub use segmented::{segmented, segmented_named, segmented_width};
+pub use tip::Tip;
+pub use toast::{Toast, toasts};
+pub use toggle_group::{TOGGLE_GROUP, toggle_group};
+pub use tree_row::{RowMark, RowResponse, TreeRow};

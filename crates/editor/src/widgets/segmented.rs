@@ -1,0 +1,55 @@
+use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
+
+use super::draw;
+use crate::theme::{Tokens, measure, type_face};
+
+const HEIGHT: f32 = 26.0;
+const INSET: f32 = 2.0;
+const PADDING: f32 = 9.0;
+
+/// A few choices side by side, one of them on; each is found by its words. Changed where another was picked.
+pub fn segmented(ui: &mut Ui, choices: &[&str], chosen: &mut usize) -> Response {
+    let choices: Vec<_> = choices.iter().map(|words| (*words, *words)).collect();
+    segmented_named(ui, &choices, chosen)
+}
+
+/// The width of a [`segmented`] of these words, points.
+pub fn segmented_width<'a>(ui: &Ui, choices: impl IntoIterator<Item = &'a str>) -> f32 {
+    choices.into_iter().map(|words| part_width(ui, words)).sum::<f32>() + 2.0 * INSET
+}
+
+fn part_width(ui: &Ui, words: &str) -> f32 {
+    draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING
+}
+
+/// As [`segmented`], each choice with its words and the name that it is found by.
+pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize) -> Response {
+    let tokens = Tokens::of(ui);
+    let widths: Vec<f32> = choices.iter().map(|(words, _)| part_width(ui, words)).collect();
+    let size = vec2(widths.iter().sum::<f32>() + 2.0 * INSET, HEIGHT);
+    let (rect, mut whole) = ui.allocate_exact_size(size, Sense::hover());
+    ui.painter().rect_filled(rect, draw::group_corner(), tokens.field);
+    let mut left = rect.left() + INSET;
+    for (index, ((words, name), wide)) in choices.iter().zip(widths).enumerate() {
+        let part = Rect::from_min_size(pos2(left, rect.top()), vec2(wide, HEIGHT));
+        left += wide;
+        let response = ui.interact(part, whole.id.with(index), Sense::click());
+        if response.clicked() && *chosen != index {
+            *chosen = index;
+            whole.mark_changed();
+        }
+        let on = *chosen == index;
+        let seen = part.shrink2(vec2(0.0, INSET));
+        let fill = match (on, response.hovered()) {
+            (true, _) => tokens.act,
+            (false, true) => tokens.hov,
+            (false, false) => Color32::TRANSPARENT,
+        };
+        ui.painter().rect_filled(seen, draw::corner(), fill);
+        let colour = if on || response.hovered() { tokens.text } else { tokens.weak };
+        draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, (words, type_face::small()), colour);
+        draw::focus_ring(ui, &response, seen, measure::CORNER);
+        draw::named_state(&response, Role::RadioButton, name, on);
+    }
+    whole
+}

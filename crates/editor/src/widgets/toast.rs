@@ -1,0 +1,62 @@
+use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
+
+use super::{Button, draw};
+use crate::theme::{Tokens, measure, type_face};
+
+/// A line that comes up at the bottom and goes by itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Toast {
+    /// What happened.
+    pub words: String,
+    /// A verb that answers it, empty for none.
+    pub action: String,
+    /// It tells of an error.
+    pub error: bool,
+}
+
+/// Shows the newest three of `shown` at the bottom, above `clear` points, the newest lowest.
+/// Returns the place in `shown` of the one whose action was clicked.
+pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
+    let first = shown.len().saturating_sub(3);
+    let mut clicked = None;
+    Area::new(Id::unique("toasts"))
+        .order(Order::Foreground)
+        .anchor(Align2::CENTER_BOTTOM, vec2(0.0, -clear - measure::GAP))
+        .show(ctx, |ui| {
+            ui.spacing_mut().item_spacing.y = measure::GAP;
+            ui.with_layout(egui::Layout::top_down(egui::Align::Center), |ui| {
+                for (index, toast) in shown.iter().enumerate().skip(first) {
+                    if line(ui, toast) {
+                        clicked = Some(index);
+                    }
+                }
+            });
+        });
+    clicked
+}
+
+fn line(ui: &mut egui::Ui, toast: &Toast) -> bool {
+    let tokens = Tokens::of(ui);
+    let edge = if toast.error { tokens.vermilion } else { tokens.div };
+    Frame::new()
+        .fill(tokens.wid)
+        .stroke((1.0, edge))
+        .corner_radius(draw::group_corner())
+        .inner_margin(Margin {
+            left: 12,
+            right: if toast.action.is_empty() { 12 } else { 2 },
+            top: 2,
+            bottom: 2,
+        })
+        .show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.set_height(measure::CHIP - 4.0);
+                let words = RichText::new(&toast.words).font(type_face::body()).color(tokens.text);
+                let label = ui.label(words);
+                label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Alert, true, &toast.words));
+                !toast.action.is_empty() && Button::new(&toast.action).plain().show(ui).clicked()
+            })
+            .inner
+        })
+        .inner
+}

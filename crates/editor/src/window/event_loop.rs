@@ -1,0 +1,313 @@
+use std::panic::catch_unwind;
+use std::time::{Duration, Instant};
+
+use egui::{ViewportId, ViewportInfo};
+use egui_winit::accesskit_winit;
+use winit::application::ApplicationHandler;
+use winit::dpi::LogicalSize;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::window::{Window, WindowId};
+
+use super::focus::FocusRules;
+use super::gl::WindowGl;
+use super::icon::icon;
+use super::input::one_button_event_each;
+use super::{App, Frame, Opened, Options, Waker, WindowError};
+
+/// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
+const LEAST_FRAME: Duration = Duration::from_millis(8);
+
+/// What reaches the loop from outside the window system.
+#[derive(Debug)]
+pub(super) enum Happening {
+    /// A [`Waker`].
+    Wake,
+    /// egui wants a pass at `at`; `pass` is the one in which it was asked for.
+    Repaint { at: Instant, pass: u64 },
+    /// A screen reader.
+    Access(accesskit_winit::Event),
+}
+
+impl From<accesskit_winit::Event> for Happening {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Self::Access(event)
+    }
+}
+
+/// Opens a window, makes the app with `make`, and runs it until it closes. Must be called on the main thread, once.
+///
+/// # Errors
+///
+/// [`WindowError`] where there is no display or no OpenGL, with the packages that would mend it.
+pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<(), WindowError> {
+    let event_loop = build_event_loop()?;
+    let proxy = event_loop.create_proxy();
+    let mut shell = Shell { options, make: Some(make), proxy, open: None, next: None, failed: None };
+    event_loop.run_app(&mut shell).map_err(|error| WindowError::Broken(error.to_string()))?;
+    shell.failed.map_or(Ok(()), Err)
+}
+
+fn build_event_loop() -> Result<EventLoop<Happening>, WindowError> {
+    // A missing libxkbcommon-x11 or libwayland-egl is a panic below winit. Its words reach the user in the error.
+    let hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| ()));
+    let built = catch_unwind(|| EventLoop::with_user_event().build());
+    std::panic::set_hook(hook);
+    match built {
+        Ok(built) => built.map_err(|error| WindowError::NoDisplay { reason: error.to_string() }),
+        Err(panic) => {
+            let words = panic.downcast_ref::<String>().cloned();
+            let words = words.or_else(|| panic.downcast_ref::<&str>().map(|words| (*words).to_owned()));
+            Err(WindowError::NoDisplay { reason: words.unwrap_or_else(|| "a library is missing".to_owned()) })
+        }
+    }
+}
+
+struct Shell<A, M> {
+    options: Options,
+    make: Option<M>,
+    proxy: EventLoopProxy<Happening>,
+    open: Option<OpenWindow<A>>,
+    /// When the next pass is due, if nothing happens before.
+    next: Option<Instant>,
+    failed: Option<WindowError>,
+}
+
+/// Fields drop in this order: the painter's context before the window.
+struct OpenWindow<A> {
+    app: A,
+    painter: egui_glow::Painter,
+    state: egui_winit::State,
+    gl: WindowGl,
+    window: Window,
+    info: ViewportInfo,
+    textures: egui::TexturesDelta,
+    title: String,
+    last_start: Instant,
+    last_took: Duration,
+}
+
+impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), WindowError> {
+        let Some(make) = self.make.take() else { return Ok(()) };
+        let no_gl = |reason| WindowError::NoOpenGl { reason };
+        let (window, gl) = WindowGl::open(event_loop, attributes(&self.options)).map_err(no_gl)?;
+        let painter = egui_glow::Painter::new(gl.gl().clone(), "", None, true)
+            .map_err(|error| WindowError::NoOpenGl { reason: error.to_string() })?;
+
+        let ctx = egui::Context::default();
+        ctx.add_plugin(FocusRules);
+        let proxy = self.proxy.clone();
+        ctx.set_request_repaint_callback(move |asked| {
+            let at = Instant::now().checked_add(asked.delay);
+            if let Some(at) = at {
+                // The only error is that the loop has ended.
+                let _ended =
+                    proxy.send_event(Happening::Repaint { at, pass: asked.current_cumulative_pass_nr });
+            }
+        });
+        let scale = window.scale_factor() as f32;
+        let most = painter.max_texture_side();
+        let mut state = egui_winit::State::new(
+            ctx.clone(),
+            ViewportId::ROOT,
+            event_loop,
+            Some(scale),
+            window.theme(),
+            Some(most),
+        );
+        // It must know the window before the window shows.
+        state.init_accesskit(event_loop, &window, self.proxy.clone());
+
+        let app = make(&Opened { ctx, waker: Waker(self.proxy.clone()), driver: gl.driver() });
+        let mut open = OpenWindow {
+            app,
+            painter,
+            state,
+            gl,
+            window,
+            info: ViewportInfo::default(),
+            textures: egui::TexturesDelta::default(),
+            title: String::new(),
+            last_start: Instant::now(),
+            last_took: Duration::ZERO,
+        };
+        open.frame()?;
+        open.window.set_visible(true);
+        open.window.request_redraw();
+        self.open = Some(open);
+        Ok(())
+    }
+
+    fn fail(&mut self, event_loop: &ActiveEventLoop, error: WindowError) {
+        self.failed.get_or_insert(error);
+        event_loop.exit();
+    }
+
+    fn frame(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(open) = &mut self.open else { return };
+        self.next = None;
+        match open.frame() {
+            Ok(close) if close => event_loop.exit(),
+            Ok(_) => (),
+            Err(error) => self.fail(event_loop, error),
+        }
+    }
+}
+
+fn attributes(options: &Options) -> winit::window::WindowAttributes {
+    let size = |size: egui::Vec2| LogicalSize::new(size.x, size.y);
+    let attributes = Window::default_attributes()
+        .with_visible(false)
+        .with_inner_size(size(options.size))
+        .with_min_inner_size(size(options.least_size))
+        .with_window_icon(icon());
+    named(attributes, &options.app_id)
+}
+
+#[cfg(target_os = "linux")]
+fn named(attributes: winit::window::WindowAttributes, app_id: &str) -> winit::window::WindowAttributes {
+    use winit::platform::{wayland, x11};
+    let attributes = wayland::WindowAttributesExtWayland::with_name(attributes, app_id, app_id);
+    x11::WindowAttributesExtX11::with_name(attributes, app_id, app_id)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn named(attributes: winit::window::WindowAttributes, _app_id: &str) -> winit::window::WindowAttributes {
+    attributes
+}
+
+impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A, M> {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if let Err(error) = self.open(event_loop) {
+            self.fail(event_loop, error);
+        }
+    }
+
+    fn new_events(&mut self, _event_loop: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(open)) = (cause, &self.open) {
+            self.next = None;
+            open.window.request_redraw();
+        }
+    }
+
+    fn user_event(&mut self, _event_loop: &ActiveEventLoop, happening: Happening) {
+        let Some(open) = &mut self.open else { return };
+        match happening {
+            Happening::Wake => open.window.request_redraw(),
+            Happening::Repaint { at, pass } => {
+                let now = open.state.egui_ctx().cumulative_pass_nr();
+                // What an older pass asked for, the passes since have answered.
+                if now == pass || now == pass + 1 {
+                    let at = at.max(open.last_start + LEAST_FRAME);
+                    self.next = Some(self.next.map_or(at, |next| next.min(at)));
+                }
+            }
+            Happening::Access(event) => match event.window_event {
+                accesskit_winit::WindowEvent::InitialTreeRequested => {
+                    open.state.egui_ctx().enable_accesskit();
+                    open.window.request_redraw();
+                }
+                accesskit_winit::WindowEvent::ActionRequested(request) => {
+                    open.state.on_accesskit_action_request(request);
+                    open.window.request_redraw();
+                }
+                accesskit_winit::WindowEvent::AccessibilityDeactivated => {
+                    open.state.egui_ctx().disable_accesskit()
+                }
+            },
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _id: WindowId, event: WindowEvent) {
+        if matches!(event, WindowEvent::RedrawRequested) {
+            self.frame(event_loop);
+            return;
+        }
+        let Some(open) = &mut self.open else { return };
+        match &event {
+            WindowEvent::Resized(size) => open.gl.resize([size.width, size.height]),
+            WindowEvent::CloseRequested => {
+                if open.app.on_close_request() {
+                    event_loop.exit();
+                }
+                open.window.request_redraw();
+                return;
+            }
+            _ => (),
+        }
+        if open.state.on_window_event(&open.window, &event).repaint {
+            open.window.request_redraw();
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        event_loop.set_control_flow(self.next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
+    fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
+        if let Some(mut open) = self.open.take() {
+            open.textures.clear();
+            if open.gl.make_current().is_ok() {
+                open.painter.destroy();
+            }
+        }
+    }
+}
+
+impl<A: App> OpenWindow<A> {
+    /// Runs the passes that are due and shows the last. True where the app wants to close.
+    fn frame(&mut self) -> Result<bool, WindowError> {
+        self.last_start = Instant::now();
+        let broken = |reason| WindowError::Broken(format!("OpenGL: {reason}"));
+        self.gl.make_current().map_err(broken)?;
+        let mut close = false;
+        let mut shapes = Vec::new();
+        let mut scale = 1.0;
+        egui_winit::update_viewport_info(&mut self.info, self.state.egui_ctx(), &self.window, false);
+        self.state.egui_input_mut().viewports.insert(ViewportId::ROOT, self.info.clone());
+        let input = self.state.take_egui_input(&self.window);
+        let ctx = self.state.egui_ctx().clone();
+        for pass in one_button_event_each(input) {
+            let (app, painter, last) = (&mut self.app, &mut self.painter, self.last_took);
+            let output = ctx.run_ui(pass, |ui| app.ui(ui, &mut Frame { painter, last, close: &mut close }));
+            self.textures.append(output.textures_delta);
+            self.state.handle_platform_output(&self.window, output.platform_output);
+            for (_, viewport) in output.viewport_output {
+                let mut asked = Vec::new();
+                egui_winit::process_viewport_commands(
+                    &ctx,
+                    &mut self.info,
+                    viewport.commands,
+                    &self.window,
+                    &mut asked,
+                );
+            }
+            shapes = output.shapes;
+            scale = output.pixels_per_point;
+        }
+        let title = self.app.title();
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+        self.paint(&ctx.tessellate(shapes, scale), scale);
+        self.gl.show().map_err(broken)?;
+        self.last_took = self.last_start.elapsed();
+        Ok(close)
+    }
+
+    fn paint(&mut self, primitives: &[egui::ClippedPrimitive], scale: f32) {
+        let size: [u32; 2] = self.window.inner_size().into();
+        self.gl.before_egui();
+        let textures = std::mem::take(&mut self.textures);
+        if size.contains(&0) {
+            self.textures = textures;
+            return;
+        }
+        let mut textures = textures;
+        self.painter.clear(size, [0.0, 0.0, 0.0, 1.0]);
+        self.painter.paint_and_update_textures(size, scale, primitives, &mut textures);
+    }
+}

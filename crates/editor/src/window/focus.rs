@@ -1,0 +1,48 @@
+use egui::{Context, Event, Id, Key, Modifiers, Plugin, RawInput, Ui};
+
+/// Which keys reach egui's own focus, so that the editor's keys work: add it to the context as a plugin.
+///
+/// `Tab` belongs to the app while nothing has the focus ([`tab_pressed`] tells it), and walks from control to control
+/// once the focus stands on one. A click outside a text field lets go of the focus, so that `Space` presses nothing.
+#[derive(Debug, Default)]
+pub struct FocusRules;
+
+/// The modifiers of a `Tab` that was pressed in this pass while nothing had the focus.
+pub fn tab_pressed(ctx: &Context) -> Option<Modifiers> {
+    ctx.data(|data| data.get_temp(tab_id())).flatten()
+}
+
+fn tab_id() -> Id {
+    Id::unique("tab for the app")
+}
+
+impl Plugin for FocusRules {
+    fn debug_name(&self) -> &'static str {
+        "impasto focus rules"
+    }
+
+    fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
+        let mut tab = None;
+        if ctx.memory(|memory| memory.focused()).is_none() {
+            input.events.retain(|event| match event {
+                Event::Key { key: Key::Tab, pressed: true, modifiers, .. } => {
+                    tab = Some(*modifiers);
+                    false
+                }
+                _ => true,
+            });
+        }
+        ctx.data_mut(|data| data.insert_temp::<Option<Modifiers>>(tab_id(), tab));
+    }
+
+    fn on_end_pass(&mut self, ui: &mut Ui) {
+        let clicked = ui.input(|input| input.pointer.any_pressed() || input.pointer.any_released());
+        if clicked && !ui.ctx().text_edit_focused() {
+            ui.memory_mut(|memory| {
+                if let Some(focused) = memory.focused() {
+                    memory.surrender_focus(focused);
+                }
+            });
+        }
+    }
+}

@@ -1,0 +1,71 @@
+use egui::{Event, RawInput};
+
+/// Splits what happened since the last frame, so that no pass sees more than one press or release.
+///
+/// A slow frame gathers a whole drag. egui looks at the pointer once a pass, and would take that for nothing.
+pub(super) fn one_button_event_each(mut input: RawInput) -> Vec<RawInput> {
+    let events = std::mem::take(&mut input.events);
+    let mut parts = vec![Vec::new()];
+    let mut button_seen = false;
+    for event in events {
+        let button = matches!(event, Event::PointerButton { .. });
+        if button && button_seen {
+            parts.push(Vec::new());
+        }
+        button_seen |= button;
+        if let Some(part) = parts.last_mut() {
+            part.push(event);
+        }
+    }
+    let last = parts.len() - 1;
+    let mut passes = Vec::with_capacity(parts.len());
+    for (index, events) in parts.into_iter().enumerate() {
+        let mut pass = RawInput { events, ..input.clone() };
+        if index < last {
+            pass.dropped_files.clear();
+        }
+        passes.push(pass);
+    }
+    passes
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Modifiers, PointerButton, pos2};
+
+    use super::*;
+
+    fn button(pressed: bool) -> Event {
+        Event::PointerButton {
+            pos: pos2(1.0, 1.0),
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }
+    }
+
+    #[test]
+    fn a_drag_within_one_frame_becomes_two_passes() {
+        let moved = |x| Event::PointerMoved(pos2(x, 1.0));
+        let events = vec![moved(0.0), button(true), moved(5.0), moved(9.0), button(false), Event::Copy];
+        let passes = one_button_event_each(RawInput { events, ..RawInput::default() });
+        let events: Vec<_> = passes.into_iter().map(|pass| pass.events).collect();
+        assert_eq!(
+            events,
+            [vec![moved(0.0), button(true), moved(5.0), moved(9.0)], vec![button(false), Event::Copy]]
+        );
+    }
+
+    #[test]
+    fn a_dropped_file_arrives_once() {
+        let events = vec![button(true), button(false)];
+        let dropped_files = vec![egui::DroppedFile::default()];
+        let passes = one_button_event_each(RawInput { events, dropped_files, ..RawInput::default() });
+        assert_eq!(passes.iter().map(|pass| pass.dropped_files.len()).collect::<Vec<_>>(), [0, 1]);
+    }
+
+    #[test]
+    fn a_quiet_frame_is_one_pass() {
+        assert_eq!(one_button_event_each(RawInput::default()).len(), 1);
+    }
+}

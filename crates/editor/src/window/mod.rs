@@ -1,0 +1,126 @@
+//! The window: an event loop around one egui page. It draws only when something changed, and knows nothing of painting.
+
+mod event_loop;
+mod focus;
+mod gl;
+mod icon;
+mod input;
+
+use std::time::Duration;
+
+use egui::vec2;
+use winit::event_loop::EventLoopProxy;
+
+pub use event_loop::run;
+pub use focus::{FocusRules, tab_pressed};
+
+use event_loop::Happening;
+
+/// What runs in the window.
+pub trait App {
+    /// Builds one pass of the page. Called when the window, the user, a timer or a [`Waker`] asks for it.
+    ///
+    /// Files that the user drags over the window or drops on it stand in `ui.input(|input| &input.raw)`.
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame<'_>);
+
+    /// The words in the window's title bar.
+    fn title(&self) -> String;
+
+    /// The user asked the window system to close the window. True closes it; an app with unsaved work answers false,
+    /// asks in its page, and calls [`Frame::close`] later.
+    fn on_close_request(&mut self) -> bool {
+        true
+    }
+}
+
+/// How to open the window.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Its first size in points.
+    pub size: egui::Vec2,
+    /// It cannot be made smaller than this, in points.
+    pub least_size: egui::Vec2,
+    /// The name that the desktop knows the program by.
+    pub app_id: String,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { size: vec2(1280.0, 800.0), least_size: vec2(960.0, 600.0), app_id: "impasto".to_owned() }
+    }
+}
+
+/// What an app may know before its first pass.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// The page's context; [`crate::theme::apply`] wants it.
+    pub ctx: egui::Context,
+    /// Wakes the window from other threads.
+    pub waker: Waker,
+    /// The OpenGL version and driver that draw the window.
+    pub driver: String,
+}
+
+/// What one pass may use besides the page.
+pub struct Frame<'a> {
+    painter: &'a mut egui_glow::Painter,
+    last: Duration,
+    close: &'a mut bool,
+}
+
+impl Frame<'_> {
+    /// The painter of the window, for textures that the app draws itself. Its context is current.
+    pub fn painter(&mut self) -> &mut egui_glow::Painter {
+        self.painter
+    }
+
+    /// How long the frame before this one took, from input to shown.
+    pub fn last_took(&self) -> Duration {
+        self.last
+    }
+
+    /// Closes the window after this pass, without [`App::on_close_request`].
+    pub fn close(&mut self) {
+        *self.close = true;
+    }
+}
+
+/// Makes the window run a pass soon. Any thread may hold one, and it is cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Waker(EventLoopProxy<Happening>);
+
+impl Waker {
+    /// Asks for a pass. Nothing happens once the window is gone.
+    pub fn wake(&self) {
+        // The only error is that the loop has ended.
+        let _ended = self.0.send_event(Happening::Wake);
+    }
+}
+
+/// Why there is no window.
+#[derive(Debug, thiserror::Error)]
+pub enum WindowError {
+    /// Neither X11 nor Wayland could be reached.
+    #[error(
+        "no display: {reason}\n\
+         The editor needs X11 or Wayland. On Debian: apt install libx11-6 libx11-xcb1 libxcursor1 libxi6 \
+         libxkbcommon-x11-0 libegl1 libgl1-mesa-dri, and for Wayland libwayland-client0 libwayland-egl1.\n\
+         `impasto render` needs no display."
+    )]
+    NoDisplay {
+        /// What the window system said.
+        reason: String,
+    },
+    /// The window system is there, and OpenGL is not.
+    #[error(
+        "no OpenGL for a window: {reason}\n\
+         On Debian: apt install libegl1 libgl1-mesa-dri. `impasto doctor` tells what was found."
+    )]
+    NoOpenGl {
+        /// What the driver said.
+        reason: String,
+    },
+    /// The window system broke off.
+    #[error("the window system broke off: {0}")]
+    Broken(String),
+}
