@@ -27,6 +27,8 @@ pub struct SurfacePoint {
     pub normal: DVec3,
     /// Normal of the flat triangle, unit, of the same side.
     pub face_normal: DVec3,
+    /// Whether that side is the triangle's back: it winds the other way.
+    pub flipped: bool,
 }
 
 /// A surface with its tree.
@@ -207,7 +209,7 @@ impl SurfaceTree {
         let normal = if smooth.dot(face_normal) < 0.0 { -smooth } else { smooth };
         let position = blend(corners, barycentric);
         let front = looked_at(face_normal);
-        (SurfacePoint { triangle, barycentric, position, normal, face_normal }, front)
+        (SurfacePoint { triangle, barycentric, position, normal, face_normal, flipped: sign < 0.0 }, front)
     }
 }
 

@@ -181,7 +181,9 @@ fn the_painted_side_is_the_outside_of_what_is_closed_and_either_side_of_a_sheet(
     }
     for z in [2.0, -2.0] {
         let hit = pick(sheet.clone(), DVec3::new(0.0, 0.0, z));
-        assert!(hit.front && hit.normal_in_model.z * z > 0.0, "{z}");
+        assert!(hit.front && hit.normal_in_model.z * z > 0.0 && hit.flipped == (z < 0.0), "{z}");
+        let particle = hit.particle();
+        assert!((particle.position.as_dvec3() - hit.position_in_model).length() < 1e-6);
     }
 }
 
