@@ -51,7 +51,7 @@ fn edits() -> Vec<Edit> {
             scene.regions[0].guides = vec![guide];
         }
     };
-    let dab = |x: f64| Dab { at: [x, 0.5, 0.45], normal: [0.0, 0.0, 1.0], radius: 0.2 };
+    let dab = |x: f64| Dab { at: [x, 0.5, 0.45], normal: [0.0, 0.0, 1.0], radius: 0.2, take_away: false };
     vec![
         edit("guide added", comb(4)),
         edit("guide grown", comb(5)),
