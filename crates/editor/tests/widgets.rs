@@ -17,6 +17,7 @@ fn harness(theme: Theme) -> Harness<'static, Page> {
     Harness::builder()
         .with_size(vec2(1280.0, 800.0))
         .with_render_cursor(false)
+        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
         .with_context_setup(move |ctx| {
             ctx.add_plugin(FocusRules);
             theme::apply(ctx, theme, 1.0);

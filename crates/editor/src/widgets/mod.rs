@@ -33,7 +33,7 @@ pub use key_cap::{key_cap, key_hint};
 pub use mode_switch::mode_switch;
 pub use rail_button::rail_button;
 pub use section::section;
-pub use segmented::segmented;
+pub use segmented::{segmented, switches};
 pub use tip::Tip;
 pub use toast::{Toast, toasts};
 pub use tree_row::{RowMark, RowResponse, TreeRow};
