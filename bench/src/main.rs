@@ -1,5 +1,7 @@
 //! Times of Impasto's steps, medians over several runs, beside a copy of memory that sets the floor.
 
+mod live;
+
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,9 +17,13 @@ const PARTICLES: usize = 355_467;
 
 fn main() {
     println!("threads: {}", rayon::current_num_threads());
+    if std::env::args().any(|argument| argument == "live") {
+        return live::run();
+    }
     sampling();
     solving();
     preparing();
+    live::run();
 }
 
 /// Median seconds of `runs` calls.

@@ -15,18 +15,18 @@ use impasto_scene::motion::CameraPose;
 use impasto_tests::gestures::{camera, drag};
 use impasto_tests::shapes;
 
-const SIZE_PX: [u32; 2] = [640, 360];
+pub(crate) const SIZE_PX: [u32; 2] = [640, 360];
 
 /// A stroke of the body layer.
 #[derive(Clone, Copy)]
-struct Seen {
-    at_px: DVec2,
-    angle_rad: f64,
-    facing: f32,
-    region: u32,
+pub(crate) struct Seen {
+    pub(crate) at_px: DVec2,
+    pub(crate) angle_rad: f64,
+    pub(crate) facing: f32,
+    pub(crate) region: u32,
 }
 
-fn body_strokes(frame: &Frame) -> BTreeMap<u32, Seen> {
+pub(crate) fn body_strokes(frame: &Frame) -> BTreeMap<u32, Seen> {
     let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
     let half_px = DVec2::new(f64::from(SIZE_PX[0]), f64::from(SIZE_PX[1])) * 0.5;
     (run.first as usize..(run.first + run.count) as usize)
@@ -228,6 +228,7 @@ fn step_over_a_seam(seam: Seam) -> f64 {
             at: [0.25 + 0.25 * f64::from(index % 4), -1.0 + 0.22 * f64::from(index / 4), 0.0],
             normal: [0.0, 0.0, 1.0],
             radius: 0.3,
+            take_away: false,
         })
         .collect();
     let mut scene = combed(Direction::Angle(0.0), Vec::new(), 20_000);

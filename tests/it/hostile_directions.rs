@@ -9,7 +9,7 @@ use impasto_scene::problem::Severity;
 use crate::hostile_scenes::{load_in_folder, scene_text};
 
 /// Fields of the scene from line 2 on, what is said, and whether there is a picture.
-const CASES: [(&str, &str, &str, bool); 14] = [
+const CASES: [(&str, &str, &str, bool); 24] = [
     (
         "contradicting regions",
         r#"regions: [(name: "first", on: Group("a", "default"), direction: Up), (name: "second", on: Object("a"))]"#,
@@ -80,6 +80,66 @@ const CASES: [(&str, &str, &str, bool); 14] = [
         "degenerate triangle under a guide",
         r#"objects: [(name: "a", mesh: "needle.obj")], regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0.2, 0.2, 0), normal: (0, 0, 1)), (at: (5, 0.5, 0), normal: (0, 0, 1))], radius: 0.2)])]"#,
         "needle.obj:8:1: warning: this face has no area; it is left out",
+        true,
+    ),
+    (
+        "turn that is no number",
+        r#"regions: [(name: "r", on: Object("a"), turn_deg: NaN)]"#,
+        "scene.ron:2:50: error: NaN is out of range",
+        false,
+    ),
+    (
+        "turn of a point that is endless",
+        r#"regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0, 0.5, 1), normal: (0, 0, 1)), (at: (0.5, 0.5, 1), normal: (0, 0, 1), turn_deg: inf)], radius: 0.2)])]"#,
+        "scene.ron:2:148: error: inf is out of range",
+        false,
+    ),
+    (
+        "guide of a mode that is not there",
+        r#"regions: [(name: "r", on: Object("a"), guides: [(mode: Smoth, points: [], radius: 0.2)])]"#,
+        "scene.ron:2:56: error: `regions[0].guides[0].mode` cannot be `Smoth`; did you mean `Smooth`?",
+        false,
+    ),
+    (
+        "smooth guide of one point",
+        r#"regions: [(name: "r", on: Object("a"), guides: [(mode: Smooth, points: [(at: (0, 0, 1), normal: (0, 0, 1))], radius: 0.2)])]"#,
+        "scene.ron:2:72: error: a guide of one point is no gesture",
+        false,
+    ),
+    (
+        "flood from nowhere",
+        r#"regions: [(name: "r", on: Flood("a", (at: (0, 0, 1), normal: (0, 0, 0)), 30))]"#,
+        "scene.ron:2:27: error: a direction cannot be zero",
+        false,
+    ),
+    (
+        "flood over an angle that is none",
+        r#"regions: [(name: "r", on: Flood("a", (at: (0, 0, 1), normal: (0, 0, 1)), -3))]"#,
+        "scene.ron:2:27: error: -3 is out of range; give a number from 0 to 180",
+        false,
+    ),
+    (
+        "several within several",
+        r#"regions: [(name: "r", on: Several("a", [Several("a", [Whole])]))]"#,
+        "error: `regions[0].on[1][0]` cannot be `Several`; known here: Whole, Group, Material, Dabs, Flood",
+        false,
+    ),
+    (
+        "a group within several that is not there",
+        r#"regions: [(name: "r", on: Several("a", [Group("defualt"), Whole]))]"#,
+        "scene.ron:2:27: error: there is no group \"defualt\" in cube.obj; did you mean \"default\"?",
+        false,
+    ),
+    (
+        "several of nothing",
+        r#"regions: [(name: "r", on: Several("a", []))]"#,
+        "scene.ron:2:27: warning: the region has no patches and covers nothing",
+        true,
+    ),
+    (
+        "dabs that take away from nothing",
+        r#"regions: [(name: "r", on: Dabs("a", [(at: (0, 0, 1), normal: (0, 0, 1), radius: 0.2, take_away: true)]))]"#,
+        "scene.ron:2:27: warning: the region begins with dabs that take away from nothing",
         true,
     ),
     (

@@ -4,7 +4,11 @@
 
 mod cli;
 mod corpus;
+mod covered;
 mod directions;
+mod editor_gestures;
+mod editor_script;
+mod guides;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;
@@ -16,3 +20,4 @@ mod rotating_strokes;
 mod scenes_in_motion;
 mod shipped_scenes;
 mod steadiness;
+mod warm_prepare;

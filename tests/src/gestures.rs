@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use impasto_core::TriangleMesh;
-use impasto_scene::document::{Falloff, Guide, GuidePoint, GuideView, Lens};
+use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint, GuideView, Lens};
 use impasto_scene::motion::CameraPose;
 
 /// A camera that looks from `eye` at `target` through a lens of 35°.
@@ -25,10 +25,11 @@ pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [
             let at = ends_px[0].lerp(ends_px[1], f64::from(step) / 23.0);
             let ray = world_from_view.transform_vector3(DVec3::new(at.x, at.y, -focal_px)).normalize();
             let (position, normal) = first_hit(mesh, camera.eye, ray)?;
-            Some(GuidePoint { at: position.to_array(), normal: normal.to_array() })
+            Some(GuidePoint { at: position.to_array(), normal: normal.to_array(), turn_deg: 0.0 })
         })
         .collect();
     Some(Guide {
+        mode: GuideMode::Comb,
         object: None,
         view: Some(GuideView { eye: camera.eye.to_array(), target: camera.target.to_array() }),
         points: points?,

@@ -119,19 +119,7 @@ fn push_polygon(mesh: &mut TriangleMesh, triangles: &[[u32; 3]]) {
 
 /// An object of a scene that is put together in a test.
 pub fn object(name: &str, particles: u64) -> Object {
-    Object {
-        name: name.to_owned(),
-        mesh: format!("{name}.obj"),
-        group: None,
-        parent: None,
-        particles: Some(particles),
-        hold: 1,
-        scale: Default::default(),
-        up: Default::default(),
-        morph: None,
-        material: None,
-        keys: Vec::new(),
-    }
+    Object { particles: Some(particles), ..Object::new(name, format!("{name}.obj")) }
 }
 
 /// A camera key without roll.

@@ -3,6 +3,7 @@
 use std::io::Write as _;
 
 use impasto_painting::Painting;
+use impasto_scene::document::Region;
 
 use crate::args::InfoArguments;
 use crate::failure::Failure;
@@ -41,10 +42,11 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     for object in facts["objects"].as_array().into_iter().flatten() {
         writeln!(
             out,
-            "object {}: {} particles, area {:.4}",
+            "object {}: {} particles, area {:.4}{}",
             text(&object["name"]),
             object["particles"],
-            object["area"].as_f64().unwrap_or(0.0)
+            object["area"].as_f64().unwrap_or(0.0),
+            if object["hidden"] == true { ", hidden" } else { "" }
         )?;
         let singular = object["singularities"].as_array().map_or(&[][..], Vec::as_slice);
         if !singular.is_empty() {
@@ -54,15 +56,7 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             }
         }
     }
-    let regions: Vec<String> = scene
-        .regions
-        .iter()
-        .map(|region| match region.guides.len() {
-            0 => region.name.clone(),
-            1 => format!("{} (1 guide)", region.name),
-            guides => format!("{} ({guides} guides)", region.name),
-        })
-        .collect();
+    let regions: Vec<String> = scene.regions.iter().map(region_words).collect();
     writeln!(out, "regions: {}", if regions.is_empty() { "none".to_owned() } else { regions.join(", ") })?;
     writeln!(
         out,
@@ -72,6 +66,23 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         scene.lights.len()
     )?;
     Ok(())
+}
+
+/// A region's name, and what is not plain about it.
+fn region_words(region: &Region) -> String {
+    let mut facts = Vec::new();
+    match region.guides.len() {
+        0 => {}
+        1 => facts.push("1 guide".to_owned()),
+        guides => facts.push(format!("{guides} guides")),
+    }
+    if region.turn_deg != 0.0 {
+        facts.push(format!("turned by {} degrees", region.turn_deg));
+    }
+    if region.hidden {
+        facts.push("hidden".to_owned());
+    }
+    if facts.is_empty() { region.name.clone() } else { format!("{} ({})", region.name, facts.join(", ")) }
 }
 
 fn text(value: &serde_json::Value) -> &str {
@@ -109,6 +120,7 @@ fn facts(painting: &Painting) -> serde_json::Value {
                 "mesh": object.mesh,
                 "particles": counts[index],
                 "area": painting.surface_area(index),
+                "hidden": object.hidden,
                 // Where a combed field of directions runs round a point, or parts.
                 "singularities": painting
                     .singularities(index)

@@ -124,6 +124,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         frames,
         options: FrameOptions {
             size_px,
+            shot_height_px: None,
             keep_stroke_px: arguments.keep_stroke_px,
             transparent: arguments.alpha,
             rotation: match arguments.rotation {
@@ -136,6 +137,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
                 ColorsChoice::Scene => StrokeColors::Scene,
                 ColorsChoice::Trust => StrokeColors::Trust,
             },
+            ..FrameOptions::new(size_px)
         },
         destination,
         scene_name,

@@ -10,6 +10,7 @@ pub mod carry;
 pub mod curvature;
 pub mod field;
 pub mod guide;
+mod relax;
 pub mod singularities;
 
 /// When two directions count as the same.

@@ -11,7 +11,7 @@ use crate::TriangleMesh;
 use crate::shells::{Side, sides};
 
 pub use paper::{PolygonParticle, per_polygon};
-pub use progressive::progressive;
+pub use progressive::{ProgressiveState, progressive};
 
 /// Where a particle sits: a triangle and a place in it, so that it rides any deformation of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,9 +73,14 @@ struct Face {
 impl<'mesh> Surface<'mesh> {
     /// The visible sides of those triangles for which `keep` holds. Triangles without area are left out.
     pub fn new(mesh: &'mesh TriangleMesh, keep: impl Fn(usize) -> bool) -> Self {
+        Self::with_sides(mesh, &sides(mesh), keep)
+    }
+
+    /// As [`Surface::new`], with the sides that [`crate::shells::sides`] finds.
+    pub fn with_sides(mesh: &'mesh TriangleMesh, sides: &[Side], keep: impl Fn(usize) -> bool) -> Self {
         let mut surface = Self { mesh, faces: Vec::new(), area_up_to: Vec::new() };
         let mut sum = 0.0;
-        for (triangle, side) in sides(mesh).into_iter().enumerate() {
+        for (triangle, &side) in sides.iter().enumerate() {
             let area = triangle_area(mesh, triangle);
             if !(keep(triangle) && area > 0.0) {
                 continue;

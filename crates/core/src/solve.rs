@@ -55,6 +55,34 @@ impl BakedParticles {
         }
     }
 
+    /// Appends all of another's particles; their flatness stays out.
+    pub fn append(&mut self, others: &Self) {
+        for (arrays, others) in self.vectors_mut().into_iter().zip(others.vectors()) {
+            for (array, other) in arrays.iter_mut().zip(others) {
+                array.extend_from_slice(other);
+            }
+        }
+    }
+
+    /// Makes room for so many more.
+    pub fn reserve(&mut self, more: usize) {
+        self.vectors_mut().into_iter().flatten().for_each(|array| array.reserve_exact(more));
+    }
+
+    /// Keeps the first `count` particles.
+    pub fn truncate(&mut self, count: usize) {
+        self.vectors_mut().into_iter().flatten().for_each(|array| array.truncate(count));
+        self.flatness.truncate(count);
+    }
+
+    fn vectors(&self) -> [&[Vec<f32>; 3]; 4] {
+        [&self.position, &self.normal, &self.along, &self.across]
+    }
+
+    fn vectors_mut(&mut self) -> [&mut [Vec<f32>; 3]; 4] {
+        [&mut self.position, &mut self.normal, &mut self.along, &mut self.across]
+    }
+
     /// How many particles.
     pub fn len(&self) -> usize {
         self.position[0].len()

@@ -1,1 +1,32 @@
 //! Everything that the editor decides, without a window: document, commands, undo, tools, picking.
+//!
+//! ```text
+//! plain events ─▶ tools ─▶ Command ─▶ Document::preview  (the scene as it would be; nothing is kept)
+//!                                 └─▶ Document::apply    (one entry of the history)
+//! ```
+//!
+//! A script of commands in a test can do whatever a hand can do in the window.
+
+pub mod camera_rig;
+mod change;
+pub mod command;
+pub mod document;
+mod euler;
+pub mod gizmo;
+mod history;
+pub mod keymap;
+mod names;
+pub mod path;
+pub mod picking;
+mod refusal;
+pub mod selection;
+pub mod session;
+pub mod stroke_fields;
+pub mod tools;
+pub mod transform;
+
+pub use command::Command;
+pub use document::Document;
+pub use refusal::Refusal;
+pub use selection::{Item, Selection};
+pub use session::Session;

@@ -14,6 +14,7 @@ mod reference;
 mod renderer;
 mod shader_files;
 mod styles;
+mod watch;
 
 pub use gl::GlError;
 pub use motion::MotionPixels;

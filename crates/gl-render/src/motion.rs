@@ -63,7 +63,7 @@ impl MotionPass {
         let state =
             DrawState { depth_test: true, blend: Blend::Off, clear: Some([0.0; 4]), depth_offset: false };
         self.gpu.begin_pass(&target, state);
-        for (index, (body, mesh)) in bodies.iter().enumerate() {
+        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
             let body_then = then.bodies.get(index).unwrap_or(body);
             for part in &mesh.parts {
                 let bound = self
@@ -124,4 +124,5 @@ const SOURCE: ProgramSource = ProgramSource {
         "size_px",
         "body_id",
     ],
+    defined: &[],
 };

@@ -1,17 +1,19 @@
 //! The reference picture: a plain render with shadows, from which strokes take colour, depth and body.
 
 use std::rc::Rc;
+use std::sync::{Arc, Weak};
 
 use glam::{Mat4, Vec3, Vec4};
-use impasto_painting::Frame;
-use impasto_painting::frame::{FrameBody, FrameView};
+use impasto_painting::frame::{BodySurface, FrameBody, FrameView};
+use impasto_painting::{Frame, Quality};
 
 use crate::gl::{
-    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program, ProgramSource, Texture,
-    VertexArray, Vertices,
+    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource,
+    Texture, VertexArray, Vertices,
 };
 use crate::meshes::{MeshCache, MeshOnGpu};
 use crate::shader_files::{REFERENCE, SHARED};
+use crate::watch::Watch;
 
 /// Side of the shadow map in texels.
 const SHADOW_SIDE: u32 = 2048;
@@ -41,10 +43,44 @@ pub(crate) struct ReferencePass {
     surface: Program,
     openness: Program,
     light: Program,
+    /// Made when the first draft is drawn.
+    draft_light: Option<Program>,
     screen: VertexArray,
     shadow_depth: Rc<Texture>,
     shadow_pass: Framebuffer,
+    /// What the shadow map shows.
+    shadow_of: Option<Casters>,
     meshes: MeshCache,
+}
+
+/// What a shadow map is drawn from.
+struct Casters {
+    /// Surface, pose and morph of every body. A surface's address is not used again while somebody remembers it.
+    bodies: Vec<(Weak<BodySurface>, Mat4, f32)>,
+    shadow_from_world: Mat4,
+}
+
+impl Casters {
+    fn new(bodies: &[(&FrameBody, Rc<MeshOnGpu>)], shadow_from_world: Mat4) -> Self {
+        let bodies = bodies
+            .iter()
+            .filter(|(body, _)| !body.hidden)
+            .map(|(body, _)| (Arc::downgrade(&body.surface), body.world_from_model, body.morph))
+            .collect();
+        Self { bodies, shadow_from_world }
+    }
+}
+
+impl PartialEq for Casters {
+    fn eq(&self, other: &Self) -> bool {
+        self.shadow_from_world == other.shadow_from_world
+            && self.bodies.len() == other.bodies.len()
+            && self
+                .bodies
+                .iter()
+                .zip(&other.bodies)
+                .all(|(a, b)| a.0.ptr_eq(&b.0) && (a.1, a.2) == (b.1, b.2))
+    }
 }
 
 /// The lights of a frame as shaders read them.
@@ -166,7 +202,8 @@ pub(crate) fn targets_of_size(
 impl ReferencePass {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
         let program = |vertex: &'static str, fragment: &'static str, uniforms: &'static [&'static str]| {
-            let source = ProgramSource { vertex, fragment: Some(fragment), captured: &[], uniforms };
+            let source =
+                ProgramSource { vertex, fragment: Some(fragment), captured: &[], uniforms, defined: &[] };
             Program::new(gpu, &[SHARED, REFERENCE], &source)
         };
         let shadow_depth = Rc::new(Texture::target(
@@ -203,44 +240,30 @@ impl ReferencePass {
                 "reference/openness.frag",
                 &["size_px", "px_per_unit_at_1", "orthographic", "normal", "depth_and_id", "view_from_world"],
             )?,
-            light: program(
-                "shared/screen.vert",
-                "reference/light.frag",
-                &[
-                    "world_from_view",
-                    "size_px",
-                    "px_per_unit_at_1",
-                    "orthographic",
-                    "lights",
-                    "light_count",
-                    "shadowed_light",
-                    "shadow_depth",
-                    "shadow_from_world",
-                    "shadow_texel",
-                    "ambient_above",
-                    "ambient_below",
-                    "albedo_and_lit",
-                    "normal",
-                    "depth_and_id",
-                    "openness",
-                ],
-            )?,
+            light: Program::new(gpu, &[SHARED, REFERENCE], &LIGHT)?,
+            draft_light: None,
             screen: VertexArray::empty(gpu)?,
             shadow_pass: Framebuffer::new(gpu, &[], Some(&shadow_depth))?,
             shadow_depth,
+            shadow_of: None,
             meshes: MeshCache::new(gpu)?,
         })
     }
 
     /// Draws the reference picture into `targets`; what it returns lights strokes the same way.
-    pub(crate) fn draw(&mut self, frame: &Frame, targets: &ReferenceTargets) -> Result<LightSetup, GlError> {
+    pub(crate) fn draw(
+        &mut self,
+        frame: &Frame,
+        targets: &ReferenceTargets,
+        watch: &mut Watch<'_>,
+    ) -> Result<LightSetup, Halt> {
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let bodies = self.bodies(frame)?;
         let lights = self.lights(frame)?;
         self.draw_shadow(&bodies, &lights)?;
-        self.gpu.lap("shadow");
+        watch.passed("shadow")?;
         self.draw_surfaces(frame, &bodies, targets)?;
-        self.gpu.lap("surface");
+        watch.passed("surface")?;
 
         self.gpu.begin_pass(&targets.openness_pass, DrawState::default());
         let bound = lens
@@ -249,17 +272,25 @@ impl ReferencePass {
             .texture("depth_and_id", &targets.depth_and_id)
             .set("view_from_world", frame.view.view_from_world);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.gpu.lap("openness");
+        watch.passed("openness")?;
 
         self.gpu.begin_pass(&targets.light_pass, DrawState::default());
+        if frame.quality == Quality::Draft && self.draft_light.is_none() {
+            let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
+            self.draft_light = Some(Program::new(&self.gpu, &[SHARED, REFERENCE], &source)?);
+        }
+        let light = match (frame.quality, &self.draft_light) {
+            (Quality::Draft, Some(light)) => light,
+            _ => &self.light,
+        };
         let bound = lights
-            .set(lens.set(self.light.bind(), &LENS_UNIFORMS))
+            .set(lens.set(light.bind(), &LENS_UNIFORMS))
             .texture("albedo_and_lit", &targets.albedo)
             .texture("normal", &targets.normal)
             .texture("depth_and_id", &targets.depth_and_id)
             .texture("openness", &targets.openness);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.gpu.lap("light");
+        watch.passed("light")?;
         Ok(lights)
     }
 
@@ -302,17 +333,25 @@ impl ReferencePass {
         })
     }
 
+    /// Draws the shadow map, unless it is there from the frame before.
     fn draw_shadow(
-        &self,
+        &mut self,
         bodies: &[(&FrameBody, Rc<MeshOnGpu>)],
         lights: &LightSetup,
     ) -> Result<(), GlError> {
-        let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
-        self.gpu.begin_pass(&self.shadow_pass, state);
         if lights.shadowed_light < 0 {
             return Ok(());
         }
-        for (body, mesh) in bodies {
+        let casters = Casters::new(bodies, lights.shadow_from_world);
+        // Taken away while it is drawn anew.
+        let before = self.shadow_of.take();
+        if before.as_ref() == Some(&casters) {
+            self.shadow_of = before;
+            return Ok(());
+        }
+        let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
+        self.gpu.begin_pass(&self.shadow_pass, state);
+        for (body, mesh) in bodies.iter().filter(|(body, _)| !body.hidden) {
             for part in &mesh.parts {
                 let bound = self
                     .shadow
@@ -324,6 +363,7 @@ impl ReferencePass {
                 self.gpu.draw(bound, &mesh.array, vertices)?;
             }
         }
+        self.shadow_of = Some(casters);
         Ok(())
     }
 
@@ -342,7 +382,7 @@ impl ReferencePass {
         } else {
             view.eye_in_world.extend(1.0)
         };
-        for (index, (body, mesh)) in bodies.iter().enumerate() {
+        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
             for part in &mesh.parts {
                 let material = body.surface.materials.get(part.material);
                 let albedo = material.map_or([0.8; 3], |material| material.albedo);
@@ -378,3 +418,28 @@ fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
     // Depth grows away from the light.
     Mat4::from_cols(row(right), row(above), row(-to_light), Vec4::W).transpose()
 }
+
+const LIGHT: ProgramSource = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("reference/light.frag"),
+    captured: &[],
+    uniforms: &[
+        "world_from_view",
+        "size_px",
+        "px_per_unit_at_1",
+        "orthographic",
+        "lights",
+        "light_count",
+        "shadowed_light",
+        "shadow_depth",
+        "shadow_from_world",
+        "shadow_texel",
+        "ambient_above",
+        "ambient_below",
+        "albedo_and_lit",
+        "normal",
+        "depth_and_id",
+        "openness",
+    ],
+    defined: &[],
+};

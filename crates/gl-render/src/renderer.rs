@@ -7,10 +7,11 @@ use impasto_painting::Frame;
 use impasto_painting::frame::FrameStyle;
 
 use crate::context::{Context, ContextReport};
-use crate::gl::{Filter, Format, Framebuffer, GlError, Texture};
+use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, Texture};
 use crate::motion::{MotionPass, MotionPixels};
 use crate::reference::{ReferencePass, ReferenceTargets, targets_of_size};
 use crate::styles::{self, RotatingStrokes, Style, StyleInput};
+use crate::watch::Watch;
 
 /// A finished picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -124,31 +125,60 @@ impl Renderer {
     /// # Errors
     /// When the picture is too large for the driver, memory runs out, or (in a debug context) the driver complains.
     pub fn render(&mut self, frame: &Frame) -> Result<Picture, RenderError> {
+        let picture = self.draw(frame, None)?;
+        Ok(picture.expect("nobody asked to give it up"))
+    }
+
+    /// As [`Renderer::render`], but asks after every pass, and within the long ones, whether to `stop`; then there is no
+    /// picture. What was drawn last is then unfinished, and the next frame is drawn as if it had not been begun.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_unless(
+        &mut self,
+        frame: &Frame,
+        stop: &mut dyn FnMut() -> bool,
+    ) -> Result<Option<Picture>, RenderError> {
+        self.draw(frame, Some(stop))
+    }
+
+    fn draw(
+        &mut self,
+        frame: &Frame,
+        stop: Option<&mut dyn FnMut() -> bool>,
+    ) -> Result<Option<Picture>, RenderError> {
         self.check_size(frame.size_px)?;
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
-        let targets = targets_of_size(&gpu, self.targets.take(), frame.size_px)?;
+        let mut watch = Watch::new(&gpu, stop);
+        match self.draw_passes(frame, &gpu, &mut watch) {
+            Ok(picture) => Ok(Some(picture)),
+            Err(Halt::GivenUp) => Ok(None),
+            Err(Halt::Gl(error)) => Err(error.into()),
+        }
+    }
+
+    fn draw_passes(&mut self, frame: &Frame, gpu: &Gpu, watch: &mut Watch<'_>) -> Result<Picture, Halt> {
+        let targets = targets_of_size(gpu, self.targets.take(), frame.size_px)?;
+        let targets = self.targets.insert(targets);
         let output = match self.output.take() {
             Some(output) if output.size_px() == frame.size_px => output,
             _ => {
-                let color = Rc::new(Texture::target(&gpu, Format::Rgba8, frame.size_px, Filter::Nearest)?);
-                Framebuffer::new(&gpu, &[&color], None)?
+                let color = Rc::new(Texture::target(gpu, Format::Rgba8, frame.size_px, Filter::Nearest)?);
+                Framebuffer::new(gpu, &[&color], None)?
             }
         };
-        let lights = self.reference.draw(frame, &targets)?;
+        let output = self.output.insert(output);
+        self.last_style = frame.style;
+        let lights = self.reference.draw(frame, targets, watch)?;
         let style = match self.styles.entry(frame.style) {
             std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => {
-                entry.insert(styles::open(&gpu, frame.style)?)
-            }
+            std::collections::hash_map::Entry::Vacant(entry) => entry.insert(styles::open(gpu, frame.style)?),
         };
-        style.draw(&StyleInput { frame, reference: &targets, lights: &lights }, &output)?;
+        style.draw(&StyleInput { frame, reference: targets, lights: &lights }, output, watch)?;
         let rgba8 = top_row_first(&output.read_bytes(0), frame.size_px[0] as usize * 4);
         gpu.lap("read back");
         gpu.complaints()?;
-        self.targets = Some(targets);
-        self.output = Some(output);
-        self.last_style = frame.style;
         Ok(Picture { size_px: frame.size_px, rgba8 })
     }
 

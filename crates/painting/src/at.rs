@@ -10,19 +10,24 @@ use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
-use crate::frame::{Frame, FrameBody, LayerRun, Stroke, StrokeSource};
+use crate::frame::{Frame, FrameBody, LayerRun, Quality, Stroke, StrokeSource};
 use crate::lights;
-use crate::prepare::{OrderEntry, Painting};
+use crate::order::OrderEntry;
+use crate::prepare::Painting;
 use crate::view::PictureView;
 
 /// How to see a painting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
     /// Width and height of the picture, each at least 1.
     pub size_px: [u32; 2],
+    /// How high the shot is in a picture that shows more than the shot, pixels, > 0: strokes are as large as in a shot of
+    /// this height. `None` where the picture is the shot.
+    pub shot_height_px: Option<f32>,
     /// Strokes keep their size in pixels, whatever the picture's height.
     pub keep_stroke_px: bool,
     /// No ground under the strokes.
@@ -31,6 +36,8 @@ pub struct FrameOptions {
     pub rotation: Rotation,
     /// What strokes are coloured by.
     pub colors: StrokeColors,
+    /// How much care to take.
+    pub quality: Quality,
 }
 
 /// What strokes are coloured by.
@@ -59,14 +66,21 @@ pub enum Rotation {
 }
 
 impl FrameOptions {
+    /// How high the shot is in the picture, pixels.
+    pub(crate) fn shot_height_px(&self) -> f32 {
+        self.shot_height_px.unwrap_or(self.size_px[1] as f32)
+    }
+
     /// A picture of this size; all else as usual.
     pub const fn new(size_px: [u32; 2]) -> Self {
         Self {
             size_px,
+            shot_height_px: None,
             keep_stroke_px: false,
             transparent: false,
             rotation: Rotation::On,
             colors: StrokeColors::Scene,
+            quality: Quality::Exact,
         }
     }
 }
@@ -94,6 +108,7 @@ pub(crate) struct Look<'a> {
     near_far: [f32; 2],
     pub(crate) rotation: Rotation,
     pub(crate) colors: StrokeColors,
+    quality: Quality,
     /// Differs from frame to frame.
     moment: u32,
 }
@@ -110,24 +125,12 @@ impl Painting {
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
         let morphs = motion::morphs_at(scene, frame);
-        let frame_view = view.frame_view();
-        let px_scale =
-            if options.keep_stroke_px { 1.0 } else { options.size_px[1] as f32 / scene.size.1 as f32 };
-        let look = Look {
-            painting: self,
-            seen: self.see(&view, (&poses, &morphs), px_scale),
-            half_px: options.size_px.map(|side| side as f32 * 0.5),
-            px_scale,
-            near_far: frame_view.near_far,
-            rotation: options.rotation,
-            colors: options.colors,
-            moment: hash::scramble((frame * 1000.0).round() as i64 as u32),
-        };
+        let look = Look::new(self, (&view, frame), (&poses, &morphs), options, |_| true);
         let (strokes, sources, layers) = look.strokes();
         Frame {
             size_px: options.size_px,
-            px_scale,
-            view: frame_view,
+            px_scale: look.px_scale,
+            view: view.frame_view(),
             background: (!options.transparent).then(|| lights::linear(scene.background)),
             lights: lights::resolve(scene, self.shadow_bounds),
             bodies: self
@@ -138,6 +141,7 @@ impl Painting {
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: morph as f32,
+                    hidden: body.hidden,
                 })
                 .collect(),
             strokes,
@@ -145,48 +149,75 @@ impl Painting {
             layers,
             brushes: Arc::clone(&self.brushes),
             palettes: Arc::clone(&self.palettes),
-            finish: self.finish.at(&view),
+            finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style,
+            quality: options.quality,
         }
     }
 
-    fn see(
-        &self,
+    fn see_coat<'a>(
+        &'a self,
+        coat: &'a Coat,
         view: &PictureView,
-        (poses, morphs): (&[DAffine3], &[f64]),
+        (world_from_model, morph): (DAffine3, f64),
         px_scale: f32,
-    ) -> Vec<SeenCoat<'_>> {
+    ) -> SeenCoat<'a> {
+        let map = view.screen_map(world_from_model);
+        let baked_at = self.reference_morphs[coat.object];
+        let baked = if coat.surface.morph.is_none() || morph == baked_at {
+            Cow::Borrowed(&coat.baked.baked)
+        } else {
+            Cow::Owned(coat.deformed(morph, baked_at))
+        };
+        let mut solved = SolvedParticles::default();
+        solve(&baked, &map, &mut solved);
         let wanted_per_px =
             self.rules.last().map_or(0.0, |rule| f64::from(rule.strokes.body().wanted_per_px()));
-        self.coats
-            .iter()
-            .map(|coat| {
-                let world_from_model = poses[coat.object];
-                let map = view.screen_map(world_from_model);
-                let (morph, baked_at) = (morphs[coat.object], self.reference_morphs[coat.object]);
-                let baked = if coat.surface.morph.is_none() || morph == baked_at {
-                    Cow::Borrowed(&coat.baked.baked)
-                } else {
-                    Cow::Owned(coat.deformed(morph, baked_at))
-                };
-                let mut solved = SolvedParticles::default();
-                solve(&baked, &map, &mut solved);
-                let shown = coat
-                    .sampled
-                    .polygons
-                    .as_ref()
-                    .map(|polygons| polygons.shown(&map, wanted_per_px / f64::from(px_scale * px_scale)));
-                let clip_views = (self.solver == Solver::HornExact).then(|| {
-                    let reference = self.references.own();
-                    (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
-                });
-                SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views }
-            })
-            .collect()
+        let shown = coat
+            .sampled
+            .polygons
+            .as_ref()
+            .map(|polygons| polygons.shown(&map, wanted_per_px / f64::from(px_scale * px_scale)));
+        let clip_views = (self.solver == Solver::HornExact).then(|| {
+            let reference = self.references.own();
+            (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
+        });
+        SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views }
     }
 }
 
 type Strokes = (Vec<Stroke>, Vec<StrokeSource>, Vec<LayerRun>);
+
+impl<'a> Look<'a> {
+    /// Those coats of a painting that are `wanted`, in a view at a frame in which objects stand like this.
+    pub(crate) fn new(
+        painting: &'a Painting,
+        (view, frame): (&PictureView, f64),
+        (poses, morphs): (&[DAffine3], &[f64]),
+        options: &FrameOptions,
+        wanted: impl Fn(&Coat) -> bool,
+    ) -> Self {
+        let px_scale = if options.keep_stroke_px {
+            1.0
+        } else {
+            options.shot_height_px() / painting.scene().size.1 as f32
+        };
+        let seen = |coat: &'a Arc<Coat>| {
+            painting.see_coat(coat, view, (poses[coat.object], morphs[coat.object]), px_scale)
+        };
+        Look {
+            painting,
+            seen: painting.coats.iter().filter(|coat| wanted(coat)).map(seen).collect(),
+            half_px: options.size_px.map(|side| side as f32 * 0.5),
+            px_scale,
+            near_far: view.frame_view().near_far,
+            rotation: options.rotation,
+            colors: options.colors,
+            quality: options.quality,
+            moment: hash::scramble((frame * 1000.0).round() as i64 as u32),
+        }
+    }
+}
 
 impl Look<'_> {
     fn strokes(&self) -> Strokes {
@@ -198,7 +229,7 @@ impl Look<'_> {
             .order
             .par_iter()
             .with_min_len(4096)
-            .filter(|entry| self.is_in_picture(**entry))
+            .filter(|entry| !self.is_left_out(**entry) && self.is_in_picture(**entry))
             .filter_map(|&entry| self.stroke(entry).map(|(stroke, source)| (entry, stroke, source)))
             .collect();
         let mut layers = Vec::new();
@@ -224,17 +255,32 @@ impl Look<'_> {
     }
 
     pub(crate) fn region(&self, entry: OrderEntry) -> u16 {
-        self.seen[entry.coat as usize].coat.baked.region[entry.particle as usize]
+        self.seen[entry.coat as usize].coat.seats.region[entry.particle as usize]
     }
 
     /// The region's layer and the layer of paint.
-    fn layer(&self, entry: OrderEntry) -> (i32, impasto_scene::presets::LayerKind) {
+    fn layer(&self, entry: OrderEntry) -> (i32, LayerKind) {
         let rule = &self.painting.rules[self.region(entry) as usize];
         (rule.strokes.layer, self.seen[entry.coat as usize].coat.kind)
     }
 
+    /// A draft has no underpainting: its ground stands in.
+    fn is_left_out(&self, entry: OrderEntry) -> bool {
+        let kind = self.seen[entry.coat as usize].coat.kind;
+        self.quality == Quality::Draft && kind == LayerKind::Underpainting
+    }
+
+    /// Whether a depth is between the nearest and the farthest that show.
+    pub(crate) fn is_between(&self, depth: f32) -> bool {
+        depth > self.near_far[0] && depth < self.near_far[1]
+    }
+
     fn is_in_picture(&self, entry: OrderEntry) -> bool {
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
+        let region = self.painting.scene().regions.get(usize::from(self.region(entry)));
+        if self.painting.bodies[seen.coat.object].hidden || region.is_some_and(|region| region.hidden) {
+            return false;
+        }
         let solved = &seen.solved;
         let depth = solved.depth[index];
         let layer = self.painting.rules[self.region(entry) as usize].strokes.layer_of(seen.coat.kind);
@@ -242,8 +288,7 @@ impl Look<'_> {
         let grown = seen.growth(index, self.painting, self.px_scale);
         let reach = (layer.length_px + layer.width_px) * self.px_scale * grown;
         solved.area_px[index] > 0.0
-            && depth > self.near_far[0]
-            && depth < self.near_far[1]
+            && self.is_between(depth)
             && solved.x_px[index].abs() < self.half_px[0] + reach
             && solved.y_px[index].abs() < self.half_px[1] + reach
     }
@@ -267,7 +312,7 @@ impl SeenCoat<'_> {
     /// How much larger than stated the stroke of a particle is, since it follows the size of its surface: m^γ, m the pixels
     /// per unit of surface now over those in the reference picture, γ the region's `size_follow`.
     pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
-        let region = usize::from(self.coat.baked.region[index]);
+        let region = usize::from(self.coat.seats.region[index]);
         let follow = painting.rules[region].strokes.size_follow;
         if follow <= 0.0 {
             return 1.0;
@@ -284,6 +329,6 @@ impl SeenCoat<'_> {
 
     /// Random bits of a particle.
     pub(crate) fn bits(&self, index: usize, which: u32) -> u32 {
-        hash::combine(self.coat.baked.bits[index], which)
+        hash::combine(self.coat.seats.bits[index], which)
     }
 }

@@ -1,25 +1,30 @@
 //! A coat: the particles of one object that carry one layer of paint. Each layer has particles of its own, so that a small
 //! stroke does not sit in the middle of each large one.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 
-use glam::{DVec2, Vec3};
+use glam::{DVec3, Vec3};
 use impasto_core::direction::carry::Stencils;
 use impasto_core::hash;
 use impasto_core::neighbours::{Neighbours, full_list_radius};
-use impasto_core::sampling::{self, Particle, Surface};
+use impasto_core::sampling::{self, Particle, ProgressiveState, Surface};
+use impasto_core::shells::{Side, sides};
 use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
+use rayon::prelude::*;
 
 use crate::bake::{BakeInputs, BakedBody, Combed};
+use crate::counts::CountInputs;
 use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::frame::BodySurface;
 use crate::paper::PolygonCounts;
-use crate::particle_count::{self, Sighting};
+use crate::particles::Particles;
 use crate::parts::{BodyParts, Cap};
 use crate::prepare::Context;
 use crate::references::BodyReferences;
 use crate::regions::{BodyGuide, BodyRegions};
+use crate::seats::{SeatInputs, Seats};
 use crate::surface::SurfaceInputs;
 
 /// One coat, prepared.
@@ -29,6 +34,7 @@ pub(crate) struct Coat {
     pub(crate) kind: LayerKind,
     pub(crate) sampled: Arc<Sampled>,
     pub(crate) inputs: BakeInputs,
+    pub(crate) seats: Arc<Seats>,
     pub(crate) baked: Arc<BakedBody>,
     /// The surface that the particles ride.
     pub(crate) surface: Arc<BodySurface>,
@@ -37,34 +43,47 @@ pub(crate) struct Coat {
 }
 
 /// The particles of a coat.
+#[derive(Clone)]
 pub(crate) struct Sampled {
-    pub(crate) particles: Arc<Vec<Particle>>,
-    pub(crate) albedo_srgb8: Vec<u32>,
+    pub(crate) particles: Particles,
+    /// Of all that is there of the particles' order.
+    pub(crate) albedo_srgb8: Arc<Vec<u32>>,
     pub(crate) area: f64,
-    pub(crate) polygons: Option<PolygonCounts>,
+    pub(crate) polygons: Option<Arc<PolygonCounts>>,
 }
 
 /// What is kept of one object, each with the inputs that it was made from.
 #[derive(Default)]
 pub(crate) struct KeptObject {
-    surface: Option<(SurfaceInputs, Arc<BodySurface>, Arc<BodyParts>)>,
+    surface: Option<(SurfaceInputs, KeptSurface)>,
+    counts: Option<(CountInputs, [usize; LayerKind::ALL.len()])>,
     samples: Option<(SampleKey, Arc<FieldSamples>)>,
     field: Option<(Arc<FieldInputs>, Option<Arc<BodyField>>)>,
     coats: [KeptCoat; LayerKind::ALL.len()],
 }
 
+#[derive(Clone)]
+struct KeptSurface {
+    body: Arc<BodySurface>,
+    parts: Arc<BodyParts>,
+    sides: Arc<Vec<Side>>,
+    bounds: Option<(Vec3, Vec3)>,
+    extent: (DVec3, f64),
+}
+
 #[derive(Default)]
 struct KeptCoat {
-    sampled: Option<(SampleInputs, Arc<Sampled>)>,
-    posed: Option<(PosedInputs, Arc<Vec<Particle>>)>,
-    neighbours: Option<(Arc<Vec<Particle>>, Arc<Neighbours>)>,
+    sampled: Option<(SampleInputs, ProgressiveState, Arc<Sampled>)>,
+    posed: Option<(PosedInputs, Particles)>,
+    neighbours: Option<(Particles, Arc<Neighbours>)>,
     stencils: Option<KeptStencils>,
+    seats: Option<Arc<Seats>>,
     baked: Option<(BakeInputs, Arc<BakedBody>)>,
 }
 
 /// Which samples of the field each particle listens to.
 struct KeptStencils {
-    particles: Arc<Vec<Particle>>,
+    particles: Particles,
     samples: Arc<FieldSamples>,
     stencils: Arc<Stencils>,
 }
@@ -72,14 +91,15 @@ struct KeptStencils {
 /// Particles and the surface that they ride, as it stands at this share of its morph.
 #[derive(Clone)]
 struct PosedInputs {
-    particles: Arc<Vec<Particle>>,
+    particles: Particles,
     surface: Arc<BodySurface>,
     morph: f64,
 }
 
-impl PartialEq for PosedInputs {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.particles, &other.particles)
+impl PosedInputs {
+    /// Equal but for how many particles there are.
+    fn same(&self, other: &Self) -> bool {
+        self.particles.same_order(&other.particles)
             && Arc::ptr_eq(&self.surface, &other.surface)
             && self.morph == other.morph
     }
@@ -96,9 +116,9 @@ struct SampleKey {
 #[derive(Clone, PartialEq)]
 struct SampleInputs {
     surface: SurfaceInputs,
-    count: usize,
     name_hash: u32,
-    per_polygon: bool,
+    /// By the paper's rule, where a count asks for an order of its own.
+    per_polygon: Option<usize>,
 }
 
 /// One object while it is prepared.
@@ -107,6 +127,8 @@ pub(crate) struct ObjectInputs<'a> {
     pub(crate) index: usize,
     pub(crate) surface: &'a SurfaceInputs,
     pub(crate) regions: &'a Arc<BodyRegions>,
+    /// The rules that may show on the object.
+    pub(crate) used: &'a Arc<Vec<u16>>,
     pub(crate) guides: &'a Arc<Vec<BodyGuide>>,
     pub(crate) references: &'a Arc<BodyReferences>,
     /// Of each part.
@@ -117,51 +139,52 @@ pub(crate) struct ObjectInputs<'a> {
 
 impl KeptObject {
     pub(crate) fn build_surface(&mut self, inputs: &SurfaceInputs) {
-        if self.surface.as_ref().is_none_or(|(before, ..)| before != inputs) {
-            let surface = inputs.build();
-            let parts = BodyParts::of(&surface.mesh);
-            self.surface = Some((inputs.clone(), Arc::new(surface), Arc::new(parts)));
+        if self.surface.as_ref().is_none_or(|(before, _)| before != inputs) {
+            let body = inputs.build();
+            let surface = KeptSurface {
+                parts: Arc::new(BodyParts::of(&body.mesh)),
+                sides: Arc::new(sides(&body.mesh)),
+                bounds: body.bounds(),
+                extent: body.extent(),
+                body: Arc::new(body),
+            };
+            self.surface = Some((inputs.clone(), surface));
         }
     }
 
+    fn kept_surface(&self) -> &KeptSurface {
+        &self.surface.as_ref().expect("the surface step ran before").1
+    }
+
     pub(crate) fn surface(&self) -> Arc<BodySurface> {
-        Arc::clone(&self.surface.as_ref().expect("the surface step ran before").1)
+        Arc::clone(&self.kept_surface().body)
     }
 
     pub(crate) fn parts(&self) -> Arc<BodyParts> {
-        Arc::clone(&self.surface.as_ref().expect("the surface step ran before").2)
+        Arc::clone(&self.kept_surface().parts)
+    }
+
+    /// Least and greatest corner of the box round the surface, whatever its morph.
+    pub(crate) fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.kept_surface().bounds
     }
 
     /// Samples the particles of every coat.
     pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
-        let (body, parts) = (self.surface(), self.parts());
-        let surface = Surface::new(&body.mesh, |_| true);
-        let sightings = context.sightings(object.index);
-        for kind in LayerKind::ALL {
-            let count = count(context, object, kind, (&surface, &parts, &sightings));
+        let KeptSurface { body, parts, sides, .. } = self.kept_surface().clone();
+        let surface = OnceCell::new();
+        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &sides, |_| true));
+        let inputs = CountInputs::new(context, object, Arc::clone(&body));
+        if self.counts.as_ref().is_none_or(|(before, _)| *before != inputs) {
+            let counts = inputs.counts(surface(), &parts);
+            self.counts = Some((inputs, counts));
+        }
+        let counts = self.counts.as_ref().map_or([0; LayerKind::ALL.len()], |(_, counts)| *counts);
+        for (kind, count) in LayerKind::ALL.into_iter().zip(counts) {
             let name_hash = name_hash(context, object.index, kind);
-            let now = SampleInputs {
-                surface: object.surface.clone(),
-                count,
-                name_hash,
-                per_polygon: context.paper,
-            };
-            let kept = &mut self.coats[kind as usize];
-            if kept.sampled.as_ref().is_some_and(|(before, _)| *before == now) {
-                continue;
-            }
-            let (particles, polygons) = if context.paper && count > 0 {
-                let entries = sampling::per_polygon(&surface, count, name_hash);
-                let polygons = PolygonCounts::new(&surface, &body.mesh, &entries);
-                (entries.into_iter().map(|entry| entry.particle).collect(), Some(polygons))
-            } else {
-                (sampling::progressive(&surface, count, name_hash), None)
-            };
-            let albedo_srgb8 =
-                particles.iter().map(|particle: &Particle| body.albedo_srgb8(particle)).collect();
-            let sampled =
-                Sampled { particles: Arc::new(particles), albedo_srgb8, area: surface.area(), polygons };
-            kept.sampled = Some((now, Arc::new(sampled)));
+            let per_polygon = (context.paper && count > 0).then_some(count);
+            let now = SampleInputs { surface: object.surface.clone(), name_hash, per_polygon };
+            self.coats[kind as usize].sample(now, count, (&body, surface));
         }
     }
 
@@ -169,19 +192,24 @@ impl KeptObject {
     pub(crate) fn pose(&mut self, object: ObjectInputs<'_>) {
         let surface = self.surface();
         for coat in &mut self.coats {
-            let particles = Arc::clone(&coat.sampled_now().particles);
+            let particles = coat.sampled_now().particles.clone();
             let now = PosedInputs { particles, surface: Arc::clone(&surface), morph: object.morph };
-            if coat.posed.as_ref().is_none_or(|(before, _)| *before != now) {
-                let posed = surface.posed(&now.particles, object.morph);
-                coat.posed = Some((now, posed));
-            }
+            let count = now.particles.len();
+            let kept = coat.posed.take().filter(|(before, _)| before.same(&now));
+            let posed = kept.and_then(|(_, posed)| posed.first(count)).unwrap_or_else(|| {
+                if surface.is_at_rest(object.morph) {
+                    return now.particles.clone();
+                }
+                Particles::new(Arc::new(surface.posed(&now.particles, object.morph)), count)
+            });
+            coat.posed = Some((now, posed));
         }
     }
 
     pub(crate) fn find_neighbours(&mut self) {
         for coat in &mut self.coats {
             let particles = coat.posed_now();
-            if coat.neighbours.as_ref().is_some_and(|(before, _)| Arc::ptr_eq(before, &particles)) {
+            if coat.neighbours.as_ref().is_some_and(|(before, _)| before.same(&particles)) {
                 continue;
             }
             let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
@@ -195,7 +223,7 @@ impl KeptObject {
     /// Joins what regions state and guides comb, where that is needed.
     pub(crate) fn solve_field(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
         // The paper knows no field.
-        let needed = FieldInputs::may_be_needed(object.regions, context.rules, object.guides);
+        let needed = FieldInputs::may_be_needed(object.used, context.rules, object.guides);
         if !needed || context.paper {
             self.field = None;
             return;
@@ -204,7 +232,8 @@ impl KeptObject {
         let name_hash = name_hash(context, object.index, LayerKind::Body);
         let key = SampleKey { surface: object.surface.clone(), name_hash, morph: object.morph };
         if self.samples.as_ref().is_none_or(|(before, _)| *before != key) {
-            let samples = FieldSamples::new(&Surface::new(&surface.mesh, |_| true), name_hash);
+            let sides = Arc::clone(&self.kept_surface().sides);
+            let samples = FieldSamples::new(&Surface::with_sides(&surface.mesh, &sides, |_| true), name_hash);
             self.samples = Some((key, Arc::new(samples.posed(&surface, object.morph))));
         }
         let samples = Arc::clone(&self.samples.as_ref().expect("it was just made").1);
@@ -215,7 +244,8 @@ impl KeptObject {
             guides: Arc::clone(object.guides),
             rules: Arc::clone(context.rules),
             parts: self.parts(),
-            extent: surface.extent(),
+            extent: self.kept_surface().extent,
+            used: Arc::clone(object.used),
             orthographic: context.orthographic,
         };
         if self.field.as_ref().is_none_or(|(before, _)| **before != inputs) {
@@ -224,8 +254,11 @@ impl KeptObject {
         }
         for coat in &mut self.coats {
             let particles = coat.posed_now();
+            // Those of more particles of the same order will do.
             let same = |kept: &KeptStencils| {
-                Arc::ptr_eq(&kept.particles, &particles) && Arc::ptr_eq(&kept.samples, &samples)
+                kept.particles.same_order(&particles)
+                    && kept.particles.len() >= particles.len()
+                    && Arc::ptr_eq(&kept.samples, &samples)
             };
             if !coat.stencils.as_ref().is_some_and(same) {
                 let stencils = Arc::new(samples.stencils(&particles));
@@ -241,18 +274,26 @@ impl KeptObject {
 
     /// The coats that have particles; the body's layer always counts as one.
     pub(crate) fn bake(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) -> Vec<Arc<Coat>> {
-        let (surface, parts) = (self.surface(), self.parts());
+        let KeptSurface { body, parts, extent, .. } = self.kept_surface().clone();
         let field = self.field.clone();
-        let wanted = |kind: LayerKind| {
-            kind == LayerKind::Body || !self.coats[kind as usize].sampled_now().particles.is_empty()
-        };
-        let kinds: Vec<LayerKind> = LayerKind::ALL.into_iter().filter(|&kind| wanted(kind)).collect();
-        kinds
-            .into_iter()
-            .map(|kind| {
-                let kept = &mut self.coats[kind as usize];
+        let coats = self.coats.par_iter_mut().zip(LayerKind::ALL);
+        let coats =
+            coats.filter(|(kept, kind)| *kind == LayerKind::Body || !kept.sampled_now().particles.is_empty());
+        coats
+            .map(|(kept, kind)| {
+                let particles = kept.posed_now();
+                let seats = SeatInputs::new(
+                    (particles.clone(), name_hash(context, object.index, kind)),
+                    (object.regions, object.used),
+                    context.rules,
+                    &parts,
+                    object.references,
+                );
+                let seats = seats.seats(kept.seats.take());
+                kept.seats = Some(Arc::clone(&seats));
                 let inputs = BakeInputs {
-                    particles: kept.posed_now(),
+                    particles,
+                    seats,
                     neighbours: match context.solver {
                         Solver::Tangent => None,
                         Solver::Horn | Solver::HornExact => {
@@ -261,31 +302,83 @@ impl KeptObject {
                     },
                     references: Arc::clone(object.references),
                     solver: context.solver,
-                    regions: Arc::clone(object.regions),
+                    used: Arc::clone(object.used),
                     rules: Arc::clone(context.rules),
-                    name_hash: name_hash(context, object.index, kind),
-                    extent: surface.extent(),
+                    extent,
                     parts: Arc::clone(&parts),
                     combed: field.as_ref().zip(kept.stencils.as_ref()).map(|((inputs, field), stencils)| {
                         let (inputs, stencils) = (Arc::clone(inputs), Arc::clone(&stencils.stencils));
                         Combed { inputs, field: field.clone(), stencils }
                     }),
                 };
-                let surface = Arc::clone(&surface);
-                Arc::new(kept.coat(context, (object.index, kind), inputs, surface))
+                Arc::new(kept.coat(context, (object.index, kind), inputs, Arc::clone(&body)))
             })
             .collect()
     }
 }
 
 impl KeptCoat {
-    fn sampled_now(&self) -> Arc<Sampled> {
-        Arc::clone(&self.sampled.as_ref().expect("the sampling step ran before").1)
+    fn sampled_now(&self) -> &Arc<Sampled> {
+        &self.sampled.as_ref().expect("the sampling step ran before").2
     }
 
     /// The particles where they are in the reference pose.
-    fn posed_now(&self) -> Arc<Vec<Particle>> {
-        Arc::clone(&self.posed.as_ref().expect("the pose step ran before").1)
+    fn posed_now(&self) -> Particles {
+        self.posed.as_ref().expect("the pose step ran before").1.clone()
+    }
+
+    /// Finds `count` particles: of a kept order the first so many, or the next ones too.
+    fn sample<'a, 'mesh: 'a>(
+        &mut self,
+        inputs: SampleInputs,
+        count: usize,
+        (body, surface): (&BodySurface, impl Fn() -> &'a Surface<'mesh>),
+    ) {
+        let kept = self.sampled.take().filter(|(before, ..)| *before == inputs);
+        if let Some((_, state, sampled)) = &kept
+            && let Some(particles) = sampled.particles.first(count)
+        {
+            let sampled = if particles.same(&sampled.particles) {
+                Arc::clone(sampled)
+            } else {
+                Arc::new(Sampled { particles, ..Sampled::clone(sampled) })
+            };
+            self.sampled = Some((inputs, *state, sampled));
+            return;
+        }
+        let (surface, mut state) = (surface(), ProgressiveState::default());
+        let albedo_of = |particles: &[Particle]| -> Vec<u32> {
+            particles.iter().map(|particle| body.albedo_srgb8(particle)).collect()
+        };
+        let sampled = if inputs.per_polygon.is_some() {
+            let entries = sampling::per_polygon(surface, count, inputs.name_hash);
+            let polygons = PolygonCounts::new(surface, &body.mesh, &entries);
+            let particles: Vec<Particle> = entries.into_iter().map(|entry| entry.particle).collect();
+            Sampled {
+                albedo_srgb8: Arc::new(albedo_of(&particles)),
+                particles: Particles::new(Arc::new(particles), usize::MAX),
+                area: surface.area(),
+                polygons: Some(Arc::new(polygons)),
+            }
+        } else {
+            let (mut all, mut albedo, mut before) = (Vec::new(), Vec::new(), None);
+            if let Some((_, at, sampled)) = kept {
+                state = at;
+                let Sampled { particles, albedo_srgb8, .. } = Arc::unwrap_or_clone(sampled);
+                all = particles.all().to_vec();
+                albedo = Arc::unwrap_or_clone(albedo_srgb8);
+                before = Some(particles);
+            }
+            state.grow(surface, inputs.name_hash, &mut all, count);
+            albedo.extend(albedo_of(&all[albedo.len()..]));
+            let all = Arc::new(all);
+            let particles = before.map_or_else(
+                || Particles::new(Arc::clone(&all), count),
+                |before| before.continued(Arc::clone(&all), count),
+            );
+            Sampled { particles, albedo_srgb8: Arc::new(albedo), area: surface.area(), polygons: None }
+        };
+        self.sampled = Some((inputs, state, Arc::new(sampled)));
     }
 
     fn coat(
@@ -295,73 +388,21 @@ impl KeptCoat {
         inputs: BakeInputs,
         surface: Arc<BodySurface>,
     ) -> Coat {
-        if self.baked.as_ref().is_none_or(|(before, _)| *before != inputs) {
-            self.baked = Some((inputs.clone(), Arc::new(inputs.bake())));
-        }
-        let baked = Arc::clone(&self.baked.as_ref().expect("it was just baked").1);
+        let kept = self.baked.take().filter(|(before, _)| *before == inputs);
+        let baked = inputs.bake(kept.map(|(_, baked)| baked));
+        self.baked = Some((inputs.clone(), Arc::clone(&baked)));
         let first_marks = context
             .rules
             .iter()
             .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
             .collect();
-        Coat { object, kind, sampled: self.sampled_now(), inputs, baked, surface, first_marks }
+        let (sampled, seats) = (Arc::clone(self.sampled_now()), Arc::clone(&inputs.seats));
+        Coat { object, kind, sampled, inputs, seats, baked, surface, first_marks }
     }
-}
-
-/// How many particles a coat has: as the object states for its body layer, else as its sightings ask for.
-fn count(
-    context: &Context<'_>,
-    object: ObjectInputs<'_>,
-    kind: LayerKind,
-    (surface, parts, sightings): (&Surface<'_>, &BodyParts, &[Sighting]),
-) -> usize {
-    let layer = |rule: u16| context.rules[usize::from(rule)].strokes.layer_of(kind);
-    let left_out = kind == LayerKind::Underpainting && !context.underpainting
-        || context.paper && kind != LayerKind::Body
-        || object.regions.all().into_iter().all(|rule| layer(rule).coverage <= 0.0);
-    if kind == LayerKind::Body
-        && let Some(count) = context.scene.objects[object.index].particles
-    {
-        return count as usize;
-    }
-    if left_out {
-        return 0;
-    }
-    let found = particle_count::find(surface, sightings, |triangle| {
-        let cap = object.caps[parts.of_triangle[triangle] as usize];
-        let wanted = |rule: u16| {
-            let layer = layer(rule);
-            let [length, width] = cap.apply(layer.length_px, layer.width_px);
-            layer.coverage / (length * width)
-        };
-        let densest = object.regions.on_triangle(surface.mesh(), triangle).map(wanted).fold(0.0, f32::max);
-        densest * most_wanted(kind)
-    });
-    // By the paper's rule a polygon without a particle stays bare.
-    if context.paper { found.max(surface.faces().count()) } else { found }
-}
-
-/// The most that a layer is wanted anywhere, where its coverage says 1; as `MOST_FULL` of the resolve shader.
-pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
-    if kind == LayerKind::Body { 1.35 } else { 1.0 }
 }
 
 /// What all chances of a coat come from. The body's is the object's own.
 fn name_hash(context: &Context<'_>, object: usize, kind: LayerKind) -> u32 {
     let of_object = hash::combine(context.scene.seed, hash::of_name(&context.scene.objects[object].name));
     if kind == LayerKind::Body { of_object } else { hash::combine(of_object, hash::of_name(kind.name())) }
-}
-
-impl Context<'_> {
-    fn sightings(&self, object: usize) -> Vec<Sighting> {
-        let size_px = [self.scene.size.0, self.scene.size.1];
-        self.views
-            .iter()
-            .map(|(view, poses)| Sighting {
-                map: view.screen_map(poses[object]),
-                half_size_px: DVec2::new(f64::from(size_px[0]), f64::from(size_px[1])) * 0.5,
-                near: view.near(),
-            })
-            .collect()
-    }
 }

@@ -9,22 +9,24 @@ use impasto_core::angle::wrap_pi;
 use impasto_core::direction::carry::{Carried, Stencils};
 use impasto_core::direction::curvature;
 use impasto_core::direction::field::{Constraint, FieldGraph, MAX_SAMPLES};
+use impasto_core::direction::guide::Influence;
 use impasto_core::direction::singularities::{self, Singularity};
 use impasto_core::direction::{Symmetry, tangent_axes};
 use impasto_core::neighbours::Points;
 use impasto_core::sampling::{self, Particle, Surface};
 use impasto_core::screen_map::{PixelLens, facing};
-use impasto_scene::document::{Direction, Seam};
+use impasto_scene::document::{Direction, GuideMode, Seam};
 use rayon::prelude::*;
 
 use crate::frame::BodySurface;
 use crate::parts::BodyParts;
 use crate::references::{BodyReferences, Views, shown_rad};
 use crate::regions::{BodyGuide, BodyRegions, RegionRule};
+use crate::smooth;
 use crate::stated::{Base, Point, Stated, symmetry};
 
 /// Firmness, in units of one neighbour, of what is stated outright and of a guide's own line.
-const FIRM: f64 = 300.0;
+pub(crate) const FIRM: f64 = 300.0;
 
 /// Firmness of guesses about what no reference faces: they hold a quarter of the body's size away from what is known.
 const GUESS_REACH: f64 = 0.25;
@@ -42,7 +44,7 @@ pub(crate) struct FieldSamples {
     pub(crate) particles: Vec<Particle>,
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
-    spacing: f64,
+    pub(crate) spacing: f64,
 }
 
 /// All that the field of a body depends on.
@@ -51,6 +53,8 @@ pub(crate) struct FieldInputs {
     pub(crate) samples: Arc<FieldSamples>,
     pub(crate) references: Arc<BodyReferences>,
     pub(crate) regions: Arc<BodyRegions>,
+    /// The rules that may show on the body.
+    pub(crate) used: Arc<Vec<u16>>,
     pub(crate) guides: Arc<Vec<BodyGuide>>,
     /// Directions and seams of all rules.
     pub(crate) rules: Arc<Vec<RegionRule>>,
@@ -66,13 +70,15 @@ pub(crate) struct BodyField {
     symmetry: Symmetry,
     points: Vec<SamplePoint>,
     solved: Vec<DVec2>,
+    /// The same after the guides that smooth; none where there is none.
+    relaxed: Option<Vec<DVec2>>,
     anchors: Vec<f64>,
     pub(crate) singularities: Vec<Singularity>,
 }
 
 #[derive(Clone, Copy)]
-struct SamplePoint {
-    point: Point,
+pub(crate) struct SamplePoint {
+    pub(crate) point: Point,
     base: Base,
     /// The stated direction in the axes of the normal.
     stated: DVec2,
@@ -91,12 +97,15 @@ impl FieldSamples {
 
     /// The samples where they are at a share of the body's morph.
     pub(crate) fn posed(self, surface: &BodySurface, morph: f64) -> Self {
-        let particles = surface.posed(&Arc::new(self.particles), morph);
+        if surface.is_at_rest(morph) {
+            return self;
+        }
+        let particles = surface.posed(&self.particles, morph);
         Self {
             positions: particles.iter().map(|particle| particle.position).collect(),
             normals: particles.iter().map(|particle| particle.normal).collect(),
             spacing: self.spacing,
-            particles: Arc::unwrap_or_clone(particles),
+            particles,
         }
     }
 
@@ -114,14 +123,9 @@ impl FieldSamples {
 
 impl PartialEq for FieldInputs {
     fn eq(&self, other: &Self) -> bool {
-        let directions_equal = self.rules.len() == other.rules.len()
-            && self.rules.iter().zip(other.rules.iter()).all(|(a, b)| {
-                (&a.direction, a.seam, a.sense, a.strokes.flatness)
-                    == (&b.direction, b.seam, b.sense, b.strokes.flatness)
-            });
         Arc::ptr_eq(&self.samples, &other.samples)
             && Arc::ptr_eq(&self.parts, &other.parts)
-            && directions_equal
+            && self.same_rules(other)
             && self.references == other.references
             && self.regions == other.regions
             && self.guides == other.guides
@@ -132,12 +136,23 @@ impl PartialEq for FieldInputs {
 
 impl FieldInputs {
     /// Whether any rule of the body may need a field; where not, nothing is sampled.
-    pub(crate) fn may_be_needed(regions: &BodyRegions, rules: &[RegionRule], guides: &[BodyGuide]) -> bool {
+    pub(crate) fn may_be_needed(used: &[u16], rules: &[RegionRule], guides: &[BodyGuide]) -> bool {
         let needs = |rule: &RegionRule| {
             matches!(rule.direction, Direction::Angle(_) | Direction::Crossing(..) | Direction::Curvature(_))
                 || rule.seam != Seam::Hard
         };
-        !guides.is_empty() || regions.all().iter().any(|&rule| needs(&rules[usize::from(rule)]))
+        !guides.is_empty() || used.iter().any(|&rule| needs(&rules[usize::from(rule)]))
+    }
+
+    /// Whether directions and seams of the body's rules are the same.
+    fn same_rules(&self, other: &Self) -> bool {
+        self.used == other.used
+            && self.rules.len() == other.rules.len()
+            && self.used.iter().all(|&rule| {
+                let (a, b) = (&self.rules[usize::from(rule)], &other.rules[usize::from(rule)]);
+                (&a.direction, a.seam, a.sense, a.strokes.flatness)
+                    == (&b.direction, b.seam, b.sense, b.strokes.flatness)
+            })
     }
 
     /// The field, or none where every direction is stated outright.
@@ -154,7 +169,9 @@ impl FieldInputs {
             .with_min_len(256)
             .map(|sample| self.point(sample, &stated))
             .collect();
-        let guided = |rule: usize| self.guides.iter().any(|guide| usize::from(guide.rule) == rule);
+        let combs = |guide: &&BodyGuide| guide.mode == GuideMode::Comb;
+        let guided =
+            |rule: usize| self.guides.iter().filter(combs).any(|guide| usize::from(guide.rule) == rule);
         let free: Vec<bool> = (0..self.rules.len())
             .map(|rule| match self.rules[rule].direction {
                 Direction::Auto => guided(rule),
@@ -163,8 +180,8 @@ impl FieldInputs {
             })
             .collect();
         let settled = |sample: &SamplePoint| sample.base.exact >= 1.0 && !free[sample.point.rule];
-        let soft = self.rules.iter().any(|rule| rule.seam != Seam::Hard);
-        if !soft && points.iter().all(settled) {
+        let soft = self.used.iter().any(|&rule| self.rules[usize::from(rule)].seam != Seam::Hard);
+        if !soft && !self.smooths() && points.iter().all(settled) {
             return None;
         }
         let graph = self.graph(&points);
@@ -178,9 +195,12 @@ impl FieldInputs {
         // A body has one symmetry: arrows only where all of it has.
         let symmetry = self.symmetry(&points);
         let solved = graph.solve(symmetry, &constraints);
+        let relaxed =
+            self.smooths().then(|| graph.relaxed(symmetry, &solved, &self.holds(&points, &solved, symmetry)));
         let places = (&samples.positions[..], &samples.normals[..]);
-        let singularities = singularities::find(&graph, places, &solved, symmetry);
-        Some(BodyField { inputs: self.clone(), symmetry, points, solved, anchors, singularities })
+        let shown = relaxed.as_deref().unwrap_or(&solved);
+        let singularities = singularities::find(&graph, places, shown, symmetry);
+        Some(BodyField { inputs: self.clone(), symmetry, points, solved, relaxed, anchors, singularities })
     }
 
     fn symmetry(&self, points: &[SamplePoint]) -> Symmetry {
@@ -224,7 +244,7 @@ impl FieldInputs {
             Seam::Soft(distance) => distance,
             Seam::Hard => 0.0,
         };
-        let widest = (0..self.rules.len()).map(reach_of).fold(0.0, f64::max);
+        let widest = self.used.iter().map(|&rule| reach_of(usize::from(rule))).fold(0.0, f64::max);
         let plain = |sample: &SamplePoint| if free[sample.point.rule] { 0.0 } else { 1.0 };
         if widest == 0.0 {
             return points.iter().map(plain).collect();
@@ -263,12 +283,12 @@ impl FieldInputs {
             let at = (sample.point.position, sample.point.normal);
             self.references.views(at, sample.point.rule, |_| None)
         };
-        for guide in self.guides.iter().filter(|guide| usize::from(guide.rule) == sample.point.rule) {
+        for guide in self.guides_of(sample.point.rule).filter(|guide| guide.mode == GuideMode::Comb) {
             let least = LEAST_REACH_SPACINGS * self.samples.spacing;
             let Some(found) = guide.guide.influence(sample.point.position, sample.point.normal, least) else {
                 continue;
             };
-            let tangent = self.combed(guide, found.along, sample.point, &views());
+            let tangent = self.combed(guide, found, sample.point, &views());
             let there = symmetry.encode(tangent, tangent_axes(sample.point.normal));
             let pull = FIRM * found.weight;
             target = (target * weight + there * pull).try_normalize().unwrap_or(there);
@@ -314,9 +334,15 @@ impl FieldInputs {
     }
 
     /// The tangent whose stroke shows along the gesture of a guide in the view that it was drawn in.
-    fn combed(&self, guide: &BodyGuide, along: DVec3, point: Point, views: &Views) -> DVec3 {
+    pub(crate) fn combed(&self, guide: &BodyGuide, found: Influence, point: Point, views: &Views) -> DVec3 {
         let Point { position, normal, rule, .. } = point;
-        let on_surface = (along - normal * normal.dot(along)).normalize_or(views.axes[0]);
+        let Influence { along, turn_rad, .. } = found;
+        // What shows turns with the tangent: one to one when flat, else at a slope that is measured.
+        let turned = |tangent: DVec3, angle_rad: f64| {
+            let (sin, cos) = angle_rad.sin_cos();
+            tangent * cos + normal.cross(tangent) * sin
+        };
+        let on_surface = turned((along - normal * normal.dot(along)).normalize_or(views.axes[0]), turn_rad);
         let map = match guide.view {
             None => self.references.of_rule(rule).map,
             Some([eye, target]) => {
@@ -333,7 +359,7 @@ impl FieldInputs {
         };
         let jacobian = map.jacobian(position);
         let in_front = map.depth(position) > 0.0 || self.orthographic;
-        let wanted = shown_rad(along, jacobian);
+        let wanted = shown_rad(along, jacobian) + turn_rad;
         // Hidden in its own view, a stroke follows the gesture as it lies on the surface.
         let trust = ((facing(jacobian, normal) - 0.02) / 0.15).clamp(0.0, 1.0);
         if !in_front || trust.is_nan() || trust <= 0.0 || !wanted.is_finite() {
@@ -341,11 +367,6 @@ impl FieldInputs {
         }
         let flatness = f64::from(self.rules[rule].strokes.flatness);
         let mut tangent = views.tangent_at(wanted, jacobian);
-        // What shows turns with the tangent: one to one when flat, else at a slope that is measured.
-        let turned = |tangent: DVec3, angle_rad: f64| {
-            let (sin, cos) = angle_rad.sin_cos();
-            tangent * cos + normal.cross(tangent) * sin
-        };
         let error = |tangent: DVec3| wrap_pi(wanted - views.lift(tangent).map(jacobian).shown_rad(flatness));
         for _ in 0..16 {
             let off = error(tangent);
@@ -365,23 +386,39 @@ impl FieldInputs {
         if mixed.dot(tangent) < 0.0 { -mixed } else { mixed }
     }
 
-    /// The direction of a particle after every guide that reaches it.
-    pub(crate) fn with_guides(&self, point: Point, views: &Views, tangent: DVec3) -> DVec3 {
+    /// The guides of a rule, in the order of the file.
+    pub(crate) fn guides_of(&self, rule: usize) -> impl Iterator<Item = &BodyGuide> {
+        self.guides.iter().filter(move |guide| usize::from(guide.rule) == rule)
+    }
+
+    /// The direction of a particle after every guide that reaches it; `relaxed` is what the field says after smoothing.
+    pub(crate) fn with_guides(
+        &self,
+        point: Point,
+        views: &Views,
+        tangent: DVec3,
+        relaxed: impl Fn() -> Option<DVec3>,
+    ) -> DVec3 {
         let symmetry = symmetry(&self.rules[point.rule]);
         let mut z = symmetry.encode(tangent, views.axes);
-        let mut combed = None;
-        for guide in self.guides.iter().filter(|guide| usize::from(guide.rule) == point.rule) {
-            if let Some(found) = guide.guide.influence(point.position, point.normal, 0.0) {
-                let along = self.combed(guide, found.along, point, views);
-                let there = symmetry.encode(along, views.axes);
-                z = (z * (1.0 - found.weight) + there * found.weight).try_normalize().unwrap_or(there);
-                combed = Some(along);
-            }
+        let mut last = None;
+        for guide in self.guides_of(point.rule) {
+            let Some(found) = guide.guide.influence(point.position, point.normal, 0.0) else { continue };
+            let (tangent, share) = match guide.mode {
+                GuideMode::Comb => (self.combed(guide, found, point, views), found.weight),
+                GuideMode::Smooth => match relaxed() {
+                    Some(relaxed) => (relaxed, smooth::share(found.weight)),
+                    None => continue,
+                },
+            };
+            let there = symmetry.encode(tangent, views.axes);
+            z = (z * (1.0 - share) + there * share).try_normalize().unwrap_or(there);
+            last = Some(tangent);
         }
-        let Some(along) = combed else { return tangent };
+        let Some(last) = last else { return tangent };
         let found = symmetry.decode(z, views.axes);
         // Of a line's two ends, the one that the last gesture points to.
-        if found.dot(along) < 0.0 && symmetry == Symmetry::Lines { -found } else { found }
+        if found.dot(last) < 0.0 && symmetry == Symmetry::Lines { -found } else { found }
     }
 }
 
@@ -393,21 +430,10 @@ impl BodyField {
         point: Point,
         base: &Base,
     ) -> DVec3 {
-        let (inputs, symmetry) = (&self.inputs, self.symmetry);
+        let symmetry = self.symmetry;
         let axes = tangent_axes(point.normal);
         let stated = symmetry.encode(base.tangent, axes);
-        let sample = |index: usize| {
-            let sample = &self.points[index];
-            inputs.joined(sample.point, point).then(|| Carried {
-                position: inputs.samples.positions[index],
-                normal: sample.point.normal,
-                solved: self.solved[index],
-                stated: sample.stated,
-                anchor: self.anchors[index],
-            })
-        };
-        let at = (point.position.as_vec3(), point.normal, stated);
-        let Some((found, anchor)) = stencils.carry(particle, at, symmetry, sample) else {
+        let Some((found, anchor)) = self.carried(&self.solved, (stencils, particle), point, stated) else {
             return base.tangent;
         };
         let hold = anchor * base.exact;
@@ -418,5 +444,38 @@ impl BodyField {
         let tangent = symmetry.decode(mixed, axes);
         let nearer = symmetry == Symmetry::Lines && tangent.dot(base.tangent) < 0.0;
         if nearer { -tangent } else { tangent }
+    }
+
+    /// The direction of a particle after the guides that smooth; `None` where there is none.
+    pub(crate) fn relaxed(&self, at: (&Stencils, usize), point: Point, base: &Base) -> Option<DVec3> {
+        let axes = tangent_axes(point.normal);
+        let stated = self.symmetry.encode(base.tangent, axes);
+        let (found, _) = self.carried(self.relaxed.as_ref()?, at, point, stated)?;
+        let tangent = self.symmetry.decode(found, axes);
+        let nearer = self.symmetry == Symmetry::Lines && tangent.dot(base.tangent) < 0.0;
+        Some(if nearer { -tangent } else { tangent })
+    }
+
+    /// What the samples round a particle say, and how far what is stated holds there.
+    fn carried(
+        &self,
+        solved: &[DVec2],
+        (stencils, particle): (&Stencils, usize),
+        point: Point,
+        stated: DVec2,
+    ) -> Option<(DVec2, f64)> {
+        let inputs = &self.inputs;
+        let sample = |index: usize| {
+            let sample = &self.points[index];
+            inputs.joined(sample.point, point).then(|| Carried {
+                position: inputs.samples.positions[index],
+                normal: sample.point.normal,
+                solved: solved[index],
+                stated: sample.stated,
+                anchor: self.anchors[index],
+            })
+        };
+        let at = (point.position.as_vec3(), point.normal, stated);
+        stencils.carry(particle, at, self.symmetry, sample)
     }
 }

@@ -42,14 +42,14 @@ impl FinishRule {
         Self { finish, anchor, reference: reference.clone() }
     }
 
-    /// The finish of a picture of the scene's own size in this view.
-    pub(crate) fn at(&self, view: &PictureView) -> Finish {
-        let canvas_from_px = self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view));
+    /// The finish of a picture in this view, in which the shot is this high.
+    pub(crate) fn at(&self, view: &PictureView, shot_height_px: f64) -> Finish {
+        let canvas_from_px = self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view, shot_height_px));
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
     }
 
     /// Slides, turns and scales with what the camera looked at in the reference pose; `None` when that is behind the eye.
-    fn canvas_from_px(&self, anchor: DVec3, view: &PictureView) -> Option<Affine2> {
+    fn canvas_from_px(&self, anchor: DVec3, view: &PictureView, shot_height_px: f64) -> Option<Affine2> {
         let (before, now) =
             (self.reference.screen_map(DAffine3::IDENTITY), view.screen_map(DAffine3::IDENTITY));
         let scale_of = |map: &impasto_core::ScreenMap| {
@@ -59,7 +59,7 @@ impl FinishRule {
         let (from, to) = (now.project(anchor), before.project(anchor));
         let scale = scale_of(&before) / scale_of(&now);
         let seen = now.depth(anchor) > view.near() && before.depth(anchor) > self.reference.near();
-        let size_px = f64::from(self.reference.size_px[1]) / f64::from(view.size_px[1]);
+        let size_px = f64::from(self.reference.size_px[1]) / shot_height_px;
         if !seen || !scale.is_finite() || scale <= 0.0 || !from.is_finite() || !to.is_finite() {
             return None;
         }
@@ -109,7 +109,7 @@ mod tests {
         // A point beside the anchor, in the plane that faces the reference camera.
         let beside = anchor + DVec3::new(0.05, 0.03, 0.0);
         for other in [view(DVec3::new(0.0, 0.0, 3.0), 0.0), view(DVec3::new(0.0, 0.0, 5.0), 0.4)] {
-            let map = rule.at(&other).canvas_from_px;
+            let map = rule.at(&other, 360.0).canvas_from_px;
             let before = reference.screen_map(DAffine3::IDENTITY);
             let now = other.screen_map(DAffine3::IDENTITY);
             for point in [anchor, beside] {
@@ -118,7 +118,7 @@ mod tests {
                 assert!(difference < 0.1, "{difference}");
             }
         }
-        let still = rule.at(&reference).canvas_from_px;
+        let still = rule.at(&reference, 360.0).canvas_from_px;
         assert!((still.transform_point2(Vec2::new(50.0, -20.0)) - Vec2::new(50.0, -20.0)).length() < 1e-3);
     }
 }

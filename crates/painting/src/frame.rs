@@ -42,6 +42,18 @@ pub struct Frame {
     pub finish: Finish,
     /// How to draw.
     pub style: FrameStyle,
+    /// How much care to take.
+    pub quality: Quality,
+}
+
+/// How much care a picture is drawn with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Quality {
+    /// As films are drawn: the same bits whatever was drawn before.
+    #[default]
+    Exact,
+    /// For a view that moves: the same strokes at the same places, looked at with fewer taps and laid as flat paint.
+    Draft,
 }
 
 /// The style, with what it needs.
@@ -104,6 +116,8 @@ pub struct PointLight {
 /// One object at one time.
 #[derive(Clone, Debug)]
 pub struct FrameBody {
+    /// Not drawn, and casts no shadow; it keeps its id.
+    pub hidden: bool,
     /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
     pub surface: Arc<BodySurface>,
     /// Pose: turned, moved, evenly scaled.

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3, Vec3};
 use impasto_core::ScreenMap;
 use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
+use rayon::prelude::*;
 
 /// Bounds of the number found.
 const LEAST: f64 = 64.0;
@@ -13,50 +14,124 @@ const MOST: f64 = 400_000.0;
 const FACES: usize = 20_000;
 
 /// A pose in which the object is seen, at the scene's own size.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sighting {
     pub(crate) map: ScreenMap,
     pub(crate) half_size_px: DVec2,
     pub(crate) near: f64,
 }
 
-/// The count at which nine tenths of the picture of this surface, in its nearest sighting, get all the strokes that they
-/// want. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
-pub(crate) fn find(
+/// A face as it is counted.
+struct CountedFace<const LAYERS: usize> {
+    center: DVec3,
+    normal: DVec3,
+    area: f64,
+    /// Strokes wanted per pixel, of each layer.
+    wanted_per_px: [f64; LAYERS],
+}
+
+/// For each layer, the count at which nine tenths of the picture of this surface, in its nearest sighting, get all the strokes
+/// that they want. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
+pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
-    wanted_per_px: impl Fn(usize) -> f32,
-) -> usize {
-    let faces: Vec<(u32, bool, f64)> = surface.faces().collect();
-    let stride = faces.len().div_ceil(FACES).max(1);
-    let mut needed_per_area = 0.0f64;
-    for sighting in sightings {
-        let mut seen: Vec<(f64, f64)> = Vec::new();
-        for &(triangle, flipped, area) in faces.iter().step_by(stride) {
+    wanted_per_px: impl Fn(usize) -> [f32; LAYERS],
+) -> [usize; LAYERS] {
+    let stride = surface.faces().count().div_ceil(FACES).max(1);
+    let faces: Vec<CountedFace<LAYERS>> = surface
+        .faces()
+        .step_by(stride)
+        .map(|(triangle, flipped, area)| {
             let [a, b, c] = surface.mesh().corners(triangle as usize).map(Vec3::as_dvec3);
             let across = (b - a).cross(c - a).normalize_or_zero();
-            let normal: DVec3 = if flipped { -across } else { across };
-            let center = (a + b + c) / 3.0;
-            let inside = sighting.map.project(center).abs().cmplt(sighting.half_size_px * 1.1).all();
-            if sighting.map.depth(center) <= sighting.near || !inside {
-                continue;
+            CountedFace {
+                center: (a + b + c) / 3.0,
+                normal: if flipped { -across } else { across },
+                area,
+                wanted_per_px: wanted_per_px(triangle as usize).map(f64::from),
             }
-            let jacobian = sighting.map.jacobian(center);
-            let px_per_area = area_px(jacobian, normal);
-            if px_per_area.is_finite() && facing(jacobian, normal) > 0.0 {
-                seen.push((px_per_area * f64::from(wanted_per_px(triangle as usize)), px_per_area * area));
+        })
+        .collect();
+    let most = |a: [f64; LAYERS], b: [f64; LAYERS]| std::array::from_fn(|layer| a[layer].max(b[layer]));
+    let needed_per_area =
+        sightings.par_iter().map(|sighting| needed_per_area(&faces, sighting)).reduce(|| [0.0; LAYERS], most);
+    // A quarter more than a full supply, since the last ranks are still fading in at one.
+    needed_per_area.map(|needed| (needed * surface.area() * 1.25).clamp(LEAST, MOST).ceil() as usize)
+}
+
+/// Particles needed per unit of surface in one sighting, of each layer.
+fn needed_per_area<const LAYERS: usize>(faces: &[CountedFace<LAYERS>], sighting: &Sighting) -> [f64; LAYERS] {
+    let seen: Vec<(&CountedFace<LAYERS>, f64)> = faces
+        .iter()
+        .filter_map(|face| {
+            let inside = sighting.map.project(face.center).abs().cmplt(sighting.half_size_px * 1.1).all();
+            if sighting.map.depth(face.center) <= sighting.near || !inside {
+                return None;
             }
-        }
-        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let total: f64 = seen.iter().map(|&(_, shown)| shown).sum();
-        let mut sum = 0.0;
-        for (needed, shown) in seen {
-            sum += shown;
-            if sum >= 0.9 * total {
-                needed_per_area = needed_per_area.max(needed);
-                break;
+            let jacobian = sighting.map.jacobian(face.center);
+            let px_per_area = area_px(jacobian, face.normal);
+            let faces_the_eye = px_per_area.is_finite() && facing(jacobian, face.normal) > 0.0;
+            faces_the_eye.then_some((face, px_per_area))
+        })
+        .collect();
+    let mut needed: Vec<(f64, f64)> = Vec::with_capacity(seen.len());
+    std::array::from_fn(|layer| {
+        needed.clear();
+        needed.extend(
+            seen.iter().map(|(face, px_per_area)| {
+                (px_per_area * face.wanted_per_px[layer], px_per_area * face.area)
+            }),
+        );
+        let total: f64 = needed.iter().map(|&(_, shown)| shown).sum();
+        reached(&mut needed, 0.9 * total).unwrap_or(0.0)
+    })
+}
+
+/// Of values with weights, the least at which the weights up to it add up to `target`.
+fn reached(mut values: &mut [(f64, f64)], target: f64) -> Option<f64> {
+    const FEW: usize = 32;
+    let order = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0);
+    let mut sum = 0.0;
+    while values.len() > FEW {
+        let middle = values.len() / 2;
+        values.select_nth_unstable_by(middle, order);
+        let (lower, upper) = values.split_at_mut(middle + 1);
+        let weight: f64 = lower.iter().map(|&(_, weight)| weight).sum();
+        values = if sum + weight >= target {
+            lower
+        } else {
+            sum += weight;
+            upper
+        };
+    }
+    values.sort_unstable_by(order);
+    values.iter().find_map(|&(value, weight)| {
+        sum += weight;
+        (sum >= target).then_some(value)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impasto_core::hash;
+
+    #[test]
+    fn a_value_is_reached_as_in_a_sorted_list() {
+        for count in [0u32, 1, 31, 33, 500] {
+            let random = |index: u32, which: u32| f64::from(hash::unit(hash::combine(index, which)));
+            let mut values: Vec<(f64, f64)> = (0..count).map(|i| (random(i, 1), random(i, 2))).collect();
+            let mut sorted = values.clone();
+            sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let total: f64 = sorted.iter().map(|&(_, weight)| weight).sum();
+            for share in [0.05, 0.5, 0.9] {
+                let mut sum = 0.0;
+                let expected = sorted.iter().find_map(|&(value, weight)| {
+                    sum += weight;
+                    (sum >= share * total).then_some(value)
+                });
+                assert_eq!(reached(&mut values, share * total), expected, "{count} {share}");
             }
         }
     }
-    // A quarter more than a full supply, since the last ranks are still fading in at one.
-    (needed_per_area * surface.area() * 1.25).clamp(LEAST, MOST).ceil() as usize
 }

@@ -19,6 +19,7 @@ use crate::field::BodyField;
 use crate::finish::FinishRule;
 use crate::frame::{BodySurface, Brushes, FrameStyle};
 use crate::lights;
+use crate::order::{OrderEntry, OrderInputs};
 use crate::parts::Cap;
 use crate::references::{BodyReferences, ReferencePose, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
@@ -78,21 +79,20 @@ pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
     /// The largest strokes that each part carries.
     pub(crate) caps: Vec<Cap>,
+    /// Left out of the picture.
+    pub(crate) hidden: bool,
     /// Where directions were combed, their field.
     pub(crate) field: Option<Arc<BodyField>>,
-}
-
-/// A particle's place in the painting order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct OrderEntry {
-    pub(crate) coat: u32,
-    pub(crate) particle: u32,
+    /// Which region lies where.
+    pub(crate) regions: Arc<BodyRegions>,
 }
 
 /// Prepares scenes and keeps what can be kept from one to the next.
 #[derive(Default)]
 pub struct Preparer {
     kept: HashMap<String, KeptObject>,
+    order: Option<(OrderInputs, Arc<Vec<OrderEntry>>)>,
+    brushes: Option<Arc<Brushes>>,
 }
 
 /// Prepares one scene; for many versions of one, keep a [`Preparer`].
@@ -135,7 +135,7 @@ impl Preparer {
             Style::Reference => FrameStyle::Reference,
         };
         let rules = Arc::new(regions::rules(scene));
-        let brushes = Arc::new(brushes::of_rules(&loaded, &rules));
+        let brushes = self.brushes(&loaded, &rules);
         clock.lap("brushes");
         let references = Arc::new(scene_references(scene));
         let reference_morphs =
@@ -162,10 +162,13 @@ impl Preparer {
         let mut bodies: Vec<PreparedBody> = kept
             .iter()
             .zip(&of_body)
-            .map(|(kept, references)| PreparedBody {
+            .zip(&scene.objects)
+            .map(|((kept, references), object)| PreparedBody {
+                hidden: object.hidden,
                 surface: kept.surface(),
                 caps: kept.parts().caps(&references.own().map),
                 field: None,
+                regions: Arc::default(),
             })
             .collect();
         let regions: Vec<Arc<BodyRegions>> = inputs
@@ -175,13 +178,18 @@ impl Preparer {
                 Arc::new(BodyRegions::new(scene, &inputs.name, inputs.file(), &body.surface.mesh))
             })
             .collect();
+        for (body, regions) in bodies.iter_mut().zip(&regions) {
+            body.regions = Arc::clone(regions);
+        }
         let guides: Vec<Arc<Vec<BodyGuide>>> =
             inputs.iter().map(|inputs| Arc::new(regions::guides(scene, &inputs.name))).collect();
+        let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
         let objects: Vec<ObjectInputs<'_>> = (0..kept.len())
             .map(|index| ObjectInputs {
                 index,
                 surface: &inputs[index],
                 regions: &regions[index],
+                used: &used[index],
                 guides: &guides[index],
                 references: &of_body[index],
                 caps: &bodies[index].caps,
@@ -204,11 +212,11 @@ impl Preparer {
             body.field = kept.field();
         }
         clock.lap("lift");
-        let order = Arc::new(painting_order(&coats, &rules));
+        let order = self.order(&coats, &rules);
         clock.lap("order");
+        let bounds: Vec<_> = kept.iter().map(KeptObject::bounds).collect();
         self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
 
-        let bounds: Vec<_> = bodies.iter().map(|body| body.surface.bounds()).collect();
         let shadow_bounds = lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice()));
         clock.lap("bounds");
         let (palettes, palette_of_rule) = regions::palettes(&rules);
@@ -232,6 +240,24 @@ impl Preparer {
     }
 }
 
+impl Preparer {
+    fn order(&mut self, coats: &[Arc<Coat>], rules: &[RegionRule]) -> Arc<Vec<OrderEntry>> {
+        let inputs = OrderInputs::new(coats, rules);
+        let kept = self.order.take().filter(|(before, _)| *before == inputs);
+        let order = kept.map_or_else(|| Arc::new(inputs.order()), |(_, order)| order);
+        self.order = Some((inputs, Arc::clone(&order)));
+        order
+    }
+
+    /// The marks of the brushes; the very ones of the scene before where they are the same, so that a renderer need not look.
+    fn brushes(&mut self, loaded: &LoadedScene, rules: &[RegionRule]) -> Arc<Brushes> {
+        let now = brushes::of_rules(loaded, rules);
+        let brushes = self.brushes.take().filter(|before| **before == now).unwrap_or_else(|| Arc::new(now));
+        self.brushes = Some(Arc::clone(&brushes));
+        brushes
+    }
+}
+
 impl Painting {
     /// The scene that was prepared.
     pub fn scene(&self) -> &Scene {
@@ -241,6 +267,11 @@ impl Painting {
     /// The scene with its files.
     pub fn loaded(&self) -> &Arc<LoadedScene> {
         &self.loaded
+    }
+
+    /// The same painting, drawn in another style.
+    pub fn in_style(&self, style: FrameStyle) -> Self {
+        Self { style, ..self.clone() }
     }
 
     /// How long each step of preparing took.
@@ -271,6 +302,11 @@ impl Painting {
     /// The surface of one object.
     pub fn surface(&self, object: usize) -> &Arc<BodySurface> {
         &self.bodies[object].surface
+    }
+
+    /// Index of the region that a place of an object's surface belongs to: `regions.len()` of the scene for none of them.
+    pub fn region_at(&self, object: usize, place: &Particle) -> usize {
+        usize::from(self.bodies[object].regions.of(place))
     }
 
     /// Area of the visible sides of one object, model units squared.
@@ -346,32 +382,6 @@ fn views_in_advance(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
     let reference = (PictureView { pose: camera, size_px }, motion::poses_at(scene, frame));
     let along = frames.iter().map(|frame| (view(frame), motion::poses_at(scene, *frame)));
     std::iter::once(reference).chain(along).collect()
-}
-
-/// The regions' layers, the layers of paint, then rank from high to low; equal ranks of two objects by name.
-fn painting_order(coats: &[Arc<Coat>], rules: &[RegionRule]) -> Vec<OrderEntry> {
-    let layers: Vec<i32> = rules.iter().map(|rule| rule.strokes.layer).collect();
-    let mut order: Vec<OrderEntry> = coats
-        .iter()
-        .enumerate()
-        .flat_map(|(coat, prepared)| {
-            (0..prepared.sampled.particles.len() as u32)
-                .map(move |particle| OrderEntry { coat: coat as u32, particle })
-        })
-        .collect();
-    let key = |entry: &OrderEntry| {
-        let coat = &coats[entry.coat as usize];
-        let layer = layers[coat.baked.region[entry.particle as usize] as usize];
-        // Twice the order plus one over the count is the rank, compared without rounding.
-        let rank = (u64::from(entry.particle) * 2 + 1) as f64 / coat.sampled.particles.len() as f64;
-        (layer, coat.kind, std::cmp::Reverse(rank.to_bits()), coat.inputs.name_hash, entry.particle)
-    };
-    if coats.len() == 1 && layers.windows(2).all(|pair| pair[0] == pair[1]) {
-        order.reverse();
-    } else {
-        order.par_sort_by_cached_key(key);
-    }
-    order
 }
 
 /// Notes how long each step takes.

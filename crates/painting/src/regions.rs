@@ -4,9 +4,12 @@ use std::collections::HashMap;
 
 use glam::{DVec3, IVec3, Vec3};
 use impasto_core::TriangleMesh;
-use impasto_core::direction::guide::{Falloff as GuideFalloff, Guide as SurfaceGuide};
+use impasto_core::direction::guide::{Falloff as GuideFalloff, Guide as SurfaceGuide, GuidePoint};
+use impasto_core::flood::flooded;
 use impasto_core::sampling::Particle;
-use impasto_scene::document::{Dab, Direction, Falloff, Guide, Scene, Seam, Selector, Sense};
+use impasto_scene::document::{
+    Dab, Direction, Falloff, Guide, GuideMode, PatchRef, Scene, Seam, Selector, Sense,
+};
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::presets::{self, ResolvedStrokes};
 
@@ -20,6 +23,8 @@ const DAB_FACING: f32 = 0.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RegionRule {
     pub(crate) direction: Direction,
+    /// What is added to all its directions, radians counter-clockwise as seen in the reference.
+    pub(crate) turn_rad: f64,
     pub(crate) seam: Seam,
     pub(crate) sense: Sense,
     pub(crate) strokes: ResolvedStrokes,
@@ -29,6 +34,7 @@ pub(crate) struct RegionRule {
 pub(crate) fn rules(scene: &Scene) -> Vec<RegionRule> {
     let everything_else = RegionRule {
         direction: Direction::default(),
+        turn_rad: 0.0,
         seam: Seam::default(),
         sense: Sense::default(),
         strokes: presets::resolve(scene, None),
@@ -36,6 +42,7 @@ pub(crate) fn rules(scene: &Scene) -> Vec<RegionRule> {
     (0..scene.regions.len())
         .map(|index| RegionRule {
             direction: scene.regions[index].direction.clone(),
+            turn_rad: scene.regions[index].turn_deg.to_radians(),
             seam: scene.regions[index].seam,
             sense: scene.regions[index].sense,
             strokes: presets::resolve(scene, Some(index)),
@@ -48,6 +55,7 @@ pub(crate) fn rules(scene: &Scene) -> Vec<RegionRule> {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BodyGuide {
     pub(crate) rule: u16,
+    pub(crate) mode: GuideMode,
     pub(crate) guide: SurfaceGuide,
     pub(crate) view: Option<[DVec3; 2]>,
 }
@@ -56,10 +64,13 @@ pub(crate) struct BodyGuide {
 pub(crate) fn guides(scene: &Scene, object: &str) -> Vec<BodyGuide> {
     let mut guides = Vec::new();
     for (rule, region) in scene.regions.iter().enumerate() {
-        for guide in &region.guides {
+        // One that smooths nothing would still have the body's field solved.
+        let is_idle = |guide: &&Guide| guide.mode == GuideMode::Smooth && guide.strength <= 0.0;
+        for guide in region.guides.iter().filter(|guide| !is_idle(guide)) {
             if guide.object.as_deref().or(region.on.object()) == Some(object) {
                 guides.extend(surface_guide(guide).map(|surface| BodyGuide {
                     rule: rule as u16,
+                    mode: guide.mode,
                     guide: surface,
                     view: guide.view.as_ref().map(|view| [view.eye, view.target].map(DVec3::from)),
                 }));
@@ -75,7 +86,11 @@ fn surface_guide(guide: &Guide) -> Option<SurfaceGuide> {
         Falloff::Linear => GuideFalloff::Linear,
         Falloff::Flat => GuideFalloff::Flat,
     };
-    let points = guide.points.iter().map(|point| (DVec3::from(point.at), DVec3::from(point.normal)));
+    let points = guide.points.iter().map(|point| GuidePoint {
+        position: DVec3::from(point.at),
+        normal: DVec3::from(point.normal),
+        turn_rad: point.turn_deg.to_radians(),
+    });
     SurfaceGuide::new(points, guide.radius, guide.strength, falloff)
 }
 
@@ -106,18 +121,30 @@ pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
 pub(crate) struct BodyRegions {
     /// For each triangle, the last region that covers it whole; the implicit one where none does.
     of_triangle: Vec<u16>,
-    /// Regions made of dabs, in the order of the file.
+    /// Regions that dabs belong to, in the order of the file.
     dabbed: Vec<Dabbed>,
     implicit: u16,
 }
 
-/// A region made of dabs, sorted into cells as wide as the largest dab.
+/// A region that dabs belong to, sorted into cells as wide as the largest dab.
 #[derive(Clone, Debug, PartialEq)]
 struct Dabbed {
     rule: u16,
     cell: f32,
-    dabs: Vec<(Vec3, Vec3, f32)>,
+    dabs: Vec<PlacedDab>,
     in_cell: HashMap<IVec3, Vec<u32>>,
+    /// For each triangle, how many dabs come before the last patch that covers it whole, plus one; 0 where none does. Empty
+    /// where all patches are dabs.
+    whole: Vec<u32>,
+}
+
+/// A dab; the later one of two that touch a point decides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PlacedDab {
+    at: Vec3,
+    facing: Vec3,
+    radius: f32,
+    take_away: bool,
 }
 
 impl BodyRegions {
@@ -127,25 +154,18 @@ impl BodyRegions {
         let mut regions =
             Self { of_triangle: vec![implicit; mesh.triangles.len()], dabbed: Vec::new(), implicit };
         for (index, region) in scene.regions.iter().enumerate() {
+            if region.on != Selector::Everything && region.on.object() != Some(object) {
+                continue;
+            }
             let index = index as u16;
-            let of_triangle = &mut regions.of_triangle;
-            match &region.on {
-                Selector::Everything => of_triangle.fill(index),
-                Selector::Object(name) if name == object => of_triangle.fill(index),
-                Selector::Group(name, group) if name == object => {
-                    assign(of_triangle, &mesh.group_of_triangle, index, |g| {
-                        file.groups[g as usize] == *group
-                    });
-                }
-                Selector::Material(name, material) if name == object => {
-                    assign(of_triangle, &mesh.material_of_triangle, index, |m| {
-                        file.materials[m as usize].name == *material
-                    });
-                }
-                Selector::Dabs(name, dabs) if name == object && !dabs.is_empty() => {
-                    regions.dabbed.push(Dabbed::new(index, dabs));
-                }
-                Selector::Object(_) | Selector::Group(..) | Selector::Material(..) | Selector::Dabs(..) => {}
+            let patches = region.on.patches();
+            let dabs = patches.iter().any(|patch| matches!(patch, PatchRef::Dabs(dabs) if !dabs.is_empty()));
+            if dabs {
+                regions.dabbed.push(Dabbed::new(index, &patches, (file, mesh)));
+                continue;
+            }
+            for patch in patches {
+                cover(&mut regions.of_triangle, (file, mesh), patch, index);
             }
         }
         regions
@@ -155,10 +175,8 @@ impl BodyRegions {
     pub(crate) fn of(&self, particle: &Particle) -> u16 {
         let whole = self.of_triangle[particle.triangle as usize];
         let later = |dabbed: &&Dabbed| whole == self.implicit || dabbed.rule > whole;
-        let mut touching = self.dabbed.iter().rev().filter(later);
-        touching
-            .find(|dabbed| dabbed.touches(particle.position, particle.normal))
-            .map_or(whole, |dabbed| dabbed.rule)
+        let mut covering = self.dabbed.iter().rev().filter(later);
+        covering.find(|dabbed| dabbed.covers(particle)).map_or(whole, |dabbed| dabbed.rule)
     }
 
     /// The regions that may show on a triangle, without order.
@@ -166,7 +184,9 @@ impl BodyRegions {
         let [a, b, c] = mesh.corners(triangle);
         let center = (a + b + c) / 3.0;
         let reach = [a, b, c].iter().map(|corner| corner.distance(center)).fold(0.0, f32::max);
-        let touching = self.dabbed.iter().filter(move |dabbed| dabbed.may_touch(center, reach));
+        let touching = self.dabbed.iter().filter(move |dabbed| {
+            dabbed.whole.get(triangle).is_some_and(|&rank| rank > 0) || dabbed.may_touch(center, reach)
+        });
         [self.of_triangle[triangle]].into_iter().chain(touching.map(|dabbed| dabbed.rule))
     }
 
@@ -180,36 +200,81 @@ impl BodyRegions {
     }
 }
 
-impl Dabbed {
-    fn new(rule: u16, dabs: &[Dab]) -> Self {
-        let dabs: Vec<(Vec3, Vec3, f32)> = dabs
-            .iter()
-            .map(|dab| {
-                let [at, normal] = [dab.at, dab.normal].map(|v| DVec3::from(v).as_vec3());
-                (at, normal.normalize_or(Vec3::Y), dab.radius as f32)
-            })
-            .collect();
-        let cell = dabs.iter().map(|&(.., radius)| radius).fold(f32::MIN_POSITIVE, f32::max);
-        let mut in_cell: HashMap<IVec3, Vec<u32>> = HashMap::new();
-        for (index, &(at, ..)) in dabs.iter().enumerate() {
-            in_cell.entry((at / cell).floor().as_ivec3()).or_default().push(index as u32);
+/// Writes `value` for each triangle that a patch covers whole; dabs cover none.
+fn cover<T: Copy>(
+    of_triangle: &mut [T],
+    (file, mesh): (&MeshFile, &TriangleMesh),
+    patch: PatchRef<'_>,
+    value: T,
+) {
+    let mut assign = |names: &[u32], name: Option<usize>| {
+        for (slot, _) in of_triangle.iter_mut().zip(names).filter(|(_, own)| Some(**own as usize) == name) {
+            *slot = value;
         }
-        Self { rule, cell, dabs, in_cell }
+    };
+    match patch {
+        PatchRef::Whole => of_triangle.fill(value),
+        PatchRef::Group(group) => {
+            assign(&mesh.group_of_triangle, file.groups.iter().position(|known| known == group));
+        }
+        PatchRef::Material(material) => {
+            let known = file.materials.iter().position(|known| known.name == material);
+            assign(&mesh.material_of_triangle, known);
+        }
+        PatchRef::Flood(seed, sharp_deg) => {
+            let [at, normal] = [seed.at, seed.normal].map(DVec3::from);
+            let reached = flooded(mesh, at, normal, sharp_deg.to_radians());
+            for (slot, _) in of_triangle.iter_mut().zip(reached).filter(|(_, reached)| *reached) {
+                *slot = value;
+            }
+        }
+        PatchRef::Dabs(_) => {}
+    }
+}
+
+impl Dabbed {
+    fn new(rule: u16, patches: &[PatchRef<'_>], meshes: (&MeshFile, &TriangleMesh)) -> Self {
+        let mut dabs = Vec::new();
+        let mut whole = Vec::new();
+        for &patch in patches {
+            match patch {
+                PatchRef::Dabs(own) => dabs.extend(own.iter().map(PlacedDab::of)),
+                _ => {
+                    whole.resize(meshes.1.triangles.len(), 0);
+                    cover(&mut whole, meshes, patch, dabs.len() as u32 + 1);
+                }
+            }
+        }
+        let cell = dabs.iter().map(|dab| dab.radius).fold(f32::MIN_POSITIVE, f32::max);
+        let mut in_cell: HashMap<IVec3, Vec<u32>> = HashMap::new();
+        for (index, dab) in dabs.iter().enumerate() {
+            in_cell.entry((dab.at / cell).floor().as_ivec3()).or_default().push(index as u32);
+        }
+        Self { rule, cell, dabs, in_cell, whole }
     }
 
-    fn touches(&self, at: Vec3, normal: Vec3) -> bool {
-        self.near(at, 1)
-            .any(|&(center, facing, radius)| center.distance(at) <= radius && facing.dot(normal) > DAB_FACING)
+    /// What the last patch or dab that reaches the particle says.
+    fn covers(&self, particle: &Particle) -> bool {
+        let whole = self.whole.get(particle.triangle as usize).copied().unwrap_or(0);
+        let touching = self.near(particle.position, 1).filter(|&dab| {
+            // The dabs before the patch that covers the triangle have no say.
+            dab + 1 >= whole && self.dabs[dab as usize].touches(particle.position, particle.normal)
+        });
+        touching.max().map_or(whole > 0, |last| !self.dabs[last as usize].take_away)
     }
 
     /// Whether any dab may reach a ball.
     fn may_touch(&self, center: Vec3, reach: f32) -> bool {
-        let reaches = |&(at, _, radius): &(Vec3, Vec3, f32)| at.distance(center) <= radius + reach;
-        if reach <= self.cell { self.near(center, 2).any(reaches) } else { self.dabs.iter().any(reaches) }
+        let reaches = |dab: &PlacedDab| !dab.take_away && dab.at.distance(center) <= dab.radius + reach;
+        if reach <= self.cell {
+            self.near(center, 2).any(|dab| reaches(&self.dabs[dab as usize]))
+        } else {
+            self.dabs.iter().any(reaches)
+        }
     }
 
     /// The dabs in the cells that are at most so many away.
-    fn near(&self, at: Vec3, cells: i32) -> impl Iterator<Item = &(Vec3, Vec3, f32)> {
+    fn near(&self, at: Vec3, cells: i32) -> impl Iterator<Item = u32> + '_ {
         let home = (at / self.cell).floor().as_ivec3();
         let span = -cells..=cells;
         span.clone()
@@ -217,14 +282,18 @@ impl Dabbed {
             .flat_map(move |(x, y)| (-cells..=cells).map(move |z| IVec3::new(x, y, z)))
             .filter_map(move |offset| self.in_cell.get(&home.saturating_add(offset)))
             .flatten()
-            .map(|&dab| &self.dabs[dab as usize])
+            .copied()
     }
 }
 
-fn assign(of_triangle: &mut [u16], names: &[u32], region: u16, chosen: impl Fn(u32) -> bool) {
-    for (slot, &name) in of_triangle.iter_mut().zip(names) {
-        if chosen(name) {
-            *slot = region;
-        }
+impl PlacedDab {
+    fn of(dab: &Dab) -> Self {
+        let [at, normal] = [dab.at, dab.normal].map(|v| DVec3::from(v).as_vec3());
+        let (facing, radius) = (normal.normalize_or(Vec3::Y), dab.radius as f32);
+        Self { at, facing, radius, take_away: dab.take_away }
+    }
+
+    fn touches(&self, at: Vec3, normal: Vec3) -> bool {
+        self.at.distance(at) <= self.radius && self.facing.dot(normal) > DAB_FACING
     }
 }

@@ -116,12 +116,4 @@ impl Stated<'_> {
         };
         axis.normalize_or_zero().dot(point.normal).abs() > COSINE
     }
-
-    /// What the second of two crossing families adds, radians; `None` where there is one family.
-    pub(crate) fn second_family_rad(&self, point: Point) -> Option<f64> {
-        match *self.direction(point) {
-            Direction::Crossing(first, second) => Some((second - first).to_radians()),
-            _ => None,
-        }
-    }
 }

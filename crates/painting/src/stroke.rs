@@ -10,13 +10,13 @@ use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
 
 use crate::at::{Look, Rotation, SeenCoat, StrokeColors};
-use crate::bake::{
+use crate::brushes;
+use crate::counts::most_wanted;
+use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
+use crate::order::OrderEntry;
+use crate::seats::{
     BEND, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
-use crate::brushes;
-use crate::coat::most_wanted;
-use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
-use crate::prepare::OrderEntry;
 
 /// Deviations of length and width beside that of the whole size, as shares of it.
 const LENGTH_SHARE: f32 = 1.1;
@@ -52,10 +52,10 @@ impl Look<'_> {
         if layer.coverage <= 0.0 {
             return None;
         }
-        let cap = self.painting.bodies[coat.object].caps[coat.baked.part[index] as usize];
+        let cap = self.painting.bodies[coat.object].caps[coat.seats.part[index] as usize];
         let grown = seen.growth(index, self.painting, self.px_scale);
         let size_px = cap.apply(layer.length_px, layer.width_px).map(|side| side * grown);
-        let drift = coat.baked.drift[index];
+        let drift = coat.seats.drift[index];
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&seen.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
@@ -109,7 +109,7 @@ impl Look<'_> {
         {
             return None;
         }
-        let bits = coat.baked.bits[index];
+        let bits = coat.seats.bits[index];
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
             center_px: [solved.x_px[index] + self.half_px[0], solved.y_px[index] + self.half_px[1]],
@@ -219,7 +219,7 @@ fn mixing(strokes: &ResolvedStrokes, palette: u8) -> Mixing {
 
 /// Turns a stroke near the limb to lie along its body's contour, by the share `contour`; of two directions of the contour,
 /// towards the nearer.
-fn along_contour(
+pub(crate) fn along_contour(
     angle_rad: f32,
     contour: f32,
     normal: DVec3,

@@ -154,13 +154,15 @@ impl BodySurface {
         )
     }
 
-    /// Particles of the mesh where they are at a share of the morph; the same ones where it has none.
-    pub(crate) fn posed(&self, particles: &Arc<Vec<Particle>>, morph: f64) -> Arc<Vec<Particle>> {
-        if self.morph.is_none() || morph == 0.0 {
-            return Arc::clone(particles);
-        }
+    /// Whether the surface is as its mesh has it at a share of the morph.
+    pub(crate) fn is_at_rest(&self, morph: f64) -> bool {
+        self.morph.is_none() || morph == 0.0
+    }
+
+    /// Particles of the mesh where they are at a share of the morph.
+    pub(crate) fn posed(&self, particles: &[Particle], morph: f64) -> Vec<Particle> {
         let (positions, normals) = self.vertices_at(morph);
-        Arc::new(particles.iter().map(|particle| particle.on(&self.mesh, &positions, &normals)).collect())
+        particles.iter().map(|particle| particle.on(&self.mesh, &positions, &normals)).collect()
     }
 
     /// Least and greatest corner of the box round the surface, whatever its morph.

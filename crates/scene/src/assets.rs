@@ -99,6 +99,7 @@ impl AssetError {
             severity,
             path: path.to_owned(),
             place,
+            field_path: String::new(),
             message: self.to_string(),
             mend: self.mend().to_owned(),
         }

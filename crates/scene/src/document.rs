@@ -10,7 +10,8 @@ pub use paint::{
     BrushMix, Canvas, CanvasFollows, Edges, LayerSettings, RotatingStrokes, Solver, StrokeSettings, Style,
 };
 pub use regions::{
-    Bend, Dab, Direction, Falloff, Guide, GuidePoint, GuideView, Region, Seam, Selector, Sense,
+    Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, PatchRef, Region, Seam,
+    Seed, Selector, Sense,
 };
 
 /// A whole scene file.
@@ -278,6 +279,12 @@ pub struct Object {
     /// Poses, frames strictly increasing; none means the identity.
     #[serde(default)]
     pub keys: Vec<ObjectKey>,
+    /// Left out of the picture: no body, no shadow, no strokes. Its children stay.
+    #[serde(default)]
+    pub hidden: bool,
+    /// An editor does not change it; nothing else takes notice.
+    #[serde(default)]
+    pub locked: bool,
 }
 
 /// Static scale: in the file one number, or `(x, y, z)`.
@@ -322,6 +329,25 @@ pub struct ObjectKey {
 }
 
 impl Object {
+    /// The whole of a mesh as it stands in its file, at rest.
+    pub fn new(name: impl Into<String>, mesh: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            mesh: mesh.into(),
+            group: None,
+            parent: None,
+            particles: None,
+            scale: Scale::default(),
+            up: Up::default(),
+            morph: None,
+            material: None,
+            hold: one_frame(),
+            keys: Vec::new(),
+            hidden: false,
+            locked: false,
+        }
+    }
+
     /// From the mesh file's coordinates to the object's own space: Z up turned into Y up, and the static scale.
     pub fn model_from_file(&self) -> glam::DMat3 {
         let turn = match self.up {

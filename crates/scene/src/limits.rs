@@ -96,5 +96,11 @@ pub const MAX_GUIDE_POINTS: usize = 65_536;
 /// Dabs of a scene.
 pub const MAX_DABS: usize = 65_536;
 
+/// Floods of a scene.
+pub const MAX_FLOODS: usize = 256;
+
+/// Patches that all regions of a scene cover.
+pub const MAX_PATCHES: usize = 16_384;
+
 /// Scale of a key.
 pub const KEY_SCALE: std::ops::RangeInclusive<f64> = 1e-3..=1e3;

@@ -1,6 +1,7 @@
 //! Reading a scene with everything that it names.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::assets::{AssetFolders, AssetRequest};
 use crate::check::{self, Finding};
@@ -12,12 +13,13 @@ use crate::locate::Located;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::problem::{Problem, Report, Severity};
 
+mod edited;
 mod files;
 mod overrides;
 mod parse;
 mod source;
 
-use files::{Files, MeshRead, Readers, TextureRead, retold};
+use files::{Files, Readers, retold};
 use overrides::Applied;
 use parse::Parsed;
 use source::error_in;
@@ -56,7 +58,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ron") => load_scene(path, options),
-        Some("obj") => load_mesh(path, options),
+        Some("obj") => load_alone(path, options),
         _ => {
             let mend = "name a scene file (.ron) or a mesh (.obj)";
             Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
@@ -76,6 +78,15 @@ pub fn load_brush(path: &Path) -> Result<Texture, Report> {
         .map_err(|problem| Report(vec![problem]))
 }
 
+/// Reads a mesh (`.obj`) with its materials and their pictures, to be added to a scene.
+///
+/// # Errors
+/// Where the file cannot be used; all its problems, warnings included.
+pub fn load_mesh(path: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
+    source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
+    crate::obj::read(path, folder_of(path), folders)
+}
+
 fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     let alone = |problem| Report(vec![problem]);
     let bytes = source::read(path).map_err(alone)?;
@@ -86,9 +97,8 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
 
 /// The made scene goes through its text, so that `--set` finds what it would find in the file that `impasto new`
 /// writes, and so that both are painted alike.
-fn load_mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
-    source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
-    let (mesh, warnings) = crate::obj::read(path, folder_of(path), &options.folders)?;
+fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
+    let (mesh, warnings) = load_mesh(path, &options.folders)?;
     let scene = crate::new_scene::for_mesh(path, &mesh);
     let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
     finish(path, parsed, options, Some((mesh, warnings)))
@@ -103,7 +113,7 @@ fn finish(
 ) -> Result<LoadedScene, Report> {
     let written = known_mesh.is_none().then(|| parsed.located.clone());
     let (Parsed { scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
-    let told = Told { path, written: written.as_ref(), applied: &applied };
+    let told = Told { path, written: written.as_ref(), applied: &applied, edited: None };
     let mut problems: Vec<Problem> =
         check::check(&scene).into_iter().map(|finding| told.problem(finding)).collect();
     let known_name =
@@ -112,13 +122,14 @@ fn finish(
     let readers = Readers {
         mesh: &|name| {
             let is_known = known_name.as_deref() == Some(name);
-            match known_mesh.borrow_mut().take_if(|_| is_known) {
+            let read = match known_mesh.borrow_mut().take_if(|_| is_known) {
                 Some(mesh) => Ok(mesh),
                 None => read_mesh(path, name, &options.folders),
-            }
+            };
+            read.map(shared)
         },
-        texture: &|name| read_texture(path, name, &options.folders),
-        brush: &|name| read_brush(path, name, &options.folders),
+        texture: &|name| read_texture(path, name, &options.folders).map(shared),
+        brush: &|name| read_brush(path, name, &options.folders).map(shared),
     };
     let files = Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
     let in_meshes = check::check_with_meshes(&scene, &files.meshes);
@@ -131,18 +142,26 @@ fn finish(
     Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, brushes, warnings: problems })
 }
 
+/// As scenes hold what they have read.
+fn shared<T>((read, warnings): (T, Vec<Problem>)) -> (Arc<T>, Vec<Problem>) {
+    (Arc::new(read), warnings)
+}
+
 /// Gives findings their place: in the file, or on the command line where that set the field.
 struct Told<'a> {
     path: &'a Path,
     /// The file as it was written; none for a scene that was made.
     written: Option<&'a Located>,
     applied: &'a [Applied],
+    /// A document that was edited in memory: there is no text, so messages begin with their field.
+    edited: Option<&'a Scene>,
 }
 
 impl Told<'_> {
     fn problem(&self, finding: Finding) -> Problem {
         let Finding { severity, field_path, message, mend } = finding;
-        let problem = Problem { severity, path: PathBuf::new(), place: None, message, mend };
+        let problem =
+            Problem { severity, path: PathBuf::new(), place: None, field_path: String::new(), message, mend };
         self.at_field(problem, &field_path)
     }
 
@@ -151,6 +170,14 @@ impl Told<'_> {
     }
 
     fn at_field(&self, problem: Problem, field_path: &str) -> Problem {
+        let problem = Problem { field_path: field_path.to_owned(), ..problem };
+        if let Some(scene) = self.edited {
+            let message = match field_path {
+                "" => problem.message,
+                _ => format!("{}: {}", edited::named_path(scene, field_path), problem.message),
+            };
+            return Problem { path: self.path.to_owned(), place: None, message, ..problem };
+        }
         if let Some(applied) = self.applied.iter().rev().find(|applied| applied.covers(field_path)) {
             return Problem { path: applied.option.clone(), place: None, ..problem };
         }
@@ -183,7 +210,7 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
 mod tests;
 
 /// A mesh that the scene names.
-fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
+fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
     if name.starts_with(house_mesh::PREFIX) {
         let unknown = || {
             let message = format!("there is no mesh {name:?} in the house");
@@ -204,8 +231,10 @@ fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
     crate::obj::read(&path, root, folders)
 }
 
+type PictureRead = Result<(Texture, Vec<Problem>), Problem>;
+
 /// A texture that the scene names. One that cannot be used is an error here: the scene asks for it by name.
-fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead {
+fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
     let max_bytes = crate::texture::MAX_FILE_BYTES;
     let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes };
     match crate::texture::read(folders, &request) {
@@ -215,7 +244,7 @@ fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead
 }
 
 /// A picture that serves as a brush: one that cannot be used is an error, and so is one without a mark.
-fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> TextureRead {
+fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
     let (texture, warnings) = read_texture(scene, name, folders).map_err(|problem| {
         let mend = problem.mend.replace("it is left out; ", "");
         Problem { mend, ..problem }

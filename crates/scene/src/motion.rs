@@ -188,6 +188,22 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(rotation * scale, span.mix_vec3(left.translation, right.translation))
 }
 
+/// The numbers of an object's pose at a frame as a key would hold them, in its parent's space.
+pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
+    let Some(span) = Span::at(&object.keys, held(scene, object, frame), |key| (key.frame, key.ease)) else {
+        return ObjectKey::at(frame);
+    };
+    let (left, right) = (&object.keys[span.left], &object.keys[span.right]);
+    ObjectKey {
+        frame,
+        translation: span.mix_vec3(left.translation, right.translation).to_array(),
+        rotation_deg: span.mix_vec3(left.rotation_deg, right.rotation_deg).to_array(),
+        scale: span.mix(left.scale, right.scale),
+        morph: span.mix(left.morph, right.morph),
+        ease: left.ease,
+    }
+}
+
 /// The rotation of Euler angles in degrees: about X first, then Y, then Z (R = Rz·Ry·Rx).
 pub fn rotation_from_euler_deg(angles_deg: DVec3) -> DMat3 {
     let (sin_x, cos_x) = sin_cos_deg(angles_deg.x);

@@ -1,5 +1,7 @@
 //! The scene that a bare mesh is shown in: a view from the side and above that fits it, a warm sun, a cool sky.
 
+mod add;
+
 use std::path::Path;
 
 use glam::DVec3;
@@ -10,6 +12,8 @@ use crate::document::{
 };
 use crate::house_mesh;
 use crate::mesh_file::MeshFile;
+
+pub use add::{REGION_COLORS, add_mesh, regions_of};
 
 /// Vertical field of view, degrees: near that of an eye that looks at one thing, so that forms are not distorted.
 const FOV_Y_DEG: f64 = 35.0;
@@ -32,19 +36,8 @@ const SIZE_PX: (u32, u32) = (1280, 720);
 pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
     let name = object_name(path);
     let view = View::of(mesh);
-    let mut objects = vec![Object {
-        name: name.clone(),
-        mesh: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-        group: None,
-        parent: None,
-        particles: None,
-        hold: 1,
-        scale: Default::default(),
-        up: Default::default(),
-        morph: None,
-        material: None,
-        keys: Vec::new(),
-    }];
+    let mesh_name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let mut objects = vec![Object::new(name.clone(), mesh_name)];
     let mut regions = Vec::new();
     if view.axes.back.y > 0.0 {
         let backdrop_name = if name == BACKDROP_NAME { "wall" } else { BACKDROP_NAME };
@@ -64,11 +57,40 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
         reference: Default::default(),
         further_references: Vec::new(),
         camera: view.camera(),
-        lights: view.lights(),
+        lights: view.axes.lights(),
         objects,
         // A model that nobody has looked at may have much that is small.
         strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
         regions,
+        style: Default::default(),
+    }
+}
+
+/// A scene with a camera, a sun and a sky, and nothing in it: the picture is its background. What stands about 1 high at
+/// the origin fills it.
+pub fn empty() -> Scene {
+    let (eye, target) = (DVec3::new(1.2, 1.15, 2.2), DVec3::new(0.0, 0.5, 0.0));
+    let key = CameraKey {
+        frame: 0.0,
+        eye: eye.to_array(),
+        target: target.to_array(),
+        roll_deg: 0.0,
+        fov_y_deg: None,
+        ease: Ease::default(),
+    };
+    Scene {
+        version: Scene::VERSION,
+        size: SIZE_PX,
+        seed: 0,
+        background: Color::default(),
+        timeline: Timeline::default(),
+        reference: Default::default(),
+        further_references: Vec::new(),
+        camera: Camera { lens: Lens::default(), keys: vec![key] },
+        lights: Axes::looking_from(eye - target).lights(),
+        objects: Vec::new(),
+        strokes: StrokeSettings::default(),
+        regions: Vec::new(),
         style: Default::default(),
     }
 }
@@ -112,6 +134,23 @@ impl Axes {
     /// World space to camera space, without translation.
     fn to_camera(self, vector: DVec3) -> DVec3 {
         DVec3::new(self.right.dot(vector), self.up.dot(vector), self.back.dot(vector))
+    }
+
+    /// The sun stands at the upper left before the object, as seen in the picture.
+    fn lights(self) -> Vec<Light> {
+        let from_sun = round_to(self.to_world(DVec3::new(0.6, -0.75, -0.55)), 1e-3);
+        let light = |name: &str, kind, hex: &str, intensity| Light {
+            name: name.to_owned(),
+            kind,
+            direction: None,
+            position: None,
+            color: Color::from_hex(hex).unwrap_or_default(),
+            ground: None,
+            intensity,
+        };
+        let sun =
+            Light { direction: Some(from_sun.to_array()), ..light("sun", LightKind::Sun, "#fff1dc", 2.2) };
+        vec![sun, light("sky", LightKind::Ambient, "#b9c8dc", 0.6)]
     }
 
     /// Camera space to world space, without translation.
@@ -165,39 +204,14 @@ impl View {
         // A hair below, so that a mesh that is flat lies on it.
         let below = self.foot - DVec3::Y * (0.002 * self.size);
         Object {
-            name: name.to_owned(),
-            mesh: house_mesh::BACKDROP.to_owned(),
-            group: None,
-            parent: None,
-            particles: None,
-            hold: 1,
             scale: Scale([significant(BACKDROP_SCALE * self.size); 3]),
-            up: Default::default(),
-            morph: None,
-            material: None,
             keys: vec![ObjectKey {
                 translation: round_to(below, self.size * 1e-4).to_array(),
                 rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
                 ..ObjectKey::at(0.0)
             }],
+            ..Object::new(name, house_mesh::BACKDROP)
         }
-    }
-
-    /// The sun stands at the upper left before the object, as seen in the picture.
-    fn lights(&self) -> Vec<Light> {
-        let from_sun = round_to(self.axes.to_world(DVec3::new(0.6, -0.75, -0.55)), 1e-3);
-        let light = |name: &str, kind, hex: &str, intensity| Light {
-            name: name.to_owned(),
-            kind,
-            direction: None,
-            position: None,
-            color: Color::from_hex(hex).unwrap_or_default(),
-            ground: None,
-            intensity,
-        };
-        let sun =
-            Light { direction: Some(from_sun.to_array()), ..light("sun", LightKind::Sun, "#fff1dc", 2.2) };
-        vec![sun, light("sky", LightKind::Ambient, "#b9c8dc", 0.6)]
     }
 }
 

@@ -12,6 +12,8 @@ pub struct Problem {
     pub path: PathBuf,
     /// Line (from 1) and column (from 1, in characters), where the place is known.
     pub place: Option<Place>,
+    /// The field of the scene that it is about, as in `objects[2].keys[1].frame`; empty where it is about none.
+    pub field_path: String,
     /// What is wrong, as one sentence without a full stop.
     pub message: String,
     /// What to do about it, as one sentence without a full stop.

@@ -166,6 +166,8 @@ fn object(object: &Object) -> Value {
         .maybe("morph", object.morph.as_deref().map(text))
         .maybe("material", object.material.as_ref().map(material))
         .unless(object.keys.is_empty(), "keys", || Value::List(object.keys.iter().map(object_key).collect()))
+        .unless(!object.hidden, "hidden", || flag(true))
+        .unless(!object.locked, "locked", || flag(true))
         .done()
 }
 

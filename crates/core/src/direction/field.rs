@@ -107,6 +107,11 @@ impl FieldGraph {
         self.edges_of(sample).iter().map(|edge| edge.to as usize)
     }
 
+    /// The neighbours of a sample with their weights and the angle that transport from them adds, radians.
+    pub(super) fn ties(&self, sample: usize) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
+        self.edges_of(sample).iter().map(|edge| (edge.to as usize, edge.weight, edge.transport_rad))
+    }
+
     fn edges_of(&self, sample: usize) -> &[Edge] {
         &self.edges[self.starts[sample] as usize..self.starts[sample + 1] as usize]
     }

@@ -6,7 +6,7 @@ use glam::DVec3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
     /// At least two; neighbours apart.
-    points: Vec<GuidePoint>,
+    points: Vec<Corner>,
     /// How far it reaches, model units.
     radius: f64,
     /// How far strokes on it follow it, 0..=1.
@@ -27,11 +27,23 @@ pub enum Falloff {
     Flat,
 }
 
+/// A point of a guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct GuidePoint {
+pub struct GuidePoint {
+    /// Where, model space.
+    pub position: DVec3,
+    /// Normal of the surface there; need not be of length 1.
+    pub normal: DVec3,
+    /// How far strokes are turned from the gesture's line, radians, counter-clockwise as seen.
+    pub turn_rad: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Corner {
     position: DVec3,
     normal: DVec3,
-    /// Unit, along the gesture: the mean of the pieces before and after.
+    turn_rad: f64,
+    /// Unit, along the gesture: the tangent of the arc through this point and its neighbours.
     along: DVec3,
 }
 
@@ -42,6 +54,8 @@ pub struct Influence {
     pub weight: f64,
     /// Unit, along the gesture; not tangent to the surface.
     pub along: DVec3,
+    /// How far strokes are turned from it, radians, counter-clockwise as seen.
+    pub turn_rad: f64,
 }
 
 /// Surfaces turned away from a guide's own by more than this cosine do not follow it; those at `SQUARE` follow wholly.
@@ -49,30 +63,32 @@ const TURNED_AWAY: f64 = 0.1;
 const SQUARE: f64 = 0.4;
 
 impl Guide {
-    /// A guide through points with unit normals; points that lie on the one before are left out. `None` where fewer than two
+    /// A guide through points; points that lie on the one before are left out. `None` where fewer than two
     /// are left.
     pub fn new(
-        points: impl Iterator<Item = (DVec3, DVec3)>,
+        points: impl Iterator<Item = GuidePoint>,
         radius: f64,
         strength: f64,
         falloff: Falloff,
     ) -> Option<Self> {
-        let mut kept: Vec<GuidePoint> = Vec::new();
-        for (position, normal) in points {
+        let mut kept: Vec<Corner> = Vec::new();
+        for GuidePoint { position, normal, turn_rad } in points {
             let normal = normal.normalize_or(DVec3::Y);
             if kept.last().is_none_or(|last| (last.position - position).length_squared() > 0.0) {
-                kept.push(GuidePoint { position, normal, along: DVec3::ZERO });
+                kept.push(Corner { position, normal, turn_rad, along: DVec3::ZERO });
             }
         }
         if kept.len() < 2 {
             return None;
         }
-        let pieces: Vec<DVec3> =
-            kept.windows(2).map(|pair| (pair[1].position - pair[0].position).normalize_or_zero()).collect();
+        let pieces: Vec<DVec3> = kept.windows(2).map(|pair| pair[1].position - pair[0].position).collect();
         for (index, point) in kept.iter_mut().enumerate() {
             let before = pieces[index.saturating_sub(1)];
             let after = pieces[index.min(pieces.len() - 1)];
-            point.along = (before + after).try_normalize().unwrap_or(after);
+            // The shorter piece is nearer to the tangent.
+            let (unit_before, unit_after) = (before.normalize_or_zero(), after.normalize_or_zero());
+            let mean = unit_before * after.length() + unit_after * before.length();
+            point.along = mean.try_normalize().unwrap_or(unit_after);
         }
         let low = kept.iter().fold(DVec3::INFINITY, |low, point| low.min(point.position));
         let high = kept.iter().fold(DVec3::NEG_INFINITY, |high, point| high.max(point.position));
@@ -87,17 +103,18 @@ impl Guide {
         if position.distance(self.ball.0) > self.ball.1 + reach {
             return None;
         }
-        let mut nearest: Option<(f64, DVec3, DVec3)> = None;
+        let mut nearest: Option<(f64, &Corner, &Corner, f64)> = None;
         for pair in self.points.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
             let piece = b.position - a.position;
             let t = ((position - a.position).dot(piece) / piece.length_squared()).clamp(0.0, 1.0);
             let distance_sq = (a.position + piece * t - position).length_squared();
             if distance_sq < nearest.map_or(reach * reach, |(least, ..)| least) {
-                nearest = Some((distance_sq, a.along.lerp(b.along, t), a.normal.lerp(b.normal, t)));
+                nearest = Some((distance_sq, a, b, t));
             }
         }
-        let (distance_sq, along, own_normal) = nearest?;
+        let (distance_sq, a, b, t) = nearest?;
+        let (along, own_normal) = (a.along.lerp(b.along, t), a.normal.lerp(b.normal, t));
         let r = distance_sq.sqrt() / reach;
         let falloff = match self.falloff {
             Falloff::Smooth => (1.0 - r * r).powi(2),
@@ -106,7 +123,11 @@ impl Guide {
         };
         let facing = (own_normal.normalize_or_zero().dot(normal) - TURNED_AWAY) / (SQUARE - TURNED_AWAY);
         let weight = self.strength * falloff * facing.clamp(0.0, 1.0);
-        (weight > 0.0).then(|| Influence { weight, along: along.normalize_or_zero() })
+        (weight > 0.0).then(|| Influence {
+            weight,
+            along: along.normalize_or_zero(),
+            turn_rad: a.turn_rad + (b.turn_rad - a.turn_rad) * t,
+        })
     }
 }
 
@@ -116,7 +137,9 @@ mod tests {
 
     fn guide(falloff: Falloff) -> Guide {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
-        Guide::new(points.iter().map(|&at| (DVec3::from(at), DVec3::Z)), 0.5, 0.8, falloff).unwrap()
+        let point =
+            |at: [f64; 3]| GuidePoint { position: DVec3::from(at), normal: DVec3::Z, turn_rad: at[0] };
+        Guide::new(points.into_iter().map(point), 0.5, 0.8, falloff).unwrap()
     }
 
     #[test]
@@ -140,6 +163,10 @@ mod tests {
         assert!((along(0.0, 0.1) - DVec3::X).length() < 1e-9);
         assert!((along(1.0, 1.0) - DVec3::Y).length() < 1e-9);
         assert!((along(1.1, -0.1) - DVec3::new(1.0, 1.0, 0.0).normalize()).length() < 1e-9);
-        assert!(Guide::new([(DVec3::ZERO, DVec3::Z); 3].into_iter(), 1.0, 1.0, Falloff::Flat).is_none());
+        let turn =
+            |x: f64| guide(Falloff::Flat).influence(DVec3::new(x, 0.1, 0.0), DVec3::Z, 0.0).unwrap().turn_rad;
+        assert!((turn(0.3) - 0.3).abs() < 1e-12 && turn(-0.2) == 0.0);
+        let point = GuidePoint { position: DVec3::ZERO, normal: DVec3::Z, turn_rad: 0.0 };
+        assert!(Guide::new([point; 3].into_iter(), 1.0, 1.0, Falloff::Flat).is_none());
     }
 }

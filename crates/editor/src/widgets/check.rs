@@ -29,7 +29,12 @@ pub fn checkbox(ui: &mut Ui, name: &str, on: &mut bool) -> Response {
 
 /// One of several, with its name beside it.
 pub fn radio(ui: &mut Ui, name: &str, on: bool) -> Response {
-    let (mark, response) = row(ui, name);
+    radio_named(ui, (name, name), on)
+}
+
+/// As [`radio`], with words that do not say its whole name.
+pub fn radio_named(ui: &mut Ui, (words, name): (&str, &str), on: bool) -> Response {
+    let (mark, response) = row(ui, words);
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
     if on {

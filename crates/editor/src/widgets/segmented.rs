@@ -9,50 +9,47 @@ const PADDING: f32 = 9.0;
 
 /// A few choices side by side, one of them on; each is found by its words. Changed where another was picked.
 pub fn segmented(ui: &mut Ui, choices: &[&str], chosen: &mut usize) -> Response {
-    let on = *chosen;
-    let parts = choices.iter().enumerate().map(|(index, words)| (*words, *words, index == on));
-    let (mut whole, clicked) = group(ui, Role::RadioButton, &parts.collect::<Vec<_>>());
-    if let Some(index) = clicked.filter(|index| *index != on) {
-        *chosen = index;
-        whole.mark_changed();
-    }
-    whole
+    let choices: Vec<_> = choices.iter().map(|words| (*words, *words)).collect();
+    segmented_named(ui, &choices, chosen)
 }
 
-/// A few switches side by side, each with its words, its name and whether it is on. Returns the one that was clicked.
-pub fn switches(ui: &mut Ui, parts: &[(&str, &str, bool)]) -> Option<usize> {
-    group(ui, Role::Button, parts).1
+/// The width of a [`segmented`] of these words, points.
+pub fn segmented_width<'a>(ui: &Ui, choices: impl IntoIterator<Item = &'a str>) -> f32 {
+    choices.into_iter().map(|words| part_width(ui, words)).sum::<f32>() + 2.0 * INSET
 }
 
-fn group(ui: &mut Ui, role: Role, parts: &[(&str, &str, bool)]) -> (Response, Option<usize>) {
+fn part_width(ui: &Ui, words: &str) -> f32 {
+    draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING
+}
+
+/// As [`segmented`], each choice with its words and the name that it is found by.
+pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
-    let wide = |(words, ..): &(&str, &str, bool)| {
-        draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING
-    };
-    let widths: Vec<f32> = parts.iter().map(wide).collect();
+    let widths: Vec<f32> = choices.iter().map(|(words, _)| part_width(ui, words)).collect();
     let size = vec2(widths.iter().sum::<f32>() + 2.0 * INSET, HEIGHT);
-    let (rect, whole) = ui.allocate_exact_size(size, Sense::hover());
+    let (rect, mut whole) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter().rect_filled(rect, draw::group_corner(), tokens.field);
     let mut left = rect.left() + INSET;
-    let mut clicked = None;
-    for (index, ((words, name, on), wide)) in parts.iter().zip(widths).enumerate() {
+    for (index, ((words, name), wide)) in choices.iter().zip(widths).enumerate() {
         let part = Rect::from_min_size(pos2(left, rect.top()), vec2(wide, HEIGHT));
         left += wide;
         let response = ui.interact(part, whole.id.with(index), Sense::click());
-        if response.clicked() {
-            clicked = Some(index);
+        if response.clicked() && *chosen != index {
+            *chosen = index;
+            whole.mark_changed();
         }
+        let on = *chosen == index;
         let seen = part.shrink2(vec2(0.0, INSET));
-        let (fill, colour) = match (*on, role, response.hovered()) {
-            (true, Role::Button, _) => (tokens.sel, tokens.accent_text),
-            (true, ..) => (tokens.act, tokens.text),
-            (false, _, true) => (tokens.hov, tokens.text),
-            (false, _, false) => (Color32::TRANSPARENT, tokens.weak),
+        let fill = match (on, response.hovered()) {
+            (true, _) => tokens.act,
+            (false, true) => tokens.hov,
+            (false, false) => Color32::TRANSPARENT,
         };
         ui.painter().rect_filled(seen, draw::corner(), fill);
+        let colour = if on || response.hovered() { tokens.text } else { tokens.weak };
         draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, (words, type_face::small()), colour);
         draw::focus_ring(ui, &response, seen, measure::CORNER);
-        draw::named_state(&response, role, name, *on);
+        draw::named_state(&response, Role::RadioButton, name, on);
     }
-    (whole, clicked)
+    whole
 }

@@ -72,11 +72,7 @@ pub fn options(page: &mut Page, ui: &mut Ui) {
             .show(ui);
         divider(ui);
         weak(ui, "Mirror");
-        let [x, y, z] = page.mirror;
-        let mirrors = [("X", "Mirror X", x), ("Y", "Mirror Y", y), ("Z", "Mirror Z", z)];
-        if let Some(axis) = widgets::switches(ui, &mirrors) {
-            page.mirror[axis] = !page.mirror[axis];
-        }
+        widgets::toggle_group(ui, ["Mirror X", "Mirror Y", "Mirror Z"], &mut page.mirror);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(8.0);
             widgets::icon_button(ui, icons::MORE_OPTIONS, "More tool options");

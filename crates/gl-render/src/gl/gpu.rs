@@ -93,11 +93,16 @@ impl Gpu {
             Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
     }
 
+    /// Waits until all is drawn.
+    pub(crate) fn finish(&self) {
+        // SAFETY: the context is current.
+        unsafe { self.gl().finish() };
+    }
+
     /// What was drawn since the last lap was this; nothing unless passes are timed.
     pub(crate) fn lap(&self, pass: &'static str) {
         if let Some(clock) = self.shared.clock.borrow_mut().as_mut() {
-            // SAFETY: the context is current.
-            unsafe { self.gl().finish() };
+            self.finish();
             clock.laps.push((pass, clock.since.elapsed().as_secs_f64()));
             clock.since = Instant::now();
         }

@@ -23,6 +23,21 @@ pub(crate) use shader_text::ShaderFile;
 pub(crate) use texture::{Filter, Format, Texture};
 pub(crate) use vertex_array::{Attribute, VertexArray};
 
+/// Why drawing came to no picture.
+#[derive(Debug)]
+pub(crate) enum Halt {
+    /// Nobody wants it any more.
+    GivenUp,
+    /// It cannot be drawn.
+    Gl(GlError),
+}
+
+impl From<GlError> for Halt {
+    fn from(error: GlError) -> Self {
+        Self::Gl(error)
+    }
+}
+
 /// What can go wrong between Impasto and the driver.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GlError {

@@ -19,6 +19,8 @@ pub(crate) struct ProgramSource {
     pub captured: &'static [&'static str],
     /// Every uniform that the Rust side sets.
     pub uniforms: &'static [&'static str],
+    /// Names that the shaders find defined.
+    pub defined: &'static [&'static str],
 }
 
 /// A linked program.
@@ -73,7 +75,7 @@ impl Program {
         let stages = [(glow::VERTEX_SHADER, Some(source.vertex)), (glow::FRAGMENT_SHADER, source.fragment)];
         for (stage, path) in stages {
             if let Some(path) = path {
-                let expanded = expand(files, path).map_err(fault)?;
+                let expanded = expand(files, path, source.defined).map_err(fault)?;
                 program.attach(stage, &expanded).map_err(fault)?;
             }
         }

@@ -19,9 +19,13 @@ pub(super) struct Expanded {
     paths: Vec<&'static str>,
 }
 
-/// Puts every `#include "path"` in, each file once. Paths start at `shaders/`.
-pub(super) fn expand(files: &[&[ShaderFile]], path: &str) -> Result<Expanded, String> {
+/// Puts every `#include "path"` in, each file once, after `#define`s of these names. Paths start at `shaders/`.
+pub(super) fn expand(files: &[&[ShaderFile]], path: &str, defined: &[&str]) -> Result<Expanded, String> {
     let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
+    for name in defined {
+        // Writing to a String cannot fail.
+        let _ = writeln!(expanded.text, "#define {name}");
+    }
     append(files, path, &mut expanded)?;
     Ok(expanded)
 }
@@ -97,20 +101,20 @@ mod tests {
 
     #[test]
     fn a_file_is_included_once_and_lines_stay_true() {
-        let expanded = expand(&[FILES], "a.frag").unwrap();
+        let expanded = expand(&[FILES], "a.frag", &[]).unwrap();
         let wanted = "#version 330 core\n#line 1 0\none\n#line 1 1\ninner\n#line 3 0\n#line 4 0\nfour\n";
         assert_eq!(expanded.text, wanted);
     }
 
     #[test]
     fn a_missing_include_names_the_line() {
-        let fault = expand(&[FILES], "lost.frag").unwrap_err();
+        let fault = expand(&[FILES], "lost.frag", &[]).unwrap_err();
         assert_eq!(fault, "lost.frag:2: there is no shader file nowhere.glsl");
     }
 
     #[test]
     fn messages_of_three_compilers_get_our_names() {
-        let expanded = expand(&[FILES], "a.frag").unwrap();
+        let expanded = expand(&[FILES], "a.frag", &[]).unwrap();
         assert_eq!(expanded.name_places("1:12(5): error: x"), "b.glsl:12(5): error: x");
         assert_eq!(expanded.name_places("1(12) : error C0000"), "b.glsl:12 : error C0000");
         assert_eq!(expanded.name_places("ERROR: 0:7: 'y'"), "ERROR: a.frag:7: 'y'");

@@ -6,8 +6,9 @@ mod rotating_strokes;
 use impasto_painting::Frame;
 use impasto_painting::frame::FrameStyle;
 
-use crate::gl::{Framebuffer, GlError, Gpu};
+use crate::gl::{Framebuffer, GlError, Gpu, Halt};
 use crate::reference::{LightSetup, ReferenceTargets};
+use crate::watch::Watch;
 
 pub(crate) use rotating_strokes::RotatingStrokes;
 
@@ -21,7 +22,12 @@ pub(crate) struct StyleInput<'a> {
 /// A way of drawing a frame.
 pub(crate) trait Style {
     /// Runs the style's passes; the last one writes sRGB bytes with straight alpha into `output`.
-    fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError>;
+    fn draw(
+        &mut self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt>;
 
     /// For styles of strokes, what was painted.
     fn as_strokes(&self) -> Option<&RotatingStrokes> {

@@ -1,8 +1,9 @@
 //! The plain render itself. Targets: none of its own. Passes: encode.
 
 use super::{Style, StyleInput, ground};
-use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Program, ProgramSource, VertexArray, Vertices};
+use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
 use crate::shader_files::SHARED;
+use crate::watch::Watch;
 
 /// The style.
 pub(crate) struct Reference {
@@ -18,6 +19,7 @@ impl Reference {
             fragment: Some("shared/encode.frag"),
             captured: &[],
             uniforms: &["picture", "ground"],
+            defined: &[],
         };
         Ok(Self {
             gpu: gpu.clone(),
@@ -28,10 +30,16 @@ impl Reference {
 }
 
 impl Style for Reference {
-    fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
+    fn draw(
+        &mut self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         self.gpu.begin_pass(output, DrawState::default());
         let bound =
             self.encode.bind().texture("picture", &input.reference.color).set("ground", ground(input.frame));
-        self.gpu.draw(bound, &self.screen, Vertices::Screen)
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        watch.passed("encode")
     }
 }

@@ -11,16 +11,17 @@ use std::rc::Rc;
 
 use glam::{Vec2, Vec4};
 use impasto_core::brush;
-use impasto_painting::Frame;
 use impasto_painting::frame::{LayerRun, Stroke};
+use impasto_painting::{Frame, Quality};
 
 use super::{Style, StyleInput, ground};
 use crate::gl::{
-    Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program,
-    ProgramSource, Records, Texture, VertexArray, Vertices,
+    Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
+    ProgramSource, Records, ShaderFile, Texture, VertexArray, Vertices,
 };
 use crate::reference::{LENS_UNIFORMS, LensSetup, LightSetup};
 use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
+use crate::watch::Watch;
 use marks::Marks;
 
 /// How much of a body's own colour its toned ground carries.
@@ -35,18 +36,21 @@ const BLOCK_PX: f32 = 4.0;
 /// How far what happens at a place is spread over the body: the deviation of a Gaussian, pixels at the scene's size.
 const SPREAD_PX: f32 = 16.0;
 
+/// The most that is painted between two questions whether to stop, pixels of strokes.
+const PIECE_PX: f32 = 400_000.0;
+
 /// Texels in a row of palettes.
 const PALETTE: usize = 16;
 
 /// The style.
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
-    resolve: Program,
     detail: Program,
     spread: Program,
-    paint: Program,
     soften: Program,
-    encode: Program,
+    exact: StrokePrograms,
+    /// Made when the first draft is drawn.
+    draft: Option<StrokePrograms>,
     canvas: Texture,
     marks: Option<Marks>,
     strokes: Buffer,
@@ -56,6 +60,28 @@ pub(crate) struct RotatingStrokes {
     stroke_quads: VertexArray,
     screen: VertexArray,
     targets: Option<Targets>,
+}
+
+/// The programs that a draft has of its own.
+struct StrokePrograms {
+    resolve: Program,
+    paint: Program,
+    encode: Program,
+}
+
+impl StrokePrograms {
+    fn new(gpu: &Gpu, quality: Quality) -> Result<Self, GlError> {
+        let [resolve, paint, encode] = match quality {
+            Quality::Exact => [RESOLVE, PAINT, ENCODE],
+            Quality::Draft => [
+                ProgramSource { defined: DRAFT, ..RESOLVE },
+                ProgramSource { defined: DRAFT, uniforms: DRAFT_PAINT_UNIFORMS, ..PAINT },
+                ProgramSource { defined: DRAFT, uniforms: DRAFT_ENCODE_UNIFORMS, ..ENCODE },
+            ],
+        }
+        .map(|source| Program::new(gpu, FILES, &source));
+        Ok(Self { resolve: resolve?, paint: paint?, encode: encode? })
+    }
 }
 
 struct Targets {
@@ -68,6 +94,8 @@ struct Targets {
     below: Rc<Texture>,
     soft_height: Rc<Texture>,
     paint_pass: Framebuffer,
+    /// Paint without height.
+    flat_pass: Framebuffer,
     below_pass: Framebuffer,
     soften_pass: Framebuffer,
 }
@@ -96,6 +124,7 @@ impl Targets {
             detail,
             block_px,
             paint_pass: Framebuffer::new(gpu, &[&paint, &height], None)?,
+            flat_pass: Framebuffer::new(gpu, &[&paint], None)?,
             below_pass: Framebuffer::new(gpu, &[&below], None)?,
             soften_pass: Framebuffer::new(gpu, &[&soft_height], None)?,
             paint,
@@ -106,18 +135,26 @@ impl Targets {
     }
 }
 
+impl Targets {
+    /// What strokes are painted into.
+    fn strokes_pass(&self, quality: Quality) -> &Framebuffer {
+        match quality {
+            Quality::Exact => &self.paint_pass,
+            Quality::Draft => &self.flat_pass,
+        }
+    }
+}
+
 impl RotatingStrokes {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let files = &[SHARED, REFERENCE, ROTATING_STROKES];
         let side = canvas::SIDE;
         Ok(Self {
             gpu: gpu.clone(),
-            resolve: Program::new(gpu, files, &RESOLVE)?,
-            detail: Program::new(gpu, files, &DETAIL)?,
-            spread: Program::new(gpu, files, &SPREAD)?,
-            paint: Program::new(gpu, files, &PAINT)?,
-            soften: Program::new(gpu, files, &SOFTEN)?,
-            encode: Program::new(gpu, files, &ENCODE)?,
+            detail: Program::new(gpu, FILES, &DETAIL)?,
+            spread: Program::new(gpu, FILES, &SPREAD)?,
+            soften: Program::new(gpu, FILES, &SOFTEN)?,
+            exact: StrokePrograms::new(gpu, Quality::Exact)?,
+            draft: None,
             canvas: Texture::with_driver_levels(gpu, Format::Rgba8, [side, side], &canvas::tile())?,
             marks: None,
             strokes: Buffer::new(gpu, BufferUse::Streamed)?,
@@ -130,8 +167,15 @@ impl RotatingStrokes {
         })
     }
 
+    fn programs(&self, quality: Quality) -> &StrokePrograms {
+        match quality {
+            Quality::Exact => &self.exact,
+            Quality::Draft => self.draft.as_ref().unwrap_or(&self.exact),
+        }
+    }
+
     /// Where small strokes are wanted; the result lies in the first of the two targets.
-    fn find_detail(&self, input: &StyleInput<'_>) -> Result<(), GlError> {
+    fn find_detail(&self, input: &StyleInput<'_>, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
         let bound = self
@@ -150,8 +194,7 @@ impl RotatingStrokes {
             let bound = self.spread.bind().texture("detail", &targets.detail[from]).set("axis", axis * step);
             self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         }
-        self.gpu.lap("detail");
-        Ok(())
+        watch.passed("detail")
     }
 
     fn resolve(&mut self, input: &StyleInput<'_>) -> Result<(), GlError> {
@@ -166,7 +209,7 @@ impl RotatingStrokes {
         for layer in &frame.layers {
             let bound = input
                 .lights
-                .set(lens.set(self.resolve.bind(), &LENS_UNIFORMS))
+                .set(lens.set(self.programs(frame.quality).resolve.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
                 .texture("depth_and_id", &input.reference.depth_and_id)
                 .texture("detail", &targets.detail[0])
@@ -182,7 +225,24 @@ impl RotatingStrokes {
         Ok(())
     }
 
-    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun) -> Result<(), GlError> {
+    /// Lays a layer of paint; in several pieces where somebody may ask to stop.
+    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let strokes = &input.frame.strokes[layer.first as usize..][..layer.count as usize];
+        if input.frame.quality == Quality::Exact && strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
+            targets.paint_pass.copy_to(&targets.below_pass);
+        }
+        let mut first = layer.first;
+        let most_px = if watch.may_stop() { PIECE_PX } else { f32::INFINITY };
+        for count in pieces(strokes, most_px) {
+            self.paint_piece(input, LayerRun { first, count, ..layer })?;
+            watch.passed(layer.kind.name())?;
+            first += count;
+        }
+        Ok(())
+    }
+
+    fn paint_piece(&self, input: &StyleInput<'_>, layer: LayerRun) -> Result<(), GlError> {
         let (Some(targets), Some(marks)) = (&self.targets, &self.marks) else { return Ok(()) };
         let frame = input.frame;
         let first = layer.first as i32;
@@ -199,33 +259,37 @@ impl RotatingStrokes {
             });
         }
         self.stroke_quads.set(&inputs, None);
-        let strokes = &frame.strokes[first as usize..][..layer.count as usize];
-        if strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
-            targets.paint_pass.copy_to(&targets.below_pass);
-        }
-        self.gpu.begin_pass(&targets.paint_pass, DrawState { blend: Blend::Over, ..DrawState::default() });
+        let pass = targets.strokes_pass(frame.quality);
+        self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
         let lens = LensSetup::new(&frame.view, frame.size_px);
-        let bound = lens
-            .set(self.paint.bind(), &["size_px", "orthographic"])
+        let mut bound = lens
+            .set(self.programs(frame.quality).paint.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
             .set("mark_rows", brush::SIZE[1] as f32)
-            .texture("below", &targets.below)
             .texture("brush_marks", &marks.texture)
             .texture("depth_and_id", &input.reference.depth_and_id);
-        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })?;
-        self.gpu.lap(layer.kind.name());
-        Ok(())
+        if frame.quality == Quality::Exact {
+            bound = bound.texture("below", &targets.below);
+        }
+        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })
     }
 
-    fn encode(&self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
+    fn encode(
+        &self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         let frame = input.frame;
         let finish = &frame.finish;
-        self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
-        let bound =
-            self.soften.bind().texture("height", &targets.height).set("step_px", frame.px_scale.max(0.5));
-        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.gpu.lap("soften");
+        if frame.quality == Quality::Exact {
+            self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
+            let bound =
+                self.soften.bind().texture("height", &targets.height).set("step_px", frame.px_scale.max(0.5));
+            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+            watch.passed("soften")?;
+        }
 
         self.gpu.begin_pass(output, DrawState::default());
         let (tone, wash) = match finish.ground {
@@ -239,24 +303,27 @@ impl RotatingStrokes {
         let axes = finish.canvas_from_px.matrix2;
         let origin: Vec2 = finish.canvas_from_px.transform_point2(-half_px * scale) * tiles;
         let axes = Vec4::from((axes.x_axis, axes.y_axis)) * (scale * tiles);
-        let bound = self
+        let mut bound = self
+            .programs(frame.quality)
             .encode
             .bind()
             .texture("picture", &targets.paint)
             .texture("reference_color", &input.reference.color)
-            .texture("height", &targets.height)
-            .texture("soft_height", &targets.soft_height)
-            .texture("canvas", &self.canvas)
             .set("ground", ground(frame))
-            .set("tone", tone)
             .set("wash", wash)
-            .set("to_light", glam::Vec3::from(finish.to_relief_light))
-            .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale))
-            .set("canvas_axes", axes)
-            .set("canvas_origin", origin);
+            .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale));
+        if frame.quality == Quality::Exact {
+            bound = bound
+                .set("tone", tone)
+                .texture("height", &targets.height)
+                .texture("soft_height", &targets.soft_height)
+                .texture("canvas", &self.canvas)
+                .set("to_light", glam::Vec3::from(finish.to_relief_light))
+                .set("canvas_axes", axes)
+                .set("canvas_origin", origin);
+        }
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        self.gpu.lap("encode");
-        Ok(())
+        watch.passed("encode")
     }
 
     /// Colour and alpha of every stroke of the last frame, then its fit, eight floats each.
@@ -273,31 +340,58 @@ impl RotatingStrokes {
 }
 
 impl Style for RotatingStrokes {
-    fn draw(&mut self, input: &StyleInput<'_>, output: &Framebuffer) -> Result<(), GlError> {
+    fn draw(
+        &mut self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         let frame = input.frame;
-        let block_px = (BLOCK_PX * frame.px_scale).round().clamp(1.0, 8.0) as u32;
+        let coarser = if frame.quality == Quality::Draft { 2.0 } else { 1.0 };
+        let block_px = (BLOCK_PX * coarser * frame.px_scale).round().clamp(1.0, 8.0) as u32;
         let fits =
             |targets: &Targets| targets.paint_pass.size_px() == frame.size_px && targets.block_px == block_px;
         if !self.targets.as_ref().is_some_and(fits) {
             self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
         }
+        if frame.quality == Quality::Draft && self.draft.is_none() {
+            self.draft = Some(StrokePrograms::new(&self.gpu, Quality::Draft)?);
+        }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
-        self.find_detail(input)?;
+        self.find_detail(input, watch)?;
         self.resolve(input)?;
-        self.gpu.lap("resolve");
+        watch.passed("resolve")?;
         if let Some(targets) = &self.targets {
             let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
-            self.gpu.begin_pass(&targets.paint_pass, clear);
+            self.gpu.begin_pass(targets.strokes_pass(frame.quality), clear);
         }
         for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
-            self.paint(input, layer)?;
+            self.paint(input, layer, watch)?;
         }
-        self.encode(input, output)
+        self.encode(input, output, watch)
     }
 
     fn as_strokes(&self) -> Option<&RotatingStrokes> {
         Some(self)
     }
+}
+
+/// Numbers of strokes, one run after the other, whose quads cover at most about so many pixels each.
+fn pieces(strokes: &[Stroke], most_px: f32) -> Vec<u32> {
+    let mut pieces = vec![0];
+    let mut covered_px = 0.0;
+    for stroke in strokes {
+        let px = stroke.length_px * stroke.width_px;
+        if covered_px + px > most_px && covered_px > 0.0 {
+            pieces.push(0);
+            covered_px = 0.0;
+        }
+        covered_px += px;
+        if let Some(count) = pieces.last_mut() {
+            *count += 1;
+        }
+    }
+    pieces
 }
 
 /// Palettes as a texture, a row each; one empty row where there are none.
@@ -338,6 +432,16 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
     ]
 }
 
+const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES];
+
+/// What the shaders of a draft find defined.
+const DRAFT: &[&str] = &["DRAFT"];
+
+const DRAFT_PAINT_UNIFORMS: &[&str] =
+    &["size_px", "mark_rows", "brush_marks", "depth_and_id", "units_per_px_at_1", "orthographic"];
+
+const DRAFT_ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "ground", "wash", "finish"];
+
 const RESOLVE: ProgramSource = ProgramSource {
     vertex: "rotating_strokes/resolve.vert",
     fragment: None,
@@ -364,6 +468,7 @@ const RESOLVE: ProgramSource = ProgramSource {
         "px_scale",
         "kind",
     ],
+    defined: &[],
 };
 
 const DETAIL: ProgramSource = ProgramSource {
@@ -371,6 +476,7 @@ const DETAIL: ProgramSource = ProgramSource {
     fragment: Some("rotating_strokes/detail.frag"),
     captured: &[],
     uniforms: &["reference_color", "depth_and_id", "glint", "px_scale", "block_px"],
+    defined: &[],
 };
 
 const SPREAD: ProgramSource = ProgramSource {
@@ -378,6 +484,7 @@ const SPREAD: ProgramSource = ProgramSource {
     fragment: Some("rotating_strokes/spread.frag"),
     captured: &[],
     uniforms: &["detail", "axis"],
+    defined: &[],
 };
 
 const PAINT: ProgramSource = ProgramSource {
@@ -393,6 +500,7 @@ const PAINT: ProgramSource = ProgramSource {
         "units_per_px_at_1",
         "orthographic",
     ],
+    defined: &[],
 };
 
 const SOFTEN: ProgramSource = ProgramSource {
@@ -400,6 +508,7 @@ const SOFTEN: ProgramSource = ProgramSource {
     fragment: Some("rotating_strokes/soften.frag"),
     captured: &[],
     uniforms: &["height", "step_px"],
+    defined: &[],
 };
 
 const ENCODE: ProgramSource = ProgramSource {
@@ -420,4 +529,5 @@ const ENCODE: ProgramSource = ProgramSource {
         "canvas_axes",
         "canvas_origin",
     ],
+    defined: &[],
 };

@@ -155,7 +155,7 @@ fn on_sheet(studio: &mut Studio<'_>, object: usize, row: &mut Row) -> Result<boo
     let region = scene.regions.iter().rposition(|region| match &region.on {
         Selector::Everything => true,
         Selector::Object(other) => other == name,
-        Selector::Group(..) | Selector::Material(..) | Selector::Dabs(..) => false,
+        _ => false,
     });
     let Some(version) = sheet::sheet(studio.loaded, region, SHEET_PX) else { return Ok(false) };
     let wanted = presets::resolve(&version.scene, None).body().wanted_per_px();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use impasto_painting::frame::LayerKind;
-use impasto_scene::document::{Falloff, Guide, Scene};
+use impasto_scene::document::{Falloff, Guide, GuideMode, Scene};
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::figures::Spread;
@@ -32,7 +32,8 @@ pub(super) fn add(studio: &mut Studio<'_>, row: &mut Row) -> Result<bool, Measur
         .enumerate()
         .flat_map(|(index, region)| region.guides.iter().map(move |g| (index, g)))
     {
-        if guide.strength >= 1.0 && guide.falloff != Falloff::Flat {
+        let combs = guide.mode == GuideMode::Comb && guide.strength >= 1.0;
+        if combs && guide.falloff != Falloff::Flat {
             errors.extend(at_guide(studio, &scene, region, guide)?);
             guides += 1;
         }
@@ -80,25 +81,26 @@ fn at_guide(
             continue;
         }
         let at = painting.particles(object)[key.particle as usize].position.as_dvec3();
-        let Some((distance, along)) = nearest(guide, at) else { continue };
+        let Some((distance, along, turn_deg)) = nearest(guide, at) else { continue };
         let is_combed_again = others
             .iter()
-            .any(|other| nearest(other, at).is_some_and(|(distance, _)| distance < other.radius));
+            .any(|other| nearest(other, at).is_some_and(|(distance, ..)| distance < other.radius));
         if distance > ON_IT * guide.radius || is_combed_again {
             continue;
         }
         let step = along * 1e-5;
         let pixel = |at: DVec3| view.pixel(pose.transform_point3(at));
         let drawn = pixel(at + step) - pixel(at - step);
-        let off = impasto_core::angle::wrap_half_pi(stroke.angle_rad - drawn.y.atan2(drawn.x));
+        let turned_rad = (turn_deg + scene.regions[region].turn_deg).to_radians();
+        let off = impasto_core::angle::wrap_half_pi(stroke.angle_rad - drawn.y.atan2(drawn.x) - turned_rad);
         errors.push(off.abs().to_degrees());
     }
     Ok(errors)
 }
 
-/// Distance of a point to a guide's line, and the direction of the gesture there (turning evenly from the middle of one piece
-/// to that of the next).
-fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3)> {
+/// Distance of a point to a guide's line, the direction of the gesture there (turning evenly from the middle of one piece
+/// to that of the next), and by how many degrees strokes are turned from it.
+fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3, f64)> {
     let points: Vec<DVec3> = guide.points.iter().map(|point| DVec3::from(point.at)).collect();
     let pieces: Vec<DVec3> = points.windows(2).map(|pair| (pair[1] - pair[0]).normalize_or_zero()).collect();
     let at_point = |index: usize| {
@@ -110,7 +112,8 @@ fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3)> {
         let (from, to) = (points[index], points[index + 1]);
         let t = ((at - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
         let along = at_point(index) * (1.0 - t) + at_point(index + 1) * t;
-        ((from + (to - from) * t - at).length(), along.normalize_or_zero())
+        let [turn, next] = [index, index + 1].map(|point| guide.points[point].turn_deg);
+        ((from + (to - from) * t - at).length(), along.normalize_or_zero(), turn + (next - turn) * t)
     };
     (0..pieces.len()).map(on_piece).min_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use super::{Findings, did_you_mean, shown};
-use crate::document::{Scene, Selector};
+use crate::document::{PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::problem::Severity;
 
@@ -19,13 +19,14 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
     let mesh_path_of: HashMap<&str, &str> =
         scene.objects.iter().map(|object| (object.name.as_str(), object.mesh.as_str())).collect();
     for (index, region) in scene.regions.iter().enumerate() {
-        let (kind, object, name) = match &region.on {
-            Selector::Group(object, group) => (Kind::Group, object, group),
-            Selector::Material(object, material) => (Kind::Material, object, material),
-            Selector::Everything | Selector::Object(_) | Selector::Dabs(..) => continue,
-        };
-        let mesh_path = mesh_path_of.get(object.as_str());
-        if let Some(known) = mesh_path.and_then(|path| known.get(path)) {
+        let mesh_path = region.on.object().and_then(|object| mesh_path_of.get(object));
+        let Some(known) = mesh_path.and_then(|path| known.get(path)) else { continue };
+        for patch in region.on.patches() {
+            let (kind, name) = match patch {
+                PatchRef::Group(group) => (Kind::Group, group),
+                PatchRef::Material(material) => (Kind::Material, material),
+                PatchRef::Whole | PatchRef::Dabs(_) | PatchRef::Flood(..) => continue,
+            };
             known.check(kind, name, &format!("regions[{index}].on"), findings);
         }
     }

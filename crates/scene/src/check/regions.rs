@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use glam::DVec3;
 
 use super::{Findings, did_you_mean, shown, strokes};
-use crate::document::{Dab, Direction, Guide, Region, Scene, Seam, Selector};
+use crate::document::{Dab, Direction, Guide, GuideMode, PatchRef, Region, Scene, Seam, Selector};
 use crate::limits;
 use crate::problem::Severity;
 
@@ -17,9 +17,9 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
         if let Some(object) = region.on.object().filter(|object| !object_names.contains(object)) {
             unknown_object(&format!("{region_path}.on"), object, scene, findings);
         }
-        if let Selector::Dabs(_, dabs) = &region.on {
-            check_dabs(&format!("{region_path}.on"), dabs, findings);
-        }
+        check_patches(&format!("{region_path}.on"), &region.on, findings);
+        let turn = limits::MAX_ANGLE_DEG;
+        findings.number(&format!("{region_path}.turn_deg"), region.turn_deg, -turn..=turn);
         check_direction(&format!("{region_path}.direction"), &region.direction, findings);
         if let Seam::Soft(distance) = region.seam {
             let range = limits::MIN_LENGTH..=limits::MAX_LENGTH;
@@ -55,6 +55,33 @@ fn check_direction(field_path: &str, direction: &Direction, findings: &mut Findi
         Direction::Along(axis) | Direction::Around(axis) => findings.direction(field_path, axis),
         Direction::Toward(point) => findings.vector(field_path, point),
         Direction::Auto | Direction::Up | Direction::Curvature(_) => {}
+    }
+}
+
+fn check_patches(field_path: &str, on: &Selector, findings: &mut Findings) {
+    let patches = on.patches();
+    if patches.is_empty() {
+        let mend = "give it patches, as in Several(\"apple\", [Whole]), or remove it";
+        findings.warning(field_path, "the region has no patches and covers nothing", mend);
+    }
+    for patch in patches {
+        match patch {
+            PatchRef::Dabs(dabs) => check_dabs(field_path, dabs, findings),
+            PatchRef::Flood(seed, sharp_deg) => {
+                findings.vector(field_path, seed.at);
+                findings.direction(field_path, seed.normal);
+                findings.number(field_path, sharp_deg, 0.0..=180.0);
+            }
+            PatchRef::Whole | PatchRef::Group(_) | PatchRef::Material(_) => {}
+        }
+    }
+    let takes_away = |patch: &PatchRef<'_>| match patch {
+        PatchRef::Dabs(dabs) => !dabs.is_empty() && dabs.iter().all(|dab| dab.take_away),
+        _ => false,
+    };
+    if on.patches().first().is_some_and(takes_away) {
+        let mend = "paint dabs that add, or put what they are to cut before them";
+        findings.warning(field_path, "the region begins with dabs that take away from nothing", mend);
     }
 }
 
@@ -111,12 +138,17 @@ fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
     for (index, point) in guide.points.iter().enumerate() {
         findings.vector(&path(&format!("points[{index}].at")), point.at);
         findings.direction(&path(&format!("points[{index}].normal")), point.normal);
+        let turn = limits::MAX_ANGLE_DEG;
+        findings.number(&path(&format!("points[{index}].turn_deg")), point.turn_deg, -turn..=turn);
     }
     let apart = |pair: &[crate::document::GuidePoint]| {
         (DVec3::from(pair[1].at) - DVec3::from(pair[0].at)).length() > limits::MIN_LENGTH
     };
     if guide.points.len() < 2 {
-        let message = "a guide of one point has no direction";
+        let message = match guide.mode {
+            GuideMode::Comb => "a guide of one point has no direction",
+            GuideMode::Smooth => "a guide of one point is no gesture",
+        };
         findings.error(path("points"), message, "give at least two points, in the order of the gesture");
     } else if !guide.points.windows(2).any(apart) {
         let message = "all points of the guide are the same: it has no direction";
@@ -142,15 +174,14 @@ fn check_covered(scene: &Scene, findings: &mut Findings) {
             Selector::Object(object) => cover(format!("o{object}"), index),
             Selector::Group(object, group) => cover(format!("g{object}\0{group}"), index),
             Selector::Material(object, material) => cover(format!("m{object}\0{material}"), index),
-            Selector::Dabs(..) => None,
+            Selector::Dabs(..) | Selector::Flood(..) | Selector::Several(..) => None,
         };
     }
     for (index, region) in scene.regions.iter().enumerate() {
         let own = match &region.on {
-            Selector::Everything | Selector::Dabs(..) => None,
-            Selector::Object(_) => None,
             Selector::Group(object, group) => Some(format!("g{object}\0{group}")),
             Selector::Material(object, material) => Some(format!("m{object}\0{material}")),
+            _ => None,
         };
         let whole = region.on.object().map(|object| format!("o{object}"));
         let covering = [own, whole, Some(String::new())]
@@ -170,31 +201,25 @@ fn check_covered(scene: &Scene, findings: &mut Findings) {
 
 fn check_counts(scene: &Scene, findings: &mut Findings) {
     let guides = || scene.regions.iter().flat_map(|region| &region.guides);
-    let dabs = scene.regions.iter().map(|region| match &region.on {
-        Selector::Dabs(_, dabs) => dabs.len(),
+    let mut patches = Vec::new();
+    for region in &scene.regions {
+        patches.extend(region.on.patches());
+    }
+    let dabs = patches.iter().map(|patch| match patch {
+        PatchRef::Dabs(dabs) => dabs.len(),
         _ => 0,
     });
+    let floods = patches.iter().filter(|patch| matches!(patch, PatchRef::Flood(..))).count();
     for (what, count, most) in [
         ("guides", guides().count(), limits::MAX_GUIDES),
         ("points of guides", guides().map(|guide| guide.points.len()).sum(), limits::MAX_GUIDE_POINTS),
         ("dabs", dabs.sum(), limits::MAX_DABS),
+        ("floods", floods, limits::MAX_FLOODS),
+        ("patches", patches.len(), limits::MAX_PATCHES),
     ] {
         if count > most {
             let message = format!("the scene has {count} {what}, more than {most}");
             findings.limit("regions", message, "paint with fewer and larger ones");
-        }
-    }
-}
-
-impl Selector {
-    /// The object that it lies on; none for `Everything`.
-    pub fn object(&self) -> Option<&str> {
-        match self {
-            Self::Everything => None,
-            Self::Object(object)
-            | Self::Group(object, _)
-            | Self::Material(object, _)
-            | Self::Dabs(object, _) => Some(object),
         }
     }
 }

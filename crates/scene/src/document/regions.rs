@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{Reference, StrokeSettings, one};
+use super::{Color, Reference, StrokeSettings, one};
 
 /// A part of the scene with settings of its own.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -31,6 +31,18 @@ pub struct Region {
     /// Settings that differ from the scene's.
     #[serde(default)]
     pub strokes: StrokeSettings,
+    /// Turns all its directions, stated and combed: degrees counter-clockwise, as seen in the reference pose.
+    #[serde(default)]
+    pub turn_deg: f64,
+    /// Its strokes are left out of the picture; all else stays as it was.
+    #[serde(default)]
+    pub hidden: bool,
+    /// An editor does not change it; nothing else takes notice.
+    #[serde(default)]
+    pub locked: bool,
+    /// Its colour in an editor's overlays; nothing else takes notice.
+    #[serde(default)]
+    pub color: Option<Color>,
 }
 
 /// What a region covers.
@@ -45,8 +57,39 @@ pub enum Selector {
     Group(String, String),
     /// A material of an object's mesh: object, material.
     Material(String, String),
-    /// What dabs of a brush have touched: object, dabs.
+    /// What dabs of a brush have touched: object, dabs, in the order of painting.
     Dabs(String, Vec<Dab>),
+    /// What is reached from a face without going round a sharp edge: object, where it begins, and the degrees between two
+    /// faces from which on an edge is sharp, 0..=180.
+    Flood(String, Seed, f64),
+    /// Patches of one object, in order: each adds to those before it, and dabs that take away cut them.
+    Several(String, Vec<Patch>),
+}
+
+/// One piece of what a region covers on its object.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Patch {
+    /// All of it.
+    Whole,
+    /// A group of its mesh.
+    Group(String),
+    /// A material of its mesh.
+    Material(String),
+    /// As [`Selector::Dabs`].
+    Dabs(Vec<Dab>),
+    /// As [`Selector::Flood`].
+    Flood(Seed, f64),
+}
+
+/// Where a flood begins: at the face of the surface that is nearest and faces likewise; in the object's own space.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Seed {
+    /// Where.
+    pub at: [f64; 3],
+    /// Normal of the surface there.
+    pub normal: [f64; 3],
 }
 
 /// One touch of a brush on a surface; all in the object's own space.
@@ -59,6 +102,9 @@ pub struct Dab {
     pub normal: [f64; 3],
     /// How far it reaches, > 0.
     pub radius: f64,
+    /// Whether it takes what it touches out again, rather than in.
+    #[serde(default)]
+    pub take_away: bool,
 }
 
 /// Base direction of strokes.
@@ -120,6 +166,9 @@ pub enum Sense {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
+    /// What it does with the strokes that it reaches.
+    #[serde(default)]
+    pub mode: GuideMode,
     /// The object, where the region covers more than one.
     #[serde(default)]
     pub object: Option<String>,
@@ -136,6 +185,17 @@ pub struct Guide {
     /// How its strength falls off towards its radius.
     #[serde(default)]
     pub falloff: Falloff,
+}
+
+/// What a guide does with the strokes that it reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum GuideMode {
+    /// They lie along it.
+    #[default]
+    Comb,
+    /// It states no direction: it loosens what is stated and what the guides before it have combed, so that strokes join
+    /// smoothly what lies around. Where a later guide combs, that holds.
+    Smooth,
 }
 
 /// Where a guide was looked at from when it was drawn.
@@ -156,6 +216,10 @@ pub struct GuidePoint {
     pub at: [f64; 3],
     /// Normal of the surface there.
     pub normal: [f64; 3],
+    /// How far strokes are turned from the gesture's own line here: degrees counter-clockwise, as seen in the guide's view;
+    /// between two points, in between.
+    #[serde(default)]
+    pub turn_deg: f64,
 }
 
 /// How the strength of a guide falls off.
@@ -182,6 +246,64 @@ impl Region {
             sense: Sense::default(),
             reference: None,
             strokes: StrokeSettings::default(),
+            turn_deg: 0.0,
+            hidden: false,
+            locked: false,
+            color: None,
+        }
+    }
+}
+
+/// One piece of what a selector covers, borrowed from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PatchRef<'a> {
+    /// The whole object.
+    Whole,
+    /// A group, by name.
+    Group(&'a str),
+    /// A material, by name.
+    Material(&'a str),
+    /// What dabs leave, in order.
+    Dabs(&'a [Dab]),
+    /// A flood: where it begins, and from how many degrees on an edge is sharp.
+    Flood(&'a Seed, f64),
+}
+
+impl Patch {
+    fn as_ref(&self) -> PatchRef<'_> {
+        match self {
+            Self::Whole => PatchRef::Whole,
+            Self::Group(group) => PatchRef::Group(group),
+            Self::Material(material) => PatchRef::Material(material),
+            Self::Dabs(dabs) => PatchRef::Dabs(dabs),
+            Self::Flood(seed, sharp_deg) => PatchRef::Flood(seed, *sharp_deg),
+        }
+    }
+}
+
+impl Selector {
+    /// The object that it lies on; none for `Everything`.
+    pub fn object(&self) -> Option<&str> {
+        match self {
+            Self::Everything => None,
+            Self::Object(object)
+            | Self::Group(object, _)
+            | Self::Material(object, _)
+            | Self::Dabs(object, _)
+            | Self::Flood(object, ..)
+            | Self::Several(object, _) => Some(object),
+        }
+    }
+
+    /// What it covers on each object that it lies on, in order: one patch, or those of `Several`.
+    pub fn patches(&self) -> Vec<PatchRef<'_>> {
+        match self {
+            Self::Everything | Self::Object(_) => vec![PatchRef::Whole],
+            Self::Group(_, group) => vec![PatchRef::Group(group)],
+            Self::Material(_, material) => vec![PatchRef::Material(material)],
+            Self::Dabs(_, dabs) => vec![PatchRef::Dabs(dabs)],
+            Self::Flood(_, seed, sharp_deg) => vec![PatchRef::Flood(seed, *sharp_deg)],
+            Self::Several(_, patches) => patches.iter().map(Patch::as_ref).collect(),
         }
     }
 }

@@ -10,8 +10,8 @@ use crate::limits;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::problem::{Problem, Report};
 
-pub(super) type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
-pub(super) type TextureRead = Result<(Texture, Vec<Problem>), Problem>;
+pub(super) type MeshRead = Result<(Arc<MeshFile>, Vec<Problem>), Report>;
+pub(super) type TextureRead = Result<(Arc<Texture>, Vec<Problem>), Problem>;
 
 /// How the files of one scene are read. Names are as the document writes them.
 pub(super) struct Readers<'a> {
@@ -41,7 +41,7 @@ impl Files {
             match (readers.mesh)(name) {
                 Ok((mesh, warnings)) => {
                     files.problems.extend(warnings);
-                    files.meshes.insert(name.to_owned(), Arc::new(mesh));
+                    files.meshes.insert(name.to_owned(), mesh);
                 }
                 Err(Report(problems)) => {
                     // Without a place in the mesh file, the place that names it is the best one.
@@ -60,7 +60,7 @@ impl Files {
             match (readers.texture)(name) {
                 Ok((texture, warnings)) => {
                     files.problems.extend(warnings);
-                    files.textures.insert(name.to_owned(), Arc::new(texture));
+                    files.textures.insert(name.to_owned(), texture);
                 }
                 Err(problem) => files.problems.push(at(problem, &field_path)),
             }
@@ -69,7 +69,7 @@ impl Files {
             match (readers.brush)(name) {
                 Ok((texture, warnings)) => {
                     files.problems.extend(warnings);
-                    files.brushes.insert(name.to_owned(), Arc::new(texture));
+                    files.brushes.insert(name.to_owned(), texture);
                 }
                 Err(problem) => files.problems.push(at(problem, &field_path)),
             }

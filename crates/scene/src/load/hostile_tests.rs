@@ -17,7 +17,9 @@ const SEED: &str = r##"#![enable(implicit_some)]
         /* a /* nested */ comment */ (name: "leaf", mesh: "m.obj", group: "leaf", parent: "äpple", up: Z),
     ],
     strokes: (preset: "oil study", length_px: Some(30)),
-    regions: [(name: "r", on: Group("leaf", "g"), direction: Around((0, 1, 0)), strokes: (layer: -1, flatness: 0.5))],
+    regions: [(name: "r", on: Group("leaf", "g"), direction: Around((0, 1, 0)), strokes: (layer: -1, flatness: 0.5)),
+        (name: "s", turn_deg: 7, hidden: true, locked: true, color: "#008df9", on: Several("leaf", [Whole, Flood((at: (0, 0, 1), normal: (0, 0, 1)), 30), Dabs([(at: (0, 0, 1), normal: (0, 0, 1), radius: 1, take_away: true)])]),
+         guides: [(mode: Smooth, points: [(at: (0, 0, 1), normal: (0, 0, 1), turn_deg: 30), (at: (1, 0, 1), normal: (0, 0, 1))], radius: 1)])],
     style: RotatingStrokes(solver: Tangent, underpainting: false),
 )
 "##;
@@ -138,7 +140,7 @@ fn assert_handled(text: &str) -> bool {
     let Parsed { scene, located } = parsed;
     let findings = check::check(&scene);
     let is_good = !findings.iter().any(|finding| finding.severity.is_fatal());
-    let told = Told { path, written: Some(&located), applied: &[] };
+    let told = Told { path, written: Some(&located), applied: &[], edited: None };
     findings.into_iter().for_each(|finding| assert_told(&told.problem(finding)));
     if is_good {
         let saved = crate::save::to_ron(&scene);

@@ -268,7 +268,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "first" | "last" => "a whole frame number, as in 24",
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
-        "fps" | "frame" | "roll_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
+        "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
         | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter"
         | "swing_deg" | "contour" | "color_jitter" | "temperature" | "grading" | "opacity" | "thickness"
         | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" | "offset" | "size_follow"
@@ -296,7 +296,8 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "edges" => "Clip, Overrun(3) or Free",
         "canvas" => "Linen or Board",
         "canvas_follows" => "Picture or Camera",
-        "unlit" | "underpainting" => "true or false",
+        "mode" => "Comb or Smooth",
+        "unlit" | "underpainting" | "hidden" | "locked" | "take_away" => "true or false",
         "keys" => "a list of keys, as in [(frame: 0, …), (frame: 24, …)]",
         "objects" | "lights" | "regions" => "a list, as in [(name: \"apple\", …)]",
         "timeline" => "frames and their rate, as in (fps: 24, first: 0, last: 119)",
@@ -310,7 +311,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "kind" => "Sun, Point or Ambient",
         "up" => "Y or Z",
         "on" => {
-            "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\") or Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)])"
+            "Everything, Object(\"apple\"), Group(\"apple\", \"leaf\"), Material(\"apple\", \"wood\"), Dabs(\"apple\", [(at: …, normal: …, radius: 0.1)]), Flood(\"apple\", (at: …, normal: …), 30) or Several(\"apple\", [Whole, Group(\"leaf\"), Dabs(…)])"
         }
         "direction" => {
             "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)), Toward((0, 1, 0)), Curvature(Min) or Up in a region, (x, y, z) in a light"

@@ -85,5 +85,12 @@ pub(super) fn error_in(
     mend: impl Into<String>,
 ) -> Problem {
     let (message, mend) = (message.into(), mend.into());
-    Problem { severity: Severity::Error, path: path.to_owned(), place, message, mend }
+    Problem {
+        severity: Severity::Error,
+        path: path.to_owned(),
+        place,
+        field_path: String::new(),
+        message,
+        mend,
+    }
 }

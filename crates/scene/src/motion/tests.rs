@@ -8,19 +8,7 @@ fn key(frame: f64) -> ObjectKey {
 }
 
 fn object(name: &str, parent: Option<&str>, keys: Vec<ObjectKey>) -> Object {
-    Object {
-        name: name.to_owned(),
-        mesh: "cube.obj".to_owned(),
-        group: None,
-        parent: parent.map(str::to_owned),
-        particles: None,
-        hold: 1,
-        scale: Default::default(),
-        up: Default::default(),
-        morph: None,
-        material: None,
-        keys,
-    }
+    Object { parent: parent.map(str::to_owned), keys, ..Object::new(name, "cube.obj") }
 }
 
 fn camera_key(frame: f64, roll_deg: f64) -> CameraKey {

@@ -131,3 +131,64 @@ fn the_backdrop_stands_under_and_behind_the_model() {
     assert!(eye[1] < 0.0, "eye at {eye:?}");
     assert_eq!(below.objects.len(), 1);
 }
+
+/// A box with these groups, faces dealt out in turn.
+fn grouped(low: Vec3, high: Vec3, groups: &[&str]) -> MeshFile {
+    let mut file = box_between(low, high, false);
+    file.groups = groups.iter().map(|group| (*group).to_owned()).collect();
+    let material = |name: &str| crate::mesh_file::Material {
+        name: name.to_owned(),
+        color: [0.5; 3],
+        texture: None,
+        gloss: 0.0,
+    };
+    file.materials = vec![material("wood"), material("spare"), material("")];
+    let count = file.mesh.triangles.len();
+    file.mesh.group_of_triangle = (0..count).map(|i| (i % groups.len()) as u32).collect();
+    file.mesh.material_of_triangle = (0..count).map(|i| if i < 4 { 0 } else { 2 }).collect();
+    file
+}
+
+#[test]
+fn meshes_are_added_beside_each_other_with_a_region_for_each_group() {
+    let mut scene = empty();
+    assert!(crate::check::check(&scene).is_empty());
+    let mut meshes = std::collections::BTreeMap::new();
+    let mesh = grouped(Vec3::new(-1.0, 0.5, -1.0), Vec3::new(1.0, 2.5, 3.0), &["skin", "stem", "a\nb"]);
+    for (count, expected) in ["apple", "apple 2", "apple 3"].into_iter().enumerate() {
+        let name = add_mesh(&mut scene, ("meshes/apple.obj", &mesh), &meshes);
+        assert_eq!((name.as_str(), scene.objects.len()), (expected, count + 1));
+        meshes.insert("meshes/apple.obj".to_owned(), std::sync::Arc::new(mesh.clone()));
+    }
+    let names: Vec<&str> = scene.regions.iter().map(|region| region.name.as_str()).collect();
+    assert_eq!(names, ["skin", "stem", "a b", "skin 2", "stem 2", "a b 2", "skin 3", "stem 3", "a b 3"]);
+    assert_eq!(scene.regions[3].on, Selector::Group("apple 2".to_owned(), "skin".to_owned()));
+    assert_eq!(scene.regions[8].color, Some(REGION_COLORS[8]));
+    assert!(crate::check::check(&scene).is_empty() && scene.objects[0].keys.is_empty());
+    // The first where its file puts it, the others on the same floor, apart.
+    let poses = crate::motion::poses_at(&scene, 0.0);
+    let boxes: Vec<[DVec3; 2]> = poses
+        .iter()
+        .map(|pose| [[-1.0, 0.5, -1.0], [1.0, 2.5, 3.0]].map(|at| pose.transform_point3(DVec3::from(at))))
+        .collect();
+    for pair in boxes.windows(2) {
+        assert!(pair[1][0].x > pair[0][1].x + 0.1, "{boxes:?}");
+        assert!((pair[1][0].y - 0.5).abs() < 1e-3 && (pair[1][0].z + 1.0).abs() < 1e-3, "{boxes:?}");
+    }
+}
+
+#[test]
+fn without_groups_materials_become_regions_and_without_those_the_object() {
+    let mesh = grouped(Vec3::ZERO, Vec3::ONE, &["all"]);
+    let object = Object::new("chair", "chair.obj");
+    let regions = regions_of(&object, &mesh);
+    let on = |material: &str| Selector::Material("chair".to_owned(), material.to_owned());
+    assert_eq!(regions.iter().map(|r| r.on.clone()).collect::<Vec<_>>(), [on("wood"), on("")]);
+    assert_eq!(regions.iter().map(|r| r.name.as_str()).collect::<Vec<_>>(), ["wood", "chair"]);
+    assert!(regions.iter().all(|region| region.direction == Direction::Auto && region.color.is_some()));
+    let mut plain = mesh.clone();
+    plain.mesh.material_of_triangle.fill(0);
+    assert_eq!(regions_of(&object, &plain)[0].on, Selector::Object("chair".to_owned()));
+    let of_group = Object { group: Some("all".to_owned()), ..object };
+    assert_eq!(regions_of(&of_group, &mesh).len(), 1);
+}

@@ -163,7 +163,14 @@ impl<'a> Findings<'a> {
 
     fn push(&mut self, severity: Severity, place: Option<Place>, message: String, mend: &str) {
         let path = self.path.to_owned();
-        self.problems.push(Problem { severity, path, place, message, mend: mend.to_owned() });
+        self.problems.push(Problem {
+            severity,
+            path,
+            place,
+            field_path: String::new(),
+            message,
+            mend: mend.to_owned(),
+        });
     }
 
     pub fn has_errors(&self) -> bool {

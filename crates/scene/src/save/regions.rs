@@ -1,9 +1,10 @@
 //! Regions and guides.
 
 use super::layout::{Fields, Value, number, text};
-use super::{reference, strokes, vector, word};
+use super::{color, flag, reference, strokes, vector, word};
 use crate::document::{
-    Dab, Direction, Falloff, Guide, GuidePoint, GuideView, Region, Seam, Selector, Sense, StrokeSettings,
+    Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, Region, Seam, Seed, Selector,
+    Sense, StrokeSettings,
 };
 
 pub(super) fn region(region: &Region) -> Value {
@@ -16,6 +17,10 @@ pub(super) fn region(region: &Region) -> Value {
         .unless(region.sense == Sense::default(), "sense", || word(region.sense))
         .maybe("reference", region.reference.as_ref().map(reference))
         .unless(region.strokes == StrokeSettings::default(), "strokes", || strokes(&region.strokes))
+        .unless(region.turn_deg == 0.0, "turn_deg", || number(region.turn_deg))
+        .unless(!region.hidden, "hidden", || flag(true))
+        .unless(!region.locked, "locked", || flag(true))
+        .maybe("color", region.color.map(color))
         .done()
 }
 
@@ -29,7 +34,27 @@ fn selector(selector: &Selector) -> Value {
         Selector::Dabs(object, dabs) => {
             Value::Named("Dabs", vec![text(object), Value::List(dabs.iter().map(dab).collect())])
         }
+        Selector::Flood(object, start, sharp_deg) => {
+            Value::Named("Flood", vec![text(object), seed(start), number(*sharp_deg)])
+        }
+        Selector::Several(object, patches) => {
+            Value::Named("Several", vec![text(object), Value::List(patches.iter().map(patch).collect())])
+        }
     }
+}
+
+fn patch(patch: &Patch) -> Value {
+    match patch {
+        Patch::Whole => Value::Word("Whole".to_owned()),
+        Patch::Group(group) => Value::Named("Group", vec![text(group)]),
+        Patch::Material(material) => Value::Named("Material", vec![text(material)]),
+        Patch::Dabs(dabs) => Value::Named("Dabs", vec![Value::List(dabs.iter().map(dab).collect())]),
+        Patch::Flood(start, sharp_deg) => Value::Named("Flood", vec![seed(start), number(*sharp_deg)]),
+    }
+}
+
+fn seed(seed: &Seed) -> Value {
+    Fields::new().with("at", vector(seed.at)).with("normal", vector(seed.normal)).done()
 }
 
 fn dab(dab: &Dab) -> Value {
@@ -37,6 +62,7 @@ fn dab(dab: &Dab) -> Value {
         .with("at", vector(dab.at))
         .with("normal", vector(dab.normal))
         .with("radius", number(dab.radius))
+        .unless(!dab.take_away, "take_away", || flag(true))
         .done()
 }
 
@@ -63,6 +89,7 @@ fn seam(seam: Seam) -> Value {
 
 fn guide(guide: &Guide) -> Value {
     Fields::new()
+        .unless(guide.mode == GuideMode::default(), "mode", || word(guide.mode))
         .maybe("object", guide.object.as_deref().map(text))
         .maybe("view", guide.view.as_ref().map(view))
         .with("points", Value::List(guide.points.iter().map(point).collect()))
@@ -77,5 +104,9 @@ fn view(view: &GuideView) -> Value {
 }
 
 fn point(point: &GuidePoint) -> Value {
-    Fields::new().with("at", vector(point.at)).with("normal", vector(point.normal)).done()
+    Fields::new()
+        .with("at", vector(point.at))
+        .with("normal", vector(point.normal))
+        .unless(point.turn_deg == 0.0, "turn_deg", || number(point.turn_deg))
+        .done()
 }

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::document::{
-    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuidePoint, GuideView, Region, Seam,
-    Selector, Sense, Solver,
+    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch,
+    Region, Seam, Seed, Selector, Sense, Solver,
 };
 use crate::load::parse;
 
@@ -104,9 +104,9 @@ fn any_object() -> impl Strategy<Value = Object> {
     let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);
     let up = prop_oneof![Just(Up::Y), Just(Up::Z)];
     let keys = prop::collection::vec(key, 0..4);
-    let counts = (proptest::option::of(any::<u64>()), any::<u32>());
+    let counts = (proptest::option::of(any::<u64>()), any::<u32>(), any::<[bool; 2]>());
     (names, counts, scale, up, proptest::option::of(material), keys).prop_map(
-        |((name, mesh, group, parent, morph), (particles, hold), scale, up, material, keys)| Object {
+        |((name, mesh, group, parent, morph), (particles, hold, flags), scale, up, material, keys)| Object {
             name,
             mesh,
             group,
@@ -118,6 +118,8 @@ fn any_object() -> impl Strategy<Value = Object> {
             morph,
             material,
             keys,
+            hidden: flags[0],
+            locked: flags[1],
         },
     )
 }
@@ -201,11 +203,17 @@ fn any_style() -> impl Strategy<Value = Style> {
 
 fn any_guide() -> impl Strategy<Value = Guide> {
     let view = (vector3(), vector3()).prop_map(|(eye, target)| GuideView { eye, target });
-    let point = (vector3(), vector3()).prop_map(|(at, normal)| GuidePoint { at, normal });
+    let point = (vector3(), vector3(), number()).prop_map(|(at, normal, turn_deg)| GuidePoint {
+        at,
+        normal,
+        turn_deg,
+    });
     let falloff = prop_oneof![Just(Falloff::Smooth), Just(Falloff::Linear), Just(Falloff::Flat)];
-    let head = (proptest::option::of(name()), proptest::option::of(view));
+    let mode = prop_oneof![Just(GuideMode::Comb), Just(GuideMode::Smooth)];
+    let head = (mode, proptest::option::of(name()), proptest::option::of(view));
     (head, prop::collection::vec(point, 0..4), number(), number(), falloff).prop_map(
-        |((object, view), points, radius, strength, falloff)| Guide {
+        |((mode, object, view), points, radius, strength, falloff)| Guide {
+            mode,
             object,
             view,
             points,
@@ -230,13 +238,28 @@ fn any_reference() -> impl Strategy<Value = Reference> {
 }
 
 fn any_region() -> impl Strategy<Value = Region> {
-    let dab = (vector3(), vector3(), number()).prop_map(|(at, normal, radius)| Dab { at, normal, radius });
+    let dabs = || {
+        let dab = (vector3(), vector3(), number(), any::<bool>())
+            .prop_map(|(at, normal, radius, take_away)| Dab { at, normal, radius, take_away });
+        prop::collection::vec(dab, 0..3)
+    };
+    let flood = || ((vector3(), vector3()).prop_map(|(at, normal)| Seed { at, normal }), number());
+    let patch = prop_oneof![
+        Just(Patch::Whole),
+        name().prop_map(Patch::Group),
+        name().prop_map(Patch::Material),
+        dabs().prop_map(Patch::Dabs),
+        flood().prop_map(|(seed, sharp_deg)| Patch::Flood(seed, sharp_deg)),
+    ];
     let on = prop_oneof![
         Just(Selector::Everything),
         name().prop_map(Selector::Object),
         (name(), name()).prop_map(|(object, group)| Selector::Group(object, group)),
         (name(), name()).prop_map(|(object, material)| Selector::Material(object, material)),
-        (name(), prop::collection::vec(dab, 0..3)).prop_map(|(object, dabs)| Selector::Dabs(object, dabs)),
+        (name(), dabs()).prop_map(|(object, dabs)| Selector::Dabs(object, dabs)),
+        (name(), flood()).prop_map(|(object, (seed, sharp_deg))| Selector::Flood(object, seed, sharp_deg)),
+        (name(), prop::collection::vec(patch, 0..3))
+            .prop_map(|(object, patches)| Selector::Several(object, patches)),
     ];
     let direction = prop_oneof![
         Just(Direction::Auto),
@@ -251,9 +274,11 @@ fn any_region() -> impl Strategy<Value = Region> {
     ];
     let seam = prop_oneof![Just(Seam::Hard), number().prop_map(Seam::Soft)];
     let sense = prop_oneof![Just(Sense::Lines), Just(Sense::Arrows)];
-    let field = (seam, sense, prop::collection::vec(any_guide(), 0..3));
-    (name(), on, direction, field, proptest::option::of(any_reference()), any_strokes()).prop_map(
-        |(name, on, direction, (seam, sense, guides), reference, strokes)| Region {
+    let field = (seam, sense, prop::collection::vec(any_guide(), 0..3), number());
+    let of_editor = (any::<[bool; 2]>(), proptest::option::of(any_color()));
+    let head = (name(), on, of_editor);
+    (head, direction, field, proptest::option::of(any_reference()), any_strokes()).prop_map(
+        |((name, on, of_editor), direction, (seam, sense, guides, turn_deg), reference, strokes)| Region {
             name,
             on,
             direction,
@@ -262,6 +287,10 @@ fn any_region() -> impl Strategy<Value = Region> {
             sense,
             reference,
             strokes,
+            turn_deg,
+            hidden: of_editor.0[0],
+            locked: of_editor.0[1],
+            color: of_editor.1,
         },
     )
 }
@@ -341,9 +370,41 @@ const READABLE: &str = r##"#![enable(implicit_some)]
                 (frame: 60, translation: (0.8, 0, 0), rotation_deg: (0, 0, -140)),
             ],
         ),
-        (name: "leaf", mesh: "meshes/apple.obj", group: "leaf", parent: "apple"),
+        (name: "leaf", mesh: "meshes/apple.obj", group: "leaf", parent: "apple", hidden: true, locked: true),
     ],
     strokes: (preset: "oil study"),
+    regions: [
+        (
+            name: "skin",
+            on: Several(
+                "apple",
+                [
+                    Group("skin"),
+                    Flood((at: (0, 0.5, 0.2), normal: (0, 0, 1)), 30),
+                    Dabs(
+                        [
+                            (at: (0, 0.4, 0.2), normal: (0, 0, 1), radius: 0.1, take_away: true),
+                            (at: (0, 0.4, 0.2), normal: (0, 0, 1), radius: 0.02),
+                        ],
+                    ),
+                ],
+            ),
+            guides: [
+                (
+                    mode: Smooth,
+                    points: [
+                        (at: (0, 0.4, 0.2), normal: (0, 0, 1)),
+                        (at: (0, 0.6, 0.2), normal: (0, 0, 1), turn_deg: 30),
+                    ],
+                    radius: 0.2,
+                ),
+            ],
+            turn_deg: -15,
+            hidden: true,
+            locked: true,
+            color: "#008df9",
+        ),
+    ],
     style: RotatingStrokes(solver: Tangent),
 )
 "##;

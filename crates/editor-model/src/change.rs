@@ -1,0 +1,136 @@
+//! What differs between two versions of a scene: enough to go either way, and not much more.
+
+use impasto_scene::document::{Guide, Object, Region, Scene};
+
+/// The difference between two scenes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SceneChange {
+    parts: Vec<Part>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Part {
+    /// Everything but objects and regions.
+    Head(Box<[Scene; 2]>),
+    Objects(Splice<Object>),
+    Regions(Splice<Region>),
+    /// The guides of one region, where nothing else of any region differs.
+    Guides(usize, Splice<Guide>),
+}
+
+/// A run of a list that another one takes the place of.
+#[derive(Clone, Debug, PartialEq)]
+struct Splice<T> {
+    at: usize,
+    before: Vec<T>,
+    after: Vec<T>,
+}
+
+impl<T: Clone + PartialEq> Splice<T> {
+    fn between(before: &[T], after: &[T]) -> Option<Self> {
+        if before == after {
+            return None;
+        }
+        let at = before.iter().zip(after).take_while(|(a, b)| a == b).count();
+        let (left, right) = (&before[at..], &after[at..]);
+        let tail = left.iter().rev().zip(right.iter().rev()).take_while(|(a, b)| a == b).count();
+        let middle = |list: &[T]| list[..list.len() - tail].to_vec();
+        Some(Self { at, before: middle(left), after: middle(right) })
+    }
+
+    fn forward(&self, list: &mut Vec<T>) {
+        list.splice(self.at..self.at + self.before.len(), self.after.iter().cloned());
+    }
+
+    fn backward(&self, list: &mut Vec<T>) {
+        list.splice(self.at..self.at + self.after.len(), self.before.iter().cloned());
+    }
+}
+
+impl SceneChange {
+    /// None where nothing differs.
+    pub(crate) fn between(before: &Scene, after: &Scene) -> Option<Self> {
+        let mut parts = Vec::new();
+        let heads = [head(before), head(after)];
+        if heads[0] != heads[1] {
+            parts.push(Part::Head(Box::new(heads)));
+        }
+        parts.extend(Splice::between(&before.objects, &after.objects).map(Part::Objects));
+        parts.extend(regions(&before.regions, &after.regions));
+        (!parts.is_empty()).then_some(Self { parts })
+    }
+
+    pub(crate) fn redo(&self, scene: &mut Scene) {
+        for part in &self.parts {
+            match part {
+                Part::Head(heads) => put_head(scene, &heads[1]),
+                Part::Objects(splice) => splice.forward(&mut scene.objects),
+                Part::Regions(splice) => splice.forward(&mut scene.regions),
+                Part::Guides(region, splice) => splice.forward(&mut scene.regions[*region].guides),
+            }
+        }
+    }
+
+    pub(crate) fn undo(&self, scene: &mut Scene) {
+        for part in &self.parts {
+            match part {
+                Part::Head(heads) => put_head(scene, &heads[0]),
+                Part::Objects(splice) => splice.backward(&mut scene.objects),
+                Part::Regions(splice) => splice.backward(&mut scene.regions),
+                Part::Guides(region, splice) => splice.backward(&mut scene.regions[*region].guides),
+            }
+        }
+    }
+
+    /// About how many bytes it keeps.
+    pub(crate) fn bytes(&self) -> usize {
+        let of_guides =
+            |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();
+        let of_regions =
+            |regions: &[Region]| regions.iter().map(|region| 512 + of_guides(&region.guides)).sum::<usize>();
+        let of_objects =
+            |objects: &[Object]| objects.iter().map(|object| 256 + object.keys.len() * 80).sum::<usize>();
+        let of_part = |part: &Part| match part {
+            Part::Head(_) => 4096,
+            Part::Objects(splice) => of_objects(&splice.before) + of_objects(&splice.after),
+            Part::Regions(splice) => of_regions(&splice.before) + of_regions(&splice.after),
+            Part::Guides(_, splice) => of_guides(&splice.before) + of_guides(&splice.after),
+        };
+        self.parts.iter().map(of_part).sum()
+    }
+}
+
+/// A scene without its long lists.
+pub(crate) fn head(scene: &Scene) -> Scene {
+    Scene {
+        version: scene.version,
+        size: scene.size,
+        seed: scene.seed,
+        background: scene.background,
+        timeline: scene.timeline.clone(),
+        reference: scene.reference.clone(),
+        further_references: scene.further_references.clone(),
+        camera: scene.camera.clone(),
+        lights: scene.lights.clone(),
+        objects: Vec::new(),
+        strokes: scene.strokes.clone(),
+        regions: Vec::new(),
+        style: scene.style.clone(),
+    }
+}
+
+fn put_head(scene: &mut Scene, head: &Scene) {
+    let (objects, regions) = (std::mem::take(&mut scene.objects), std::mem::take(&mut scene.regions));
+    *scene = Scene { objects, regions, ..head.clone() };
+}
+
+fn regions(before: &[Region], after: &[Region]) -> Option<Part> {
+    let splice = Splice::between(before, after)?;
+    if let ([one], [other]) = (&splice.before[..], &splice.after[..]) {
+        let bare = |region: &Region| Region { guides: Vec::new(), ..region.clone() };
+        if bare(one) == bare(other) {
+            return Splice::between(&one.guides, &other.guides).map(|guides| Part::Guides(splice.at, guides));
+        }
+    }
+    Some(Part::Regions(splice))
+}

@@ -1,0 +1,131 @@
+//! Commands: everything that changes a document, each with the words that the history shows for it.
+
+mod arrange;
+mod direction;
+mod edit;
+mod region;
+mod scene;
+mod time;
+
+use impasto_scene::document::{Object, Region, Scene};
+use impasto_scene::loaded::LoadedScene;
+
+pub use arrange::{Arrange, PoseField, Shift};
+pub use direction::{Directions, Gesture, GuideSettings, RegionTarget};
+pub use edit::Edit;
+pub use region::{Regions, StrokeChange, StrokesOf};
+pub use scene::SceneEdit;
+pub use time::{KeyOf, Pose, Time};
+
+use crate::refusal::Refusal;
+use crate::selection::Selection;
+
+/// One change of a document.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Names, parents, order, deletion.
+    Edit(Edit),
+    /// Things and their places.
+    Arrange(Arrange),
+    /// Directions and guides.
+    Directions(Directions),
+    /// Regions and their strokes.
+    Regions(Regions),
+    /// Keys and the timeline.
+    Time(Time),
+    /// Size, style and backdrop.
+    Scene(SceneEdit),
+    /// Several as one entry, under one text; the first that is refused refuses all.
+    Several(String, Vec<Command>),
+}
+
+/// What an edit did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Done {
+    /// The words of the history.
+    pub(crate) text: String,
+    /// What is selected from then on; none leaves it.
+    pub(crate) selection: Option<Selection>,
+    /// More that should be said.
+    pub(crate) note: Option<String>,
+}
+
+impl Done {
+    pub(crate) fn new(text: impl Into<String>) -> Self {
+        Self { text: text.into(), ..Self::default() }
+    }
+
+    pub(crate) fn selecting(mut self, selection: Selection) -> Self {
+        self.selection = Some(selection);
+        self
+    }
+
+    pub(crate) fn noting(mut self, note: impl Into<String>) -> Self {
+        self.note = Some(note.into());
+        self
+    }
+}
+
+impl Command {
+    /// Changes a scene that came from `before`.
+    pub(crate) fn edit(&self, scene: &mut Scene, before: &LoadedScene) -> Result<Done, Refusal> {
+        match self {
+            Self::Edit(command) => command.edit(scene),
+            Self::Arrange(command) => command.edit(scene, before),
+            Self::Directions(command) => command.edit(scene),
+            Self::Regions(command) => command.edit(scene),
+            Self::Time(command) => command.edit(scene),
+            Self::Scene(command) => command.edit(scene),
+            Self::Several(text, commands) => {
+                let mut all = Done::new(text.clone());
+                for command in commands {
+                    let done = command.edit(scene, before)?;
+                    all.selection = done.selection.or(all.selection);
+                    all.note = done.note.or(all.note);
+                }
+                Ok(all)
+            }
+        }
+    }
+}
+
+pub(crate) fn object_mut<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Object, Refusal> {
+    let object = scene.objects.iter_mut().find(|object| object.name == name);
+    object.ok_or_else(|| Refusal::unknown("object", name))
+}
+
+pub(crate) fn region_mut<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Region, Refusal> {
+    let region = scene.regions.iter_mut().find(|region| region.name == name);
+    region.ok_or_else(|| Refusal::unknown("region", name))
+}
+
+/// An object that may be changed.
+pub(crate) fn unlocked_object<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Object, Refusal> {
+    let object = object_mut(scene, name)?;
+    if object.locked { Err(Refusal::new(format!("{name} is locked"))) } else { Ok(object) }
+}
+
+/// A region that may be changed: neither it nor its object is locked.
+pub(crate) fn unlocked_region<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Region, Refusal> {
+    let on = region_mut(scene, name)?.on.object().map(str::to_owned);
+    if let Some(object) = scene.objects.iter().find(|object| Some(&object.name) == on.as_ref())
+        && object.locked
+    {
+        return Err(Refusal::new(format!("{} is locked", object.name)));
+    }
+    let region = region_mut(scene, name)?;
+    if region.locked { Err(Refusal::new(format!("{name} is locked"))) } else { Ok(region) }
+}
+
+/// *apple*, or *3 objects*.
+pub(crate) fn counted(names: &[impl AsRef<str>], what: &str) -> String {
+    match names {
+        [name] => name.as_ref().to_owned(),
+        names => format!("{} {what}", names.len()),
+    }
+}
+
+/// A number that a document can hold.
+pub(crate) fn finite(value: f64) -> Result<f64, Refusal> {
+    if value.is_finite() { Ok(value) } else { Err(Refusal::new("That is no number")) }
+}

@@ -1,0 +1,413 @@
+//! Things and their places.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+use impasto_scene::document::{
+    CameraKey, Dab, Direction, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Patch, Scene,
+    Seed, Selector, Up,
+};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::{document, new_scene};
+
+use super::region::in_file;
+use super::{Done, counted, finite, object_mut, unlocked_object};
+use crate::euler::{self, tidy};
+use crate::names;
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+
+/// A move, turn and even scaling of whole motions, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shift {
+    /// Where each point of the world goes: a rotation, an even scale above 0 and a translation.
+    pub world_from_world: DAffine3,
+    /// The frame that it is seen at: what stands on a moving parent is shifted as the parent stands then.
+    pub frame: f64,
+}
+
+/// One number of an object's pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PoseField {
+    /// Translation along an axis: 0, 1, 2 for X, Y, Z.
+    Move(usize),
+    /// Euler angle about an axis, degrees.
+    Turn(usize),
+    /// Size.
+    Scale,
+}
+
+/// Things and their places.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Arrange {
+    /// Adds an object for a mesh file, with a region for each of its groups, and selects it.
+    Import {
+        /// The mesh's path, relative to the scene's folder.
+        mesh: String,
+        /// What the file holds.
+        file: Arc<MeshFile>,
+    },
+    /// Gives an object another mesh.
+    ReplaceMesh {
+        /// The object.
+        object: String,
+        /// The mesh's path, relative to the scene's folder.
+        mesh: String,
+    },
+    /// Moves, turns and scales objects with all their keys; what stands on a shifted object goes with it.
+    ShiftMotion {
+        /// The objects.
+        objects: Vec<String>,
+        /// How.
+        shift: Shift,
+        /// What was done, in words: *Move*.
+        verb: &'static str,
+    },
+    /// Stretches an object along its own axes, and its guides with it.
+    Stretch {
+        /// The object.
+        object: String,
+        /// Factors, none 0.
+        factors: DVec3,
+    },
+    /// Shifts the whole motion so that one number is this at a frame.
+    SetPoseField {
+        /// The object.
+        object: String,
+        /// The frame.
+        frame: f64,
+        /// Which number.
+        field: PoseField,
+        /// Its new value; degrees for turns.
+        value: f64,
+    },
+    /// Turns a mesh that was made with Z up on its feet, or back.
+    TurnUpright(String),
+    /// Scales a mesh so that its longest side is as long as this.
+    ScaleTo(String, f64),
+    /// Sets or takes away what overrides the materials of the mesh.
+    SetMaterial(String, Option<MaterialOverride>),
+    /// How many particles an object has; none leaves it to the coverage.
+    SetParticles(String, Option<u64>),
+    /// Adds a light of a kind at a point of the world, shining on another.
+    AddLight {
+        /// Its kind.
+        kind: LightKind,
+        /// Where a point light stands, and where the sun comes from.
+        at: DVec3,
+        /// What it shines on.
+        toward: DVec3,
+    },
+    /// Changes a light, with what changed in words.
+    SetLight {
+        /// Its name.
+        name: String,
+        /// What it is like; its name stays.
+        light: Light,
+        /// What changed: *brighter*.
+        what: String,
+    },
+    /// The lens of the shot.
+    SetLens(Lens),
+    /// Shifts the shot's camera with all its keys so that this is its pose at a frame.
+    SetCamera {
+        /// The frame.
+        frame: f64,
+        /// The pose.
+        pose: CameraPose,
+    },
+}
+
+impl Arrange {
+    pub(super) fn edit(&self, scene: &mut Scene, before: &LoadedScene) -> Result<Done, Refusal> {
+        match self {
+            Self::Import { mesh, file } => import(scene, before, mesh, file),
+            Self::ReplaceMesh { object, mesh } => {
+                unlocked_object(scene, object)?.mesh.clone_from(mesh);
+                let name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
+                Ok(Done::new(format!("Use {name}")))
+            }
+            Self::ShiftMotion { objects, shift, verb } => {
+                shift_motion(scene, objects, shift)?;
+                Ok(Done::new(format!("{verb} {}", counted(objects, "objects"))))
+            }
+            Self::Stretch { object, factors } => {
+                if factors.to_array().iter().any(|factor| !factor.is_finite() || factor.abs() < 1e-6) {
+                    return Err(Refusal::new("A size is a number above 0"));
+                }
+                let edited = unlocked_object(scene, object)?;
+                let stretched = DVec3::from(edited.scale.0) * *factors;
+                edited.scale.0 = stretched.map(tidy).to_array();
+                carry_guides(scene, object, DMat3::from_diagonal(*factors));
+                Ok(Done::new(format!("Scale {object}")))
+            }
+            Self::SetPoseField { object, frame, field, value } => {
+                set_pose_field(scene, object, *frame, (*field, finite(*value)?))
+            }
+            Self::TurnUpright(name) => {
+                let object = unlocked_object(scene, name)?;
+                let old = object.model_from_file();
+                object.up = if object.up == Up::Y { Up::Z } else { Up::Y };
+                // Sizes go with the axes that they belonged to.
+                object.scale.0.swap(1, 2);
+                let turn = object.model_from_file() * old.inverse();
+                carry_guides(scene, name, turn);
+                Ok(Done::new(format!("Turn {name} upright")))
+            }
+            Self::ScaleTo(name, length) => {
+                if !length.is_finite() || *length <= 0.0 {
+                    return Err(Refusal::new("A size is a number above 0"));
+                }
+                let object = unlocked_object(scene, name)?;
+                let file = before.meshes.get(&object.mesh);
+                let (low, high) = file.and_then(|file| file.mesh.bounds()).unwrap_or_default();
+                let size = object.model_from_file() * (high - low).as_dvec3();
+                let factor = length / size.abs().max_element();
+                if !factor.is_finite() {
+                    return Err(Refusal::new(format!("{name} is a single point")));
+                }
+                object.scale.0 = object.scale.0.map(|side| tidy(side * factor));
+                carry_guides(scene, name, DMat3::from_diagonal(DVec3::splat(factor)));
+                Ok(Done::new(format!("Scale {name}")))
+            }
+            Self::SetMaterial(name, material) => {
+                let material = material.clone().map(|mut material| {
+                    material.color = material.color.map(in_file);
+                    material
+                });
+                unlocked_object(scene, name)?.material = material;
+                Ok(Done::new(format!("Material of {name}")))
+            }
+            Self::SetParticles(name, count) => {
+                unlocked_object(scene, name)?.particles = *count;
+                Ok(Done::new(format!("Particles of {name}")))
+            }
+            Self::AddLight { kind, at, toward } => Ok(add_light(scene, *kind, *at, *toward)),
+            Self::SetLight { name, light, what } => {
+                let known = scene.lights.iter_mut().find(|light| light.name == *name);
+                let known = known.ok_or_else(|| Refusal::unknown("light", name))?;
+                *known = Light {
+                    name: name.clone(),
+                    color: in_file(light.color),
+                    ground: light.ground.map(in_file),
+                    ..light.clone()
+                };
+                let words = if what.is_empty() { String::new() } else { format!(" {what}") };
+                let mut capital = name.clone();
+                if let Some(first) = capital.get_mut(0..1) {
+                    first.make_ascii_uppercase();
+                }
+                Ok(Done::new(format!("{capital}{words}")))
+            }
+            Self::SetLens(lens) => {
+                scene.camera.lens = lens.clone();
+                // Keys that say otherwise would hide what was just set.
+                for key in &mut scene.camera.keys {
+                    key.fov_y_deg = None;
+                }
+                Ok(Done::new("Set field of view"))
+            }
+            Self::SetCamera { frame, pose } => {
+                set_camera(scene, *frame, pose);
+                Ok(Done::new("Camera to this view").selecting(Selection::only(Item::Camera)))
+            }
+        }
+    }
+}
+
+fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) -> Result<Done, Refusal> {
+    if mesh.trim().is_empty() {
+        return Err(Refusal::new("That file has no name"));
+    }
+    let name = new_scene::add_mesh(scene, (mesh, file), &before.meshes);
+    let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
+    Ok(Done::new(format!("Import {file_name}")).selecting(Selection::only(Item::Object(name))))
+}
+
+fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<(), Refusal> {
+    if !shift.world_from_world.is_finite() || shift.world_from_world.matrix3.determinant() < 1e-18 {
+        return Err(Refusal::new("A size is a number above 0"));
+    }
+    let poses = motion::poses_at(scene, shift.frame);
+    for name in objects {
+        let index = scene.objects.iter().position(|object| object.name == *name);
+        let index = index.ok_or_else(|| Refusal::unknown("object", name))?;
+        if rides_on_one_of(scene, index, objects) {
+            continue;
+        }
+        let parent = scene.objects[index].parent.as_deref();
+        let parent = parent.and_then(|parent| scene.objects.iter().position(|other| other.name == parent));
+        let world_from_parent = parent.map_or(DAffine3::IDENTITY, |parent| poses[parent]);
+        let in_parent = world_from_parent.inverse() * shift.world_from_world * world_from_parent;
+        let object = unlocked_object(scene, name)?;
+        if object.keys.is_empty() {
+            object.keys.push(ObjectKey::at(0.0));
+        }
+        let factor = in_parent.matrix3.determinant().cbrt();
+        let turn = in_parent.matrix3 * (1.0 / factor);
+        for key in &mut object.keys {
+            key.translation = in_parent.transform_point3(DVec3::from(key.translation)).map(tidy).to_array();
+            if !turn.abs_diff_eq(DMat3::IDENTITY, 1e-12) {
+                key.rotation_deg = euler::degrees(turn * euler::matrix(key.rotation_deg), key.rotation_deg);
+            }
+            key.scale = tidy(key.scale * factor);
+        }
+    }
+    Ok(())
+}
+
+/// Whether any of the objects above this one is among `objects`.
+fn rides_on_one_of(scene: &Scene, index: usize, objects: &[String]) -> bool {
+    let mut above = scene.objects[index].parent.as_deref();
+    for _ in 0..scene.objects.len() {
+        let Some(name) = above else { return false };
+        if objects.iter().any(|object| object == name) {
+            return true;
+        }
+        let parent = scene.objects.iter().find(|object| object.name == name);
+        above = parent.and_then(|parent| parent.parent.as_deref());
+    }
+    false
+}
+
+/// Takes all that is stated in an object's own space along when that space changes.
+fn carry_guides(scene: &mut Scene, object: &str, new_from_old: DMat3) {
+    let normal_matrix = new_from_old.inverse().transpose();
+    let point = |at: &mut [f64; 3]| *at = (new_from_old * DVec3::from(*at)).map(tidy).to_array();
+    let normal = |n: &mut [f64; 3]| {
+        *n = (normal_matrix * DVec3::from(*n)).normalize_or(DVec3::from(*n)).map(tidy).to_array();
+    };
+    let factor = new_from_old.determinant().abs().cbrt();
+    for region in &mut scene.regions {
+        let is_its_own = region.on.object() == Some(object);
+        if is_its_own {
+            carry_selector(&mut region.on, factor, &point, &normal);
+            match &mut region.direction {
+                Direction::Toward(at) | Direction::Along(at) | Direction::Around(at) => point(at),
+                _ => {}
+            }
+        }
+        for guide in &mut region.guides {
+            if guide.object.as_deref() != Some(object) && !(guide.object.is_none() && is_its_own) {
+                continue;
+            }
+            for at in &mut guide.points {
+                point(&mut at.at);
+                normal(&mut at.normal);
+            }
+            if let Some(view) = &mut guide.view {
+                point(&mut view.eye);
+                point(&mut view.target);
+            }
+            guide.radius *= factor;
+        }
+    }
+}
+
+fn carry_selector(
+    selector: &mut Selector,
+    factor: f64,
+    point: &impl Fn(&mut [f64; 3]),
+    normal: &impl Fn(&mut [f64; 3]),
+) {
+    let carry_dabs = |dabs: &mut [Dab]| {
+        for dab in dabs {
+            point(&mut dab.at);
+            normal(&mut dab.normal);
+            dab.radius *= factor;
+        }
+    };
+    let carry_seed = |seed: &mut Seed| {
+        point(&mut seed.at);
+        normal(&mut seed.normal);
+    };
+    match selector {
+        Selector::Dabs(_, dabs) => carry_dabs(dabs),
+        Selector::Flood(_, seed, _) => carry_seed(seed),
+        Selector::Several(_, patches) => {
+            for patch in patches {
+                match patch {
+                    Patch::Dabs(dabs) => carry_dabs(dabs),
+                    Patch::Flood(seed, _) => carry_seed(seed),
+                    Patch::Whole | Patch::Group(_) | Patch::Material(_) => {}
+                }
+            }
+        }
+        Selector::Everything | Selector::Object(_) | Selector::Group(..) | Selector::Material(..) => {}
+    }
+}
+
+fn set_pose_field(
+    scene: &mut Scene,
+    name: &str,
+    frame: f64,
+    (field, value): (PoseField, f64),
+) -> Result<Done, Refusal> {
+    let now = motion::key_at(scene, object_mut(&mut scene.clone(), name)?, frame);
+    let object: &mut Object = unlocked_object(scene, name)?;
+    if object.keys.is_empty() {
+        object.keys.push(ObjectKey::at(0.0));
+    }
+    const AXES: [&str; 3] = ["X", "Y", "Z"];
+    let what = match field {
+        PoseField::Move(axis) => {
+            let by = value - now.translation[axis];
+            object.keys.iter_mut().for_each(|key| key.translation[axis] = tidy(key.translation[axis] + by));
+            AXES[axis].to_owned()
+        }
+        PoseField::Turn(axis) => {
+            let by = value - now.rotation_deg[axis];
+            object.keys.iter_mut().for_each(|key| key.rotation_deg[axis] = tidy(key.rotation_deg[axis] + by));
+            format!("turn {}", AXES[axis])
+        }
+        PoseField::Scale => {
+            if value <= 0.0 {
+                return Err(Refusal::new("A size is a number above 0"));
+            }
+            let factor = value / now.scale;
+            object.keys.iter_mut().for_each(|key| key.scale = tidy(key.scale * factor));
+            "scale".to_owned()
+        }
+    };
+    Ok(Done::new(format!("Set {name} {what}")))
+}
+
+fn add_light(scene: &mut Scene, kind: LightKind, at: DVec3, toward: DVec3) -> Done {
+    let wanted = match kind {
+        LightKind::Sun => "sun",
+        LightKind::Point => "lamp",
+        LightKind::Ambient => "sky",
+    };
+    let name = names::unique(wanted, scene.lights.iter().map(|light| light.name.as_str()));
+    let round = |vector: DVec3| vector.map(|v| (v * 1e4).round() / 1e4).to_array();
+    let light = Light {
+        name: name.clone(),
+        kind,
+        direction: (kind == LightKind::Sun)
+            .then(|| round((toward - at).normalize_or(DVec3::new(0.4, -0.8, -0.45)))),
+        position: (kind == LightKind::Point).then(|| round(at)),
+        color: document::Color::white(),
+        ground: None,
+        intensity: if kind == LightKind::Ambient { 0.5 } else { 1.5 },
+    };
+    scene.lights.push(light);
+    Done::new(format!("Add {name}")).selecting(Selection::only(Item::Light(name)))
+}
+
+fn set_camera(scene: &mut Scene, frame: f64, pose: &CameraPose) {
+    let now = motion::camera_at(scene, frame);
+    let [eye_by, target_by] = [pose.eye - now.eye, pose.target - now.target];
+    let roll_by = (pose.roll_rad - now.roll_rad).to_degrees();
+    if scene.camera.keys.is_empty() {
+        let [eye, target] = [now.eye, now.target].map(|at| at.to_array());
+        let ease = Default::default();
+        scene.camera.keys.push(CameraKey { frame, eye, target, roll_deg: 0.0, fov_y_deg: None, ease });
+    }
+    for key in &mut scene.camera.keys {
+        key.eye = (DVec3::from(key.eye) + eye_by).map(tidy).to_array();
+        key.target = (DVec3::from(key.target) + target_by).map(tidy).to_array();
+        key.roll_deg = tidy(key.roll_deg + roll_by);
+    }
+}

@@ -1,0 +1,365 @@
+//! Directions and guides.
+
+use impasto_scene::document::{
+    Direction, Falloff, Guide, GuidePoint, GuideView, Reference, Region, Scene, Selector, Sense,
+};
+use impasto_scene::motion;
+
+use super::{Done, finite, unlocked_object, unlocked_region};
+use crate::euler::tidy;
+use crate::names;
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+
+/// Which region a gesture works on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RegionTarget {
+    /// One that is there.
+    Named(String),
+    /// None lies there yet: one that covers the whole object is made, in the same entry.
+    NewOn(String),
+}
+
+/// What a gesture did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// Strokes follow it.
+    Comb,
+    /// What lies under it is joined.
+    Smooth,
+    /// Directions were dragged along it.
+    Smear,
+    /// A curve drawn by its points.
+    Curve,
+}
+
+/// What holds for a whole guide; what is none stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuideSettings {
+    /// How far it reaches, units of the object's own space.
+    pub radius: Option<f64>,
+    /// How far strokes on it follow it, 0..=1.
+    pub strength: Option<f64>,
+    /// How it falls off.
+    pub falloff: Option<Falloff>,
+}
+
+/// Directions and guides.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Directions {
+    /// Adds what one gesture left on the surface: its pieces and their mirror images.
+    Stroke {
+        /// Where.
+        region: RegionTarget,
+        /// What was done.
+        gesture: Gesture,
+        /// Its pieces.
+        guides: Vec<Guide>,
+    },
+    /// Puts other guides in place of a region's own, as an eraser does.
+    Erase {
+        /// The region.
+        region: String,
+        /// What is left.
+        guides: Vec<Guide>,
+    },
+    /// Moves a point of a guide.
+    MoveGuidePoint {
+        /// The region and the guide's place in it.
+        guide: (String, usize),
+        /// Which point.
+        point: usize,
+        /// Where to.
+        to: GuidePoint,
+    },
+    /// Puts a point into a guide, before the point that stands there.
+    InsertGuidePoint {
+        /// The region and the guide's place in it.
+        guide: (String, usize),
+        /// Its place.
+        point: usize,
+        /// Where.
+        at: GuidePoint,
+    },
+    /// Takes a point out of a guide; with fewer than two left the guide goes.
+    DeleteGuidePoint {
+        /// The region and the guide's place in it.
+        guide: (String, usize),
+        /// Which point.
+        point: usize,
+    },
+    /// Changes radius, strength or falloff of a guide.
+    SetGuide {
+        /// The region and the guide's place in it.
+        guide: (String, usize),
+        /// What changes.
+        settings: GuideSettings,
+    },
+    /// Turns a guide round: it points the other way.
+    FlipGuide(String, usize),
+    /// States the base direction of a region.
+    SetBase {
+        /// Where.
+        region: RegionTarget,
+        /// The direction.
+        direction: Direction,
+    },
+    /// Turns all directions of a region, degrees counter-clockwise.
+    Turn {
+        /// Where.
+        region: RegionTarget,
+        /// By how much.
+        by_deg: f64,
+    },
+    /// Turns all directions of a region round, so that strokes begin where they ended.
+    Flip(RegionTarget),
+    /// Whether strokes have a beginning and an end.
+    SetSense(String, Sense),
+    /// Leaves out points of guides that lie within a distance of the line between their neighbours, and guides that later
+    /// ones cover.
+    Simplify {
+        /// The region.
+        region: String,
+        /// The distance, units of the object's own space.
+        tolerance: f64,
+    },
+    /// Takes a frame as the new reference; directions stay as they are stored.
+    Recapture(i64),
+}
+
+impl Directions {
+    pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
+        match self {
+            Self::Stroke { region, gesture, guides } => {
+                let name = target(scene, region)?;
+                if guides.is_empty() {
+                    return Err(Refusal::new("Nothing to paint here: the ring must lie on an object"));
+                }
+                let edited = unlocked_region(scene, &name)?;
+                edited.guides.extend(guides.iter().cloned());
+                let item = match gesture {
+                    Gesture::Curve => Item::Guide(name.clone(), edited.guides.len() - 1),
+                    _ => Item::Region(name.clone()),
+                };
+                let text = match gesture {
+                    Gesture::Comb => format!("Comb {name}"),
+                    Gesture::Smooth => format!("Smooth {name}"),
+                    Gesture::Smear => format!("Smear {name}"),
+                    Gesture::Curve => "Draw guide".to_owned(),
+                };
+                Ok(Done::new(text).selecting(Selection::only(item)))
+            }
+            Self::Erase { region, guides } => {
+                unlocked_region(scene, region)?.guides.clone_from(guides);
+                let selection = Selection::only(Item::Region(region.clone()));
+                Ok(Done::new(format!("Erase on {region}")).selecting(selection))
+            }
+            Self::MoveGuidePoint { guide, point, to } => {
+                *guide_of(scene, guide)?.points.get_mut(*point).ok_or_else(no_point)? = to.clone();
+                Ok(edited(guide))
+            }
+            Self::InsertGuidePoint { guide, point, at } => {
+                let points = &mut guide_of(scene, guide)?.points;
+                points.insert((*point).min(points.len()), at.clone());
+                Ok(edited(guide))
+            }
+            Self::DeleteGuidePoint { guide, point } => {
+                let points = &mut guide_of(scene, guide)?.points;
+                if *point >= points.len() {
+                    return Err(no_point());
+                }
+                points.remove(*point);
+                if points.len() >= 2 {
+                    return Ok(edited(guide));
+                }
+                unlocked_region(scene, &guide.0)?.guides.remove(guide.1);
+                let selection = Selection::only(Item::Region(guide.0.clone()));
+                Ok(Done::new(format!("Delete guide g{} of {}", guide.1 + 1, guide.0)).selecting(selection))
+            }
+            Self::SetGuide { guide, settings } => set_guide(guide_of(scene, guide)?, settings),
+            Self::FlipGuide(region, index) => {
+                flip(guide_of(scene, &(region.clone(), *index))?);
+                Ok(Done::new(format!("Flip guide g{}", index + 1)))
+            }
+            Self::SetBase { region, direction } => {
+                let name = target(scene, region)?;
+                unlocked_region(scene, &name)?.direction = direction.clone();
+                let words = words_of(direction);
+                let selection = Selection::only(Item::Region(name.clone()));
+                Ok(Done::new(format!("Fill {name}: {words}")).selecting(selection))
+            }
+            Self::Turn { region, by_deg } => {
+                let name = target(scene, region)?;
+                turn(unlocked_region(scene, &name)?, finite(*by_deg)?);
+                let selection = Selection::only(Item::Region(name.clone()));
+                Ok(Done::new(format!("Turn {name} {}°", tidy(*by_deg))).selecting(selection))
+            }
+            Self::Flip(region) => {
+                let name = target(scene, region)?;
+                let edited = unlocked_region(scene, &name)?;
+                turn(edited, 180.0);
+                let selection = Selection::only(Item::Region(name.clone()));
+                Ok(Done::new(format!("Flip {name}")).selecting(selection))
+            }
+            Self::SetSense(name, sense) => {
+                unlocked_region(scene, name)?.sense = *sense;
+                Ok(Done::new(match sense {
+                    Sense::Lines => format!("{name}: lines"),
+                    Sense::Arrows => format!("{name}: arrows"),
+                }))
+            }
+            Self::Simplify { region, tolerance } => simplify(unlocked_region(scene, region)?, *tolerance),
+            Self::Recapture(frame) => recapture(scene, *frame),
+        }
+    }
+}
+
+fn edited((_, index): &(String, usize)) -> Done {
+    Done::new(format!("Edit guide g{}", index + 1))
+}
+
+fn no_point() -> Refusal {
+    Refusal::new("The guide has no such point")
+}
+
+/// The name of the region that a gesture works on; made where it is not there yet.
+fn target(scene: &mut Scene, region: &RegionTarget) -> Result<String, Refusal> {
+    match region {
+        RegionTarget::Named(name) => Ok(name.clone()),
+        RegionTarget::NewOn(object) => {
+            unlocked_object(scene, object)?;
+            let name = names::unique(object, scene.regions.iter().map(|region| region.name.as_str()));
+            // First of all: it covers the whole object, and those that cover a part lie on it.
+            scene.regions.insert(0, Region::new(name.clone(), Selector::Object(object.clone())));
+            Ok(name)
+        }
+    }
+}
+
+fn guide_of<'a>(scene: &'a mut Scene, (region, index): &(String, usize)) -> Result<&'a mut Guide, Refusal> {
+    let guide = unlocked_region(scene, region)?.guides.get_mut(*index);
+    guide.ok_or_else(|| Refusal::new(format!("{region} has no guide g{}", index + 1)))
+}
+
+fn set_guide(guide: &mut Guide, settings: &GuideSettings) -> Result<Done, Refusal> {
+    let mut text = "Guide";
+    if let Some(radius) = settings.radius {
+        if finite(radius)? <= 0.0 {
+            return Err(Refusal::new("A guide reaches further than nothing"));
+        }
+        (guide.radius, text) = (radius, "Guide radius");
+    }
+    if let Some(strength) = settings.strength {
+        (guide.strength, text) = (finite(strength)?.clamp(0.0, 1.0), "Guide strength");
+    }
+    if let Some(falloff) = settings.falloff {
+        (guide.falloff, text) = (falloff, "Guide falloff");
+    }
+    Ok(Done::new(text))
+}
+
+fn flip(guide: &mut Guide) {
+    guide.points.reverse();
+}
+
+fn turn(region: &mut Region, by_deg: f64) {
+    let turned = tidy((region.turn_deg + by_deg + 180.0).rem_euclid(360.0) - 180.0);
+    region.turn_deg = if turned == -180.0 { 180.0 } else { turned };
+}
+
+/// What people call a base direction.
+pub(crate) fn words_of(direction: &Direction) -> String {
+    match direction {
+        Direction::Auto => "automatic".to_owned(),
+        Direction::Angle(angle) => format!("{}°", tidy(*angle)),
+        Direction::Crossing(a, b) => format!("crossing {}° and {}°", tidy(*a), tidy(*b)),
+        Direction::Along(_) => "along".to_owned(),
+        Direction::Around(_) => "around".to_owned(),
+        Direction::Up => "up".to_owned(),
+        Direction::Toward(_) => "toward a point".to_owned(),
+        Direction::Curvature(_) => "curvature".to_owned(),
+    }
+}
+
+/// Points on the line between their neighbours go; so do guides that a later one covers with all its strength.
+fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
+    let before = region.guides.len();
+    let covers = |later: &Guide, earlier: &Guide| {
+        later.strength >= 1.0
+            && later.object == earlier.object
+            && earlier.points.iter().all(|point| {
+                later.points.iter().any(|over| {
+                    let apart = glam::DVec3::from(point.at).distance(glam::DVec3::from(over.at));
+                    apart + earlier.radius <= later.radius
+                })
+            })
+    };
+    let guides = std::mem::take(&mut region.guides);
+    for (index, guide) in guides.iter().enumerate() {
+        if !guides[index + 1..].iter().any(|later| covers(later, guide)) {
+            let points = thinned(&guide.points, tolerance);
+            region.guides.push(Guide { points, ..guide.clone() });
+        }
+    }
+    let after = region.guides.len();
+    Ok(Done::new(format!("Simplify {before} guides to {after}")))
+}
+
+/// Ramer, Douglas and Peucker: what lies within `tolerance` of the line goes.
+pub(crate) fn thinned(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePoint> {
+    let at = |index: usize| glam::DVec3::from(points[index].at);
+    let mut keep = vec![false; points.len()];
+    let mut open = vec![(0, points.len().saturating_sub(1))];
+    while let Some((first, last)) = open.pop() {
+        if points.is_empty() {
+            break;
+        }
+        (keep[first], keep[last]) = (true, true);
+        let line = at(last) - at(first);
+        let farthest = (first + 1..last)
+            .map(|index| {
+                let share =
+                    ((at(index) - at(first)).dot(line) / line.length_squared().max(1e-300)).clamp(0.0, 1.0);
+                (index, at(index).distance(at(first) + line * share))
+            })
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((index, apart)) = farthest
+            && apart > tolerance
+        {
+            open.extend([(first, index), (index, last)]);
+        }
+    }
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
+}
+
+/// The old reference stays with what was stated against it, so that all directions stay as they are.
+fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
+    let new = Reference::Frame(frame);
+    if scene.reference == new {
+        return Err(Refusal::new(format!("Frame {frame} is the reference already")));
+    }
+    let old = std::mem::replace(&mut scene.reference, new);
+    let (camera, at) = motion::referred_to(scene, &old);
+    let poses = motion::poses_at(scene, at);
+    let view_of = |object: Option<&str>| {
+        let index = scene.objects.iter().position(|other| Some(other.name.as_str()) == object)?;
+        let model_from_world = poses[index].inverse();
+        let [eye, target] =
+            [camera.eye, camera.target].map(|at| model_from_world.transform_point3(at).to_array());
+        Some(GuideView { eye, target })
+    };
+    let mut regions = std::mem::take(&mut scene.regions);
+    for region in &mut regions {
+        let on = region.on.object().map(str::to_owned);
+        for guide in region.guides.iter_mut().filter(|guide| guide.view.is_none()) {
+            guide.view = view_of(guide.object.as_deref().or(on.as_deref()));
+        }
+        let is_of_the_picture =
+            matches!(region.direction, Direction::Auto | Direction::Angle(_) | Direction::Crossing(..));
+        if region.reference.is_none() && is_of_the_picture {
+            region.reference = Some(old.clone());
+        }
+    }
+    scene.regions = regions;
+    Ok(Done::new(format!("Reference: frame {frame}")))
+}

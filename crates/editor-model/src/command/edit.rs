@@ -1,0 +1,300 @@
+//! Names, parents, order, deletion.
+
+use glam::{DAffine3, DMat3, DVec3};
+use impasto_scene::document::{ObjectKey, Scene};
+use impasto_scene::motion;
+
+use super::{Done, counted, object_mut, region_mut, unlocked_object, unlocked_region};
+use crate::document::exists;
+use crate::euler;
+use crate::names;
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+
+/// Names, parents, order, deletion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// Takes things out. An object goes with its regions; what stood on it stands on what it stood on.
+    Delete(Vec<Item>),
+    /// Makes copies of objects (with their regions), regions and lights, and selects them.
+    Duplicate(Vec<Item>),
+    /// Gives a thing another name.
+    Rename(Item, String),
+    /// Puts an object on another one, or takes it off; where it stands at the reference stays.
+    SetParent {
+        /// The object.
+        object: String,
+        /// What it is put on; none takes it off.
+        parent: Option<String>,
+    },
+    /// Moves an object, a region or a light to another place of its list; later regions win.
+    Reorder(Item, usize),
+    /// Leaves objects and regions out of the picture, or takes them in again.
+    SetHidden(Vec<Item>, bool),
+    /// Keeps objects and regions from being changed, or no longer.
+    SetLocked(Vec<Item>, bool),
+}
+
+impl Edit {
+    pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
+        match self {
+            Self::Delete(items) => delete(scene, items),
+            Self::Duplicate(items) => duplicate(scene, items),
+            Self::Rename(item, name) => rename(scene, item, name),
+            Self::SetParent { object, parent } => set_parent(scene, object, parent.as_deref()),
+            Self::Reorder(item, to) => reorder(scene, item, *to),
+            Self::SetHidden(items, hidden) => {
+                for item in items {
+                    match item {
+                        Item::Object(name) => object_mut(scene, name)?.hidden = *hidden,
+                        Item::Region(name) => region_mut(scene, name)?.hidden = *hidden,
+                        _ => return Err(Refusal::new(format!("{} cannot be hidden", item.name()))),
+                    }
+                }
+                let what = of_items(items);
+                Ok(Done::new(if *hidden { format!("Hide {what}") } else { format!("Show {what}") }))
+            }
+            Self::SetLocked(items, locked) => {
+                for item in items {
+                    match item {
+                        Item::Object(name) => object_mut(scene, name)?.locked = *locked,
+                        Item::Region(name) => region_mut(scene, name)?.locked = *locked,
+                        _ => return Err(Refusal::new(format!("{} cannot be locked", item.name()))),
+                    }
+                }
+                let what = of_items(items);
+                Ok(Done::new(if *locked { format!("Lock {what}") } else { format!("Unlock {what}") }))
+            }
+        }
+    }
+}
+
+fn of_items(items: &[Item]) -> String {
+    let names: Vec<&str> = items.iter().map(Item::name).collect();
+    counted(&names, "things")
+}
+
+fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
+    // Guides from the last to the first, so that their places hold.
+    let mut items = items.to_vec();
+    items.sort();
+    items.dedup();
+    let text = match &items[..] {
+        [] => return Err(Refusal::new("Nothing is selected")),
+        [Item::Guide(region, index)] => format!("Delete guide g{} of {region}", index + 1),
+        items => format!("Delete {}", of_items(items)),
+    };
+    for item in items.iter().rev() {
+        if !exists(scene, item) {
+            continue;
+        }
+        match item {
+            Item::Camera => return Err(Refusal::new("The shot needs its camera")),
+            Item::Light(name) => scene.lights.retain(|light| light.name != *name),
+            Item::Region(name) => {
+                unlocked_region(scene, name)?;
+                scene.regions.retain(|region| region.name != *name);
+            }
+            Item::Guide(region, index) => {
+                unlocked_region(scene, region)?.guides.remove(*index);
+            }
+            Item::Object(name) => delete_object(scene, name)?,
+        }
+    }
+    Ok(Done::new(text).selecting(Selection::default()))
+}
+
+fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
+    let parent = unlocked_object(scene, name)?.parent.clone();
+    let frame = motion::referred_to(scene, &scene.reference).1;
+    let children: Vec<String> = scene
+        .objects
+        .iter()
+        .filter(|object| object.parent.as_deref() == Some(name))
+        .map(|object| object.name.clone())
+        .collect();
+    for child in children {
+        put_on(scene, &child, parent.as_deref(), frame)?;
+    }
+    scene.objects.retain(|object| object.name != name);
+    scene.regions.retain(|region| region.on.object() != Some(name));
+    for region in &mut scene.regions {
+        region.guides.retain(|guide| guide.object.as_deref() != Some(name));
+    }
+    Ok(())
+}
+
+fn duplicate(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
+    let mut made = Vec::new();
+    for item in items {
+        match item {
+            Item::Object(name) => made.push(Item::Object(duplicate_object(scene, name)?)),
+            Item::Region(name) => {
+                let mut region = region_mut(scene, name)?.clone();
+                region.name = names::unique(name, scene.regions.iter().map(|region| region.name.as_str()));
+                made.push(Item::Region(region.name.clone()));
+                scene.regions.push(region);
+            }
+            Item::Light(name) => {
+                let light = scene.lights.iter().find(|light| light.name == *name);
+                let mut light = light.ok_or_else(|| Refusal::unknown("light", name))?.clone();
+                light.name = names::unique(name, scene.lights.iter().map(|light| light.name.as_str()));
+                made.push(Item::Light(light.name.clone()));
+                scene.lights.push(light);
+            }
+            Item::Guide(region, index) => {
+                let guides = &mut unlocked_region(scene, region)?.guides;
+                let guide = guides.get(*index).ok_or_else(|| Refusal::new("There is no such guide"))?.clone();
+                guides.push(guide);
+                made.push(Item::Guide(region.clone(), guides.len() - 1));
+            }
+            Item::Camera => return Err(Refusal::new("The shot has one camera")),
+        }
+    }
+    if made.is_empty() {
+        return Err(Refusal::new("Nothing is selected"));
+    }
+    Ok(Done::new(format!("Duplicate {}", of_items(items))).selecting(made.into_iter().collect()))
+}
+
+fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
+    let mut copy = object_mut(scene, name)?.clone();
+    copy.name = names::unique(name, scene.objects.iter().map(|object| object.name.as_str()));
+    copy.locked = false;
+    let new = copy.name.clone();
+    let of_it: Vec<_> =
+        scene.regions.iter().filter(|region| region.on.object() == Some(name)).cloned().collect();
+    for mut region in of_it {
+        region.name = names::unique(&region.name, scene.regions.iter().map(|region| region.name.as_str()));
+        // One region alone: its object's name is its own.
+        let mut alone = Scene { objects: Vec::new(), regions: vec![region], ..scene.clone() };
+        names::rename_object(&mut alone, name, &new);
+        scene.regions.append(&mut alone.regions);
+    }
+    scene.objects.push(copy);
+    Ok(new)
+}
+
+fn rename(scene: &mut Scene, item: &Item, name: &str) -> Result<Done, Refusal> {
+    let new = names::typed(name)?;
+    let old = item.name().to_owned();
+    let taken = |mut names: Box<dyn Iterator<Item = &str> + '_>| {
+        if new != old && names.any(|name| name == new) {
+            Err(Refusal::new(format!("Something else is named \"{new}\"")))
+        } else {
+            Ok(())
+        }
+    };
+    match item {
+        Item::Object(_) => {
+            object_mut(scene, &old)?;
+            taken(Box::new(scene.objects.iter().map(|object| object.name.as_str())))?;
+            names::rename_object(scene, &old, &new);
+        }
+        Item::Region(_) => {
+            taken(Box::new(scene.regions.iter().map(|region| region.name.as_str())))?;
+            region_mut(scene, &old)?.name.clone_from(&new);
+        }
+        Item::Light(_) => {
+            taken(Box::new(scene.lights.iter().map(|light| light.name.as_str())))?;
+            let light = scene.lights.iter_mut().find(|light| light.name == old);
+            light.ok_or_else(|| Refusal::unknown("light", &old))?.name.clone_from(&new);
+        }
+        Item::Camera | Item::Guide(..) => return Err(Refusal::new("That has no name of its own")),
+    }
+    let renamed = match item {
+        Item::Object(_) => Item::Object(new.clone()),
+        Item::Region(_) => Item::Region(new.clone()),
+        _ => Item::Light(new.clone()),
+    };
+    Ok(Done::new(format!("Rename to {new}")).selecting(Selection::only(renamed)))
+}
+
+fn set_parent(scene: &mut Scene, object: &str, parent: Option<&str>) -> Result<Done, Refusal> {
+    unlocked_object(scene, object)?;
+    let mut above = parent;
+    for _ in 0..=scene.objects.len() {
+        let Some(name) = above else { break };
+        if name == object {
+            return Err(Refusal::new(format!("{object} cannot stand on what stands on it")));
+        }
+        let found = scene.objects.iter().find(|object| object.name == name);
+        above = found.ok_or_else(|| Refusal::unknown("object", name))?.parent.as_deref();
+    }
+    let frame = motion::referred_to(scene, &scene.reference).1;
+    let before = object_mut(scene, object)?.parent.clone();
+    put_on(scene, object, parent, frame)?;
+    Ok(Done::new(match (parent, before) {
+        (Some(parent), _) => format!("Put {object} under {parent}"),
+        (None, Some(before)) => format!("Take {object} off {before}"),
+        (None, None) => format!("Take {object} off"),
+    }))
+}
+
+/// Changes an object's parent; its keys are told in the new parent's space as that stands at `frame`.
+fn put_on(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> Result<(), Refusal> {
+    let poses = motion::poses_at(scene, frame);
+    let pose_of = |name: Option<&str>| {
+        let index = name.and_then(|name| scene.objects.iter().position(|object| object.name == name));
+        index.map_or(DAffine3::IDENTITY, |index| poses[index])
+    };
+    let (old, new) = (object_mut_parent(scene, object), parent);
+    let new_from_old = pose_of(new).inverse() * pose_of(old.as_deref());
+    let object = object_mut(scene, object)?;
+    object.parent = parent.map(str::to_owned);
+    if new_from_old.abs_diff_eq(DAffine3::IDENTITY, 1e-12) {
+        return Ok(());
+    }
+    if object.keys.is_empty() {
+        object.keys.push(ObjectKey::at(frame));
+    }
+    // Keys turn, move and scale evenly, and so does what lies between two parents.
+    let factor = new_from_old.matrix3.determinant().cbrt();
+    let turn: DMat3 = new_from_old.matrix3 * (1.0 / factor);
+    for key in &mut object.keys {
+        key.translation =
+            new_from_old.transform_point3(DVec3::from(key.translation)).map(euler::tidy).to_array();
+        key.rotation_deg = euler::degrees(turn * euler::matrix(key.rotation_deg), key.rotation_deg);
+        key.scale = euler::tidy(key.scale * factor);
+    }
+    Ok(())
+}
+
+fn object_mut_parent(scene: &Scene, object: &str) -> Option<String> {
+    scene.objects.iter().find(|other| other.name == object).and_then(|object| object.parent.clone())
+}
+
+fn reorder(scene: &mut Scene, item: &Item, to: usize) -> Result<Done, Refusal> {
+    fn shift<T>(list: &mut Vec<T>, from: Option<usize>, to: usize) -> Result<&'static str, Refusal> {
+        let from = from.ok_or_else(|| Refusal::new("That is not there any more"))?;
+        let moved = list.remove(from);
+        let to = to.min(list.len());
+        list.insert(to, moved);
+        Ok(if to < from { "up" } else { "down" })
+    }
+    let name = item.name();
+    let way = match item {
+        Item::Object(_) => {
+            let from = scene.objects.iter().position(|object| object.name == name);
+            shift(&mut scene.objects, from, to)?
+        }
+        Item::Region(_) => {
+            let from = scene.regions.iter().position(|region| region.name == name);
+            shift(&mut scene.regions, from, to)?
+        }
+        Item::Light(_) => {
+            let from = scene.lights.iter().position(|light| light.name == name);
+            shift(&mut scene.lights, from, to)?
+        }
+        Item::Guide(region, index) => {
+            let guides = &mut unlocked_region(scene, region)?.guides;
+            let from = (*index < guides.len()).then_some(*index);
+            let way = shift(guides, from, to)?;
+            let to = to.min(guides.len() - 1);
+            let selection = Selection::only(Item::Guide(region.clone(), to));
+            return Ok(Done::new(format!("Move guide {way}")).selecting(selection));
+        }
+        Item::Camera => return Err(Refusal::new("The shot has one camera")),
+    };
+    Ok(Done::new(format!("Move {name} {way}")))
+}

@@ -1,0 +1,193 @@
+//! Regions and their strokes.
+
+use impasto_scene::document::{
+    BrushMix, Color, Dab, Edges, LayerSettings, Patch, Region, Scene, Seam, Selector, StrokeSettings,
+};
+
+use super::{Done, region_mut, unlocked_region};
+use crate::euler::tidy;
+use crate::names;
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+use crate::stroke_fields::stroke_field;
+
+/// Whose stroke settings.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum StrokesOf {
+    /// The scene's, which hold where no region says otherwise.
+    Scene,
+    /// A region's.
+    Region(String),
+}
+
+/// One stroke setting; none leaves it to the scene and its preset.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StrokeChange {
+    /// A number of [`crate::stroke_fields::STROKE_FIELDS`], by its name in a scene file, in the file's units.
+    Number(&'static str, Option<f64>),
+    /// The brush, or a mix of brushes.
+    Brush(Option<BrushMix>),
+    /// How paint ends at the border of its body.
+    Edges(Option<Edges>),
+    /// Higher layers are painted over lower ones.
+    Layer(Option<i32>),
+    /// The named set of values to start from.
+    Preset(Option<String>),
+    /// The pigments.
+    Palette(Option<Vec<Color>>),
+    /// What differs in one layer of paint.
+    PaintLayer(LayerSettings),
+}
+
+/// Regions and their strokes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Regions {
+    /// Adds a region over those that are there; its name is made unique.
+    Add(Region),
+    /// Changes what a region covers.
+    SetSelector(String, Selector),
+    /// Adds dabs of the region brush, or takes away what they touch.
+    Paint {
+        /// The region.
+        region: String,
+        /// The dabs.
+        dabs: Vec<Dab>,
+    },
+    /// Its colour in the overlays.
+    SetColor(String, Color),
+    /// How its directions meet those around it.
+    SetSeam(String, Seam),
+    /// Changes one stroke setting.
+    SetStroke(StrokesOf, StrokeChange),
+    /// Puts all stroke settings of one place of another's.
+    PasteStrokes(StrokesOf, StrokeSettings),
+}
+
+impl Regions {
+    pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
+        match self {
+            Self::Add(region) => {
+                let mut region = region.clone();
+                let taken = scene.regions.iter().map(|region| region.name.as_str());
+                region.name = names::unique(&names::typed(&region.name)?, taken);
+                let name = region.name.clone();
+                scene.regions.push(region);
+                let selection = Selection::only(Item::Region(name.clone()));
+                Ok(Done::new(format!("New region {name}")).selecting(selection))
+            }
+            Self::SetSelector(name, on) => {
+                unlocked_region(scene, name)?.on = on.clone();
+                Ok(Done::new(format!("Change what {name} covers")))
+            }
+            Self::Paint { region, dabs } => {
+                let edited = unlocked_region(scene, region)?;
+                paint(&mut edited.on, dabs)?;
+                let selection = Selection::only(Item::Region(region.clone()));
+                Ok(Done::new(format!("Paint region {region}")).selecting(selection))
+            }
+            Self::SetColor(name, color) => {
+                region_mut(scene, name)?.color = Some(in_file(*color));
+                Ok(Done::new(format!("Colour of {name}")))
+            }
+            Self::SetSeam(name, seam) => {
+                unlocked_region(scene, name)?.seam = *seam;
+                Ok(Done::new(format!("Seam of {name}")))
+            }
+            Self::SetStroke(of, change) => set_stroke(settings(scene, of)?, change),
+            Self::PasteStrokes(of, pasted) => {
+                settings(scene, of)?.clone_from(pasted);
+                Ok(Done::new(match of {
+                    StrokesOf::Scene => "Paste strokes to the scene".to_owned(),
+                    StrokesOf::Region(name) => format!("Paste strokes to {name}"),
+                }))
+            }
+        }
+    }
+}
+
+fn settings<'a>(scene: &'a mut Scene, of: &StrokesOf) -> Result<&'a mut StrokeSettings, Refusal> {
+    match of {
+        StrokesOf::Scene => Ok(&mut scene.strokes),
+        StrokesOf::Region(name) => Ok(&mut unlocked_region(scene, name)?.strokes),
+    }
+}
+
+/// A colour as a scene file can hold it: 8 bits a channel.
+pub(crate) fn in_file(color: Color) -> Color {
+    Color::from_hex(&color.to_hex()).unwrap_or(color)
+}
+
+/// Dabs go on the end of what a region covers already.
+fn paint(on: &mut Selector, dabs: &[Dab]) -> Result<(), Refusal> {
+    if let Selector::Dabs(_, list) = on {
+        list.extend(dabs.iter().cloned());
+        return Ok(());
+    }
+    let Some(object) = on.object().map(str::to_owned) else {
+        return Err(Refusal::new("This region covers everything: make a new one to paint on it"));
+    };
+    if let Selector::Several(_, patches) = on {
+        match patches.last_mut() {
+            Some(Patch::Dabs(list)) => list.extend(dabs.iter().cloned()),
+            _ => patches.push(Patch::Dabs(dabs.to_vec())),
+        }
+        return Ok(());
+    }
+    let first = match on.clone() {
+        Selector::Group(_, group) => Patch::Group(group),
+        Selector::Material(_, material) => Patch::Material(material),
+        Selector::Flood(_, seed, sharp_deg) => Patch::Flood(seed, sharp_deg),
+        _ => Patch::Whole,
+    };
+    *on = Selector::Several(object, vec![first, Patch::Dabs(dabs.to_vec())]);
+    Ok(())
+}
+
+fn set_stroke(settings: &mut StrokeSettings, change: &StrokeChange) -> Result<Done, Refusal> {
+    let text = match change {
+        StrokeChange::Number(name, value) => {
+            let field = stroke_field(name).ok_or_else(|| Refusal::unknown("stroke setting", name))?;
+            (field.set)(settings, value.map(super::finite).transpose()?.map(tidy));
+            match value {
+                Some(value) => {
+                    let shown = value / field.file_per_shown;
+                    format!("{} {shown:.*} {}", field.label, field.decimals, field.unit).trim_end().to_owned()
+                }
+                None => format!("Reset {}", field.label.to_lowercase()),
+            }
+        }
+        StrokeChange::Brush(brush) => {
+            settings.brush.clone_from(brush);
+            match brush {
+                Some(BrushMix(names)) => format!("Brush {}", names.join(", ")),
+                None => "Reset brush".to_owned(),
+            }
+        }
+        StrokeChange::Edges(edges) => {
+            settings.edges = *edges;
+            edges.map_or("Reset edges", |_| "Edges").to_owned()
+        }
+        StrokeChange::Layer(layer) => {
+            settings.layer = *layer;
+            layer.map_or("Reset layer".to_owned(), |layer| format!("Layer {layer}"))
+        }
+        StrokeChange::Preset(preset) => {
+            settings.preset.clone_from(preset);
+            preset.as_ref().map_or("Reset preset".to_owned(), |preset| format!("Preset {preset}"))
+        }
+        StrokeChange::Palette(palette) => {
+            settings.palette =
+                palette.as_ref().map(|colors| colors.iter().map(|&color| in_file(color)).collect());
+            palette.as_ref().map_or("Any colour", |_| "Palette").to_owned()
+        }
+        StrokeChange::PaintLayer(layer) => {
+            let known = settings.layers.iter_mut().find(|other| other.name == layer.name);
+            match known {
+                Some(known) => known.clone_from(layer),
+                None => settings.layers.push(layer.clone()),
+            }
+            format!("Paint: {}", layer.name)
+        }
+    };
+    Ok(Done::new(text))
+}

@@ -1,0 +1,43 @@
+//! Size, style and backdrop.
+
+use impasto_scene::document::{Color, Scene, Style};
+
+use super::Done;
+use super::region::in_file;
+use crate::refusal::Refusal;
+
+/// Size, style and backdrop.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneEdit {
+    /// Width and height in pixels for which stroke sizes are meant.
+    SetSize(u32, u32),
+    /// Changes every random choice at once.
+    SetSeed(u32),
+    /// What is seen where nothing is painted.
+    SetBackground(Color),
+    /// How the scene is drawn, with what changed in words: *Canvas: linen*.
+    SetStyle(Style, String),
+}
+
+impl SceneEdit {
+    pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
+        match self {
+            Self::SetSize(width, height) => {
+                scene.size = (*width, *height);
+                Ok(Done::new(format!("Size {width} × {height}")))
+            }
+            Self::SetSeed(seed) => {
+                scene.seed = *seed;
+                Ok(Done::new(format!("Seed {seed}")))
+            }
+            Self::SetBackground(color) => {
+                scene.background = in_file(*color);
+                Ok(Done::new("Background"))
+            }
+            Self::SetStyle(style, words) => {
+                scene.style = style.clone();
+                Ok(Done::new(words.clone()))
+            }
+        }
+    }
+}

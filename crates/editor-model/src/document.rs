@@ -1,0 +1,367 @@
+//! The document that is edited: a scene with its files, its history, and where it is saved.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use impasto_scene::document::Scene;
+use impasto_scene::load::{self, LoadOptions};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::problem::Report;
+use impasto_scene::{new_scene, save};
+
+use crate::change::SceneChange;
+use crate::command::{Arrange, Command, Done};
+use crate::history::History;
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+
+/// A document that is edited.
+#[derive(Debug)]
+pub struct Document {
+    loaded: Arc<LoadedScene>,
+    preview: Option<Arc<LoadedScene>>,
+    /// The file that `save` writes; none where the scene was made for a mesh or from nothing.
+    file: Option<PathBuf>,
+    history: History,
+    selection: Selection,
+    options: LoadOptions,
+}
+
+/// What a command did, or what was taken back or done again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// The words of the history: *Comb skin*. Empty where nothing changed.
+    pub text: String,
+    /// More that should be said: *Also keyed frame 0, so that apple moves from there*.
+    pub note: Option<String>,
+}
+
+/// Why a document was not saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SaveError {
+    /// It has no file yet.
+    #[error("this scene has no file yet: choose a name")]
+    Unnamed,
+    /// What the scene names would not be found from there.
+    #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
+    FilesElsewhere {
+        /// The file that was chosen.
+        target: PathBuf,
+        /// A file that the scene names.
+        mesh: String,
+        /// The folder that the scene's files are named from.
+        folder: PathBuf,
+    },
+    /// The file system would not.
+    #[error("{} was not written: {source}", target.display())]
+    Unwritable {
+        /// The file.
+        target: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+}
+
+impl Document {
+    /// A document with nothing in it, whose files lie in `folder`.
+    pub fn empty(folder: &Path) -> Self {
+        let loaded = LoadedScene {
+            path: folder.join("untitled.ron"),
+            scene: new_scene::empty(),
+            meshes: Default::default(),
+            textures: Default::default(),
+            brushes: Default::default(),
+            warnings: Vec::new(),
+        };
+        Self::of(loaded, None, LoadOptions::default())
+    }
+
+    /// Opens a scene file (`.ron`), or a mesh (`.obj`) in a new scene of its own.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the files, each with its place.
+    pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Report> {
+        let mut loaded = load::load(path, options)?;
+        let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
+        if !is_scene {
+            // What the mesh is made of can be painted at once.
+            let mesh = loaded
+                .scene
+                .objects
+                .first()
+                .and_then(|object| Some((object, loaded.meshes.get(&object.mesh)?)));
+            let regions = mesh.map_or_else(Vec::new, |(object, mesh)| new_scene::regions_of(object, mesh));
+            loaded.scene.regions.extend(regions);
+        }
+        let file = is_scene.then(|| path.to_owned());
+        Ok(Self::of(loaded, file, options.clone()))
+    }
+
+    fn of(loaded: LoadedScene, file: Option<PathBuf>, options: LoadOptions) -> Self {
+        let is_saved = file.is_some() || loaded.scene.objects.is_empty();
+        Self {
+            loaded: Arc::new(loaded),
+            preview: None,
+            file,
+            history: History::new(is_saved),
+            selection: Selection::default(),
+            options,
+        }
+    }
+
+    /// The scene as the history has it.
+    pub fn scene(&self) -> &Scene {
+        &self.loaded.scene
+    }
+
+    /// The scene with its files, as the history has it.
+    pub fn loaded(&self) -> &Arc<LoadedScene> {
+        &self.loaded
+    }
+
+    /// The scene with its files as it is shown: with what is under the hand.
+    pub fn shown(&self) -> &Arc<LoadedScene> {
+        self.preview.as_ref().unwrap_or(&self.loaded)
+    }
+
+    /// What is selected.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// Selects; what does not exist is left out. No entry of the history.
+    pub fn select(&mut self, mut selection: Selection) {
+        let scene = &self.loaded.scene;
+        selection.retain(|item| exists(scene, item));
+        self.selection = selection;
+    }
+
+    /// Shows the scene as a command would leave it, until [`Document::end_preview`] or the next command.
+    ///
+    /// # Errors
+    /// As [`Document::apply`]; what was shown before stays.
+    pub fn preview(&mut self, command: &Command) -> Result<(), Refusal> {
+        let (loaded, _) = self.edited(command)?;
+        self.preview = Some(Arc::new(loaded));
+        Ok(())
+    }
+
+    /// Shows the scene as the history has it again.
+    pub fn end_preview(&mut self) {
+        self.preview = None;
+    }
+
+    /// Carries a command out: one entry of the history, or none where it changes nothing.
+    ///
+    /// # Errors
+    /// Why it is refused, in the words to show; the document is as it was.
+    pub fn apply(&mut self, command: &Command) -> Result<Step, Refusal> {
+        self.preview = None;
+        let (loaded, done) = self.edited(command)?;
+        let before = self.selection.clone();
+        let change = SceneChange::between(&self.loaded.scene, &loaded.scene);
+        if change.is_some() {
+            self.loaded = Arc::new(loaded);
+        }
+        self.select(done.selection.unwrap_or_else(|| before.clone()));
+        let Some(change) = change else { return Ok(Step { text: String::new(), note: done.note }) };
+        self.history.push(done.text.clone(), change, [before, self.selection.clone()]);
+        Ok(Step { text: done.text, note: done.note })
+    }
+
+    /// As [`Document::apply`], for what comes in small steps: steps of one `key` within a second of each other are one entry.
+    ///
+    /// # Errors
+    /// As [`Document::apply`].
+    pub fn apply_merged(&mut self, command: &Command, key: &str, at_secs: f64) -> Result<Step, Refusal> {
+        if !self.history.mergeable(key, at_secs) {
+            let count = self.history.count();
+            let step = self.apply(command)?;
+            if self.history.count() != count || !step.text.is_empty() {
+                self.history.mark_last(key.to_owned(), at_secs);
+            }
+            return Ok(step);
+        }
+        self.preview = None;
+        let (loaded, done) = self.edited(command)?;
+        let mut first = self.loaded.scene.clone();
+        if let Some(change) = self.history.last_change() {
+            change.undo(&mut first);
+        }
+        let change = SceneChange::between(&first, &loaded.scene);
+        self.loaded = Arc::new(loaded);
+        self.history.replace_last(change, self.selection.clone());
+        self.history.mark_last(key.to_owned(), at_secs);
+        Ok(Step { text: done.text, note: done.note })
+    }
+
+    fn edited(&self, command: &Command) -> Result<(LoadedScene, Done), Refusal> {
+        let mut scene = self.loaded.scene.clone();
+        let done = command.edit(&mut scene, &self.loaded)?;
+        let loaded = self.with_files(scene)?;
+        Ok((loaded, done))
+    }
+
+    /// An edited scene with its files; what is wrong with it is the refusal.
+    fn with_files(&self, scene: Scene) -> Result<LoadedScene, Refusal> {
+        self.loaded.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
+    }
+
+    /// Reads a mesh by its path from the scene's folder and adds an object for it, with a region for each of its groups.
+    ///
+    /// # Errors
+    /// What is wrong with the file, in the words to show.
+    pub fn import(&mut self, mesh: &str) -> Result<Step, Refusal> {
+        let file = match self.loaded.meshes.get(mesh) {
+            Some(file) => Arc::clone(file),
+            None => {
+                let path = self.folder().join(mesh);
+                let read =
+                    load::load_mesh(&path, &self.options.folders).map_err(|report| Refusal::of(&report))?;
+                Arc::new(read.0)
+            }
+        };
+        // So that it is not read again to be looked at.
+        let mut loaded = (*self.loaded).clone();
+        loaded.meshes.insert(mesh.to_owned(), Arc::clone(&file));
+        self.loaded = Arc::new(loaded);
+        self.apply(&Command::Arrange(Arrange::Import { mesh: mesh.to_owned(), file }))
+    }
+
+    /// Takes the last entry back; none where there is none.
+    pub fn undo(&mut self) -> Option<Step> {
+        self.preview = None;
+        let entry = self.history.undo()?.clone();
+        let mut scene = self.loaded.scene.clone();
+        entry.change.undo(&mut scene);
+        self.travel(scene, entry.selections[0].clone(), entry.text)
+    }
+
+    /// Does the last entry that was taken back again.
+    pub fn redo(&mut self) -> Option<Step> {
+        self.preview = None;
+        let entry = self.history.redo()?.clone();
+        let mut scene = self.loaded.scene.clone();
+        entry.change.redo(&mut scene);
+        self.travel(scene, entry.selections[1].clone(), entry.text)
+    }
+
+    /// Both ends of an entry were good once. Should a file be gone since, the scene comes back without it.
+    fn travel(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
+        let loaded = self.with_files(scene.clone());
+        let note = loaded.as_ref().err().map(ToString::to_string);
+        self.loaded = Arc::new(loaded.unwrap_or_else(|_| LoadedScene { scene, ..(*self.loaded).clone() }));
+        self.select(selection);
+        Some(Step { text, note })
+    }
+
+    /// The words of the entry that undo would take back.
+    pub fn undo_text(&self) -> Option<&str> {
+        self.history.next_undo().map(|entry| entry.text.as_str())
+    }
+
+    /// The words of the entry that redo would do again.
+    pub fn redo_text(&self) -> Option<&str> {
+        self.history.next_redo().map(|entry| entry.text.as_str())
+    }
+
+    /// How many entries can be undone.
+    pub fn undo_count(&self) -> usize {
+        self.history.count()
+    }
+
+    /// Whether there is anything that the file does not have.
+    pub fn is_edited(&self) -> bool {
+        !self.history.is_saved()
+    }
+
+    /// The file that `save` writes.
+    pub fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
+    /// What the title bar calls it: *still_life.ron*, *Untitled*.
+    pub fn name(&self) -> String {
+        let file = self.file.as_ref().and_then(|file| file.file_name());
+        file.map_or_else(|| "Untitled".to_owned(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// The folder that the scene's files are named from.
+    pub fn folder(&self) -> &Path {
+        let folder = self.loaded.path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        folder.unwrap_or(Path::new("."))
+    }
+
+    /// A file name to begin with: the scene's own, or one after its first object.
+    pub fn suggested_file(&self) -> PathBuf {
+        if let Some(file) = &self.file {
+            return file.clone();
+        }
+        let stem = self.scene().objects.first().map_or("untitled", |object| object.name.as_str());
+        let stem: String =
+            stem.chars().map(|c| if c.is_alphanumeric() || "-_ ".contains(c) { c } else { '_' }).collect();
+        self.folder().join(format!("{stem}.ron"))
+    }
+
+    /// Writes the scene to its file; at any moment the file is the old one or the new one, whole.
+    ///
+    /// # Errors
+    /// As [`Document::save_as`], and where there is no file yet.
+    pub fn save(&mut self) -> Result<PathBuf, SaveError> {
+        let file = self.file.clone().ok_or(SaveError::Unnamed)?;
+        self.save_as(&file)?;
+        Ok(file)
+    }
+
+    /// Writes the scene to a file, which is its own from then on. The history stays.
+    ///
+    /// # Errors
+    /// When what the scene names would not be found from there, or the file system refuses; the old file is untouched.
+    pub fn save_as(&mut self, target: &Path) -> Result<(), SaveError> {
+        self.save_copy(target)?;
+        self.file = Some(target.to_owned());
+        self.loaded = Arc::new(LoadedScene { path: target.to_owned(), ..(*self.loaded).clone() });
+        self.history.mark_saved();
+        Ok(())
+    }
+
+    /// Writes the scene to another file, and stays with its own.
+    ///
+    /// # Errors
+    /// As [`Document::save_as`].
+    pub fn save_copy(&self, target: &Path) -> Result<(), SaveError> {
+        let folder_of = |path: &Path| {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new("."));
+            folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+        };
+        if folder_of(target) != folder_of(&self.loaded.path)
+            && let Some(mesh) = self.files_named().find(|name| !folder_of(target).join(name).is_file())
+        {
+            let (target, mesh, folder) = (target.to_owned(), mesh.to_owned(), self.folder().to_owned());
+            return Err(SaveError::FilesElsewhere { target, mesh, folder });
+        }
+        let write = save::write(target, self.scene());
+        write.map_err(|source| SaveError::Unwritable { target: target.to_owned(), source })
+    }
+
+    /// The files that the scene names, but for those of the house.
+    fn files_named(&self) -> impl Iterator<Item = &str> {
+        let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
+        let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
+        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))
+    }
+}
+
+/// Whether a scene has a thing.
+pub fn exists(scene: &Scene, item: &Item) -> bool {
+    match item {
+        Item::Camera => true,
+        Item::Light(name) => scene.lights.iter().any(|light| light.name == *name),
+        Item::Object(name) => scene.objects.iter().any(|object| object.name == *name),
+        Item::Region(name) => scene.regions.iter().any(|region| region.name == *name),
+        Item::Guide(name, index) => {
+            scene.regions.iter().any(|region| region.name == *name && *index < region.guides.len())
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! What can be undone and redone.
+
+use crate::change::SceneChange;
+use crate::selection::Selection;
+
+/// The history forgets its oldest entries beyond this many bytes.
+const BUDGET_BYTES: usize = 256 << 20;
+
+/// Two entries of one merge key this close in time are one.
+const MERGE_SECONDS: f64 = 1.0;
+
+/// One step that can be undone.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) text: String,
+    pub(crate) change: SceneChange,
+    /// What was selected before and after.
+    pub(crate) selections: [Selection; 2],
+    pub(crate) merge_key: Option<String>,
+    pub(crate) at_secs: f64,
+    serial: u64,
+}
+
+/// Done and undone steps, and where the file stands among them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct History {
+    done: Vec<Entry>,
+    undone: Vec<Entry>,
+    next_serial: u64,
+    /// The serial of the last entry that was forgotten.
+    forgotten: u64,
+    /// The serial of the last entry when the file was written; 0 is before all entries; none: the file is not among them.
+    saved: Option<u64>,
+}
+
+impl History {
+    pub(crate) fn new(is_saved: bool) -> Self {
+        Self { saved: is_saved.then_some(0), next_serial: 1, ..Self::default() }
+    }
+
+    pub(crate) fn push(&mut self, text: String, change: SceneChange, selections: [Selection; 2]) {
+        self.undone.clear();
+        let serial = self.next_serial;
+        self.next_serial += 1;
+        self.done.push(Entry {
+            text,
+            change,
+            selections,
+            merge_key: None,
+            at_secs: f64::NEG_INFINITY,
+            serial,
+        });
+        let mut bytes: usize = self.done.iter().map(|entry| entry.change.bytes()).sum();
+        while bytes > BUDGET_BYTES && self.done.len() > 1 {
+            let oldest = self.done.remove(0);
+            bytes -= oldest.change.bytes();
+            self.forgotten = oldest.serial;
+        }
+    }
+
+    /// The entry that a step of this key at this time belongs to; never one that the file was saved at.
+    pub(crate) fn mergeable(&self, key: &str, at_secs: f64) -> bool {
+        self.undone.is_empty()
+            && self.done.last().is_some_and(|entry| {
+                entry.merge_key.as_deref() == Some(key)
+                    && (at_secs - entry.at_secs).abs() <= MERGE_SECONDS
+                    && self.saved != Some(entry.serial)
+            })
+    }
+
+    pub(crate) fn mark_last(&mut self, merge_key: String, at_secs: f64) {
+        if let Some(entry) = self.done.last_mut() {
+            (entry.merge_key, entry.at_secs) = (Some(merge_key), at_secs);
+        }
+    }
+
+    pub(crate) fn last_change(&self) -> Option<&SceneChange> {
+        self.done.last().map(|entry| &entry.change)
+    }
+
+    pub(crate) fn replace_last(&mut self, change: Option<SceneChange>, selection: Selection) {
+        match (change, self.done.last_mut()) {
+            (Some(change), Some(entry)) => {
+                entry.change = change;
+                entry.selections[1] = selection;
+            }
+            (None, Some(_)) => {
+                self.done.pop();
+            }
+            (_, None) => {}
+        }
+    }
+
+    pub(crate) fn undo(&mut self) -> Option<&Entry> {
+        let entry = self.done.pop()?;
+        self.undone.push(entry);
+        self.undone.last()
+    }
+
+    pub(crate) fn redo(&mut self) -> Option<&Entry> {
+        let entry = self.undone.pop()?;
+        self.done.push(entry);
+        self.done.last()
+    }
+
+    pub(crate) fn next_undo(&self) -> Option<&Entry> {
+        self.done.last()
+    }
+
+    pub(crate) fn next_redo(&self) -> Option<&Entry> {
+        self.undone.last()
+    }
+
+    pub(crate) fn mark_saved(&mut self) {
+        self.saved = Some(self.here());
+    }
+
+    pub(crate) fn is_saved(&self) -> bool {
+        self.saved == Some(self.here())
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.done.len()
+    }
+
+    fn here(&self) -> u64 {
+        self.done.last().map_or(self.forgotten, |entry| entry.serial)
+    }
+}

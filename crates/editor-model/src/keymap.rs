@@ -1,0 +1,454 @@
+//! Which key does what: two presets as one table, looked up by scope. A modal tool comes before a text field, that before the
+//! mode, that before what holds everywhere.
+
+mod table;
+#[cfg(test)]
+mod tests;
+
+use crate::transform::Axis;
+
+use table::{BINDINGS, DIGITS_AS_NUMPAD};
+
+/// Everything that has a key, or could have one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Action {
+    /// An empty scene.
+    NewScene,
+    /// A scene or a mesh file.
+    OpenScene,
+    /// Writes the scene to its file.
+    Save,
+    /// Asks for a file first.
+    SaveAs,
+    /// Adds a mesh to the scene.
+    ImportMesh,
+    /// The sheet that renders frames.
+    Render,
+    /// Takes the last entry back.
+    Undo,
+    /// Puts it back.
+    Redo,
+    /// Searches all commands.
+    Palette,
+    /// Lists all keys.
+    Shortcuts,
+    /// Reads the source pane again.
+    ReadSource,
+    /// The next area of the window takes the keys.
+    NextArea,
+    /// Mode.
+    Arrange,
+    /// Mode.
+    Paint,
+    /// Mode.
+    Animate,
+    /// Paint, or the mode before it.
+    TogglePaint,
+    /// Modes in turn.
+    NextMode,
+    /// Tool of Arrange and Animate.
+    Select,
+    /// G.
+    Move,
+    /// R.
+    Turn,
+    /// S.
+    Scale,
+    /// Tool of Paint.
+    Comb,
+    /// Tool of Paint.
+    GuideCurve,
+    /// Tool of Paint.
+    Fill,
+    /// Tool of Paint.
+    TurnDirection,
+    /// Tool of Paint.
+    Smooth,
+    /// Tool of Paint.
+    Erase,
+    /// Tool of Paint.
+    Region,
+    /// Tool of Paint.
+    Pick,
+    /// The radius follows the pointer until a press.
+    SizeRadius,
+    /// The strength follows the pointer until a press.
+    SizeStrength,
+    /// A smaller brush.
+    SmallerRadius,
+    /// A larger brush.
+    LargerRadius,
+    /// Turns the direction under the cursor round.
+    FlipUnderCursor,
+    /// Selects everything.
+    SelectAll,
+    /// Selects nothing.
+    SelectNone,
+    /// Deletes what is selected.
+    Delete,
+    /// Doubles what is selected.
+    Duplicate,
+    /// Types a new name.
+    Rename,
+    /// Adds a thing.
+    Add,
+    /// Hides or shows.
+    Hide,
+    /// Shows everything.
+    ShowAll,
+    /// Locks or unlocks.
+    Lock,
+    /// Shows the selected large.
+    FrameSelected,
+    /// Shows all.
+    FrameAll,
+    /// From +Z.
+    ViewFront,
+    /// From +X.
+    ViewRight,
+    /// From +Y.
+    ViewTop,
+    /// Parallel rays, or not.
+    ToggleOrthographic,
+    /// Looks through the shot camera.
+    LookThrough,
+    /// The shot camera takes this view.
+    CameraFromView,
+    /// Compares with the reference.
+    Compare,
+    /// Off, hairs, hairs by region.
+    CycleHairs,
+    /// The trust overlay.
+    ToggleTrust,
+    /// The right column.
+    ToggleColumn,
+    /// Only the viewport.
+    MaximiseViewport,
+    /// Keys the pose.
+    SetKey,
+    /// Plays or stops.
+    Play,
+    /// One frame back.
+    StepBack,
+    /// One frame on.
+    StepOn,
+    /// To the key before.
+    PreviousKey,
+    /// To the next key.
+    NextKey,
+    /// To the first frame.
+    FirstFrame,
+    /// To the last frame.
+    LastFrame,
+    /// Moves the selected keys one frame back.
+    NudgeKeysBack,
+    /// Moves the selected keys one frame on.
+    NudgeKeysOn,
+    /// Holds a transform to an axis.
+    HoldAxis(Axis),
+    /// Holds a transform to the plane across an axis.
+    HoldPlane(Axis),
+    /// Ends a modal tool and keeps what it did.
+    Confirm,
+    /// As if never begun.
+    Cancel,
+    /// Takes back the last character or point.
+    TakeBack,
+}
+
+/// A key of the board, by what is printed on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Key {
+    /// `'A'..='Z'`.
+    Letter(char),
+    /// 0..=9 of the main row.
+    Digit(u8),
+    /// 0..=9 of the number pad.
+    NumPad(u8),
+    /// The number pad's point.
+    NumPadPoint,
+    /// F1..F12.
+    Function(u8),
+    /// `[ ] , . -`.
+    Sign(char),
+    /// The space bar.
+    Space,
+    /// Tabulator.
+    Tab,
+    /// Either Enter.
+    Enter,
+    /// Esc.
+    Escape,
+    /// Backspace.
+    Backspace,
+    /// Delete.
+    Delete,
+    /// Home.
+    Home,
+    /// Arrow.
+    Left,
+    /// Arrow.
+    Right,
+    /// Arrow.
+    Up,
+    /// Arrow.
+    Down,
+}
+
+/// The keys that are held with another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Modifiers {
+    /// Ctrl.
+    pub ctrl: bool,
+    /// Shift.
+    pub shift: bool,
+    /// Alt.
+    pub alt: bool,
+}
+
+/// A key with what is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Chord {
+    /// The key.
+    pub key: Key,
+    /// What is held.
+    pub held: Modifiers,
+}
+
+/// Whose habits the keys follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// Blender's.
+    #[default]
+    Blender,
+    /// Maya's.
+    Maya,
+}
+
+/// What the digits of the main row do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Digits {
+    /// 1 2 3 are modes.
+    #[default]
+    Modes,
+    /// 1 3 7 5 0 are views, as on a number pad.
+    NumPad,
+}
+
+/// The keys as the user set them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Keymap {
+    /// Whose habits.
+    pub preset: Preset,
+    /// What digits do.
+    pub digits: Digits,
+}
+
+/// Who gets a key first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scope {
+    /// A modal move, turn or scale.
+    Transform,
+    /// A gesture or a curve under way.
+    Drawing,
+    /// A text field has the focus: letters are text.
+    Typing,
+    /// A lane of the timeline is focused and a key in it selected.
+    Lane,
+    /// Mode.
+    Arrange,
+    /// Mode.
+    Paint,
+    /// Mode.
+    Animate,
+}
+
+/// Where a binding holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Where {
+    Everywhere,
+    In(Scope),
+}
+
+struct Binding {
+    action: Action,
+    name: &'static str,
+    holds: &'static [Where],
+    blender: &'static [Chord],
+    maya: &'static [Chord],
+}
+
+impl Keymap {
+    /// What a key does; nothing where it is text, or has no meaning.
+    pub fn action_for(&self, key: Key, held: Modifiers, scope: Scope) -> Option<Action> {
+        let chord = Chord { key, held };
+        let bound = |place: Where| {
+            self.bindings()
+                .find(|(binding, chords)| binding.holds.contains(&place) && chords.contains(&chord))
+                .map(|(binding, _)| binding.action)
+        };
+        match scope {
+            Scope::Transform | Scope::Drawing => bound(Where::In(scope)),
+            Scope::Typing => bound(Where::In(scope)).or_else(|| {
+                let not_text = matches!(key, Key::Function(_)) || held.ctrl;
+                // Fields have these themselves.
+                let own =
+                    matches!(key, Key::Letter('A' | 'C' | 'V' | 'X' | 'Y' | 'Z') | Key::Left | Key::Right);
+                (not_text && !own).then(|| bound(Where::Everywhere)).flatten()
+            }),
+            Scope::Lane => bound(Where::In(scope))
+                .or_else(|| bound(Where::In(Scope::Animate)))
+                .or_else(|| bound(Where::Everywhere)),
+            Scope::Arrange | Scope::Paint | Scope::Animate => {
+                bound(Where::In(scope)).or_else(|| bound(Where::Everywhere))
+            }
+        }
+    }
+
+    /// The keys of an action, as menus and tooltips write them; `None` where it has none.
+    pub fn shortcut_text(&self, action: Action) -> Option<String> {
+        let mut bindings = self.bindings();
+        let (_, chords) =
+            bindings.find(|(binding, chords)| binding.action == action && !chords.is_empty())?;
+        chords.first().map(Chord::text)
+    }
+
+    /// Every binding as a list of keys shows it, in the order of the menus.
+    pub fn listed(&self) -> impl Iterator<Item = Listed> {
+        self.bindings().filter(|(_, chords)| !chords.is_empty()).map(|(binding, chords)| {
+            let keys: Vec<String> = chords.iter().map(Chord::text).collect();
+            let scope = match binding.holds.first() {
+                Some(Where::In(scope)) => Some(*scope),
+                _ => None,
+            };
+            let everywhere = binding.holds.contains(&Where::Everywhere);
+            let scope = scope.filter(|_| !everywhere);
+            Listed { action: binding.action, scope, keys: keys.join(", ") }
+        })
+    }
+
+    /// What the pointer's buttons do to the view. `None`: the tool gets the drag.
+    pub fn navigation(&self, button: Button, held: Modifiers) -> Option<Navigation> {
+        let Modifiers { ctrl, shift, alt } = held;
+        match (self.preset, button) {
+            (_, Button::Wheel) if !alt => Some(Navigation::Zoom),
+            (_, Button::Left) if alt => Some(Navigation::Orbit),
+            (Preset::Blender, Button::Middle) if ctrl => Some(Navigation::Zoom),
+            (Preset::Blender, Button::Middle) if shift => Some(Navigation::Pan),
+            (Preset::Blender, Button::Middle) => Some(Navigation::Orbit),
+            (Preset::Maya, Button::Middle) if alt => Some(Navigation::Pan),
+            (Preset::Maya, Button::Right) if alt => Some(Navigation::Zoom),
+            _ => None,
+        }
+    }
+
+    /// Every binding with its keys.
+    fn bindings(&self) -> impl Iterator<Item = (&'static Binding, Vec<Chord>)> {
+        let Self { preset, digits } = *self;
+        BINDINGS.iter().map(move |binding| {
+            let own = match preset {
+                Preset::Blender => binding.blender,
+                Preset::Maya => binding.maya,
+            };
+            let mut chords = own.to_vec();
+            if digits == Digits::NumPad {
+                chords.retain(|chord| {
+                    !(matches!(chord.key, Key::Digit(_)) && chord.held == Modifiers::default())
+                });
+                let digit = DIGITS_AS_NUMPAD.iter().find(|(action, _)| *action == binding.action);
+                chords.extend(digit.map(|&(_, digit)| Chord::plain(Key::Digit(digit))));
+            }
+            (binding, chords)
+        })
+    }
+}
+
+/// One line of a list of keys.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Listed {
+    /// What the keys do.
+    pub action: Action,
+    /// The first scope in which they do it; none for everywhere.
+    pub scope: Option<Scope>,
+    /// The keys: *Ctrl Z, Z*.
+    pub keys: String,
+}
+
+/// A button of the pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Button {
+    /// The first.
+    Left,
+    /// The wheel's own button.
+    Middle,
+    /// The second.
+    Right,
+    /// Turns of the wheel.
+    Wheel,
+}
+
+/// What a drag does to the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Navigation {
+    /// Round a point.
+    Orbit,
+    /// Sideways.
+    Pan,
+    /// Nearer and farther.
+    Zoom,
+}
+
+impl Action {
+    /// Every action, in the order of the menus.
+    pub fn all() -> impl Iterator<Item = Self> {
+        BINDINGS.iter().map(|binding| binding.action)
+    }
+
+    /// Its name, as menus and the command search show it.
+    pub fn name(self) -> &'static str {
+        BINDINGS.iter().find(|binding| binding.action == self).map_or("", |binding| binding.name)
+    }
+}
+
+impl Key {
+    /// The character that it types into a number.
+    pub fn typed(self) -> Option<char> {
+        match self {
+            Self::Digit(digit) | Self::NumPad(digit) => char::from_digit(u32::from(digit), 10),
+            Self::NumPadPoint | Self::Sign('.' | ',') => Some('.'),
+            Self::Sign('-') => Some('-'),
+            _ => None,
+        }
+    }
+
+    fn text(self) -> String {
+        match self {
+            Self::Letter(letter) => letter.to_string(),
+            Self::Sign(sign) => sign.to_string(),
+            Self::Digit(digit) => digit.to_string(),
+            Self::NumPad(digit) => format!("NumPad {digit}"),
+            Self::NumPadPoint => "NumPad .".to_owned(),
+            Self::Function(number) => format!("F{number}"),
+            Self::Escape => "Esc".to_owned(),
+            Self::Left => "←".to_owned(),
+            Self::Right => "→".to_owned(),
+            Self::Up => "↑".to_owned(),
+            Self::Down => "↓".to_owned(),
+            named => format!("{named:?}"),
+        }
+    }
+}
+
+impl Chord {
+    const fn plain(key: Key) -> Self {
+        Self { key, held: Modifiers { ctrl: false, shift: false, alt: false } }
+    }
+
+    /// As menus write it: `Ctrl Shift S`.
+    pub fn text(&self) -> String {
+        let Modifiers { ctrl, shift, alt } = self.held;
+        let held = [(ctrl, "Ctrl "), (alt, "Alt "), (shift, "Shift ")];
+        let held: String = held.iter().filter(|(on, _)| *on).map(|(_, text)| *text).collect();
+        held + &self.key.text()
+    }
+}

@@ -1,0 +1,320 @@
+//! A gesture on a surface: from a drag over the picture to guides, the same ones however often the pointer reports.
+//!
+//! ```text
+//! events ─▶ curve through them ─▶ steps of one pixel ─▶ pulled string ─▶ a ray per step ─▶ pieces on the surface
+//! ```
+
+use glam::{DAffine3, DVec2, DVec3};
+use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint};
+
+use crate::picking::{Hit, View, world_units_per_model_unit};
+
+mod curve;
+mod mirror;
+pub(crate) mod simplify;
+#[cfg(test)]
+mod tests;
+mod view;
+
+use curve::PointerCurve;
+
+pub use mirror::{MirrorAxes, mirrored};
+pub use view::ObjectView;
+
+/// Points of a path lie this far apart on the screen.
+const STEP_PX: f64 = 1.0;
+/// Stamps lie this share of the radius apart on the surface.
+const STAMP_SHARE: f64 = 0.25;
+/// What is dropped from a path deviates from it by at most this.
+const TOLERANCE_PX: f64 = 0.5;
+/// Between two steps the surface may recede by this many pixels' worth; beyond, it is asked whether it hangs together.
+const LEAP_PX: f64 = 4.0;
+/// The string at full steadiness.
+const LONGEST_STRING_PX: f64 = 120.0;
+
+/// How a drag becomes a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// Radius of the brush at the press, pixels, > 0.
+    pub radius_px: f64,
+    /// How far a pulled string steadies the hand, 0..=1.
+    pub steady: f64,
+    /// Which sides of the surface take part.
+    pub faces: Faces,
+}
+
+/// Which sides of a surface take part in a gesture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Faces {
+    /// Those that carry paint and face the viewer.
+    #[default]
+    Front,
+    /// The inside of closed surfaces, too.
+    All,
+}
+
+/// One step of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// Where it shows in the view that it was drawn in, pixels.
+    pub at_px: DVec2,
+    /// Where, in the object's own space.
+    pub position: DVec3,
+    /// Normal of the surface there, unit.
+    pub normal: DVec3,
+}
+
+/// A gesture under way. It stays on the object of its press.
+#[derive(Clone, Debug)]
+pub struct SurfacePath {
+    object: usize,
+    /// Radius of the brush, model units.
+    radius: f64,
+    px_per_unit: f64,
+    string_px: f64,
+    faces: Faces,
+    curve: PointerCurve,
+    /// The end of the string that draws.
+    tip: DVec2,
+    /// Where the tip was looked up last.
+    sampled_px: DVec2,
+    lifted: bool,
+    pieces: Vec<Vec<PathPoint>>,
+}
+
+/// How the guides of a path are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GuideStyle {
+    /// What it does with the strokes that it reaches.
+    pub mode: GuideMode,
+    /// Name of the object, where the region covers more than one.
+    pub object: Option<String>,
+    /// How far strokes follow, 0..=1.
+    pub strength: f64,
+    /// How the strength falls off.
+    pub falloff: Falloff,
+    /// Whether strokes run as the hand did, or against it.
+    pub sense: PathSense,
+}
+
+/// Whether strokes run as the hand did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PathSense {
+    /// As dragged.
+    #[default]
+    Along,
+    /// The other way.
+    Against,
+}
+
+impl SurfacePath {
+    /// Begins at a press that met a surface.
+    pub fn press(
+        at_px: DVec2,
+        hit: &Hit,
+        view: &View,
+        world_from_model: DAffine3,
+        settings: &PathSettings,
+    ) -> Self {
+        let px_per_unit =
+            view.px_per_unit(hit.position_in_world) * world_units_per_model_unit(world_from_model);
+        Self {
+            object: hit.object,
+            radius: settings.radius_px / px_per_unit,
+            px_per_unit,
+            string_px: settings.steady.clamp(0.0, 1.0) * LONGEST_STRING_PX,
+            faces: settings.faces,
+            curve: PointerCurve::new(at_px),
+            tip: at_px,
+            sampled_px: at_px,
+            lifted: false,
+            pieces: vec![vec![PathPoint::new(at_px, hit)]],
+        }
+    }
+
+    /// The object of the press.
+    pub fn object(&self) -> usize {
+        self.object
+    }
+
+    /// Radius of the brush in the object's own units.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether the hand is off the surface now.
+    pub fn is_lifted(&self) -> bool {
+        self.lifted
+    }
+
+    /// The pieces so far, each of steps on the surface.
+    pub fn pieces(&self) -> &[Vec<PathPoint>] {
+        &self.pieces
+    }
+
+    /// The pointer moved. `pick` finds the surface under a pixel, and nothing where the gesture may not go (another region).
+    pub fn move_to(&mut self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+        if at_px.is_finite() {
+            let steps = self.curve.move_to(at_px);
+            self.walk(&steps, pick);
+        }
+    }
+
+    /// The path as it would be if the hand let go now.
+    pub fn finished(&self, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) -> Self {
+        let mut path = self.clone();
+        let steps = path.curve.finish();
+        path.walk(&steps, pick);
+        path
+    }
+
+    /// Places a quarter of the radius apart along the pieces, on the surface, whatever the speed: where a brush touches.
+    pub fn stamps(&self) -> Vec<PathPoint> {
+        let spacing = self.radius * STAMP_SHARE;
+        let mut stamps = Vec::new();
+        for piece in &self.pieces {
+            stamps.extend(piece.first());
+            let mut walked = 0.0;
+            for pair in piece.windows(2) {
+                let length = pair[0].position.distance(pair[1].position);
+                let mut at = spacing - walked;
+                while at <= length {
+                    stamps.push(pair[0].mixed(&pair[1], at / length));
+                    at += spacing;
+                }
+                walked = length - (at - spacing);
+            }
+        }
+        stamps
+    }
+
+    /// The pieces as guides, each as few points as keep it within half a pixel. `seen` is the view that it was drawn in,
+    /// `reference` the one that the region's directions refer to.
+    pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
+        self.guides_turned(style, [seen, reference], &|_, _| 0.0)
+    }
+
+    /// The same, with strokes turned from the gesture's line: `turn_deg` is asked at each point, with the angle at which the
+    /// line shows there (radians, counter-clockwise).
+    pub fn guides_turned(
+        &self,
+        style: &GuideStyle,
+        [seen, reference]: [&ObjectView; 2],
+        turn_deg: &dyn Fn(&PathPoint, f64) -> f64,
+    ) -> Vec<Guide> {
+        let mut guides = Vec::new();
+        for piece in &self.pieces {
+            let kept = simplify::within(piece, TOLERANCE_PX / self.px_per_unit);
+            let length_px: f64 = piece.windows(2).map(|pair| pair[0].at_px.distance(pair[1].at_px)).sum();
+            if kept.len() < 2 || length_px < 2.0 * STEP_PX {
+                continue;
+            }
+            let mut points: Vec<GuidePoint> = (0..kept.len())
+                .map(|index| GuidePoint {
+                    turn_deg: turn_deg(&kept[index], line_rad(&kept, index)),
+                    ..kept[index].to_guide()
+                })
+                .collect();
+            if style.sense == PathSense::Against {
+                points.reverse();
+            }
+            guides.push(Guide {
+                mode: style.mode,
+                object: style.object.clone(),
+                view: seen.guide_view(reference, piece[piece.len() / 2].position),
+                points,
+                radius: self.radius,
+                strength: style.strength,
+                falloff: style.falloff,
+            });
+        }
+        guides
+    }
+
+    /// Pulls the string along steps of the pointer.
+    fn walk(&mut self, steps: &[DVec2], pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+        for &hand in steps {
+            let pull = hand - self.tip;
+            let length = pull.length();
+            if length <= self.string_px {
+                continue;
+            }
+            self.tip += pull * ((length - self.string_px) / length);
+            // A hair less than a step, since rounding must not skip one.
+            if self.tip.distance(self.sampled_px) > STEP_PX * 0.999 {
+                self.sampled_px = self.tip;
+                self.sample(pick);
+            }
+        }
+    }
+
+    fn sample(&mut self, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+        let Some(point) = self.look_up(self.tip, pick) else {
+            self.lifted = true;
+            return;
+        };
+        let last = self.pieces.last().and_then(|piece| piece.last()).copied();
+        let joined = !self.lifted && last.is_some_and(|last| self.hang_together(last, point, pick));
+        self.lifted = false;
+        match self.pieces.last_mut() {
+            Some(piece) if joined => piece.push(point),
+            _ => self.pieces.push(vec![point]),
+        }
+    }
+
+    fn look_up(&self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) -> Option<PathPoint> {
+        let hit = pick(at_px)?;
+        let takes_part = hit.object == self.object && (hit.front || self.faces == Faces::All);
+        takes_part.then(|| PathPoint::new(at_px, &hit))
+    }
+
+    /// Whether the surface between two steps is one: a fold in front of another part of the same object is not. Halves the
+    /// step where it leaps; across a gap, the leap stays.
+    fn hang_together(
+        &self,
+        mut from: PathPoint,
+        mut to: PathPoint,
+        pick: &mut dyn FnMut(DVec2) -> Option<Hit>,
+    ) -> bool {
+        let leap = from.position.distance(to.position);
+        if leap * self.px_per_unit <= LEAP_PX * STEP_PX {
+            return true;
+        }
+        for _ in 0..6 {
+            let Some(middle) = self.look_up((from.at_px + to.at_px) * 0.5, pick) else { return false };
+            if middle.position.distance(from.position) > middle.position.distance(to.position) {
+                to = middle;
+            } else {
+                from = middle;
+            }
+        }
+        from.position.distance(to.position) < 0.5 * leap
+    }
+}
+
+/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through its neighbours.
+fn line_rad(points: &[PathPoint], index: usize) -> f64 {
+    let piece = |from: usize| points[from + 1].at_px - points[from].at_px;
+    let last = points.len() - 2;
+    let (before, after) = (piece(index.saturating_sub(1).min(last)), piece(index.min(last)));
+    let along = before.normalize_or_zero() * after.length() + after.normalize_or_zero() * before.length();
+    (along * DVec2::new(1.0, -1.0)).to_angle()
+}
+
+impl PathPoint {
+    fn new(at_px: DVec2, hit: &Hit) -> Self {
+        Self { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
+    }
+
+    fn mixed(&self, other: &Self, share: f64) -> Self {
+        Self {
+            at_px: self.at_px.lerp(other.at_px, share),
+            position: self.position.lerp(other.position, share),
+            normal: self.normal.lerp(other.normal, share).normalize_or(self.normal),
+        }
+    }
+
+    pub(crate) fn to_guide(&self) -> GuidePoint {
+        GuidePoint { at: self.position.to_array(), normal: self.normal.to_array(), turn_deg: 0.0 }
+    }
+}

@@ -1,0 +1,41 @@
+//! The fewest points that keep a path within a distance (Ramer 1972; Douglas and Peucker 1973).
+
+use glam::DVec3;
+
+use super::PathPoint;
+
+/// So many steps from its ends, a path keeps a point: a short last piece says where it was headed.
+const END_STEPS: usize = 3;
+
+/// Those points of a path that keep it within `tolerance` (model units); both ends stay.
+pub(crate) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
+    let Some(last) = path.len().checked_sub(1) else { return Vec::new() };
+    let mut keep = vec![false; path.len()];
+    let mut ends = vec![0, last];
+    if last > 4 * END_STEPS {
+        ends = vec![0, END_STEPS, last - END_STEPS, last];
+    }
+    for &end in &ends {
+        keep[end] = true;
+    }
+    let mut spans: Vec<(usize, usize)> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
+    while let Some((from, to)) = spans.pop() {
+        let farthest = (from + 1..to)
+            .map(|index| (off(path[index].position, path[from].position, path[to].position), index))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((distance, index)) = farthest
+            && distance > tolerance
+        {
+            keep[index] = true;
+            spans.extend([(from, index), (index, to)]);
+        }
+    }
+    path.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
+}
+
+/// From a point to a piece of a line.
+fn off(point: DVec3, from: DVec3, to: DVec3) -> f64 {
+    let piece = to - from;
+    let t = ((point - from).dot(piece) / piece.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (from + piece * t).distance(point)
+}

@@ -1,0 +1,78 @@
+//! A camera as an object sees it: what a guide remembers of the view that it was drawn in.
+
+use glam::{DAffine3, DVec3};
+use impasto_scene::document::{GuideView, Lens};
+use impasto_scene::motion::CameraPose;
+
+/// A camera in an object's own space. Roll, lens and picture size do not matter to a guide: they turn and scale what is drawn
+/// and what is shown alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObjectView {
+    /// The eye.
+    pub eye: DVec3,
+    /// What it looks at.
+    pub target: DVec3,
+    /// How its rays run.
+    pub rays: Rays,
+}
+
+/// How the rays of a lens run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rays {
+    /// From the eye.
+    Central,
+    /// Along the gaze.
+    Parallel,
+}
+
+/// Two views are one within this sine, or this share of the distance.
+const SAME: f64 = 1e-7;
+/// An eye so many times as far away sees by rays that are as good as parallel.
+const FAR: f64 = 1e5;
+
+impl ObjectView {
+    /// A camera before an object at a pose.
+    pub fn new(camera: &CameraPose, world_from_model: DAffine3) -> Self {
+        let model_from_world = world_from_model.inverse();
+        let rays = match camera.lens {
+            Lens::Perspective { .. } => Rays::Central,
+            Lens::Orthographic { .. } => Rays::Parallel,
+        };
+        let [eye, target] = [camera.eye, camera.target].map(|at| model_from_world.transform_point3(at));
+        Self { eye, target, rays }
+    }
+
+    /// What a guide states that was drawn here; nothing where this is the reference. `middle` is a point of the guide.
+    pub fn guide_view(&self, reference: &Self, middle: DVec3) -> Option<GuideView> {
+        if self.is_as(reference) {
+            return None;
+        }
+        let distance = self.eye.distance(self.target);
+        // Guides are read by rays of the scene's own kind: the other kind is said in its terms.
+        let [eye, target] = match (self.rays, reference.rays) {
+            (Rays::Parallel, Rays::Central) => {
+                let centre = middle.reject_from(self.gaze()) + self.target.project_onto(self.gaze());
+                [centre - self.gaze() * (distance * FAR), centre]
+            }
+            (Rays::Central, Rays::Parallel) => [self.eye, middle],
+            _ => [self.eye, self.target],
+        };
+        Some(GuideView { eye: eye.to_array(), target: target.to_array() })
+    }
+
+    /// Its mirror image in planes through the object's origin: `flip` has −1 for each mirrored axis, else 1.
+    pub fn mirrored(&self, flip: DVec3) -> Self {
+        Self { eye: self.eye * flip, target: self.target * flip, rays: self.rays }
+    }
+
+    pub(super) fn gaze(&self) -> DVec3 {
+        (self.target - self.eye).normalize_or(DVec3::NEG_Z)
+    }
+
+    fn is_as(&self, other: &Self) -> bool {
+        let aligned = (self.gaze() - other.gaze()).length() <= SAME;
+        let distance = other.eye.distance(other.target);
+        let together = self.eye.distance(other.eye) <= SAME * distance;
+        self.rays == other.rays && aligned && (together || self.rays == Rays::Parallel)
+    }
+}

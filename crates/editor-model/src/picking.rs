@@ -1,0 +1,176 @@
+//! What lies under the cursor: rays through pixels, and the surfaces that they meet.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+use impasto_painting::frame::BodySurface;
+
+mod surface;
+#[cfg(test)]
+mod tests;
+mod view;
+
+use surface::SurfaceTree;
+
+pub use surface::SurfacePoint;
+pub use view::{Ray, View};
+
+/// Finds surfaces under rays. Keeps a tree per object and builds those anew whose surface changed.
+#[derive(Default)]
+pub struct Picker {
+    /// One per object, in the order of the scene.
+    trees: Vec<Arc<SurfaceTree>>,
+}
+
+/// Where a ray meets the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Index of the object in the scene.
+    pub object: usize,
+    /// Index of the triangle in the object's mesh.
+    pub triangle: u32,
+    /// Weights of the triangle's three corners, sum 1.
+    pub barycentric: [f64; 3],
+    /// Where, in the object's own space.
+    pub position_in_model: DVec3,
+    /// Smooth normal of the painted side, unit; a sheet is painted on both sides, and this is the one that was met.
+    pub normal_in_model: DVec3,
+    /// Normal of the flat triangle, unit, of the same side.
+    pub face_normal_in_model: DVec3,
+    /// Where, in world space.
+    pub position_in_world: DVec3,
+    /// From the ray's origin, world units.
+    pub distance: f64,
+    /// Whether the painted side was met: false inside a closed surface.
+    pub front: bool,
+}
+
+impl Picker {
+    /// Takes the objects' surfaces in the order of the scene, each with the share of its morph that is looked at (0 without
+    /// one). Returns how many trees had to be built.
+    pub fn update(&mut self, bodies: &[(Arc<BodySurface>, f64)]) -> usize {
+        let kept = std::mem::take(&mut self.trees);
+        let mut built = 0;
+        self.trees = bodies
+            .iter()
+            .enumerate()
+            .map(|(index, (surface, morph))| {
+                // The usual place first: an object added or removed moves the others.
+                let known = kept.get(index).into_iter().chain(&kept).find(|tree| tree.is_of(surface, *morph));
+                known.map_or_else(
+                    || {
+                        built += 1;
+                        Arc::new(SurfaceTree::new(Arc::clone(surface), *morph))
+                    },
+                    Arc::clone,
+                )
+            })
+            .collect();
+        built
+    }
+
+    /// The nearest visible surface on a ray, whichever of its sides is met. `poses` are the objects' `world_from_model`.
+    pub fn pick(&self, ray: &Ray, poses: &[DAffine3], visible: impl Fn(usize) -> bool) -> Option<Hit> {
+        let mut nearest: Option<Hit> = None;
+        for (object, (tree, pose)) in self.trees.iter().zip(poses).enumerate() {
+            if !visible(object) {
+                continue;
+            }
+            let model_from_world = pose.inverse();
+            let origin = model_from_world.transform_point3(ray.origin);
+            let direction = model_from_world.transform_vector3(ray.direction);
+            let farthest = nearest.map_or(f64::INFINITY, |hit| hit.distance);
+            if let Some((point, distance, front)) = tree.first_hit(origin, direction, farthest) {
+                let at = pose.transform_point3(point.position);
+                nearest = Some(Hit::new(object, &point, (at, distance), front));
+            }
+        }
+        nearest
+    }
+
+    /// The point of an object's surface nearest to a point of its own space, within `max_distance` (model units) and with a
+    /// painted side that faces as `facing` does; of a sheet, that side.
+    pub fn closest_on_surface(
+        &self,
+        object: usize,
+        position_in_model: DVec3,
+        facing: DVec3,
+        max_distance: f64,
+    ) -> Option<SurfacePoint> {
+        self.trees.get(object)?.closest(position_in_model, max_distance, facing)
+    }
+
+    /// Least and greatest corner of the box round an object, in its own space; `None` without triangles.
+    pub fn bounds_in_model(&self, object: usize) -> Option<[DVec3; 2]> {
+        self.trees.get(object)?.bounds()
+    }
+
+    /// The surface of an object.
+    pub fn surface(&self, object: usize) -> Option<&BodySurface> {
+        self.trees.get(object).map(|tree| tree.surface())
+    }
+
+    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, in its own space.
+    pub fn bounds_where(&self, object: usize, within: impl Fn(&Hit) -> bool) -> Option<[DVec3; 2]> {
+        let tree = self.trees.get(object)?;
+        let mut bounds: Option<[DVec3; 2]> = None;
+        for triangle in 0..tree.surface().mesh.triangles.len() as u32 {
+            let middle = tree.middle(triangle);
+            let hit = Hit::new(object, &middle, (middle.position, 0.0), true);
+            if within(&hit) {
+                for corner in tree.corners(triangle) {
+                    let [low, high] = bounds.unwrap_or([corner, corner]);
+                    bounds = Some([low.min(corner), high.max(corner)]);
+                }
+            }
+        }
+        bounds
+    }
+
+    /// Least and greatest corner of the box round some objects as they stand, in world space; `None` without triangles.
+    pub fn bounds_in_world(
+        &self,
+        objects: impl IntoIterator<Item = usize>,
+        poses: &[DAffine3],
+    ) -> Option<[DVec3; 2]> {
+        let mut bounds: Option<[DVec3; 2]> = None;
+        for object in objects {
+            let (Some(own), Some(pose)) = (self.bounds_in_model(object), poses.get(object)) else { continue };
+            for corner in 0..8 {
+                let pick = |axis: usize| own[corner >> axis & 1][axis];
+                let at = pose.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
+                let [low, high] = bounds.unwrap_or([at, at]);
+                bounds = Some([low.min(at), high.max(at)]);
+            }
+        }
+        bounds
+    }
+}
+
+/// How many world units a unit of an object's own space is long; poses scale evenly.
+pub fn world_units_per_model_unit(world_from_model: DAffine3) -> f64 {
+    let axes: DMat3 = world_from_model.matrix3;
+    axes.determinant().abs().cbrt()
+}
+
+impl Hit {
+    fn new(object: usize, point: &SurfacePoint, (at, distance): (DVec3, f64), front: bool) -> Self {
+        Self {
+            object,
+            triangle: point.triangle,
+            barycentric: point.barycentric,
+            position_in_model: point.position,
+            normal_in_model: point.normal,
+            face_normal_in_model: point.face_normal,
+            position_in_world: at,
+            distance,
+            front,
+        }
+    }
+
+    /// How many pixels a unit of the object's own space takes at this hit, across the gaze.
+    pub fn px_per_model_unit(&self, view: &View, poses: &[DAffine3]) -> f64 {
+        let scale = poses.get(self.object).map_or(1.0, |&pose| world_units_per_model_unit(pose));
+        view.px_per_unit(self.position_in_world) * scale
+    }
+}

@@ -1,0 +1,251 @@
+//! One object's surface as rays find it: a tree of boxes over its triangles, in the object's own space.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use glam::{DVec3, Vec3, Vec3A};
+use impasto_core::TriangleMesh;
+use impasto_core::nearest::nearest_point;
+use impasto_core::shells::{self, Side};
+use impasto_painting::frame::BodySurface;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::ray::RayHit;
+use obvhs::{Boundable, BvhBuildParams};
+
+/// A point of a surface, in the object's own space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Index of its triangle.
+    pub triangle: u32,
+    /// Weights of the triangle's three corners, sum 1.
+    pub barycentric: [f64; 3],
+    /// Where.
+    pub position: DVec3,
+    /// Smooth normal, unit, of the painted side; of a sheet, of the side that was asked for.
+    pub normal: DVec3,
+    /// Normal of the flat triangle, unit, of the same side.
+    pub face_normal: DVec3,
+}
+
+/// A surface with its tree.
+pub(super) struct SurfaceTree {
+    surface: Arc<BodySurface>,
+    /// How far the surface has turned into its morph, 0..=1.
+    morph: f64,
+    positions: Vec<Vec3>,
+    sides: Vec<Side>,
+    tree: Bvh2,
+    /// Least and greatest corner.
+    bounds: Option<[DVec3; 2]>,
+}
+
+/// The box round a triangle, as wide as rounding asks for.
+struct TriangleBox(Aabb);
+
+impl Boundable for TriangleBox {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+impl SurfaceTree {
+    pub(super) fn new(surface: Arc<BodySurface>, morph: f64) -> Self {
+        let positions = moved(&surface, morph);
+        let mesh = &surface.mesh;
+        let corners = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
+        let used = mesh.triangles.iter().flat_map(corners);
+        let (low, high) =
+            used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let bounds = (!mesh.triangles.is_empty()).then(|| [low.as_dvec3(), high.as_dvec3()]);
+        // Boxes are met in single precision: they are wider than the triangles by a few roundings.
+        let margin =
+            bounds.map_or(0.0, |_| 1e-6 * (low.abs().max(high.abs()).max_element() + f32::MIN_POSITIVE));
+        let boxes: Vec<TriangleBox> = mesh
+            .triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = corners(triangle).map(Vec3A::from);
+                let margin = Vec3A::splat(margin);
+                TriangleBox(Aabb::new(a.min(b).min(c) - margin, a.max(b).max(c) + margin))
+            })
+            .collect();
+        let tree = if boxes.is_empty() {
+            Bvh2::default()
+        } else {
+            build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut Duration::default())
+        };
+        let sides = shells::sides(mesh);
+        Self { surface, morph, positions, sides, tree, bounds }
+    }
+
+    /// Whether it was built for this very surface at this share of its morph.
+    pub(super) fn is_of(&self, surface: &Arc<BodySurface>, morph: f64) -> bool {
+        Arc::ptr_eq(&self.surface, surface) && (surface.morph.is_none() || self.morph == morph)
+    }
+
+    pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
+        self.bounds
+    }
+
+    pub(super) fn surface(&self) -> &BodySurface {
+        &self.surface
+    }
+
+    /// The middle of a triangle, of a sheet on its front.
+    pub(super) fn middle(&self, triangle: u32) -> SurfacePoint {
+        self.point(triangle, [1.0 / 3.0; 3], |_| true).0
+    }
+
+    fn mesh(&self) -> &TriangleMesh {
+        &self.surface.mesh
+    }
+
+    /// Corners of a triangle, in the object's own space.
+    pub(super) fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.mesh().triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
+    }
+
+    /// The nearest point that a ray meets within `farthest` (in lengths of `direction`), that distance, and whether its painted
+    /// side was met. All in the object's own space.
+    pub(super) fn first_hit(
+        &self,
+        origin: DVec3,
+        direction: DVec3,
+        farthest: f64,
+    ) -> Option<(SurfacePoint, f64, bool)> {
+        let [low, high] = self.bounds?;
+        let length = direction.length();
+        if !origin.is_finite() || !(length.is_normal()) {
+            return None;
+        }
+        // Single precision suffices near the surface: the ray starts just before it.
+        let (centre, reach) = ((low + high) * 0.5, (high - low).length() * 0.5);
+        let unit = direction / length;
+        let skipped = ((centre - origin).dot(unit) - reach * 1.01).max(0.0);
+        let near = origin + unit * skipped;
+        let ray = obvhs::ray::Ray::new_inf(near.as_vec3a(), unit.as_vec3a());
+        let mut best = (farthest * length - skipped, None);
+        let mut try_triangle = |slot: usize| -> f32 {
+            let triangle = self.tree.primitive_indices[slot];
+            if let Some((distance, weights)) = meet(self.corners(triangle), near, unit)
+                && distance < best.0
+            {
+                best = (distance, Some((triangle, weights)));
+            }
+            (best.0 as f32).next_up()
+        };
+        self.tree.ray_traverse(ray, &mut RayHit::none(), |_, slot| try_triangle(slot));
+        let (distance, found) = best;
+        let (triangle, weights) = found?;
+        let (point, front) = self.point(triangle, weights, |face| face.dot(unit) < 0.0);
+        Some((point, (distance + skipped) / length, front))
+    }
+
+    /// The nearest point of the surface within `farthest`, of those that `faces` (given the normal of the painted side; of a
+    /// sheet, of either) holds for.
+    pub(super) fn closest(&self, to: DVec3, farthest: f64, facing: DVec3) -> Option<SurfacePoint> {
+        if self.tree.nodes.is_empty() || !to.is_finite() {
+            return None;
+        }
+        let near = to.as_vec3a();
+        let gap_sq = |node: u32| {
+            let aabb = self.tree.nodes[node as usize].aabb();
+            f64::from((near.clamp(aabb.min, aabb.max) - near).length_squared()) * (1.0 - 1e-5)
+        };
+        let mut best = (farthest * farthest, None);
+        let mut stack = vec![(gap_sq(0), 0u32)];
+        while let Some((gap, index)) = stack.pop() {
+            if gap > best.0 {
+                continue;
+            }
+            let node = &self.tree.nodes[index as usize];
+            if node.is_leaf() {
+                for slot in node.first_index..node.first_index + node.prim_count {
+                    let triangle = self.tree.primitive_indices[slot as usize];
+                    let corners = self.corners(triangle);
+                    let weights = closest_weights(corners, to);
+                    let distance_sq = (blend(corners, weights) - to).length_squared();
+                    if distance_sq <= best.0 {
+                        let (point, agrees) = self.point(triangle, weights, |face| face.dot(facing) > 0.0);
+                        if agrees && point.normal.dot(facing) > 0.0 {
+                            best = (distance_sq, Some(point));
+                        }
+                    }
+                }
+            } else {
+                let children = [node.first_index, node.first_index + 1].map(|child| (gap_sq(child), child));
+                let [nearer, farther] =
+                    if children[0].0 <= children[1].0 { children } else { [children[1], children[0]] };
+                stack.extend([farther, nearer]);
+            }
+        }
+        best.1
+    }
+
+    /// A point with the normals of its painted side, and whether that side is the one that is looked at.
+    fn point(
+        &self,
+        triangle: u32,
+        barycentric: [f64; 3],
+        looked_at: impl Fn(DVec3) -> bool,
+    ) -> (SurfacePoint, bool) {
+        let corners = self.corners(triangle);
+        let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
+        let sign = match self.sides[triangle as usize] {
+            Side::Front => 1.0,
+            Side::Back => -1.0,
+            Side::Both if looked_at(winding) => 1.0,
+            Side::Both => -1.0,
+        };
+        let face_normal = winding * sign;
+        let normals = self.mesh().triangles[triangle as usize]
+            .map(|vertex| self.mesh().normals[vertex as usize].as_dvec3());
+        let smooth = blend(normals, barycentric).normalize_or(winding);
+        // A file's normals and its winding may disagree: the side is the winding's.
+        let normal = if smooth.dot(face_normal) < 0.0 { -smooth } else { smooth };
+        let position = blend(corners, barycentric);
+        let front = looked_at(face_normal);
+        (SurfacePoint { triangle, barycentric, position, normal, face_normal }, front)
+    }
+}
+
+fn moved(surface: &BodySurface, morph: f64) -> Vec<Vec3> {
+    let from = &surface.mesh.positions;
+    match &surface.morph {
+        Some(target) if morph != 0.0 => {
+            from.iter().zip(&target.positions).map(|(from, to)| from.lerp(*to, morph as f32)).collect()
+        }
+        _ => from.clone(),
+    }
+}
+
+fn blend(corners: [DVec3; 3], [u, v, w]: [f64; 3]) -> DVec3 {
+    corners[0] * u + corners[1] * v + corners[2] * w
+}
+
+/// Where a ray meets a triangle from either side: distance in lengths of `direction`, and the corners' weights (Möller and
+/// Trumbore 1997).
+fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, [f64; 3])> {
+    let (ab, ac) = (b - a, c - a);
+    let across = direction.cross(ac);
+    let determinant = ab.dot(across);
+    let to_origin = origin - a;
+    let v = to_origin.dot(across) / determinant;
+    let w = direction.dot(to_origin.cross(ab)) / determinant;
+    let distance = ac.dot(to_origin.cross(ab)) / determinant;
+    // A rounding's breadth over each edge, so that no ray slips between two triangles.
+    let slack = -1e-12;
+    let inside = v >= slack && w >= slack && v + w <= 1.0 - slack;
+    (inside && distance >= 0.0 && distance.is_finite()).then_some((distance, [1.0 - v - w, v, w]))
+}
+
+/// Weights of the point of a triangle that is nearest to `to`; of one without area, of its first corner.
+fn closest_weights([a, b, c]: [DVec3; 3], to: DVec3) -> [f64; 3] {
+    let near = nearest_point(to, [a, b, c]);
+    let normal = (b - a).cross(c - a);
+    let share = |from: DVec3, to: DVec3| (to - from).cross(near - from).dot(normal) / normal.length_squared();
+    let (v, w) = (share(c, a), share(a, b));
+    if v.is_finite() && w.is_finite() { [1.0 - v - w, v, w] } else { [1.0, 0.0, 0.0] }
+}

@@ -1,0 +1,24 @@
+//! Why something is not done, in the words that are shown.
+
+use impasto_scene::problem::Report;
+
+/// A command or a gesture that is refused, with the words to show: *skin is locked*.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Refusal(pub String);
+
+impl Refusal {
+    /// The first thing that is wrong with a document or a file.
+    pub fn of(report: &Report) -> Self {
+        let first = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
+        Self(first.map_or_else(String::new, |problem| format!("{}; {}", problem.message, problem.mend)))
+    }
+
+    pub(crate) fn new(words: impl Into<String>) -> Self {
+        Self(words.into())
+    }
+
+    pub(crate) fn unknown(what: &str, name: &str) -> Self {
+        Self(format!("There is no {what} named \"{name}\""))
+    }
+}

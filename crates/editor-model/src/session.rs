@@ -1,0 +1,303 @@
+//! What the window shows and how, which is no part of the document: mode, tool, view, overlays.
+
+use impasto_scene::document::LightKind;
+
+/// What the left drag means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// It moves things, their whole motion.
+    #[default]
+    Arrange,
+    /// It paints directions.
+    Paint,
+    /// It keys the pose at this frame.
+    Animate,
+}
+
+/// A tool of the rail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Tool {
+    /// Arrange, Animate: picks, and drags what is picked.
+    Select,
+    /// Arrange, Animate: the gizmo's arrows.
+    Move,
+    /// Arrange, Animate: the gizmo's rings.
+    Turn,
+    /// Arrange, Animate: the gizmo's boxes.
+    Scale,
+    /// Arrange: a light where one clicks.
+    AddLight,
+    /// Arrange: the shot camera.
+    ShotCamera,
+    /// Paint: strokes follow the drag.
+    Comb,
+    /// Paint: a curve by its points.
+    GuideCurve,
+    /// Paint: one direction for a whole region.
+    Fill,
+    /// Paint: turns or flips a region's directions.
+    TurnDirection,
+    /// Paint: joins what lies around, or smears it.
+    Smooth,
+    /// Paint: back to the region's base direction.
+    Erase,
+    /// Paint: which faces belong to a region.
+    Region,
+    /// Paint: takes the direction under the cursor.
+    Pick,
+}
+
+/// How the picture is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// As it will be rendered.
+    #[default]
+    Painted,
+    /// The plain render that strokes take their colours from.
+    Shaded,
+    /// Painted, coloured by how far each stroke's turn can be trusted.
+    Trust,
+}
+
+/// Short lines along the strokes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Hairs {
+    /// None.
+    Off,
+    /// White over black.
+    #[default]
+    Plain,
+    /// In the colours of the regions.
+    ByRegion,
+}
+
+/// What is drawn over the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Overlays {
+    /// Hairs along the strokes, in Paint.
+    pub hairs: Hairs,
+    /// Hairs by trust.
+    pub trust: bool,
+    /// Regions in their colours, with their names.
+    pub regions: bool,
+    /// The floor's grid.
+    pub grid: bool,
+}
+
+/// Which axes a gizmo and a typed move follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Axes {
+    /// The world's.
+    #[default]
+    World,
+    /// The object's own.
+    Local,
+    /// The view's.
+    View,
+}
+
+/// What a fill states.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FillKind {
+    /// As a painter would begin.
+    #[default]
+    Automatic,
+    /// Along the least bend of the surface.
+    Curvature,
+    /// Up the surface.
+    Up,
+    /// Along the longest axis.
+    Along,
+    /// Round the longest axis.
+    Around,
+    /// One angle in the picture.
+    Angle,
+}
+
+/// How the region tool chooses faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RegionBy {
+    /// Dabs of a brush.
+    #[default]
+    Brush,
+    /// Faces that bend less than an angle from where one clicks.
+    Flood,
+    /// A group of the mesh file.
+    Group,
+    /// A material of the mesh file.
+    Material,
+}
+
+/// What the region tool does with what it chose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RegionDoes {
+    /// Makes a region of it.
+    New,
+    /// Adds it to the selected region.
+    #[default]
+    Add,
+    /// Takes it away from the selected region.
+    TakeAway,
+}
+
+/// The settings of the tools.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToolOptions {
+    /// Radius of the ring, points on the screen.
+    pub radius_px: f64,
+    /// How far strokes follow, 0..=1.
+    pub strength: f64,
+    /// Against the drag.
+    pub against: bool,
+    /// Full strength up to the radius.
+    pub even: bool,
+    /// How much the drag is steadied, 0..=1.
+    pub steady: f64,
+    /// Mirrored across the object's own axes.
+    pub mirror: [bool; 3],
+    /// Only what faces the eye.
+    pub front_only: bool,
+    /// Whether Smooth smears instead.
+    pub smear: bool,
+    /// What Fill states.
+    pub fill: FillKind,
+    /// The angle of a constant fill, degrees.
+    pub fill_angle_deg: f64,
+    /// Whether Turn flips; else it turns by a drag.
+    pub flip: bool,
+    /// How the region tool chooses.
+    pub region_by: RegionBy,
+    /// What it does with it.
+    pub region_does: RegionDoes,
+    /// The bend at which a flood stops, degrees.
+    pub flood_deg: f64,
+    /// Axes of gizmo and typed moves.
+    pub axes: Axes,
+    /// Moves snap to tenths of a unit, turns to 5 degrees.
+    pub snap: bool,
+    /// What kind of light Add light adds.
+    pub light: LightKind,
+    /// Strokes inside the ring are shown as a comb would lay them, before the press.
+    pub foresee: bool,
+}
+
+/// Everything about the window that outlives a frame of it and is no part of the document.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Session {
+    /// What the left drag means.
+    pub mode: Mode,
+    /// The mode that Tab goes back to.
+    pub mode_before: Mode,
+    /// The tool of Arrange and Animate.
+    pub object_tool: Tool,
+    /// The tool of Paint.
+    pub paint_tool: Tool,
+    /// Settings of the tools.
+    pub options: ToolOptions,
+    /// How the picture is drawn.
+    pub shading: Shading,
+    /// What is drawn over it.
+    pub overlays: Overlays,
+    /// Reference and now, side by side.
+    pub compare: bool,
+    /// The frame that is shown.
+    pub frame: f64,
+    /// The frame to come back to when Paint is left.
+    pub frame_before_paint: Option<f64>,
+    /// Playing begins again at the end of the range.
+    pub looped: bool,
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        Self {
+            mode: Mode::default(),
+            mode_before: Mode::Arrange,
+            object_tool: Tool::Select,
+            paint_tool: Tool::Comb,
+            options: ToolOptions::default(),
+            shading: Shading::default(),
+            overlays: Overlays::default(),
+            compare: false,
+            frame: 0.0,
+            frame_before_paint: None,
+            looped: true,
+        }
+    }
+}
+
+impl Default for ToolOptions {
+    fn default() -> Self {
+        Self {
+            radius_px: 46.0,
+            strength: 0.8,
+            against: false,
+            even: false,
+            steady: 0.2,
+            mirror: [false; 3],
+            front_only: true,
+            smear: false,
+            fill: FillKind::default(),
+            fill_angle_deg: 35.0,
+            flip: true,
+            region_by: RegionBy::default(),
+            region_does: RegionDoes::default(),
+            flood_deg: 30.0,
+            axes: Axes::default(),
+            snap: false,
+            light: LightKind::Point,
+            foresee: true,
+        }
+    }
+}
+
+impl Session {
+    /// The tool of the mode.
+    pub fn tool(&self) -> Tool {
+        if self.mode == Mode::Paint { self.paint_tool } else { self.object_tool }
+    }
+
+    /// Takes a tool up; one of another mode changes the mode's tool, not the mode.
+    pub fn set_tool(&mut self, tool: Tool) {
+        if tool.is_for_paint() {
+            self.paint_tool = tool;
+        } else {
+            self.object_tool = tool;
+        }
+    }
+
+    /// Changes the mode. Paint moves to the reference's frame; leaving it brings the frame back.
+    pub fn set_mode(&mut self, mode: Mode, reference_frame: f64) {
+        if mode == self.mode {
+            return;
+        }
+        if mode == Mode::Paint {
+            self.frame_before_paint = Some(self.frame);
+            self.frame = reference_frame;
+        } else if self.mode == Mode::Paint
+            && let Some(frame) = self.frame_before_paint.take()
+            && self.frame == reference_frame
+        {
+            self.frame = frame;
+        }
+        self.mode_before = self.mode;
+        self.mode = mode;
+    }
+}
+
+impl Tool {
+    /// Whether it is one of Paint's.
+    pub fn is_for_paint(self) -> bool {
+        matches!(
+            self,
+            Self::Comb
+                | Self::GuideCurve
+                | Self::Fill
+                | Self::TurnDirection
+                | Self::Smooth
+                | Self::Erase
+                | Self::Region
+                | Self::Pick
+        )
+    }
+}

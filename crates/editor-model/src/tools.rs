@@ -1,0 +1,254 @@
+//! The tools of Paint: small machines from plain events to commands.
+//!
+//! ```text
+//! Idle ─Hover─▶ Aiming ─Press─▶ a gesture ─Move─▶ preview ─Release─▶ one command
+//!                                        └─Cancel, focus lost─▶ as if never begun
+//! ```
+
+use glam::{DAffine3, DVec2, DVec3};
+use impasto_scene::document::{Object, Scene};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::motion;
+
+use crate::command::{Command, RegionTarget};
+use crate::keymap::{Action, Modifiers};
+use crate::path::ObjectView;
+use crate::picking::{Hit, Picker, View};
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+use crate::session::{Tool, ToolOptions};
+
+mod brush;
+mod curve;
+mod erase;
+mod fill;
+mod hand;
+mod heading;
+mod region;
+mod ring;
+mod sizing;
+mod smear;
+#[cfg(test)]
+mod tests;
+mod turn;
+
+pub use hand::Hand;
+pub use ring::{Needle, Ring};
+
+/// What tools look at, handed in with every event. `scene` is the one of the history, without any preview.
+#[derive(Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// The scene and its files.
+    pub loaded: &'a LoadedScene,
+    /// What is seen.
+    pub view: &'a View,
+    /// The objects' `world_from_model`, as they are seen.
+    pub poses: &'a [DAffine3],
+    /// Their surfaces.
+    pub picker: &'a Picker,
+    /// Settings of the tools.
+    pub options: &'a ToolOptions,
+    /// What is selected.
+    pub selection: &'a Selection,
+    /// What only the painting knows.
+    pub painted: &'a dyn Painted,
+}
+
+/// What only the painting knows.
+pub trait Painted {
+    /// Index of the region at a hit; `None` where none lies.
+    fn region_at(&self, hit: &Hit) -> Option<usize>;
+
+    /// How strokes show there now.
+    fn shown_at(&self, hit: &Hit) -> Option<Shown>;
+}
+
+/// How strokes show at a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown {
+    /// Counter-clockwise from the picture's +X in the view that is looked at, radians.
+    pub angle_rad: f64,
+    /// How well a turn describes what the picture of the surface has done, 0..=1.
+    pub trust: f64,
+}
+
+/// What a hand does. Places in pixels of the viewport, times in seconds of any clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolEvent {
+    /// The pointer moved, no button held.
+    Hover {
+        /// Where.
+        at_px: DVec2,
+        /// When.
+        at_secs: f64,
+    },
+    /// The first button went down.
+    Press {
+        /// Where.
+        at_px: DVec2,
+        /// When.
+        at_secs: f64,
+        /// With what held.
+        held: Modifiers,
+    },
+    /// The pointer moved with the button held.
+    Move {
+        /// Where.
+        at_px: DVec2,
+        /// When.
+        at_secs: f64,
+        /// With what held.
+        held: Modifiers,
+    },
+    /// The button went up.
+    Release,
+    /// A key that the keymap knows.
+    Key(Action),
+    /// Esc, a right press, or another tool: as if never begun.
+    Cancel,
+    /// The same.
+    FocusLost,
+}
+
+/// What becomes of an event.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ToolOutput {
+    /// What the document shows now; nothing ends a preview.
+    pub preview: Option<Command>,
+    /// What is done, as one entry of the history.
+    pub commit: Option<Command>,
+    /// Why nothing is done.
+    pub refusal: Option<Refusal>,
+    /// The status line.
+    pub status: String,
+    /// What is selected from now on.
+    pub select: Option<Item>,
+    /// Settings that the hand changed.
+    pub options: Option<ToolOptions>,
+    /// The ring at the pointer, and its mirror images.
+    pub rings: Vec<Ring>,
+    /// The direction at the pointer.
+    pub needle: Option<Needle>,
+    /// The line of a curve that is being drawn, or that the pointer is on.
+    pub line_px: Vec<DVec2>,
+    /// Handles of that line.
+    pub handles_px: Vec<DVec2>,
+    /// What stands beside the ring once the hand rests: *10°  trust 0.97*.
+    pub label: Option<String>,
+}
+
+/// What a press may paint on.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Paintable {
+    pub(crate) object: usize,
+    /// Index of the region; none where a new one is made.
+    pub(crate) region: Option<usize>,
+    pub(crate) target: RegionTarget,
+    /// What people call it.
+    pub(crate) name: String,
+    /// The object's name, where the region covers more than one.
+    pub(crate) object_name: Option<String>,
+}
+
+/// The words where there is nothing under the ring.
+pub(crate) const NOTHING_HERE: &str = "Nothing to paint here: the ring must lie on an object";
+
+impl<'a> Surroundings<'a> {
+    pub(crate) fn scene(&self) -> &'a Scene {
+        &self.loaded.scene
+    }
+
+    pub(crate) fn object(&self, index: usize) -> Option<&'a Object> {
+        self.scene().objects.get(index)
+    }
+
+    /// What lies under a pixel, but for what is hidden.
+    pub(crate) fn hit(&self, at_px: DVec2) -> Option<Hit> {
+        let visible = |object: usize| self.object(object).is_some_and(|object| !object.hidden);
+        at_px.is_finite().then(|| self.picker.pick(&self.view.ray(at_px), self.poses, visible))?
+    }
+
+    /// Whether a hit may be painted on.
+    pub(crate) fn paintable(&self, hit: Option<&Hit>) -> Result<Paintable, Refusal> {
+        let hit = hit.ok_or_else(|| Refusal::new(NOTHING_HERE))?;
+        let object = self.object(hit.object).ok_or_else(|| Refusal::new(NOTHING_HERE))?;
+        let region =
+            self.painted.region_at(hit).and_then(|index| Some((index, self.scene().regions.get(index)?)));
+        let name = region.map_or(&object.name, |(_, region)| &region.name).clone();
+        if object.locked {
+            return Err(Refusal::new(format!("{} is locked", object.name)));
+        }
+        let Some((index, region)) = region else {
+            let target = RegionTarget::NewOn(object.name.clone());
+            return Ok(Paintable { object: hit.object, region: None, target, name, object_name: None });
+        };
+        if region.locked || region.hidden {
+            let why = if region.locked { "locked" } else { "hidden" };
+            return Err(Refusal::new(format!("{name} is {why}")));
+        }
+        let object_name = region.on.object().is_none().then(|| object.name.clone());
+        let target = RegionTarget::Named(name.clone());
+        Ok(Paintable { object: hit.object, region: Some(index), target, name, object_name })
+    }
+
+    /// The view, and the reference of a region, as an object sees them.
+    pub(crate) fn views(&self, object: usize, region: Option<usize>) -> [ObjectView; 2] {
+        let (camera, pose) = self.reference(object, region);
+        [ObjectView::new(&self.view.camera, self.pose(object)), ObjectView::new(&camera, pose)]
+    }
+
+    /// The camera of a region's reference, and an object's pose there.
+    pub(crate) fn reference(&self, object: usize, region: Option<usize>) -> (motion::CameraPose, DAffine3) {
+        let scene = self.scene();
+        let own = region.and_then(|region| scene.regions.get(region)?.reference.as_ref());
+        let (camera, frame) = motion::referred_to(scene, own.unwrap_or(&scene.reference));
+        let pose = motion::poses_at(scene, frame).get(object).copied();
+        (camera, pose.unwrap_or(DAffine3::IDENTITY))
+    }
+
+    pub(crate) fn pose(&self, object: usize) -> DAffine3 {
+        self.poses.get(object).copied().unwrap_or(DAffine3::IDENTITY)
+    }
+
+    /// A point of an object's own space in the world.
+    pub(crate) fn world(&self, object: usize, position: DVec3) -> DVec3 {
+        self.pose(object).transform_point3(position)
+    }
+
+    /// The selected region, or that of the selected guide.
+    pub(crate) fn selected_region(&self) -> Option<usize> {
+        let name = match self.selection.active()? {
+            Item::Region(name) | Item::Guide(name, _) => name,
+            _ => return None,
+        };
+        self.scene().regions.iter().position(|region| region.name == *name)
+    }
+}
+
+impl ToolOutput {
+    pub(crate) fn saying(status: impl Into<String>) -> Self {
+        Self { status: status.into(), ..Self::default() }
+    }
+
+    pub(crate) fn refusing(refusal: Refusal) -> Self {
+        let unlock = if refusal.0.ends_with(" is locked") { ". [L] unlocks it" } else { "" };
+        Self { status: format!("{refusal}{unlock}"), refusal: Some(refusal), ..Self::default() }
+    }
+}
+
+/// What a tool says while it waits.
+pub(crate) fn waiting_words(tool: Tool, options: &ToolOptions, region: &str) -> String {
+    match tool {
+        Tool::Comb => "[Drag] comb  [Shift] smooth  [Ctrl] against  [F] radius  [Middle] orbit".to_owned(),
+        Tool::GuideCurve => "[Click] add point  [Enter] finish  [Esc] drop it".to_owned(),
+        Tool::Fill => format!("[Click] fill {region}  [Drag] angle  [Middle] orbit"),
+        Tool::TurnDirection if options.flip => format!("[Click] flip {region}  [Middle] orbit"),
+        Tool::TurnDirection => format!("[Drag] turn {region}  [Ctrl] by 5°  [Middle] orbit"),
+        Tool::Smooth if options.smear => "[Drag] smear  [F] radius  [Middle] orbit".to_owned(),
+        Tool::Smooth => "[Drag] smooth  [F] radius  [Middle] orbit".to_owned(),
+        Tool::Erase => "[Drag] erase to automatic  [F] radius  [Middle] orbit".to_owned(),
+        Tool::Region => format!("[Drag] add to {region}  [Ctrl] take away"),
+        Tool::Pick => "[Click] take the direction  [Middle] orbit".to_owned(),
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,91 @@
+//! The ring of a brush on the surface, and the needle in it.
+
+use glam::{DVec2, DVec3};
+
+use super::Surroundings;
+use crate::path::MirrorAxes;
+use crate::picking::{Hit, world_units_per_model_unit};
+
+const PIECES: usize = 48;
+
+/// A brush as it lies on the surface, pixels of the viewport.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ring {
+    /// The circle of its radius in the tangent plane, closed.
+    pub points_px: Vec<DVec2>,
+    /// The circle at half strength, closed; empty where the ring is hollow.
+    pub half_px: Vec<DVec2>,
+    /// The hit.
+    pub at_px: DVec2,
+    /// Off the surface, or without a surface to mirror to: grey, of constant size.
+    pub hollow: bool,
+    /// Whether it is a mirror image, drawn fainter.
+    pub mirrored: bool,
+}
+
+/// The direction at the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Needle {
+    /// Its middle.
+    pub at_px: DVec2,
+    /// Unit, Y down.
+    pub along: DVec2,
+    /// Whether it has a head: the hand moves, or strokes have a beginning.
+    pub headed: bool,
+}
+
+impl Ring {
+    /// Off every surface.
+    pub(super) fn hollow(at_px: DVec2, radius_px: f64) -> Self {
+        let points_px = (0..=PIECES).map(|piece| at_px + angle(piece) * radius_px).collect();
+        Self { points_px, half_px: Vec::new(), at_px, hollow: true, mirrored: false }
+    }
+
+    /// At a hit, `radius_px` wide where the surface faces the eye.
+    pub(super) fn on(hit: &Hit, radius_px: f64, around: &Surroundings) -> Self {
+        let radius = radius_px / hit.px_per_model_unit(around.view, around.poses);
+        Self::lying(hit.object, (hit.position_in_model, hit.normal_in_model), radius, around)
+    }
+
+    fn lying(object: usize, (position, normal): (DVec3, DVec3), radius: f64, around: &Surroundings) -> Self {
+        let (right, up) = normal.any_orthonormal_pair();
+        let circle = |radius: f64| -> Vec<DVec2> {
+            let at = |piece: usize| {
+                let way = angle(piece);
+                around.view.project(around.world(object, position + (right * way.x + up * way.y) * radius))
+            };
+            (0..=PIECES).filter_map(at).collect()
+        };
+        // Where the falloff (1 − (r/R)²)² is one half.
+        let half = (1.0 - 0.5f64.sqrt()).sqrt();
+        let at_px = around.view.project(around.world(object, position)).unwrap_or_default();
+        let (points_px, half_px) = (circle(radius), circle(radius * half));
+        Self { points_px, half_px, at_px, hollow: false, mirrored: false }
+    }
+
+    /// The mirror images of a ring at a hit, by the options' axes.
+    pub(super) fn mirrored(hit: &Hit, radius_px: f64, around: &Surroundings) -> Vec<Self> {
+        let [x, y, z] = around.options.mirror;
+        let radius = radius_px / hit.px_per_model_unit(around.view, around.poses);
+        let flips = MirrorAxes { x, y, z }.flips().into_iter();
+        flips
+            .map(|flip| {
+                let (at, normal) = (hit.position_in_model * flip, hit.normal_in_model * flip);
+                let found = around.picker.closest_on_surface(hit.object, at, normal, radius * 0.5);
+                let place = found.map_or((at, normal), |found| (found.position, found.normal));
+                let ring = Self::lying(hit.object, place, radius, around);
+                Self { mirrored: true, hollow: found.is_none(), ..ring }
+            })
+            .collect()
+    }
+}
+
+fn angle(piece: usize) -> DVec2 {
+    DVec2::from_angle(std::f64::consts::TAU * piece as f64 / PIECES as f64)
+}
+
+/// Radius in an object's own units of what is `radius_px` at a hit.
+pub(super) fn radius_in_model(hit: &Hit, radius_px: f64, around: &Surroundings) -> f64 {
+    let scale = world_units_per_model_unit(around.pose(hit.object));
+    radius_px / (around.view.px_per_unit(hit.position_in_world) * scale)
+}

@@ -1,0 +1,481 @@
+//! Moving, turning and scaling by hand: the modal machine behind G, R, S and the gizmo.
+//!
+//! `Idle ─G R S─▶ Modal ─X Y Z, digits, movement─▶ preview ─Enter, press─▶ kept`, or `─Esc, right press─▶ back`.
+
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+use impasto_scene::document::Lens;
+
+use crate::picking::{Ray, View};
+use crate::session::Axes;
+
+#[cfg(test)]
+mod tests;
+mod typed;
+
+use typed::Typed;
+
+/// What is done to an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operation {
+    /// G.
+    Move,
+    /// R.
+    Turn,
+    /// S.
+    Scale,
+}
+
+/// One axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// Red.
+    X,
+    /// Green.
+    Y,
+    /// Blue.
+    Z,
+}
+
+/// What a transform is held to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Constraint {
+    /// Moves across the gaze, turns about it, scales evenly.
+    #[default]
+    None,
+    /// Along or about one axis.
+    Axis(Axis),
+    /// In the plane across one axis.
+    Plane(Axis),
+}
+
+/// What a transform does. Axes and factors count in `Transforming::space`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TransformDelta {
+    /// By this much, world units, along the axes of its space.
+    Move(DVec3),
+    /// About an axis of its space (unit), counter-clockwise as seen from where it points to.
+    Turn {
+        /// Unit.
+        axis: DVec3,
+        /// Radians.
+        angle_rad: f64,
+    },
+    /// By these factors along the axes of its space.
+    Scale(DVec3),
+}
+
+/// What becomes of a pointer or a key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TransformEvent {
+    /// The pointer moved; what it snaps to.
+    Move {
+        /// Where, pixels.
+        at_px: DVec2,
+        /// Ctrl: steps of 0.1, or of 5°.
+        snap: Snap,
+    },
+    /// X, Y or Z.
+    Axis(Axis),
+    /// Shift with X, Y or Z.
+    Plane(Axis),
+    /// A digit, `.`, or `-`.
+    Typed(char),
+    /// Takes back the last character.
+    Backspace,
+    /// Enter or a press; of a gizmo, its release.
+    Keep,
+    /// Esc or a right press; or the window lost its focus.
+    Back,
+}
+
+/// Whether values go in steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Snap {
+    /// As they come.
+    #[default]
+    Free,
+    /// 0.1, or 5°.
+    Steps,
+}
+
+/// What an event led to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TransformStep {
+    /// Goes on; this is what it would do.
+    Preview(TransformDelta),
+    /// Done; to be kept as one undo entry. Nothing where it changes nothing.
+    Kept(Option<TransformDelta>),
+    /// As if never begun.
+    Back,
+}
+
+/// A transform under way.
+#[derive(Clone, Debug)]
+pub struct Transforming {
+    name: String,
+    operation: Operation,
+    constraint: Constraint,
+    space: Axes,
+    /// The space that axes mean when they are first named.
+    first_space: Axes,
+    typed: Typed,
+    view: View,
+    /// The object's pose when it began.
+    world_from_model: DAffine3,
+    from_px: DVec2,
+    /// The last movement of the pointer.
+    at_px: DVec2,
+    snap: Snap,
+    /// Angle that the pointer has gone round the pivot, radians, without wrapping.
+    gone_round_rad: f64,
+}
+
+/// A pointer nearer to the pivot than this does not turn or scale.
+const LEAST_ARM_PX: f64 = 4.0;
+const STEP: f64 = 0.1;
+const STEP_DEG: f64 = 5.0;
+/// Factors that scaling stays within.
+const FACTORS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+/// What a transform begins with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransformStart {
+    /// Name of the object, for the status line.
+    pub name: String,
+    /// Its pose.
+    pub world_from_model: DAffine3,
+    /// What it is looked at in.
+    pub view: View,
+    /// The pointer, pixels.
+    pub at_px: DVec2,
+    /// Whose axes the options name.
+    pub space: Axes,
+}
+
+impl Transforming {
+    /// Begins by a key.
+    pub fn new(operation: Operation, start: TransformStart) -> Self {
+        Self {
+            name: start.name,
+            operation,
+            constraint: Constraint::None,
+            space: start.space,
+            first_space: start.space,
+            typed: Typed::default(),
+            view: start.view,
+            world_from_model: start.world_from_model,
+            from_px: start.at_px,
+            at_px: start.at_px,
+            snap: Snap::Free,
+            gone_round_rad: 0.0,
+        }
+    }
+
+    /// Begins by a press on a handle of the gizmo.
+    pub fn held(operation: Operation, constraint: Constraint, start: TransformStart) -> Self {
+        Self { constraint, ..Self::new(operation, start) }
+    }
+
+    /// Which.
+    pub fn operation(&self) -> Operation {
+        self.operation
+    }
+
+    /// What it is held to.
+    pub fn constraint(&self) -> Constraint {
+        self.constraint
+    }
+
+    /// Whose axes its delta counts in.
+    pub fn space(&self) -> Axes {
+        self.space
+    }
+
+    /// Takes an event.
+    pub fn take(&mut self, event: TransformEvent) -> TransformStep {
+        match event {
+            TransformEvent::Move { at_px, snap } => {
+                if at_px.is_finite() {
+                    self.follow(at_px);
+                }
+                self.snap = snap;
+            }
+            TransformEvent::Axis(axis) => self.hold(Constraint::Axis(axis)),
+            TransformEvent::Plane(axis) => self.hold(Constraint::Plane(axis)),
+            TransformEvent::Typed(character) => self.typed.push(character),
+            TransformEvent::Backspace => self.typed.pop(),
+            TransformEvent::Keep => {
+                return TransformStep::Kept(Some(self.delta()).filter(|delta| !delta.is_nothing()));
+            }
+            TransformEvent::Back => return TransformStep::Back,
+        }
+        TransformStep::Preview(self.delta())
+    }
+
+    /// What it would do now.
+    pub fn delta(&self) -> TransformDelta {
+        match self.operation {
+            Operation::Move => TransformDelta::Move(self.moved()),
+            Operation::Turn => {
+                let angle_rad = match self.typed.value() {
+                    Some(degrees) => degrees.to_radians(),
+                    None => self.turned_rad(),
+                };
+                TransformDelta::Turn { axis: self.turn_axis(), angle_rad }
+            }
+            Operation::Scale => {
+                let factor = self.typed.value().unwrap_or_else(|| self.scaled());
+                let factor = if factor.abs() < *FACTORS.start() { *FACTORS.start() } else { factor.abs() };
+                let factor = factor.min(*FACTORS.end());
+                TransformDelta::Scale(match self.constraint {
+                    Constraint::None => DVec3::splat(factor),
+                    Constraint::Axis(axis) => DVec3::ONE + axis.unit() * (factor - 1.0),
+                    Constraint::Plane(axis) => DVec3::splat(factor) + axis.unit() * (1.0 - factor),
+                })
+            }
+        }
+    }
+
+    /// The words of the status line, and its keys.
+    pub fn status(&self) -> String {
+        let verb = match self.operation {
+            Operation::Move => "Move",
+            Operation::Turn => "Turn",
+            Operation::Scale => "Scale",
+        };
+        let value = self.value_words();
+        format!(
+            "{verb} {}  {value}   [X Y Z] axis  [Shift X] plane  type a number  [Enter] keep  [Esc] back",
+            self.name
+        )
+    }
+
+    /// The axes of its space in the world, unit columns.
+    pub fn world_from_space(&self) -> DMat3 {
+        axes_of(self.space, self.world_from_model, &self.view)
+    }
+
+    fn value_words(&self) -> String {
+        let space = match (self.constraint, self.space) {
+            (Constraint::None, _) | (_, Axes::World) => "",
+            (_, Axes::Local) => " local",
+            (_, Axes::View) => " view",
+        };
+        let held = match self.constraint {
+            Constraint::None => String::new(),
+            Constraint::Axis(axis) => format!("{}{space} ", axis.letter()),
+            Constraint::Plane(axis) => {
+                let [first, second] = axis.others().map(Axis::letter);
+                format!("{first}{second}{space} ")
+            }
+        };
+        if let Some(typed) = self.typed.text() {
+            let unit = if self.operation == Operation::Turn { "°" } else { "" };
+            return format!("{held}{typed}{unit}");
+        }
+        match (self.delta(), self.constraint) {
+            (TransformDelta::Move(by), Constraint::Axis(axis)) => format!("{held}{:.2}", by[axis.index()]),
+            (TransformDelta::Move(by), Constraint::Plane(axis)) => {
+                let [first, second] = axis.others();
+                format!("{held}{:.2} {:.2}", by[first.index()], by[second.index()])
+            }
+            (TransformDelta::Move(by), Constraint::None) => {
+                format!("X {:.2}  Y {:.2}  Z {:.2}", by.x, by.y, by.z)
+            }
+            (TransformDelta::Turn { angle_rad, .. }, _) => format!("{held}{:.1}°", angle_rad.to_degrees()),
+            (TransformDelta::Scale(by), Constraint::Axis(axis)) => format!("{held}{:.3}", by[axis.index()]),
+            (TransformDelta::Scale(by), Constraint::Plane(axis)) => {
+                format!("{held}{:.3}", by[axis.others()[0].index()])
+            }
+            (TransformDelta::Scale(by), Constraint::None) => format!("{:.3}", by.x),
+        }
+    }
+
+    /// The same axis again means the object's own, a third time none.
+    fn hold(&mut self, constraint: Constraint) {
+        let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
+        if self.constraint != constraint {
+            (self.constraint, self.space) = (constraint, self.first_space);
+        } else if self.space == self.first_space {
+            self.space = other;
+        } else {
+            (self.constraint, self.space) = (Constraint::None, self.first_space);
+        }
+    }
+
+    fn follow(&mut self, at_px: DVec2) {
+        if let Some(pivot_px) = self.view.project(self.pivot()) {
+            let (from, to) = (self.at_px - pivot_px, at_px - pivot_px);
+            if from.length() > LEAST_ARM_PX && to.length() > LEAST_ARM_PX {
+                // Y down: counter-clockwise is negative there.
+                self.gone_round_rad -= from.angle_to(to);
+            }
+        }
+        self.at_px = at_px;
+    }
+
+    fn pivot(&self) -> DVec3 {
+        self.world_from_model.translation
+    }
+
+    /// Along the axes of its space, world units.
+    fn moved(&self) -> DVec3 {
+        let axes = self.world_from_space();
+        if let Some(value) = self.typed.value() {
+            return match self.constraint {
+                Constraint::Axis(axis) => axis.unit() * value,
+                // One number is one axis: the first that is free.
+                Constraint::None => DVec3::X * value,
+                Constraint::Plane(axis) => axis.others()[0].unit() * value,
+            };
+        }
+        let pivot = self.pivot();
+        let [from, to] = [self.from_px, self.at_px].map(|at_px| self.view.ray(at_px));
+        let in_world = match self.constraint {
+            Constraint::None => {
+                self.view.at_depth_of(self.at_px, pivot) - self.view.at_depth_of(self.from_px, pivot)
+            }
+            Constraint::Axis(axis) => {
+                let along = axes * axis.unit();
+                along * (self.along_axis(self.at_px, along) - self.along_axis(self.from_px, along))
+            }
+            Constraint::Plane(axis) => {
+                let normal = axes * axis.unit();
+                let meet = |ray: &Ray| {
+                    let slope = ray.direction.dot(normal);
+                    let distance = (pivot - ray.origin).dot(normal) / slope;
+                    (slope.abs() > 1e-3 && distance > 0.0).then(|| ray.origin + ray.direction * distance)
+                };
+                // A plane that is seen from its edge cannot be dragged in.
+                meet(&from).zip(meet(&to)).map_or(DVec3::ZERO, |(from, to)| to - from)
+            }
+        };
+        let by = axes.transpose() * in_world;
+        let by = match self.constraint {
+            Constraint::Axis(axis) => by * axis.unit(),
+            Constraint::Plane(axis) => by * (DVec3::ONE - axis.unit()),
+            Constraint::None => by,
+        };
+        if self.snap == Snap::Steps { (by / STEP).round() * STEP } else { by }
+    }
+
+    /// How far along an axis through the pivot a pixel points, world units: where the axis shows nearest to it.
+    fn along_axis(&self, at_px: DVec2, along: DVec3) -> f64 {
+        let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
+        let shown = DVec2::new(jx.dot(along), -jy.dot(along));
+        let Some(pivot_px) = self.view.project(self.pivot()) else { return 0.0 };
+        // Straight at the eye, an axis shows as a point: it cannot be dragged along.
+        let size = self.view.px_per_unit(self.pivot());
+        if shown.length() < 0.02 * size {
+            return 0.0;
+        }
+        let on_axis_px = pivot_px + (at_px - pivot_px).project_onto(shown);
+        let ray = self.view.ray(on_axis_px);
+        // The points of two lines that are nearest to each other.
+        let between = self.pivot() - ray.origin;
+        let cosine = ray.direction.dot(along);
+        (cosine * between.dot(ray.direction) - between.dot(along)) / (1.0 - cosine * cosine)
+    }
+
+    /// The axis in its space that it turns about, unit.
+    fn turn_axis(&self) -> DVec3 {
+        match self.constraint {
+            Constraint::Axis(axis) | Constraint::Plane(axis) => axis.unit(),
+            Constraint::None => {
+                (self.world_from_space().transpose() * -self.view.axes()[2]).normalize_or(DVec3::Z)
+            }
+        }
+    }
+
+    fn turned_rad(&self) -> f64 {
+        let towards_eye = match self.view.camera.lens {
+            Lens::Perspective { .. } => self.view.camera.eye - self.pivot(),
+            Lens::Orthographic { .. } => -self.view.axes()[2],
+        };
+        // Looked at from behind, an axis turns the other way.
+        let away = (self.world_from_space() * self.turn_axis()).dot(towards_eye) < 0.0;
+        let angle_rad = if away { -self.gone_round_rad } else { self.gone_round_rad };
+        if self.snap == Snap::Steps {
+            ((angle_rad.to_degrees() / STEP_DEG).round() * STEP_DEG).to_radians()
+        } else {
+            angle_rad
+        }
+    }
+
+    fn scaled(&self) -> f64 {
+        let Some(pivot_px) = self.view.project(self.pivot()) else { return 1.0 };
+        let (from, to) = (self.from_px.distance(pivot_px), self.at_px.distance(pivot_px));
+        let factor = to.max(LEAST_ARM_PX) / from.max(LEAST_ARM_PX);
+        if self.snap == Snap::Steps { (factor / STEP).round().max(1.0) * STEP } else { factor }
+    }
+}
+
+impl TransformDelta {
+    /// Whether it changes nothing.
+    pub fn is_nothing(&self) -> bool {
+        match *self {
+            Self::Move(by) => by == DVec3::ZERO,
+            Self::Turn { angle_rad, .. } => angle_rad == 0.0,
+            Self::Scale(by) => by == DVec3::ONE,
+        }
+    }
+
+    /// Where each point of the world goes, turned and scaled about a pivot. `world_from_space` are the axes that the delta
+    /// counts in. Uneven factors make an uneven map: poses cannot hold it, see `Arrange::Stretch`.
+    pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
+        let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
+        match *self {
+            Self::Move(by) => DAffine3::from_translation(world_from_space * by),
+            Self::Turn { axis, angle_rad } => {
+                let axis = (world_from_space * axis).normalize_or(DVec3::Y);
+                about_pivot(DMat3::from_quat(DQuat::from_axis_angle(axis, angle_rad)))
+            }
+            Self::Scale(by) => {
+                about_pivot(world_from_space * DMat3::from_diagonal(by) * world_from_space.transpose())
+            }
+        }
+    }
+}
+
+/// The axes of a space in the world, unit columns, for an object at a pose in a view.
+pub fn axes_of(space: Axes, world_from_model: DAffine3, view: &View) -> DMat3 {
+    match space {
+        Axes::World => DMat3::IDENTITY,
+        Axes::Local => {
+            let [x, y, z] = world_from_model.matrix3.to_cols_array_2d().map(DVec3::from);
+            DMat3::from_cols(x.normalize_or(DVec3::X), y.normalize_or(DVec3::Y), z.normalize_or(DVec3::Z))
+        }
+        Axes::View => {
+            let [right, up, gaze] = view.axes();
+            DMat3::from_cols(right, up, -gaze)
+        }
+    }
+}
+
+impl Axis {
+    /// All three.
+    pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    /// The unit vector along it.
+    pub fn unit(self) -> DVec3 {
+        [DVec3::X, DVec3::Y, DVec3::Z][self.index()]
+    }
+
+    /// Its letter, always shown beside its colour.
+    pub fn letter(self) -> char {
+        ['X', 'Y', 'Z'][self.index()]
+    }
+
+    /// The other two, in their order.
+    pub fn others(self) -> [Self; 2] {
+        match self {
+            Self::X => [Self::Y, Self::Z],
+            Self::Y => [Self::X, Self::Z],
+            Self::Z => [Self::X, Self::Y],
+        }
+    }
+
+    pub(crate) fn index(self) -> usize {
+        self as usize
+    }
+}

@@ -1,0 +1,42 @@
+//! A number as it is typed.
+
+/// The characters so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Typed {
+    digits: String,
+    negative: bool,
+}
+
+/// More digits than this say nothing more.
+const MOST: usize = 12;
+
+impl Typed {
+    /// Takes a digit or a point; `-` turns the sign wherever it is typed. Anything else is left out.
+    pub(super) fn push(&mut self, character: char) {
+        match character {
+            '-' | '−' => self.negative = !self.negative,
+            '.' | ',' if !self.digits.contains('.') && self.digits.len() < MOST => self.digits.push('.'),
+            digit if digit.is_ascii_digit() && self.digits.len() < MOST => self.digits.push(digit),
+            _ => {}
+        }
+    }
+
+    /// Takes back the last character; the sign goes last.
+    pub(super) fn pop(&mut self) {
+        if self.digits.pop().is_none() {
+            self.negative = false;
+        }
+    }
+
+    /// The number; `None` while nothing that is one was typed.
+    pub(super) fn value(&self) -> Option<f64> {
+        let value: f64 = self.digits.parse().ok()?;
+        Some(if self.negative { -value } else { value })
+    }
+
+    /// As it stands, to be shown.
+    pub(super) fn text(&self) -> Option<String> {
+        let anything = self.negative || !self.digits.is_empty();
+        anything.then(|| format!("{}{}", if self.negative { "-" } else { "" }, self.digits))
+    }
+}

@@ -1,0 +1,120 @@
+//! Questions that must be answered before something goes on.
+
+use crate::widgets::{Dialog, dialog};
+
+/// A question over the window.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// The window closes, or another scene opens, and there are edits.
+    SaveChanges {
+        /// The document's name.
+        name: String,
+        /// Since when it is edited, minutes.
+        minutes: u64,
+    },
+    /// Another frame becomes the reference.
+    Recapture {
+        /// The frame.
+        frame: i64,
+    },
+    /// The file on disk is another than the one that was opened.
+    ChangedOutside {
+        /// The document's name.
+        name: String,
+    },
+    /// There is a copy of unsaved work from a session that broke off.
+    Recovered {
+        /// When it was written: *14:32*.
+        at: String,
+        /// How many entries of the history the file does not have.
+        changes: usize,
+    },
+    /// The file was read with losses, so that saving over it would make them last.
+    Problems {
+        /// How many are left.
+        count: usize,
+        /// The line of the first one.
+        line: usize,
+    },
+}
+
+/// The verb that was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Nothing happens, and nothing goes on.
+    Cancel,
+    /// Save, then go on.
+    Save,
+    /// Go on without saving.
+    Discard,
+    /// Take the frame as the reference.
+    Recapture,
+    /// Read the file again and drop the edits.
+    ReadAgain,
+    /// Save under another name.
+    SaveAs,
+    /// Leave everything as it is.
+    KeepWorking,
+    /// Open the file, not the copy.
+    OpenFile,
+    /// Show both.
+    Compare,
+    /// Open the copy.
+    OpenCopy,
+    /// Go to what is wrong.
+    ShowProblem,
+    /// Save beside the file.
+    SaveCopy,
+}
+
+/// Asks over everything else. The answer, once there is one; `Enter` is the safe verb.
+pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
+    let (title, words, verbs): (_, _, &[(&str, Answer)]) = match question {
+        Question::SaveChanges { name, minutes } => (
+            format!("Save changes to \u{201c}{name}\u{201d}?"),
+            match minutes {
+                0 => "You edited it just now.".to_owned(),
+                1 => "You edited it for a minute.".to_owned(),
+                minutes => format!("You edited it for {minutes} minutes."),
+            },
+            &[("Don\u{2019}t save", Answer::Discard), ("Cancel", Answer::Cancel), ("Save", Answer::Save)],
+        ),
+        Question::Recapture { frame } => (
+            format!("Take frame {frame} as the new reference?"),
+            format!("Directions stay as they look now; they are stored against frame {frame}."),
+            &[("Cancel", Answer::Cancel), ("Recapture", Answer::Recapture)],
+        ),
+        Question::ChangedOutside { name } => (
+            format!("{name} was changed by another program"),
+            "Your edits are not in it.".to_owned(),
+            &[
+                ("Read it, drop my edits", Answer::ReadAgain),
+                ("Save mine as\u{2026}", Answer::SaveAs),
+                ("Keep working", Answer::KeepWorking),
+            ],
+        ),
+        Question::Recovered { at, changes } => (
+            "Impasto closed unexpectedly".to_owned(),
+            format!("A copy from {at} has {} that the file does not.", counted(*changes, "change")),
+            &[("Open the file", Answer::OpenFile), ("Compare", Answer::Compare), ("Open the copy", Answer::OpenCopy)],
+        ),
+        Question::Problems { count, line } => (
+            format!("This scene has {} left", counted(*count, "problem")),
+            format!("Saving over it would lose what could not be read (line {line})."),
+            &[
+                ("Cancel", Answer::Cancel),
+                ("Show the problem", Answer::ShowProblem),
+                ("Save a copy\u{2026}", Answer::SaveCopy),
+            ],
+        ),
+    };
+    let names: Vec<_> = verbs.iter().map(|(words, _)| *words).collect();
+    // Where nothing is called Cancel, the last verb leaves everything as it is.
+    let cancel = verbs.iter().position(|(_, answer)| *answer == Answer::Cancel).unwrap_or(names.len() - 1);
+    let chosen = dialog(ctx, &Dialog { title: &title, words: &words, verbs: &names, cancel })?;
+    verbs.get(chosen).map(|(_, answer)| *answer)
+}
+
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
+}

@@ -1,0 +1,303 @@
+use egui::containers::menu::{MenuBar, SubMenu};
+use egui::{Align2, Popup, RichText, Ui};
+use impasto_editor_model::keymap::Action;
+use impasto_editor_model::session::{Hairs, Mode};
+
+use super::{Ask, Shown, file_name};
+use crate::icons;
+use crate::theme::{Tokens, type_face};
+use crate::widgets::MenuRow;
+
+/// One line of a menu.
+#[derive(Clone, Copy)]
+enum Line {
+    Do(Action),
+    Part,
+    Recent,
+    CopyRenderCommand,
+    FirstRun,
+    Sub(&'static str, &'static [Line]),
+}
+
+use Line::{CopyRenderCommand, Do, FirstRun, Part, Recent, Sub};
+
+const MENUS: [(&str, &[Line]); 4] = [
+    (
+        "File",
+        &[
+            Do(Action::NewScene),
+            Do(Action::OpenScene),
+            Recent,
+            Do(Action::ImportMesh),
+            Part,
+            Do(Action::Save),
+            Do(Action::SaveAs),
+            Part,
+            Do(Action::Render),
+            CopyRenderCommand,
+        ],
+    ),
+    (
+        "Edit",
+        &[
+            Do(Action::Undo),
+            Do(Action::Redo),
+            Part,
+            Do(Action::SelectAll),
+            Do(Action::SelectNone),
+            Part,
+            Do(Action::Add),
+            Do(Action::Duplicate),
+            Do(Action::Rename),
+            Do(Action::Delete),
+            Part,
+            Do(Action::Hide),
+            Do(Action::ShowAll),
+            Do(Action::Lock),
+            Part,
+            Sub("Tools", TOOLS),
+            Sub("Time", TIME),
+        ],
+    ),
+    (
+        "View",
+        &[
+            Do(Action::Arrange),
+            Do(Action::Paint),
+            Do(Action::Animate),
+            Do(Action::TogglePaint),
+            Do(Action::NextMode),
+            Part,
+            Do(Action::FrameSelected),
+            Do(Action::FrameAll),
+            Do(Action::ViewFront),
+            Do(Action::ViewRight),
+            Do(Action::ViewTop),
+            Do(Action::ToggleOrthographic),
+            Do(Action::LookThrough),
+            Do(Action::CameraFromView),
+            Part,
+            Do(Action::CycleHairs),
+            Do(Action::ToggleTrust),
+            Do(Action::Compare),
+            Part,
+            Do(Action::ToggleColumn),
+            Do(Action::MaximiseViewport),
+            Do(Action::NextArea),
+        ],
+    ),
+    ("Help", &[Do(Action::Palette), Do(Action::Shortcuts), FirstRun]),
+];
+
+const TOOLS: &[Line] = &[
+    Do(Action::Select),
+    Do(Action::Move),
+    Do(Action::Turn),
+    Do(Action::Scale),
+    Part,
+    Do(Action::Comb),
+    Do(Action::GuideCurve),
+    Do(Action::Fill),
+    Do(Action::TurnDirection),
+    Do(Action::Smooth),
+    Do(Action::Erase),
+    Do(Action::Region),
+    Do(Action::Pick),
+    Part,
+    Do(Action::SizeRadius),
+    Do(Action::SizeStrength),
+    Do(Action::SmallerRadius),
+    Do(Action::LargerRadius),
+    Do(Action::FlipUnderCursor),
+];
+
+const TIME: &[Line] = &[
+    Do(Action::SetKey),
+    Part,
+    Do(Action::Play),
+    Do(Action::StepBack),
+    Do(Action::StepOn),
+    Do(Action::PreviousKey),
+    Do(Action::NextKey),
+    Do(Action::FirstFrame),
+    Do(Action::LastFrame),
+];
+
+/// Every action of the menus, in their order, each once.
+pub(super) fn actions() -> Vec<Action> {
+    fn collect(lines: &[Line], found: &mut Vec<Action>) {
+        for line in lines {
+            match line {
+                Do(action) => found.push(*action),
+                Sub(_, lines) => collect(lines, found),
+                _ => (),
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for (_, lines) in MENUS {
+        collect(lines, &mut found);
+    }
+    found
+}
+
+/// File, Edit, View and Help.
+pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    MenuBar::new().ui(ui, |ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for (name, lines) in MENUS {
+            ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
+        }
+    });
+}
+
+fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let names = lines.iter().map(|line| {
+        let keys = if let Do(action) = line { shown.keys_of(*action) } else { String::new() };
+        MenuRow { words: words_of(*line), keys: &keys, ..MenuRow::default() }.width(ui)
+    });
+    let wide = names.fold(0.0, f32::max);
+    ui.set_width(wide);
+    for line in lines {
+        match *line {
+            Do(action) => {
+                let keys = shown.keys_of(action);
+                let row = MenuRow { words: action.name(), keys: &keys, on: is_on(shown, action), marked: false };
+                if usable(ui, shown.why_not(action), row) {
+                    asks.push(Ask::Act(action));
+                }
+            }
+            Part => {
+                ui.add_space(4.0);
+                let line = ui.max_rect().x_range();
+                ui.painter().hline(line, ui.cursor().top(), (1.0, Tokens::of(ui).div));
+                ui.add_space(5.0);
+            }
+            Recent => sub(ui, words_of(*line), |ui| recent(ui, shown, asks)),
+            Sub(name, lines) => sub(ui, name, |ui| list(ui, lines, (shown, asks))),
+            CopyRenderCommand => {
+                let file = shown.document.file();
+                let reason = file.is_none().then_some("Save the scene first");
+                if usable(ui, reason, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
+                    asks.extend(file.map(|file| Ask::Copy(render_command(&file.to_string_lossy()))));
+                }
+            }
+            FirstRun => {
+                if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
+                    asks.push(Ask::Welcome);
+                }
+            }
+        }
+    }
+}
+
+fn words_of(line: Line) -> &'static str {
+    match line {
+        Do(action) => action.name(),
+        Sub(name, _) => name,
+        Recent => "Open recent",
+        CopyRenderCommand => "Copy render command",
+        FirstRun => "First run sheet",
+        Part => "",
+    }
+}
+
+/// A row that says why where it cannot be done. Whether it was clicked.
+fn usable(ui: &mut Ui, reason: Option<&str>, row: MenuRow<'_>) -> bool {
+    let response = ui.add_enabled_ui(reason.is_none(), |ui| row.show(ui)).inner;
+    match reason {
+        Some(reason) => response.on_disabled_hover_text(reason).clicked(),
+        None => response.clicked(),
+    }
+}
+
+fn sub(ui: &mut Ui, words: &str, contents: impl FnOnce(&mut Ui)) {
+    let response = MenuRow { words, ..MenuRow::default() }.show(ui);
+    let at = response.rect.right_center() - egui::vec2(16.0, 0.0);
+    let arrow = (icons::FOLDED.glyph(), type_face::icon(18.0));
+    ui.painter().text(at, Align2::CENTER_CENTER, arrow.0, arrow.1, Tokens::of(ui).weak);
+    SubMenu::new().show(ui, &response, contents);
+}
+
+fn recent(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    if shown.recent.is_empty() {
+        let words = RichText::new("Scenes you save will be listed here.").font(type_face::small());
+        ui.set_width(240.0);
+        ui.add_space(4.0);
+        ui.label(words.color(Tokens::of(ui).weak));
+        ui.add_space(4.0);
+    }
+    let names: Vec<_> = shown.recent.iter().map(|path| file_name(path)).collect();
+    let rows = names.iter().map(|words| MenuRow { words, ..MenuRow::default() });
+    let wide = rows.clone().map(|row| row.width(ui)).fold(0.0, f32::max);
+    ui.set_width(wide.max(160.0));
+    for (row, path) in rows.zip(shown.recent) {
+        if row.show(ui).on_hover_text(path.display().to_string()).clicked() {
+            asks.push(Ask::Open(path.clone()));
+            Popup::close_all(ui.ctx());
+        }
+    }
+}
+
+/// Whether what an action switches is on.
+fn is_on(shown: &Shown<'_>, action: Action) -> bool {
+    let session = shown.session;
+    match action {
+        Action::Arrange => session.mode == Mode::Arrange,
+        Action::Paint => session.mode == Mode::Paint,
+        Action::Animate => session.mode == Mode::Animate,
+        Action::CycleHairs => session.overlays.hairs != Hairs::Off,
+        Action::ToggleTrust => session.overlays.trust,
+        Action::Compare => session.compare,
+        _ => false,
+    }
+}
+
+/// What renders a scene from a shell; a path may hold anything.
+fn render_command(path: &str) -> String {
+    let mut quoted = String::new();
+    for letter in path.chars() {
+        if matches!(letter, '"' | '\\' | '$' | '`') {
+            quoted.push('\\');
+        }
+        quoted.push(letter);
+    }
+    format!("impasto render \"{quoted}\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_menus_hold_every_command_once() {
+        let listed = actions();
+        let once: HashSet<_> = listed.iter().collect();
+        assert_eq!(once.len(), listed.len(), "one stands twice");
+        let within_others = |action: &Action| {
+            matches!(
+                action,
+                Action::ReadSource
+                    | Action::NudgeKeysBack
+                    | Action::NudgeKeysOn
+                    | Action::HoldAxis(_)
+                    | Action::HoldPlane(_)
+                    | Action::Confirm
+                    | Action::Cancel
+                    | Action::TakeBack
+            )
+        };
+        let missing: Vec<_> =
+            Action::all().filter(|action| !once.contains(action) && !within_others(action)).collect();
+        assert_eq!(missing, []);
+    }
+
+    #[test]
+    fn a_shell_reads_the_path_as_it_is() {
+        let command = render_command("a \"b\" $HOME\\`c`.ron");
+        assert_eq!(command, "impasto render \"a \\\"b\\\" \\$HOME\\\\\\`c\\`.ron\"");
+    }
+}

@@ -1,0 +1,134 @@
+//! The lowest line: what the mouse would do now, and a few numbers.
+
+use egui::{Align, Layout, Panel, RichText, Role, UiBuilder, WidgetInfo, accesskit};
+
+use super::{Ask, Numbers, Shown};
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets;
+
+/// A piece of the status text.
+#[derive(Debug, PartialEq, Eq)]
+struct Part<'a> {
+    key: Option<&'a str>,
+    words: &'a str,
+}
+
+/// Takes the lowest 24 points of `ui`.
+pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, _asks: &mut Vec<Ask>) {
+    let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
+    Panel::bottom("status line").exact_size(measure::STATUS_LINE).resizable(false).frame(frame).show(ui, |ui| {
+        let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
+        let right = ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.spacing_mut().item_spacing.x = 14.0;
+                for words in numbers(&shown.numbers) {
+                    note(ui, &words);
+                }
+                ui.min_rect().left()
+            })
+            .inner
+        });
+        free.max.x = right.inner - 14.0;
+        let whole = ui.interact(free, ui.id().with("status"), egui::Sense::hover());
+        whole.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Status"));
+        ui.ctx().accesskit_node_builder(whole.id, |node| {
+            node.set_live(accesskit::Live::Polite);
+            node.set_value(shown.status);
+        });
+        ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
+            ui.set_clip_rect(ui.clip_rect().intersect(free));
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+                for part in parts(shown.status) {
+                    match part.key {
+                        Some(key) => widgets::key_hint(ui, key, part.words),
+                        None => {
+                            note(ui, part.words);
+                            ui.add_space(6.0);
+                        }
+                    }
+                }
+            });
+        });
+    });
+}
+
+fn note(ui: &mut egui::Ui, words: &str) {
+    ui.label(RichText::new(words).font(type_face::small()).color(Tokens::of(ui).weak));
+}
+
+/// The numbers, the rightmost first.
+fn numbers(numbers: &Numbers<'_>) -> Vec<String> {
+    let mut words = Vec::new();
+    if !numbers.driver.is_empty() {
+        words.push(numbers.driver.to_owned());
+    }
+    words.extend(numbers.pictures_per_second.map(|rate| format!("{rate:.0} fps")));
+    if numbers.strokes > 0 {
+        words.push(format!("{} strokes", grouped(numbers.strokes)));
+    }
+    words
+}
+
+/// *5,774*.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// `[Key] words` and plain words; two spaces part them.
+fn parts(mut text: &str) -> Vec<Part<'_>> {
+    let mut parts = Vec::new();
+    loop {
+        let open = text.find('[').filter(|open| text[*open..].contains(']'));
+        let before = &text[..open.unwrap_or(text.len())];
+        let words = before.split("  ").map(str::trim).filter(|words| !words.is_empty());
+        parts.extend(words.map(|words| Part { key: None, words }));
+        let Some(open) = open else { return parts };
+        let rest = &text[open + 1..];
+        let Some((key, rest)) = rest.split_once(']') else { return parts };
+        let end = rest.find('[').unwrap_or(rest.len()).min(rest.find("  ").unwrap_or(rest.len()));
+        parts.push(Part { key: Some(key.trim()), words: rest[..end].trim() });
+        text = &rest[end..];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Vec<(&str, &str)> {
+        parts(text).into_iter().map(|part| (part.key.unwrap_or(""), part.words)).collect()
+    }
+
+    #[test]
+    fn status_texts_fall_into_keys_and_words() {
+        assert_eq!(read("[Drag] comb  [Shift] smooth"), [("Drag", "comb"), ("Shift", "smooth")]);
+        assert_eq!(
+            read("Move apple  X 0.80   [X Y Z] axis  [Shift X] plane  type a number  [Enter] keep"),
+            [
+                ("", "Move apple"),
+                ("", "X 0.80"),
+                ("X Y Z", "axis"),
+                ("Shift X", "plane"),
+                ("", "type a number"),
+                ("Enter", "keep"),
+            ]
+        );
+        assert_eq!(read("skin is locked. [L] unlocks it"), [("", "skin is locked."), ("L", "unlocks it")]);
+        assert_eq!(read("a[3 is no key"), [("", "a[3 is no key")]);
+        assert_eq!(read(""), []);
+    }
+
+    #[test]
+    fn counts_are_grouped_by_thousands() {
+        assert_eq!([0, 999, 5_774, 1_234_567].map(grouped), ["0", "999", "5,774", "1,234,567"]);
+    }
+}

@@ -1,0 +1,150 @@
+//! The bar along the top: menus, undo, the document's name, the mode, commands.
+
+use egui::{Align, Align2, Layout, Panel, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use impasto_editor_model::keymap::Action;
+use impasto_editor_model::session::Mode;
+
+use super::{Ask, Shown, divider, menus, text_width};
+use crate::icons::{self, Icon};
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{self, Button, Tip};
+
+/// From this width on, the bars show what otherwise stands behind a button, points.
+pub(super) const WIDE: f32 = 1600.0;
+/// The mode switch never begins before this, so that it stands still whatever the document is called, points.
+const SWITCH_LEFT: f32 = 525.0;
+const SWITCH: f32 = 278.0;
+const MODES: [Mode; 3] = [Mode::Arrange, Mode::Paint, Mode::Animate];
+
+/// Takes the top 40 points of `ui`.
+pub fn top_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
+    Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
+        let whole = ui.max_rect();
+        let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH) / 2.0);
+        let mut part = |ui: &mut Ui, (left, right): (f32, f32), rtl: bool, show: &mut dyn FnMut(&mut Ui)| {
+            let rect = egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
+            let layout =
+                if rtl { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };
+            ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| show(ui));
+        };
+        part(ui, (whole.left(), switch - 12.0), false, &mut |ui| left(ui, shown, asks));
+        part(ui, (switch, switch + SWITCH + 8.0), false, &mut |ui| modes(ui, shown, asks));
+        part(ui, (switch + SWITCH + 8.0, whole.right()), true, &mut |ui| right(ui, shown, asks));
+    });
+}
+
+fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.x = 0.0;
+    ui.add_space(15.0);
+    let mark = RichText::new(icons::APP.glyph()).font(type_face::icon(measure::ICON));
+    ui.label(mark.color(Tokens::of(ui).accent_text));
+    ui.add_space(6.0);
+    menus::menus(ui, shown, asks);
+    ui.add_space(8.0);
+    divider(ui);
+    ui.add_space(5.0);
+    for (action, icon, entry) in [
+        (Action::Undo, icons::UNDO, shown.document.undo_text()),
+        (Action::Redo, icons::REDO, shown.document.redo_text()),
+    ] {
+        if travel(ui, (shown, action), icon, entry).clicked() {
+            asks.push(Ask::Act(action));
+        }
+        ui.add_space(4.0);
+    }
+    ui.add_space(9.0);
+    document(ui, shown);
+}
+
+/// Undo or redo; the tooltip names the entry.
+fn travel(ui: &mut Ui, (shown, action): (&Shown<'_>, Action), icon: Icon, entry: Option<&str>) -> Response {
+    let response = ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
+    match entry {
+        Some(entry) => {
+            ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(entry));
+            let name = format!("{} {entry}", action.name());
+            Tip { name: &name, key: &shown.keys_of(action), effect: "", range: "" }.on(response)
+        }
+        None => response.on_disabled_hover_text(shown.why_not(action).unwrap_or_default()),
+    }
+}
+
+/// The document's name, which ends in an ellipsis where it would push the modes.
+fn document(ui: &mut Ui, shown: &Shown<'_>) {
+    let tokens = Tokens::of(ui);
+    let (name, edited) = (shown.document.name(), shown.document.is_edited());
+    let mark = if edited { 22.0 + text_width(ui, "edited", type_face::small()) } else { 0.0 };
+    let mut job = egui::text::LayoutJob::simple_singleline(name.clone(), type_face::body(), tokens.text);
+    job.wrap = egui::text::TextWrapping::truncate_at_width((ui.available_width() - mark).max(24.0));
+    let galley = ui.painter().layout_job(job);
+    let size = vec2(galley.size().x + mark, measure::BUTTON);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let name_right = rect.left() + galley.size().x;
+    let at = Align2::LEFT_CENTER.anchor_size(rect.left_center(), galley.size()).min;
+    ui.painter().galley(at, galley, tokens.text);
+    if edited {
+        ui.painter().circle_filled(egui::pos2(name_right + 11.0, rect.center().y), 3.5, tokens.ochre);
+        let at = egui::pos2(name_right + 20.0, rect.center().y);
+        ui.painter().text(at, Align2::LEFT_CENTER, "edited", type_face::small(), tokens.weak);
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Document"));
+    let spoken = if edited { format!("{name}, edited") } else { name };
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(spoken));
+    if let Some(file) = shown.document.file() {
+        response.on_hover_text(file.display().to_string());
+    }
+}
+
+fn modes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    let session = shown.session;
+    let mut mode = MODES.iter().position(|mode| *mode == session.mode).unwrap_or(0);
+    if widgets::mode_switch(ui, &mut mode).changed() {
+        asks.push(Ask::Act([Action::Arrange, Action::Paint, Action::Animate][mode]));
+    }
+}
+
+/// From the right end.
+fn right(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.x = measure::GAP;
+    ui.add_space(0.0);
+    let reason = shown.why_not(Action::Render);
+    let render = Button::new("Render\u{2026}").name("Render").icon(icons::RENDER);
+    let response = ui.add_enabled_ui(reason.is_none(), |ui| render.show(ui)).inner;
+    if response.on_disabled_hover_text(reason.unwrap_or_default()).clicked() {
+        asks.push(Ask::Act(Action::Render));
+    }
+    let keys = shown.keys_of(Action::Palette);
+    let found = if ui.ctx().content_rect().width() >= WIDE {
+        search_field(ui, &keys)
+    } else {
+        let effect = "Finds any command by its name.";
+        let response = widgets::icon_button(ui, icons::SEARCH, Action::Palette.name());
+        Tip { name: Action::Palette.name(), key: &keys, effect, range: "" }.on(response)
+    };
+    if found.clicked() {
+        asks.push(Ask::Act(Action::Palette));
+    }
+}
+
+/// What looks like a field and opens the search, 220 points wide.
+fn search_field(ui: &mut Ui, keys: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(220.0, measure::BUTTON), Sense::click());
+    let fill = if response.hovered() { tokens.hov } else { tokens.field };
+    let (colour, painter) = (if response.hovered() { tokens.text } else { tokens.weak }, ui.painter());
+    painter.rect_filled(rect, measure::CORNER, fill);
+    let at = rect.left_center();
+    let glyph = (icons::SEARCH.glyph(), type_face::icon(measure::ICON));
+    painter.text(at + vec2(17.0, 0.0), Align2::CENTER_CENTER, glyph.0, glyph.1, tokens.text);
+    painter.text(at + vec2(32.0, 0.0), Align2::LEFT_CENTER, "Find a command", type_face::body(), colour);
+    let cap = text_width(ui, keys, egui::FontId::monospace(11.0)) + 10.0;
+    let cap_rect = egui::Rect::from_center_size(rect.right_center() - vec2(cap / 2.0 + 6.0, 0.0), vec2(cap, 16.0));
+    ui.scope_builder(UiBuilder::new().max_rect(cap_rect), |ui| widgets::key_cap(ui, keys));
+    if response.has_focus() {
+        let ring = egui::Stroke::new(2.0, tokens.accent_text);
+        ui.painter().rect_stroke(rect.expand(1.0), measure::CORNER + 1.0, ring, egui::StrokeKind::Outside);
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, Action::Palette.name()));
+    response
+}

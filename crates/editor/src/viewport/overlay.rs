@@ -1,0 +1,64 @@
+//! What is drawn over the picture: pure functions from plain data to shapes, one file each. All lengths are points.
+
+use egui::{Painter, Pos2, Rect};
+use glam::{DVec2, DVec3};
+use impasto_editor_model::picking::View;
+
+mod floor_grid;
+mod foreseen;
+mod gizmo;
+mod guide_curve;
+mod hairs;
+mod ink;
+mod motion_path;
+mod needle;
+mod outline;
+mod region_tint;
+mod ring;
+mod shot_border;
+mod sight;
+mod singular_points;
+mod stand_ins;
+
+pub use floor_grid::floor_grid;
+pub use foreseen::{Comb, ForeseenStroke, foreseen};
+pub use gizmo::gizmo;
+pub use guide_curve::{CurvePart, GuideCurve, guide_curve};
+pub use hairs::{HairInk, HairMark, hairs, trust_legend};
+pub use motion_path::{MotionPath, motion_path};
+pub use needle::{Needle, needle, needle_tag};
+pub use outline::{Outline, outline};
+pub use region_tint::{RegionTint, region_tint};
+pub use ring::{Ring, ring};
+pub use shot_border::shot_border;
+pub use sight::Sight;
+pub use singular_points::{SingularPoint, singular_points};
+pub use stand_ins::{StandIn, stand_ins};
+
+/// Where overlays are drawn: a rectangle of the window and the camera that its picture was taken with.
+#[derive(Clone, Copy)]
+pub struct Sheet<'a> {
+    /// Draws; clipped to the rectangle.
+    pub painter: &'a Painter,
+    /// The picture's place in the window.
+    pub rect: Rect,
+    /// The camera before that rectangle, in points.
+    pub view: &'a View,
+}
+
+impl Sheet<'_> {
+    /// A place of the picture (from its upper left corner, Y down) in the window.
+    pub fn at(&self, at_px: DVec2) -> Pos2 {
+        self.rect.min + egui::vec2(at_px.x as f32, at_px.y as f32)
+    }
+
+    /// Where a point of the world shows in the window; `None` behind the lens, or too far out to draw.
+    pub fn project(&self, position_in_world: DVec3) -> Option<Pos2> {
+        let at_px = self.view.project(position_in_world)?;
+        // Tessellators lose their precision far outside.
+        (at_px.is_finite() && at_px.abs().max_element() < 1e5).then(|| self.at(at_px))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,89 @@
+use glam::DVec2;
+
+use super::Sheet;
+use super::ink::{self, Ink};
+
+/// A stroke under the ring, as it lies now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForeseenStroke {
+    /// Its middle.
+    pub at_px: DVec2,
+    /// Its angle now: counter-clockwise from +X with Y up, radians.
+    pub angle_rad: f32,
+    /// Its length on the screen.
+    pub length_px: f32,
+    /// Whether it has a head: then it turns by up to half a turn, else by up to a quarter.
+    pub directed: bool,
+}
+
+impl ForeseenStroke {
+    /// The angle that a comb would give it: what the comb says to a share k = (1 − (d/r)²)² of its strength, the rest stays.
+    fn combed_rad(&self, comb: &Comb) -> Option<f32> {
+        let near = 1.0 - (self.at_px - comb.at_px).length_squared() / (comb.radius_px * comb.radius_px);
+        if near <= 0.0 {
+            return None;
+        }
+        let share = (near * near) as f32 * comb.strength;
+        // Directions without a head are blended at twice their angle, where both ways are one.
+        let fold = if self.directed { 1.0 } else { 2.0 };
+        let unit = |angle_rad: f32| glam::Vec2::from_angle(angle_rad * fold);
+        let blend = unit(self.angle_rad) * (1.0 - share) + unit(comb.angle_rad) * share;
+        Some(if blend.length_squared() > 1e-8 { blend.to_angle() / fold } else { self.angle_rad })
+    }
+}
+
+/// What the hand would state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comb {
+    /// The dot.
+    pub at_px: DVec2,
+    /// Radius of the ring.
+    pub radius_px: f64,
+    /// Counter-clockwise from +X with Y up, radians.
+    pub angle_rad: f32,
+    /// Share that follows at the dot, 0..=1.
+    pub strength: f32,
+}
+
+/// Draws the strokes inside the ring as a comb would lay them. `shown` fades them, 0..=1.
+pub fn foreseen(sheet: &Sheet<'_>, strokes: &[ForeseenStroke], comb: &Comb, shown: f32) {
+    if shown <= 0.0 {
+        return;
+    }
+    let ink = Ink::new(1.4, ink::white(0.75 * shown), (3.6, ink::white(0.32 * shown)));
+    for stroke in strokes {
+        if let Some(angle_rad) = stroke.combed_rad(comb) {
+            let half = ink::along(angle_rad) * (stroke.length_px * 0.5);
+            let at = sheet.at(stroke.at_px);
+            ink.segment(sheet.painter, [at - half, at + half]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COMB: Comb = Comb { at_px: DVec2::ZERO, radius_px: 46.0, angle_rad: 0.0, strength: 1.0 };
+
+    fn stroke(at_px: DVec2, degrees: f32, directed: bool) -> ForeseenStroke {
+        ForeseenStroke { at_px, angle_rad: degrees.to_radians(), length_px: 20.0, directed }
+    }
+
+    #[test]
+    fn a_stroke_at_the_dot_lies_along_the_comb_and_one_at_the_rim_as_before() {
+        let at = |x: f64| stroke(DVec2::new(x, 0.0), 60.0, true).combed_rad(&COMB).map(f32::to_degrees);
+        assert!(at(0.0).unwrap().abs() < 1e-4);
+        assert!((at(45.999).unwrap() - 60.0).abs() < 1e-3);
+        assert_eq!(at(46.0), None);
+    }
+
+    #[test]
+    fn without_a_head_it_turns_the_short_way() {
+        let half = Comb { strength: 0.5, ..COMB };
+        let headless = stroke(DVec2::ZERO, 170.0, false).combed_rad(&half).unwrap().to_degrees();
+        assert!((headless.rem_euclid(180.0) - 175.0).abs() < 1e-3, "{headless}");
+        let headed = stroke(DVec2::ZERO, 100.0, true).combed_rad(&half).unwrap().to_degrees();
+        assert!((headed - 50.0).abs() < 1e-3, "{headed}");
+    }
+}

@@ -1,0 +1,90 @@
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use glam::DVec2;
+
+use super::Sheet;
+use super::ink::{self, Ink, OVER_PAINT};
+use crate::theme::{Tokens, type_face};
+
+const LENGTH: f32 = 12.0;
+const WIDTH: f32 = 1.4;
+/// Above this a turn is sure.
+const SURE: f32 = 0.90;
+/// Above this it is fair; below, it is not to be trusted.
+const FAIR: f32 = 0.72;
+/// How much is left of the hairs of other regions.
+const FAINT: f32 = 0.35;
+
+/// One hair: a short line along the strokes at a place of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairMark {
+    /// Its middle, from the upper left corner of the picture.
+    pub at_px: DVec2,
+    /// Counter-clockwise from +X with Y up, radians.
+    pub angle_rad: f32,
+    /// How it is drawn.
+    pub ink: HairInk,
+    /// Whether it is of a region that is not being painted.
+    pub faint: bool,
+}
+
+/// How a hair is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HairInk {
+    /// White over black.
+    Plain,
+    /// In the colour of its region.
+    Region(Color32),
+    /// By how far its angle can be trusted, κ in 0..=1; 0 where the reference does not see it. Told by pattern as well as by
+    /// colour.
+    Trust(f32),
+}
+
+/// Draws hairs.
+pub fn hairs(sheet: &Sheet<'_>, marks: &[HairMark]) {
+    for mark in marks {
+        let half = ink::along(mark.angle_rad) * (LENGTH * 0.5);
+        let at = sheet.at(mark.at_px);
+        draw(sheet.painter, [at - half, at + half], mark.ink, if mark.faint { FAINT } else { 1.0 });
+    }
+}
+
+fn draw(painter: &Painter, ends: [Pos2; 2], hair: HairInk, share: f32) {
+    let ink = |colour: Color32| {
+        Ink::new(WIDTH, colour.gamma_multiply(share), (WIDTH + 1.6, ink::black(0.55 * share)))
+    };
+    match hair {
+        HairInk::Plain => ink(ink::WHITE).segment(painter, ends),
+        HairInk::Region(colour) => ink(colour).segment(painter, ends),
+        HairInk::Trust(kappa) if kappa > SURE => ink(ink::WHITE).segment(painter, ends),
+        HairInk::Trust(kappa) if kappa >= FAIR => ink(OVER_PAINT.ochre).dashed(painter, &ends, (5.0, 2.0)),
+        HairInk::Trust(_) => {
+            let (step, count) = ((ends[1] - ends[0]) / LENGTH, 4);
+            for dot in 0..count {
+                let at = ends[0] + step * (LENGTH * (dot as f32 + 0.5) / count as f32);
+                painter.circle_filled(at, 1.6, ink::black(0.55 * share));
+                painter.circle_filled(at, 1.1, OVER_PAINT.pink.gamma_multiply(share));
+            }
+        }
+    }
+}
+
+/// What the patterns of trust mean, in a line from `at` (the middle of its left end).
+pub fn trust_legend(painter: &Painter, at: Pos2, tokens: &Tokens) -> Rect {
+    let mut x = at.x;
+    let words = |x: f32, text: &str| {
+        painter.text(pos2(x, at.y), Align2::LEFT_CENTER, text, type_face::small(), tokens.weak).right()
+    };
+    x = words(x, "Trust") + 14.0;
+    let line = |x: f32| [pos2(x, at.y), pos2(x + 18.0, at.y)];
+    let dark = tokens.text.r() > 128;
+    let sure = if dark { ink::WHITE } else { Color32::BLACK };
+    painter.line_segment(line(x), Stroke::new(2.0, sure));
+    x = words(x + 24.0, "sure, over 0.90") + 18.0;
+    painter.extend(Shape::dashed_line(&line(x), Stroke::new(2.0, tokens.ochre), 7.0, 4.0));
+    x = words(x + 24.0, "fair") + 18.0;
+    for dot in 0..5 {
+        painter.circle_filled(pos2(x + 1.5 + 3.8 * dot as f32, at.y), 1.5, tokens.pink);
+    }
+    x = words(x + 25.0, "not seen in the reference");
+    Rect::from_min_max(pos2(at.x, at.y - 8.0), pos2(x, at.y) + vec2(0.0, 8.0))
+}

@@ -1,0 +1,38 @@
+use egui::{Color32, Pos2};
+use glam::DVec2;
+
+use super::Sheet;
+use super::ink::{self, Ink};
+
+/// A brush as it lies on the surface, points from the upper left corner of the picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ring {
+    /// The circle of its radius in the tangent plane, closed: an ellipse where the surface is seen at an angle.
+    pub points_px: Vec<DVec2>,
+    /// The circle at half strength, closed; empty where the ring is hollow.
+    pub half_px: Vec<DVec2>,
+    /// The hit.
+    pub at_px: DVec2,
+    /// Off the surface, or without a surface to mirror to.
+    pub hollow: bool,
+    /// Whether it is a mirror image, drawn fainter.
+    pub mirrored: bool,
+}
+
+/// Draws a ring: white over black; off the surface a grey one.
+pub fn ring(sheet: &Sheet<'_>, ring: &Ring) {
+    let line = |points_px: &[DVec2]| -> Vec<Pos2> { points_px.iter().map(|&at| sheet.at(at)).collect() };
+    let share = if ring.mirrored { 0.6 } else { 1.0 };
+    let outline = line(&ring.points_px);
+    if ring.hollow {
+        let ink =
+            Ink::new(1.4, Color32::from_gray(165).gamma_multiply(share), (3.0, ink::black(0.35 * share)));
+        return ink.line(sheet.painter, &outline);
+    }
+    Ink::new(1.8, ink::white(share), (4.0, ink::black(0.5 * share))).line(sheet.painter, &outline);
+    let inner = Ink::new(1.0, ink::white(0.55 * share), (2.0, ink::black(0.25 * share)));
+    inner.dashed(sheet.painter, &line(&ring.half_px), (4.0, 5.0));
+    let centre = sheet.at(ring.at_px);
+    sheet.painter.circle_filled(centre, 3.4, ink::black(0.5 * share));
+    sheet.painter.circle_filled(centre, 2.2, ink::white(share));
+}

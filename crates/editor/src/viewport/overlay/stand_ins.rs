@@ -1,0 +1,67 @@
+use egui::{Align2, Color32, Stroke, vec2};
+use glam::DVec3;
+
+use super::Sheet;
+use super::ink::{self, OVER_PAINT};
+use crate::icons;
+use crate::theme::type_face;
+
+/// What has no surface of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StandIn {
+    /// A parallel light, drawn at a place; it shines along a direction, world space.
+    Sun {
+        /// Where its icon is.
+        at: DVec3,
+        /// Where its light goes, unit.
+        direction: DVec3,
+    },
+    /// A light at a place.
+    Point {
+        /// Where.
+        at: DVec3,
+    },
+    /// The shot camera.
+    Camera {
+        /// Its eye.
+        eye: DVec3,
+        /// The corners of its picture at some depth, in order.
+        corners: [DVec3; 4],
+    },
+}
+
+/// Draws lights and cameras; with each, whether it is selected.
+pub fn stand_ins(sheet: &Sheet<'_>, all: &[(StandIn, bool)]) {
+    for &(stand_in, selected) in all {
+        let colour = if selected { OVER_PAINT.accent_text } else { ink::WHITE };
+        match stand_in {
+            StandIn::Sun { at, direction } => {
+                let reach = 44.0 / sheet.view.px_per_unit(at);
+                segment(sheet, [at, at + direction * reach], colour);
+                icon(sheet, at, icons::LIGHT, colour);
+            }
+            StandIn::Point { at } => icon(sheet, at, icons::LIGHT, colour),
+            StandIn::Camera { eye, corners } => {
+                for index in 0..4 {
+                    segment(sheet, [eye, corners[index]], colour);
+                    segment(sheet, [corners[index], corners[(index + 1) % 4]], colour);
+                }
+                icon(sheet, eye, icons::CAMERA, colour);
+            }
+        }
+    }
+}
+
+fn segment(sheet: &Sheet<'_>, ends: [DVec3; 2], colour: Color32) {
+    if let [Some(from), Some(to)] = ends.map(|end| sheet.project(end)) {
+        sheet.painter.line_segment([from, to], Stroke::new(3.0, ink::black(0.4)));
+        sheet.painter.line_segment([from, to], Stroke::new(1.3, colour));
+    }
+}
+
+fn icon(sheet: &Sheet<'_>, at: DVec3, icon: icons::Icon, colour: Color32) {
+    let Some(at) = sheet.project(at) else { return };
+    sheet.painter.circle_filled(at, 13.0, ink::black(0.55));
+    let font = type_face::icon(18.0);
+    sheet.painter.text(at + vec2(0.0, 0.0), Align2::CENTER_CENTER, icon.glyph(), font, colour);
+}

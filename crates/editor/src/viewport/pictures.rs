@@ -1,0 +1,49 @@
+//! The worker's pictures as textures.
+
+use egui::{Context, ImageData, TextureHandle, TextureId, TextureOptions};
+
+use crate::worker::{Picture, ViewJob};
+
+/// The last picture of each view.
+#[derive(Default)]
+pub struct Pictures {
+    shown: Vec<Option<Shown>>,
+}
+
+struct Shown {
+    texture: TextureHandle,
+    view: ViewJob,
+    exact: bool,
+}
+
+impl Pictures {
+    /// Takes a picture in; only the texture of its own view changes.
+    pub fn take(&mut self, ctx: &Context, picture: Picture) {
+        let Picture { index, view, image, exact, .. } = picture;
+        if self.shown.len() <= index {
+            self.shown.resize_with(index + 1, || None);
+        }
+        let options = TextureOptions::LINEAR;
+        match &mut self.shown[index] {
+            Some(shown) => {
+                shown.texture.set(ImageData::Color(image), options);
+                (shown.view, shown.exact) = (view, exact);
+            }
+            empty => {
+                let texture = ctx.load_texture(format!("view {index}"), ImageData::Color(image), options);
+                *empty = Some(Shown { texture, view, exact });
+            }
+        }
+    }
+
+    /// The texture of a view with what it shows, and whether it is exact.
+    pub fn of(&self, index: usize) -> Option<(TextureId, &ViewJob, bool)> {
+        let shown = self.shown.get(index)?.as_ref()?;
+        Some((shown.texture.id(), &shown.view, shown.exact))
+    }
+
+    /// Forgets all: another document.
+    pub fn clear(&mut self) {
+        self.shown.clear();
+    }
+}

@@ -1,0 +1,185 @@
+//! Which surface shows where, drawn on the processor at the viewport's own pace: what hairs, outlines and regions are hidden
+//! by. The picture itself comes later, and from another thread.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec2, DVec4};
+use impasto_core::ScreenMap;
+use impasto_editor_model::picking::View;
+use impasto_painting::frame::BodySurface;
+use impasto_scene::document::Lens;
+
+/// A point may lie this share of its depth behind the surface that shows, and still be that surface.
+const LEEWAY: f32 = 0.006;
+
+/// For each cell of a grid over the viewport, the nearest face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceMap {
+    /// Columns and rows.
+    size: [usize; 2],
+    cells_per_point: f64,
+    /// Along the gaze, world units; infinite where nothing is.
+    depth: Vec<f32>,
+    faces: Vec<Face>,
+}
+
+/// A face of an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Face {
+    /// Index of the object in the scene.
+    pub object: u32,
+    /// Index of the triangle in its mesh.
+    pub triangle: u32,
+}
+
+const NOTHING: Face = Face { object: u32::MAX, triangle: u32::MAX };
+
+/// An object as it stands.
+#[derive(Clone, Debug)]
+pub struct StandingBody {
+    /// Its surface.
+    pub surface: Arc<BodySurface>,
+    /// How far it has turned into its morph, 0..=1.
+    pub morph: f64,
+    /// Its pose.
+    pub world_from_model: DAffine3,
+    /// Whether it shows.
+    pub visible: bool,
+}
+
+/// A corner before the division: all four are linear in space.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// Numerators of the place in pixels from the centre, Y up, and their denominator.
+    place: [f64; 3],
+    depth: f64,
+}
+
+impl SurfaceMap {
+    /// Looks at all bodies; index in `bodies` is index in the scene. `cells_per_point` is 1 or less.
+    pub fn new(bodies: &[StandingBody], view: &View, cells_per_point: f64) -> Self {
+        let size = [view.size_px.x, view.size_px.y]
+            .map(|side| ((side * cells_per_point).ceil() as usize).clamp(1, 4096));
+        let cells = size[0] * size[1];
+        let mut map =
+            Self { size, cells_per_point, depth: vec![f32::INFINITY; cells], faces: vec![NOTHING; cells] };
+        let near = match view.camera.lens {
+            Lens::Perspective { near, .. } | Lens::Orthographic { near, .. } => near,
+        };
+        for (object, body) in bodies.iter().enumerate().filter(|(_, body)| body.visible) {
+            let corners = corners(body, &view.map(body.world_from_model));
+            for (triangle, vertices) in body.surface.mesh.triangles.iter().enumerate() {
+                let face = Face { object: object as u32, triangle: triangle as u32 };
+                map.add(vertices.map(|vertex| corners[vertex as usize]), near, (view.size_px, face));
+            }
+        }
+        map
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// How many cells a point is wide.
+    pub fn cells_per_point(&self) -> f64 {
+        self.cells_per_point
+    }
+
+    /// The face in a cell; `None` where nothing is.
+    pub fn face(&self, column: usize, row: usize) -> Option<Face> {
+        let face = *self.faces.get(column + row * self.size[0])?;
+        (face != NOTHING).then_some(face)
+    }
+
+    /// Whether a point of an object shows: it is no farther than what is drawn at its place or beside it.
+    pub fn shows(&self, at_px: DVec2, depth: f64, object: usize) -> bool {
+        let at = (at_px * self.cells_per_point).floor();
+        if !(at.x >= 0.0 && at.y >= 0.0 && at.x < self.size[0] as f64 && at.y < self.size[1] as f64) {
+            return false;
+        }
+        let (column, row) = (at.x as usize, at.y as usize);
+        let columns = column.saturating_sub(1)..=(column + 1).min(self.size[0] - 1);
+        let mut farthest = 0.0_f32;
+        for row in row.saturating_sub(1)..=(row + 1).min(self.size[1] - 1) {
+            for index in columns.clone().map(|column| column + row * self.size[0]) {
+                if self.faces[index].object == object as u32 {
+                    farthest = farthest.max(self.depth[index]);
+                }
+            }
+        }
+        depth as f32 <= farthest * (1.0 + LEEWAY)
+    }
+
+    fn add(&mut self, corners: [Corner; 3], near: f64, (size_px, face): (DVec2, Face)) {
+        let kept = before(corners, near);
+        for index in 2..kept.len() {
+            self.fill([kept[0], kept[index - 1], kept[index]], size_px, face);
+        }
+    }
+
+    /// Draws what lies before the near plane.
+    fn fill(&mut self, corners: [Corner; 3], size_px: DVec2, face: Face) {
+        let place = |corner: Corner| {
+            let [x, y, w] = corner.place;
+            (size_px * 0.5 + DVec2::new(x, -y) / w) * self.cells_per_point
+        };
+        let [a, b, c] = corners.map(place);
+        let area = (b - a).perp_dot(c - a);
+        if !area.is_normal() {
+            return;
+        }
+        // Depth over w, and one over w, are linear on the screen, whatever the lens.
+        let over_w = corners.map(|corner| DVec2::new(corner.depth, 1.0) / corner.place[2]);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let limit = DVec2::new(self.size[0] as f64, self.size[1] as f64);
+        let first = (low - 0.5).ceil().clamp(DVec2::ZERO, limit);
+        let last = (high - 0.5).floor().clamp(DVec2::NEG_ONE, limit - 1.0);
+        for row in first.y as i64..=last.y as i64 {
+            for column in first.x as i64..=last.x as i64 {
+                let at = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
+                let weights = [(c - b).perp_dot(at - b), (a - c).perp_dot(at - c), (b - a).perp_dot(at - a)]
+                    .map(|part| part / area);
+                if weights.iter().any(|&weight| weight < 0.0) {
+                    continue;
+                }
+                let mixed = over_w[0] * weights[0] + over_w[1] * weights[1] + over_w[2] * weights[2];
+                let depth = (mixed.x / mixed.y) as f32;
+                let index = column as usize + row as usize * self.size[0];
+                if depth < self.depth[index] {
+                    self.depth[index] = depth;
+                    self.faces[index] = face;
+                }
+            }
+        }
+    }
+}
+
+fn corners(body: &StandingBody, map: &ScreenMap) -> Vec<Corner> {
+    let positions = &body.surface.mesh.positions;
+    let target = body.surface.morph.as_ref().filter(|_| body.morph != 0.0).map(|morph| &morph.positions);
+    let corner = |(index, &from): (usize, &glam::Vec3)| {
+        let moved = target.map_or(from, |to| from.lerp(to[index], body.morph as f32));
+        let p: DVec4 = moved.as_dvec3().extend(1.0);
+        Corner { place: [map.row_x.dot(p), map.row_y.dot(p), map.row_w.dot(p)], depth: map.row_depth.dot(p) }
+    };
+    positions.iter().enumerate().map(corner).collect()
+}
+
+/// The part of a triangle before the near plane: none, three, or four corners.
+fn before(corners: [Corner; 3], near: f64) -> Vec<Corner> {
+    let mut kept = Vec::with_capacity(4);
+    for index in 0..3 {
+        let (from, to) = (corners[index], corners[(index + 1) % 3]);
+        if from.depth >= near {
+            kept.push(from);
+        }
+        if (from.depth >= near) != (to.depth >= near) {
+            let share = (near - from.depth) / (to.depth - from.depth);
+            let mix = |a: f64, b: f64| a + (b - a) * share;
+            let place = std::array::from_fn(|part| mix(from.place[part], to.place[part]));
+            kept.push(Corner { place, depth: near });
+        }
+    }
+    kept
+}

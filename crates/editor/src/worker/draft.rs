@@ -1,0 +1,80 @@
+//! How large drafts are: as large as keeps the hand's picture moving.
+
+/// All drafts of a job together should take no longer, seconds: fifteen a second, with something left for preparing.
+const BUDGET_S: f64 = 0.055;
+/// Least share of the exact picture's sides.
+const LEAST: f64 = 0.35;
+/// Shares are multiples of this, so that targets are not made anew for every picture.
+const STEP: f64 = 0.05;
+/// What the first draft is drawn at.
+const FIRST: f64 = 0.5;
+
+/// Chooses the size of the next draft by what the last one took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DraftSize {
+    share: f64,
+}
+
+impl Default for DraftSize {
+    fn default() -> Self {
+        Self { share: FIRST }
+    }
+}
+
+impl DraftSize {
+    /// Of a picture of this size, at least one pixel.
+    pub(super) fn of(&self, size_px: [u32; 2]) -> [u32; 2] {
+        size_px.map(|side| ((f64::from(side) * self.share).round() as u32).clamp(1, side.max(1)))
+    }
+
+    /// Learns from what all drafts of a job took.
+    pub(super) fn took(&mut self, seconds: f64) {
+        // Part of the time is by the stroke, not by the pixel: half a step towards the square root is stable.
+        let ideal = (self.share * (BUDGET_S / seconds.max(1e-4)).sqrt()).clamp(LEAST, 1.0);
+        let steps = (ideal / STEP + 1e-6).floor() * STEP;
+        // Up only with something to spare: what is on the edge would swing.
+        if steps < self.share || ideal > self.share + 1.5 * STEP {
+            self.share = steps.clamp(LEAST, 1.0);
+        }
+    }
+
+    /// Whether an exact picture is as quick as a draft need be.
+    pub(super) fn is_needless(exact_s: Option<f64>) -> bool {
+        exact_s.is_some_and(|seconds| seconds < 0.5 * BUDGET_S)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A driver that takes this long for a whole picture, and a fixed time for any.
+    fn settled(whole_s: f64, fixed_s: f64) -> Vec<f64> {
+        let mut size = DraftSize::default();
+        (0..40)
+            .map(|_| {
+                size.took(fixed_s + whole_s * size.share * size.share);
+                size.share
+            })
+            .collect()
+    }
+
+    #[test]
+    fn it_settles_and_keeps_the_rate_where_that_can_be() {
+        for (whole_s, fixed_s) in [(0.2, 0.01), (0.1, 0.0), (0.15, 0.03)] {
+            let shares = settled(whole_s, fixed_s);
+            let last = shares[39];
+            assert!(shares[20..].iter().all(|&share| share == last), "{shares:?}");
+            assert!(fixed_s + whole_s * last * last <= BUDGET_S * 1.02, "{whole_s} {fixed_s}: {last}");
+            assert!(last > LEAST, "{whole_s} {fixed_s}: {last}");
+        }
+        assert_eq!(settled(5.0, 0.0)[39], LEAST);
+        assert_eq!(settled(0.001, 0.0)[39], 1.0);
+    }
+
+    #[test]
+    fn a_draft_has_pixels_and_never_more_than_the_picture() {
+        assert_eq!(DraftSize { share: 0.35 }.of([1, 2]), [1, 1]);
+        assert_eq!(DraftSize { share: 1.0 }.of([950, 650]), [950, 650]);
+    }
+}

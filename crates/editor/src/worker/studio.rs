@@ -1,0 +1,245 @@
+//! The thread's own: what it keeps from job to job, and how it works one off.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::ColorImage;
+use impasto_editor_model::session::Shading;
+use impasto_gl_render::context::{self, Driver, OpenOptions};
+use impasto_gl_render::{RenderError, Renderer};
+use impasto_painting::frame::FrameStyle;
+use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, StrokeColors};
+
+use super::desk::{Desk, Order};
+use super::draft::DraftSize;
+use super::{Picture, Report, ViewJob};
+
+/// A job that is this old, without a later one, is drawn exactly.
+const REST: Duration = Duration::from_millis(100);
+
+/// Works until the desk is closed. What panics is told and thrown away; the next job begins with a new studio.
+pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
+    let tell = |report: Report| {
+        desk.report(report);
+        wake();
+    };
+    let mut studio = None;
+    while let Some(order) = desk.take() {
+        let worked = catch_unwind(AssertUnwindSafe(|| {
+            let studio = studio.get_or_insert_with(|| Studio::open(driver, &tell));
+            studio.work(&order, desk, &tell);
+        }));
+        if let Err(panic) = worked {
+            tell(Report::Failed(format!("the picture could not be made: {}", words(panic.as_ref()))));
+            let broken = studio.take();
+            // A broken driver may break again when it is let go.
+            let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
+        }
+    }
+    let _ = catch_unwind(AssertUnwindSafe(|| drop(studio)));
+    desk.end();
+}
+
+fn words(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().cloned();
+    text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
+        .unwrap_or_else(|| "no reason was given".to_owned())
+}
+
+type Tell<'a> = &'a dyn Fn(Report);
+
+struct Studio {
+    preparer: Preparer,
+    prepared: Option<(Painting, u64)>,
+    /// `None` where no driver was found: then scenes are prepared, and nothing is drawn.
+    renderer: Option<Renderer>,
+    /// What was last drawn of each view.
+    drawn: Vec<Option<Drawn>>,
+    draft_size: DraftSize,
+    /// What the last exact picture took.
+    exact_s: Option<f64>,
+}
+
+struct Drawn {
+    view: ViewJob,
+    serial: u64,
+    exact: bool,
+}
+
+impl Drawn {
+    fn shows(&self, view: &ViewJob, serial: u64) -> bool {
+        // Whether a hand is on it changes nothing that is seen.
+        self.serial == serial && ViewJob { moving: self.view.moving, ..view.clone() } == self.view
+    }
+}
+
+impl Studio {
+    fn open(driver: Driver, tell: Tell<'_>) -> Self {
+        let renderer = context::open(driver, &OpenOptions::default())
+            .map_err(|error| error.to_string())
+            .and_then(|context| Renderer::new(context).map_err(|error| error.to_string()));
+        let renderer = match renderer {
+            Ok(renderer) => {
+                tell(Report::Opened(renderer.report().clone()));
+                Some(renderer)
+            }
+            Err(words) => {
+                tell(Report::Failed(words));
+                None
+            }
+        };
+        Self {
+            preparer: Preparer::default(),
+            prepared: None,
+            renderer,
+            drawn: Vec::new(),
+            draft_size: DraftSize::default(),
+            exact_s: None,
+        }
+    }
+
+    fn work(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) {
+        let Some(painting) = self.prepare(order, tell) else { return };
+        let views = &order.job.views;
+        self.drawn.resize_with(views.len(), || None);
+        let wanted: Vec<usize> =
+            (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
+        let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
+        let drafts: Vec<usize> = drafts.collect();
+        if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
+            let began = Instant::now();
+            for &index in &drafts {
+                let size_px = self.draft_size.of(views[index].size_px);
+                if !self.draw(
+                    &painting,
+                    order,
+                    index,
+                    &Manner { size_px, exact: false, give_up: &|| false },
+                    tell,
+                ) {
+                    return;
+                }
+            }
+            self.draft_size.took(began.elapsed().as_secs_f64());
+        }
+        let quick = DraftSize::is_needless(self.exact_s);
+        let exact = wanted
+            .iter()
+            .copied()
+            .filter(|&index| (quick || !views[index].moving) && !self.shows_exactly(order, index));
+        let exact: Vec<usize> = exact.collect();
+        if exact.is_empty() || (!quick && !desk.rests(order, REST)) {
+            return;
+        }
+        for index in exact {
+            let give_up = || !quick && desk.is_stale(order);
+            let manner = Manner { size_px: views[index].size_px, exact: true, give_up: &give_up };
+            if !self.draw(&painting, order, index, &manner, tell) {
+                return;
+            }
+        }
+    }
+
+    fn prepare(&mut self, order: &Order, tell: Tell<'_>) -> Option<Painting> {
+        let serial = order.job.serial;
+        if let Some((painting, _)) = self.prepared.as_ref().filter(|(_, prepared)| *prepared == serial) {
+            return Some(painting.clone());
+        }
+        match self.preparer.prepare(Arc::clone(&order.job.loaded)) {
+            Ok(painting) => {
+                self.prepared = Some((painting.clone(), serial));
+                tell(Report::Prepared(painting.clone(), serial));
+                Some(painting)
+            }
+            Err(error) => {
+                tell(Report::Failed(error.to_string()));
+                None
+            }
+        }
+    }
+
+    fn shows(&self, order: &Order, index: usize) -> bool {
+        let drawn = self.drawn[index].as_ref();
+        drawn.is_some_and(|drawn| drawn.shows(&order.job.views[index], order.job.serial))
+    }
+
+    fn shows_exactly(&self, order: &Order, index: usize) -> bool {
+        self.shows(order, index) && self.drawn[index].as_ref().is_some_and(|drawn| drawn.exact)
+    }
+
+    /// Draws one view and tells of it. Returns whether to go on with the job.
+    fn draw(
+        &mut self,
+        painting: &Painting,
+        order: &Order,
+        index: usize,
+        manner: &Manner<'_>,
+        tell: Tell<'_>,
+    ) -> bool {
+        let Some(renderer) = &mut self.renderer else { return false };
+        let view = &order.job.views[index];
+        let began = Instant::now();
+        let picture = match render(renderer, &frame_of(painting, view, manner), manner) {
+            Ok(Some(picture)) => picture,
+            Ok(None) => return false,
+            Err(error) => {
+                self.drawn[index] = None;
+                tell(Report::Failed(error.to_string()));
+                return false;
+            }
+        };
+        let seconds = began.elapsed().as_secs_f64();
+        if manner.exact {
+            self.exact_s = Some(seconds);
+        }
+        let serial = order.job.serial;
+        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact });
+        let (view, exact) = (view.clone(), manner.exact);
+        tell(Report::Picture(Picture { index, view, serial, image: Arc::new(picture), exact, seconds }));
+        true
+    }
+}
+
+/// How a view is drawn.
+struct Manner<'a> {
+    size_px: [u32; 2],
+    exact: bool,
+    give_up: &'a dyn Fn() -> bool,
+}
+
+/// What the renderer draws of a view.
+fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
+    let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
+    let options = FrameOptions {
+        shot_height_px: Some(view.shot_height_px * share),
+        quality: if manner.exact { Quality::Exact } else { Quality::Draft },
+        colors: match view.shading {
+            Shading::Trust => StrokeColors::Trust,
+            Shading::Painted | Shading::Shaded => StrokeColors::Scene,
+        },
+        ..FrameOptions::new(manner.size_px)
+    };
+    match view.shading {
+        // The scene stays as it was prepared: only the style differs.
+        Shading::Shaded => {
+            painting.in_style(FrameStyle::Reference).seen_by(&view.camera, view.frame, &options)
+        }
+        Shading::Painted | Shading::Trust => painting.seen_by(&view.camera, view.frame, &options),
+    }
+}
+
+/// `None` where it was given up.
+fn render(
+    renderer: &mut Renderer,
+    frame: &Frame,
+    manner: &Manner<'_>,
+) -> Result<Option<ColorImage>, RenderError> {
+    let picture = renderer.render_unless(frame, &mut || (manner.give_up)())?;
+    let image = |picture: impasto_gl_render::Picture| {
+        // Pictures of the window have a ground: they are opaque.
+        ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
+    };
+    Ok(picture.map(image))
+}

@@ -1,0 +1,218 @@
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::time::Instant;
+
+use impasto_gl_render::Renderer;
+use impasto_gl_render::context::{self, OpenOptions};
+use impasto_painting::frame::FrameStyle;
+use impasto_painting::{FrameOptions, prepare};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::motion;
+
+use super::*;
+
+const SIZE_PX: [u32; 2] = [160, 90];
+
+fn scene() -> Arc<LoadedScene> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/roll.ron");
+    Arc::new(load(&path, &LoadOptions::default()).unwrap())
+}
+
+fn view(loaded: &LoadedScene, frame: f64) -> ViewJob {
+    ViewJob {
+        camera: motion::camera_at(&loaded.scene, frame),
+        frame,
+        size_px: SIZE_PX,
+        shot_height_px: SIZE_PX[1] as f32,
+        shading: Shading::Painted,
+        moving: false,
+    }
+}
+
+/// A worker, and what wakes the window.
+fn worker() -> (Worker, mpsc::Receiver<()>) {
+    let (sender, woken) = mpsc::channel();
+    let sender = Mutex::new(sender);
+    let wake = move || drop(sender.lock().unwrap().send(()));
+    (Worker::new(Driver::Auto, wake).unwrap(), woken)
+}
+
+/// Everything that is told until a report for which `last` holds.
+fn until(worker: &(Worker, mpsc::Receiver<()>), last: impl Fn(&Report) -> bool) -> Vec<Report> {
+    let mut told = Vec::new();
+    let began = Instant::now();
+    while !told.iter().any(&last) {
+        let left = Duration::from_secs(60).saturating_sub(began.elapsed());
+        worker.1.recv_timeout(left).expect("the thread tells in time");
+        told.extend(worker.0.poll());
+    }
+    told
+}
+
+fn pictures(told: &[Report]) -> Vec<&Picture> {
+    let picture = |report| if let Report::Picture(picture) = report { Some(picture) } else { None };
+    told.iter().filter_map(picture).collect()
+}
+
+fn is_exact(report: &Report) -> bool {
+    matches!(report, Report::Picture(picture) if picture.exact)
+}
+
+fn rendered(loaded: &Arc<LoadedScene>, view: &ViewJob, style: Option<FrameStyle>) -> Vec<u8> {
+    let mut painting = prepare(Arc::clone(loaded)).unwrap();
+    if let Some(style) = style {
+        painting = painting.in_style(style);
+    }
+    let frame = painting.at(view.frame, &FrameOptions::new(view.size_px));
+    let context = context::open(Driver::Auto, &OpenOptions::default()).unwrap();
+    Renderer::new(context).unwrap().render(&frame).unwrap().rgba8
+}
+
+fn bytes(picture: &Picture) -> Vec<u8> {
+    picture.image.pixels.iter().flat_map(|pixel| pixel.to_array()).collect()
+}
+
+#[test]
+fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
+    let loaded = scene();
+    let desk = Desk::default();
+    let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: Vec::new() };
+    desk.put(job(1));
+    let first = desk.take().unwrap();
+    assert!(desk.rests(&first, Duration::ZERO));
+    desk.put(job(2));
+    desk.put(job(3));
+    assert!(desk.is_stale(&first));
+    let began = Instant::now();
+    assert!(!desk.rests(&first, Duration::from_secs(20)));
+    assert!(began.elapsed() < Duration::from_secs(5));
+    assert_eq!(desk.take().unwrap().job.serial, 3);
+    desk.close();
+    assert!(desk.take().is_none());
+}
+
+#[test]
+fn a_later_job_ends_the_rest_of_the_one_before() {
+    let loaded = scene();
+    let desk = Desk::default();
+    desk.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() });
+    let order = desk.take().unwrap();
+    std::thread::scope(|scope| {
+        let waiting = scope.spawn(|| desk.rests(&order, Duration::from_secs(30)));
+        desk.put(Job { loaded, serial: 2, views: Vec::new() });
+        assert!(!waiting.join().unwrap());
+    });
+}
+
+#[test]
+fn at_rest_comes_what_a_file_would_get() {
+    let loaded = scene();
+    let worker = worker();
+    for (shading, style) in [(Shading::Painted, None), (Shading::Shaded, Some(FrameStyle::Reference))] {
+        let view = ViewJob { shading, ..view(&loaded, 3.0) };
+        worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view.clone()] });
+        let told = until(&worker, is_exact);
+        let prepared = told.iter().filter(|report| matches!(report, Report::Prepared(_, 1))).count();
+        assert_eq!(
+            prepared,
+            usize::from(shading == Shading::Painted),
+            "a change of shading prepares nothing"
+        );
+        let last = *pictures(&told).last().unwrap();
+        assert_eq!(last.image.size, [160, 90]);
+        assert!(bytes(last) == rendered(&loaded, &view, style), "{shading:?}");
+    }
+}
+
+#[test]
+fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
+    let loaded = scene();
+    let worker = worker();
+    let last_frame = 12.0;
+    for frame in 0..=12 {
+        let view = ViewJob { moving: true, ..view(&loaded, f64::from(frame)) };
+        worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view] });
+    }
+    let told = until(
+        &worker,
+        |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame),
+    );
+    // The job that was worked on, if any, and the last one: the others never reached the thread.
+    assert!(pictures(&told).len() <= 13);
+    let first = *pictures(&told).last().unwrap();
+    assert!(!first.exact && first.image.size[0] < 160, "{:?}", first.image.size);
+    // The hand lets go: the same view again, now exact.
+    worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, last_frame)] });
+    let told = until(&worker, is_exact);
+    assert!(pictures(&told).iter().all(|picture| picture.exact), "the draft stands there already");
+}
+
+#[test]
+fn a_picture_that_did_not_change_is_not_drawn_again() {
+    let loaded = scene();
+    let worker = worker();
+    let [left, right] = [0.0, 5.0].map(|frame| view(&loaded, frame));
+    let job =
+        |right: ViewJob| Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![left.clone(), right] };
+    worker.0.show(job(right));
+    until(
+        &worker,
+        |report| matches!(report, Report::Picture(picture) if picture.exact && picture.index == 1),
+    );
+    worker.0.show(job(view(&loaded, 6.0)));
+    let told = until(&worker, is_exact);
+    assert!(pictures(&told).iter().all(|picture| picture.index == 1));
+}
+
+#[test]
+fn what_cannot_be_prepared_is_told_and_the_thread_goes_on() {
+    let loaded = scene();
+    let mut broken = LoadedScene::clone(&loaded);
+    broken.meshes.clear();
+    let worker = worker();
+    worker.0.show(Job { loaded: Arc::new(broken), serial: 1, views: vec![view(&loaded, 0.0)] });
+    let told = until(&worker, |report| matches!(report, Report::Failed(_)));
+    assert!(
+        told.iter().any(|report| matches!(report, Report::Failed(words) if words.contains("was not read"))),
+        "the words say what is missing"
+    );
+    let vast = ViewJob { size_px: [1 << 20, 8], ..view(&loaded, 0.0) };
+    worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 2, views: vec![vast] });
+    until(&worker, |report| matches!(report, Report::Failed(words) if words.contains("limit")));
+    worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 2, views: vec![view(&loaded, 0.0)] });
+    until(&worker, is_exact);
+}
+
+#[test]
+fn a_panic_is_told_and_the_next_job_is_drawn() {
+    let loaded = scene();
+    let (sender, woken) = mpsc::channel();
+    let sender = Mutex::new(sender);
+    let calls = AtomicUsize::new(0);
+    let wake = move || {
+        // The first call comes from the midst of the work.
+        if calls.fetch_add(1, Ordering::Relaxed) == 0 {
+            panic!("planted");
+        }
+        drop(sender.lock().unwrap().send(()));
+    };
+    let worker = (Worker::new(Driver::Auto, wake).unwrap(), woken);
+    let job = || Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, 0.0)] };
+    worker.0.show(job());
+    until(&worker, |report| matches!(report, Report::Failed(words) if words.contains("planted")));
+    worker.0.show(job());
+    until(&worker, is_exact);
+}
+
+#[test]
+fn closing_in_the_midst_of_work_is_quick() {
+    let loaded = scene();
+    let worker = worker();
+    worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, 0.0)] });
+    until(&worker, |report| matches!(report, Report::Picture(_)));
+    let began = Instant::now();
+    drop(worker);
+    assert!(began.elapsed() < CLOSING);
+}

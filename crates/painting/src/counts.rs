@@ -1,0 +1,114 @@
+//! How many particles each coat of an object has: as the object states for its body layer, else as its sightings ask for.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use impasto_core::sampling::Surface;
+use impasto_scene::presets::LayerKind;
+
+use crate::coat::ObjectInputs;
+use crate::frame::BodySurface;
+use crate::particle_count::{self, Sighting};
+use crate::parts::{BodyParts, Cap};
+use crate::prepare::Context;
+use crate::regions::BodyRegions;
+
+const LAYERS: usize = LayerKind::ALL.len();
+
+/// All that the counts of an object's coats depend on.
+pub(crate) struct CountInputs {
+    surface: Arc<BodySurface>,
+    regions: Arc<BodyRegions>,
+    caps: Vec<Cap>,
+    sightings: Vec<Sighting>,
+    /// For each rule and layer its length, its width and its coverage.
+    layers: Vec<[[f32; 3]; LAYERS]>,
+    left_out: [bool; LAYERS],
+    /// As the object states.
+    stated: Option<u64>,
+    paper: bool,
+}
+
+impl PartialEq for CountInputs {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surface, &other.surface)
+            && (self.left_out, self.stated, self.paper) == (other.left_out, other.stated, other.paper)
+            && self.layers == other.layers
+            && self.caps == other.caps
+            && self.sightings == other.sightings
+            && self.regions == other.regions
+    }
+}
+
+impl CountInputs {
+    pub(crate) fn new(context: &Context<'_>, object: ObjectInputs<'_>, surface: Arc<BodySurface>) -> Self {
+        let mut layers = vec![[[0.0; 3]; LAYERS]; context.rules.len()];
+        for &rule in object.used.iter() {
+            layers[usize::from(rule)] = LayerKind::ALL.map(|kind| {
+                let layer = context.rules[usize::from(rule)].strokes.layer_of(kind);
+                [layer.length_px, layer.width_px, layer.coverage]
+            });
+        }
+        let bare = |kind: LayerKind| {
+            object.used.iter().all(|&rule| layers[usize::from(rule)][kind as usize][2] <= 0.0)
+        };
+        let left_out = LayerKind::ALL.map(|kind| {
+            kind == LayerKind::Underpainting && !context.underpainting
+                || context.paper && kind != LayerKind::Body
+                || bare(kind)
+        });
+        Self {
+            surface,
+            regions: Arc::clone(object.regions),
+            caps: object.caps.to_vec(),
+            sightings: sightings(context, object.index),
+            layers,
+            left_out,
+            stated: context.scene.objects[object.index].particles,
+            paper: context.paper,
+        }
+    }
+
+    /// The counts, in the order of [`LayerKind::ALL`].
+    pub(crate) fn counts(&self, surface: &Surface<'_>, parts: &BodyParts) -> [usize; LAYERS] {
+        let found: [usize; LAYERS] = particle_count::find(surface, &self.sightings, |triangle| {
+            let cap = self.caps[parts.of_triangle[triangle] as usize];
+            let mut densest = [0.0f32; LAYERS];
+            for rule in self.regions.on_triangle(surface.mesh(), triangle) {
+                for (kind, densest) in
+                    densest.iter_mut().enumerate().filter(|(kind, _)| !self.left_out[*kind])
+                {
+                    let [length_px, width_px, coverage] = self.layers[usize::from(rule)][kind];
+                    let [length, width] = cap.apply(length_px, width_px);
+                    *densest = densest.max(coverage / (length * width));
+                }
+            }
+            std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
+        });
+        std::array::from_fn(|kind| match self.stated {
+            Some(stated) if kind == LayerKind::Body as usize => stated as usize,
+            _ if self.left_out[kind] => 0,
+            // By the paper's rule a polygon without a particle stays bare.
+            _ if self.paper => found[kind].max(surface.faces().count()),
+            _ => found[kind],
+        })
+    }
+}
+
+/// The most that a layer is wanted anywhere, where its coverage says 1; as `MOST_FULL` of the resolve shader.
+pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
+    if kind == LayerKind::Body { 1.35 } else { 1.0 }
+}
+
+fn sightings(context: &Context<'_>, object: usize) -> Vec<Sighting> {
+    let half_size_px = DVec2::new(f64::from(context.scene.size.0), f64::from(context.scene.size.1)) * 0.5;
+    context
+        .views
+        .iter()
+        .map(|(view, poses)| Sighting {
+            map: view.screen_map(poses[object]),
+            half_size_px,
+            near: view.near(),
+        })
+        .collect()
+}

@@ -1,0 +1,261 @@
+//! What is dragged in the editor is what is seen, in any view: from pixels through rays, paths and guides to painted strokes.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec2, DVec3};
+use impasto_core::TriangleMesh;
+use impasto_editor_model::camera_rig::FreeView;
+use impasto_editor_model::path::{
+    Faces, GuideStyle, ObjectView, PathSense, PathSettings, SurfacePath, mirrored,
+};
+use impasto_editor_model::picking::{Picker, View};
+use impasto_painting::frame::LayerKind;
+use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_scene::document::{
+    Direction, Falloff, Guide, GuideMode, Lens, ObjectKey, Region, Scene, Selector,
+};
+use impasto_scene::motion::{self, CameraPose};
+use impasto_tests::shapes;
+
+/// The viewport: of another size and shape than the scene's picture.
+const SIZE_PX: [u32; 2] = [900, 640];
+
+fn size_px() -> DVec2 {
+    DVec2::new(f64::from(SIZE_PX[0]), f64::from(SIZE_PX[1]))
+}
+
+/// A thing, moved, turned and enlarged, and its region with these guides.
+fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
+    let mut scene = shapes::scene(vec![shapes::object("thing", 25_000)]);
+    scene.strokes.contour = Some(0.0);
+    (scene.strokes.length_px, scene.strokes.width_px) = (Some(8.0), Some(2.6));
+    scene.camera.keys[0] = shapes::camera_key(0.0, [0.4, 0.9, 5.0], [0.4, 0.6, 0.0]);
+    scene.camera.keys[0].roll_deg = 11.0;
+    scene.objects[0].keys = vec![ObjectKey {
+        translation: [0.4, 0.1, 0.2],
+        rotation_deg: [5.0, -25.0, 8.0],
+        scale: 1.2,
+        ..ObjectKey::at(0.0)
+    }];
+    scene.regions =
+        vec![Region { direction, guides, ..Region::new("combed", Selector::Object("thing".to_owned())) }];
+    scene
+}
+
+struct Bench {
+    painting: Painting,
+    picker: Picker,
+    poses: Vec<DAffine3>,
+}
+
+impl Bench {
+    fn new(scene: Scene, mesh: &TriangleMesh) -> Self {
+        let poses = motion::poses_at(&scene, 0.0);
+        let painting = prepare(shapes::loaded(scene, [mesh.clone()])).unwrap();
+        let mut picker = Picker::default();
+        picker.update(&[(Arc::clone(painting.surface(0)), 0.0)]);
+        Self { painting, picker, poses }
+    }
+
+    /// The guides of a drag through these pixels.
+    fn drag(&self, view: &View, events: &[DVec2]) -> Vec<Guide> {
+        let mut pick = |at_px| self.picker.pick(&view.ray(at_px), &self.poses, |_| true);
+        let settings = PathSettings { radius_px: 45.0, steady: 0.0, faces: Faces::Front };
+        let hit = pick(events[0]).expect("the press meets the thing");
+        let mut path = SurfacePath::press(events[0], &hit, view, self.poses[0], &settings);
+        for &event in &events[1..] {
+            path.move_to(event, &mut pick);
+        }
+        let [seen, reference] = self.views(view);
+        path.finished(&mut pick).guides(&style(), &seen, &reference)
+    }
+
+    /// A view and the reference, as the thing sees them.
+    fn views(&self, view: &View) -> [ObjectView; 2] {
+        let shot = motion::camera_at(self.painting.scene(), 0.0);
+        [&view.camera, &shot].map(|camera| ObjectView::new(camera, self.poses[0]))
+    }
+
+    /// Place in pixels and angle, Y up, of each stroke that faces a view.
+    fn strokes(&self, camera: &CameraPose) -> Vec<(DVec2, f64)> {
+        let frame = self.painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX));
+        let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
+        (run.first as usize..(run.first + run.count) as usize)
+            .filter(|&index| frame.sources[index].facing > 0.35)
+            .map(|index| {
+                let [x, y] = frame.strokes[index].center_px.map(f64::from);
+                let at_px = DVec2::new(x, size_px().y - y);
+                (at_px, f64::from(frame.strokes[index].angle_rad))
+            })
+            .collect()
+    }
+}
+
+fn style() -> GuideStyle {
+    GuideStyle {
+        mode: GuideMode::Comb,
+        object: None,
+        strength: 1.0,
+        falloff: Falloff::Smooth,
+        sense: PathSense::Along,
+    }
+}
+
+fn lines_apart(a: f64, b: f64) -> f64 {
+    let off = (a - b).rem_euclid(PI);
+    off.min(PI - off).to_degrees()
+}
+
+/// How far strokes within `reach_px` of a drag are off its tangent, degrees, away from its ends.
+fn errors(strokes: &[(DVec2, f64)], drag: impl Fn(f64) -> DVec2, reach_px: f64) -> Vec<f64> {
+    let steps = 400;
+    let way: Vec<DVec2> = (0..=steps).map(|step| drag(f64::from(step) / f64::from(steps))).collect();
+    strokes
+        .iter()
+        .filter_map(|&(at_px, angle_rad)| {
+            let (index, nearest) =
+                way.iter().enumerate().min_by(|a, b| a.1.distance(at_px).total_cmp(&b.1.distance(at_px)))?;
+            let inner = (steps as usize / 12..=steps as usize * 11 / 12).contains(&index);
+            let tangent = way[(index + 1).min(way.len() - 1)] - way[index.saturating_sub(1)];
+            let dragged_rad = (tangent * DVec2::new(1.0, -1.0)).to_angle();
+            (inner && nearest.distance(at_px) < reach_px).then(|| lines_apart(angle_rad, dragged_rad))
+        })
+        .collect()
+}
+
+/// The shot, and free views off it, sideways and from above.
+fn views(shot: &CameraPose, about: DVec3) -> Vec<(&'static str, View)> {
+    let turned = |drag_px: [f64; 2]| {
+        let mut free = FreeView::new(shot.clone());
+        free.orbit(DVec2::from_angle(-shot.roll_rad).rotate(DVec2::from(drag_px)), about);
+        free
+    };
+    let mut parallel = turned([-100.0, 0.0]);
+    parallel.toggle_orthographic();
+    vec![
+        ("reference", FreeView::new(shot.clone())),
+        ("30 right", turned([-100.0, 0.0])),
+        ("60 right", turned([-200.0, 0.0])),
+        ("60 left", turned([200.0, 0.0])),
+        ("30 above", turned([0.0, 100.0])),
+        ("45 left, 40 above", turned([150.0, 133.0])),
+        ("30 right, parallel", parallel),
+    ]
+    .into_iter()
+    .map(|(name, free)| (name, free.view(size_px())))
+    .collect()
+}
+
+#[test]
+fn what_is_dragged_is_what_is_seen_in_any_view() {
+    let (mut worst, mut worst_curved, mut count) = (0.0f64, 0.0f64, 0);
+    for (thing, mesh) in [("apple", shapes::apple_skin()), ("sphere", shapes::sphere(96, 48))] {
+        let bare = Bench::new(scene(Direction::Auto, Vec::new()), &mesh);
+        let centre =
+            bare.picker.bounds_in_world([0], &bare.poses).map(|[low, high]| (low + high) * 0.5).unwrap();
+        let shot = motion::camera_at(bare.painting.scene(), 0.0);
+        for (name, view) in views(&shot, centre) {
+            let middle = view.project(centre).unwrap() + DVec2::new(6.0, 9.0);
+            for angle_deg in [-77.0f64, 7.0, 30.0, 137.0] {
+                let half = DVec2::from_angle(angle_deg.to_radians()) * 42.0;
+                let straight = |t: f64| middle + half * (2.0 * t - 1.0);
+                let arc = |t: f64| {
+                    let (sin, cos) = ((t - 0.5) * 1.6).sin_cos();
+                    middle + half * sin + half.perp() * (1.0 - cos)
+                };
+                let flatness = if angle_deg == 30.0 { 0.4 } else { 1.0 };
+                let direction = if angle_deg == 7.0 { Direction::Angle(20.0) } else { Direction::Auto };
+                for curved in [false, true] {
+                    let drag: &dyn Fn(f64) -> DVec2 = if curved { &arc } else { &straight };
+                    let events: Vec<DVec2> = (0..25).map(|event| drag(f64::from(event) / 24.0)).collect();
+                    let guides = bare.drag(&view, &events);
+                    assert_eq!(guides.len(), 1, "{thing}, {name}: one piece");
+                    assert_eq!(guides[0].view.is_none(), name == "reference");
+                    let mut combed = scene(direction.clone(), guides);
+                    combed.strokes.flatness = Some(flatness);
+                    let found = errors(&Bench::new(combed, &mesh).strokes(&view.camera), drag, 1.0);
+                    assert!(found.len() >= 2, "{} strokes: {thing}, {name}", found.len());
+                    let most = found.iter().copied().fold(0.0, f64::max);
+                    if curved {
+                        worst_curved = worst_curved.max(most);
+                    } else {
+                        count += found.len();
+                        worst = worst.max(most);
+                    }
+                    if most > 0.5 {
+                        println!("{thing}, {name}, {angle_deg}, curved {curved}: {most:.3}");
+                    }
+                }
+            }
+        }
+    }
+    println!(
+        "dragged against shown: straight at most {worst:.3} over {count} strokes, curved {worst_curved:.3}"
+    );
+    assert!(count >= 300 && worst <= 0.5, "{worst} degrees over {count} strokes");
+    assert!(worst_curved <= 3.0, "{worst_curved} degrees");
+}
+
+#[test]
+fn mirror_images_show_mirrored_from_the_other_side() {
+    let mesh = shapes::sphere(96, 48);
+    let mut plain = scene(Direction::Auto, Vec::new());
+    plain.objects[0].keys.clear();
+    plain.camera.keys[0] = shapes::camera_key(0.0, [0.0, 0.3, 5.0], [0.0; 3]);
+    let bare = Bench::new(plain.clone(), &mesh);
+    let mut free = FreeView::new(motion::camera_at(&plain, 0.0));
+    free.orbit(DVec2::new(-150.0, 40.0), DVec3::ZERO);
+    let view = free.view(size_px());
+    let ends = [DVec2::new(430.0, 300.0), DVec2::new(520.0, 350.0)];
+    let guides = bare.drag(&view, &ends);
+    let flip = DVec3::new(-1.0, 1.0, 1.0);
+    let [seen, reference] = bare.views(&view);
+    let images = mirrored(&guides[0], flip, &seen, &reference, &mut |at, facing, farthest| {
+        bare.picker.closest_on_surface(0, at, facing, farthest)
+    });
+    assert_eq!(images.len(), 1);
+    plain.regions[0].guides = images;
+    let mut other = view.camera.clone();
+    (other.eye, other.target) = (other.eye * flip, other.target * flip);
+    let across = |t: f64| {
+        let at = ends[0].lerp(ends[1], t);
+        DVec2::new(size_px().x - at.x, at.y)
+    };
+    let found = errors(&Bench::new(plain, &mesh).strokes(&other), across, 1.0);
+    let worst = found.iter().copied().fold(0.0, f64::max);
+    println!("mirrored: at most {worst:.3} over {} strokes", found.len());
+    assert!(found.len() >= 4 && worst <= 0.5, "{worst}");
+}
+
+#[test]
+fn a_shipped_scene_is_picked_where_it_is_painted() {
+    let folder = impasto_tests::command::root().join("scenes");
+    let loaded = impasto_scene::load::load(&folder.join("simple_objects.ron"), &Default::default()).unwrap();
+    let scene = loaded.scene.clone();
+    let painting = prepare(Arc::new(loaded)).unwrap();
+    let mut picker = Picker::default();
+    let bodies: Vec<_> =
+        (0..scene.objects.len()).map(|object| (Arc::clone(painting.surface(object)), 0.0)).collect();
+    picker.update(&bodies);
+    let (camera, poses) = (motion::camera_at(&scene, 45.0), motion::poses_at(&scene, 45.0));
+    let size = [640u32, 360];
+    let view = View { camera: camera.clone(), size_px: DVec2::new(640.0, 360.0) };
+    assert!(matches!(camera.lens, Lens::Perspective { .. }));
+    let frame = painting.seen_by(&camera, 45.0, &FrameOptions::new(size));
+    let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
+    let (mut same, mut all) = (0, 0);
+    for index in (run.first as usize..(run.first + run.count) as usize).step_by(3) {
+        let object = frame.strokes[index].body_id as usize - 1;
+        let particle = painting.particles(object)[frame.sources[index].particle as usize];
+        let at = poses[object].transform_point3(particle.position.as_dvec3());
+        let Some(at_px) = view.project(at) else { continue };
+        let Some(hit) = picker.pick(&view.ray(at_px), &poses, |_| true) else { continue };
+        // What is picked lies there, or in front of it.
+        assert!(hit.distance < view.ray(at_px).origin.distance(at) + 1e-4);
+        all += 1;
+        same += usize::from(hit.position_in_world.distance(at) < 1e-3);
+    }
+    println!("{same} of {all} particles are what is picked in front of them");
+    assert!(all > 300 && same * 2 > all, "{same} of {all}");
+}
