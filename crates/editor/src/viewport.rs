@@ -196,6 +196,3 @@ fn live_label(ui: &Ui, id: Id, area: Rect, words: &str) {
         info
     });
 }
-
-#[cfg(test)]
-mod tests;

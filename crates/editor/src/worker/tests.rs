@@ -51,8 +51,9 @@ fn until(worker: &(Worker, mpsc::Receiver<()>), last: impl Fn(&Report) -> bool) 
     told
 }
 
-fn pictures(told: &[Report]) -> Vec<&Picture> {
-    let picture = |report| if let Report::Picture(picture) = report { Some(picture) } else { None };
+fn pictures<'a>(told: &'a [Report]) -> Vec<&'a Picture> {
+    let picture =
+        |report: &'a Report| if let Report::Picture(picture) = report { Some(picture) } else { None };
     told.iter().filter_map(picture).collect()
 }
 
