@@ -20,7 +20,7 @@ pub struct RegionTint {
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// Mean of its cells, points.
+    /// Of its cells, the one nearest to their mean; points.
     middle_px: DVec2,
 }
 
@@ -64,17 +64,27 @@ impl RegionTint {
                 sum += DVec2::new(0.5 * (first + end) as f64, row as f64 + 0.5) * length;
                 count += length;
             }
+            let middle_px = nearest(&runs, sum / count) * scale;
             Self {
                 name: names[region].0.to_owned(),
                 colour: names[region].1,
                 runs,
                 edge: Outline::of_lines(edge),
                 cells_per_point: map.cells_per_point(),
-                middle_px: sum * scale / count,
+                middle_px,
             }
         };
         shown.map(tint).collect()
     }
+}
+
+/// The place within some runs that is nearest to another.
+fn nearest(runs: &[[usize; 3]], to: DVec2) -> DVec2 {
+    let places = runs.iter().map(|&[row, first, end]| {
+        DVec2::new(to.x.clamp(first as f64 + 0.5, end as f64 - 0.5), row as f64 + 0.5)
+    });
+    let near = |place: &DVec2| place.distance_squared(to);
+    places.min_by(|one, other| near(one).total_cmp(&near(other))).unwrap_or(to)
 }
 
 /// Draws a region in its colour, with its edge and its name.
