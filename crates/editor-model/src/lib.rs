@@ -11,6 +11,7 @@ pub mod camera_rig;
 mod change;
 pub mod command;
 pub mod document;
+pub mod editor;
 mod euler;
 pub mod gizmo;
 mod history;
@@ -27,6 +28,7 @@ pub mod transform;
 
 pub use command::Command;
 pub use document::Document;
+pub use editor::Editor;
 pub use refusal::Refusal;
 pub use selection::{Item, Selection};
 pub use session::Session;

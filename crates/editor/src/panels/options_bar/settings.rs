@@ -1,0 +1,260 @@
+use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
+use impasto_scene::document::LightKind;
+
+/// When a setting stands on the bar; else, and where there is no room, it stands behind the button at the bar's end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Always,
+    /// In a wide window.
+    Wide,
+    /// In a wide window, at the bar's right end.
+    WideRight,
+    Never,
+}
+
+/// One setting of a tool.
+pub(super) struct Setting {
+    pub(super) place: Place,
+    /// Before the control; empty for none.
+    pub(super) label: &'static str,
+    pub(super) control: Control,
+    /// A line parts it from what stands before.
+    pub(super) apart: bool,
+}
+
+pub(super) enum Control {
+    Choice(Choice),
+    Number(Number),
+    Check { words: &'static str, get: fn(&mut ToolOptions) -> &mut bool },
+    Mirror,
+}
+
+/// A few words, one of them on.
+pub(super) struct Choice {
+    /// What each says, and the name that it is found by.
+    pub(super) words: &'static [(&'static str, &'static str)],
+    pub(super) get: fn(&ToolOptions) -> usize,
+    pub(super) set: fn(&mut ToolOptions, usize),
+}
+
+pub(super) struct Number {
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+    pub(super) range: (f64, f64),
+    pub(super) width: f32,
+    /// What is shown is so many times what is kept.
+    pub(super) times: f64,
+    pub(super) get: fn(&mut ToolOptions) -> &mut f64,
+    pub(super) effect: &'static str,
+}
+
+fn at(place: Place, label: &'static str, control: Control) -> Setting {
+    Setting { place, label, control, apart: false }
+}
+
+fn apart(setting: Setting) -> Setting {
+    Setting { apart: true, ..setting }
+}
+
+/// A choice between the values of a type, by their order.
+macro_rules! choice {
+    ($field:ident: [$($value:expr => $words:literal, $name:literal;)*]) => {
+        Control::Choice(Choice {
+            words: &[$(($words, $name)),*],
+            get: |options| [$($value),*].iter().position(|value| *value == options.$field).unwrap_or(0),
+            set: |options, index| {
+                if let Some(value) = [$($value),*].get(index) {
+                    options.$field = *value;
+                }
+            },
+        })
+    };
+}
+
+fn radius() -> Setting {
+    let number = Number {
+        name: "Brush radius",
+        unit: "px",
+        range: (4.0, 200.0),
+        width: 78.0,
+        times: 1.0,
+        get: |options| &mut options.radius_px,
+        effect: "How far from the pointer the brush reaches.",
+    };
+    at(Place::Always, "Radius", Control::Number(number))
+}
+
+fn strength() -> Setting {
+    let number = Number {
+        name: "Brush strength",
+        unit: "%",
+        range: (0.0, 100.0),
+        width: 72.0,
+        times: 100.0,
+        get: |options| &mut options.strength,
+        effect: "How far strokes give in to the brush.",
+    };
+    at(Place::Always, "Strength", Control::Number(number))
+}
+
+fn falloff() -> Setting {
+    at(
+        Place::Wide,
+        "Falloff",
+        choice!(even: [false => "Soft", "Soft falloff"; true => "Even", "Even falloff";]),
+    )
+}
+
+fn steady() -> Setting {
+    let number = Number {
+        name: "Steady",
+        unit: "%",
+        range: (0.0, 100.0),
+        width: 78.0,
+        times: 100.0,
+        get: |options| &mut options.steady,
+        effect: "The brush follows on a string, so that a trembling hand draws a calm line.",
+    };
+    at(Place::Wide, "Steady", Control::Number(number))
+}
+
+fn mirror() -> Setting {
+    apart(at(Place::Always, "Mirror", Control::Mirror))
+}
+
+fn front_only() -> Setting {
+    let control = Control::Check { words: "Front faces only", get: |options| &mut options.front_only };
+    at(Place::WideRight, "", control)
+}
+
+fn foresee() -> Setting {
+    let control =
+        Control::Check { words: "Show what a stroke would do", get: |options| &mut options.foresee };
+    at(Place::Never, "", control)
+}
+
+fn brush() -> [Setting; 4] {
+    [apart(radius()), strength(), falloff(), steady()]
+}
+
+fn axes() -> Setting {
+    apart(at(
+        Place::Always,
+        "Axes",
+        choice!(axes: [
+            Axes::World => "World", "World axes";
+            Axes::Local => "Local", "Local axes";
+            Axes::View => "View", "View axes";
+        ]),
+    ))
+}
+
+fn snap(turns: bool) -> Setting {
+    let control = if turns {
+        choice!(snap: [false => "Off", "Snap off"; true => "5\u{b0}", "Snap";])
+    } else {
+        choice!(snap: [false => "Off", "Snap off"; true => "0.1", "Snap";])
+    };
+    at(Place::Always, "Snap", control)
+}
+
+fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -> Setting {
+    let number = Number {
+        name,
+        unit: "\u{b0}",
+        range: (if most > 90.0 { -most } else { 0.0 }, most),
+        width: 64.0,
+        times: 1.0,
+        get,
+        effect: if most > 90.0 { "Direction in the picture, from level." } else { "The flood stops where faces bend by more." },
+    };
+    at(Place::Always, "Angle", Control::Number(number))
+}
+
+/// The settings of a tool, in the order of the bar.
+pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
+    let mut settings = Vec::new();
+    match tool {
+        Tool::Select | Tool::Move | Tool::Scale => settings.extend([axes(), snap(false)]),
+        Tool::Turn => settings.extend([axes(), snap(true)]),
+        Tool::AddLight => settings.push(apart(at(
+            Place::Always,
+            "",
+            choice!(light: [
+                LightKind::Sun => "Sun", "Sun";
+                LightKind::Point => "Lamp", "Lamp";
+                LightKind::Ambient => "Sky", "Sky";
+            ]),
+        ))),
+        Tool::Comb => {
+            let sense = choice!(against: [false => "Along", "Along"; true => "Against", "Against";]);
+            settings.push(at(Place::Always, "", sense));
+            settings.extend(brush());
+            settings.extend([mirror(), front_only(), foresee()]);
+        }
+        Tool::GuideCurve => {
+            settings.extend([apart(radius()), strength(), falloff(), mirror(), front_only()]);
+        }
+        Tool::Fill => {
+            settings.push(at(
+                Place::Always,
+                "",
+                choice!(fill: [
+                    FillKind::Automatic => "Automatic", "Automatic";
+                    FillKind::Curvature => "Curvature", "Curvature";
+                    FillKind::Up => "Up", "Up";
+                    FillKind::Along => "Along", "Along";
+                    FillKind::Around => "Around", "Around";
+                    FillKind::Angle => "Angle", "Angle";
+                ]),
+            ));
+            if options.fill == FillKind::Angle {
+                settings.push(apart(angle("Fill angle", |options| &mut options.fill_angle_deg, 180.0)));
+            }
+        }
+        Tool::TurnDirection => settings.push(at(
+            Place::Always,
+            "",
+            choice!(flip: [true => "Flip", "Flip"; false => "By angle", "By angle";]),
+        )),
+        Tool::Smooth => {
+            let smear = choice!(smear: [false => "Smooth", "Smooth out"; true => "Smear", "Smear";]);
+            settings.push(at(Place::Always, "", smear));
+            settings.extend(brush());
+            settings.extend([mirror(), front_only()]);
+        }
+        Tool::Erase => settings.extend([apart(radius()), falloff(), mirror(), front_only()]),
+        Tool::Region => region(&mut settings, options),
+        Tool::Pick | Tool::ShotCamera => (),
+    }
+    settings
+}
+
+fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {
+    settings.push(at(
+        Place::Always,
+        "",
+        choice!(region_by: [
+            RegionBy::Brush => "Brush", "Region by brush";
+            RegionBy::Flood => "Flood", "Region by flood";
+            RegionBy::Group => "Group", "Region by group";
+            RegionBy::Material => "Material", "Region by material";
+        ]),
+    ));
+    settings.push(apart(at(
+        Place::Always,
+        "",
+        choice!(region_does: [
+            RegionDoes::New => "New", "New region";
+            RegionDoes::Add => "Add", "Add to region";
+            RegionDoes::TakeAway => "Take away", "Take away from region";
+        ]),
+    )));
+    match options.region_by {
+        RegionBy::Brush => settings.extend([apart(radius()), mirror(), front_only()]),
+        RegionBy::Flood => {
+            settings.push(apart(angle("Flood angle", |options| &mut options.flood_deg, 90.0)));
+        }
+        RegionBy::Group | RegionBy::Material => (),
+    }
+}

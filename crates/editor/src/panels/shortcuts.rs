@@ -1,0 +1,171 @@
+//! All keys on one sheet.
+
+use egui::{RichText, ScrollArea, Ui, vec2};
+use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
+
+use super::Shown;
+use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{self, sheet};
+
+const COLUMN: f32 = 248.0;
+const ROW: f32 = 20.0;
+
+/// Keys that hold in one place.
+struct Group {
+    name: &'static str,
+    rows: Vec<(&'static str, String)>,
+}
+
+/// Shows the sheet over everything. True once it closes.
+pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
+    let room = ctx.content_rect().size() - vec2(48.0, 48.0);
+    let inner = room.x.min(1088.0) - 2.0 * measure::SHEET_PADDING;
+    let columns = ((inner / COLUMN) as usize).max(1);
+    sheet(ctx, "Keys", inner + 2.0 * measure::SHEET_PADDING, |ui| {
+        let tokens = Tokens::of(ui);
+        let mut close = false;
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("Keys").font(type_face::sheet_title()).color(tokens.text));
+            let like = match shown.keys {
+                Preset::Blender => "like Blender",
+                Preset::Maya => "like Maya",
+            };
+            ui.label(RichText::new(like).font(type_face::body()).color(tokens.weak));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                close = widgets::icon_button(ui, icons::CLOSE, "Close keys").clicked();
+            });
+        });
+        ui.add_space(measure::GAP);
+        let lines = lines(groups(&shown.keymap()));
+        let high = lines.len().div_ceil(columns);
+        let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;
+        ScrollArea::vertical().max_height(most).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                for part in lines.chunks(high.max(1)) {
+                    ui.allocate_ui(vec2(inner / columns as f32, high as f32 * ROW), |ui| column(ui, part));
+                }
+            });
+        });
+        close || ui.input(|input| input.key_pressed(egui::Key::Escape))
+    })
+}
+
+/// One line of a column: a head, a key, or nothing between two groups.
+enum Line {
+    Head(&'static str),
+    Key(&'static str, String),
+    Space,
+}
+
+fn lines(groups: Vec<Group>) -> Vec<Line> {
+    let mut lines = Vec::new();
+    for group in groups {
+        if !lines.is_empty() {
+            lines.push(Line::Space);
+        }
+        lines.push(Line::Head(group.name));
+        lines.extend(group.rows.into_iter().map(|(name, keys)| Line::Key(name, keys)));
+    }
+    lines
+}
+
+fn column(ui: &mut Ui, lines: &[Line]) {
+    let tokens = Tokens::of(ui);
+    ui.vertical(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for line in lines {
+            ui.allocate_ui_with_layout(
+                vec2(ui.available_width() - 16.0, ROW),
+                egui::Layout::left_to_right(egui::Align::Center),
+                |ui| {
+                    ui.set_min_size(ui.available_size());
+                    match line {
+                        Line::Head(name) => {
+                            ui.label(RichText::new(*name).font(type_face::head()).color(tokens.text));
+                        }
+                        Line::Key(name, keys) => {
+                            ui.label(RichText::new(*name).font(type_face::small()).color(tokens.weak));
+                            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                                let keys = RichText::new(keys).font(egui::FontId::monospace(11.0));
+                                ui.label(keys.color(tokens.text));
+                            });
+                        }
+                        Line::Space => (),
+                    }
+                },
+            );
+        }
+    });
+}
+
+fn groups(keymap: &Keymap) -> Vec<Group> {
+    let listed: Vec<_> = keymap.listed().collect();
+    let of = |name, scopes: &[Option<Scope>]| {
+        let within = listed.iter().filter(|line| scopes.contains(&line.scope));
+        Group { name, rows: within.map(|line| (line.action.name(), line.keys.clone())).collect() }
+    };
+    vec![
+        of("Everywhere", &[None]),
+        of("Arrange and Animate", &[Some(Scope::Arrange), Some(Scope::Animate)]),
+        of("Paint", &[Some(Scope::Paint)]),
+        of("Keys on a lane", &[Some(Scope::Lane)]),
+        of("While moving or drawing", &[Some(Scope::Transform), Some(Scope::Drawing)]),
+        of("In a field", &[Some(Scope::Typing)]),
+        Group { name: "Mouse", rows: mouse(keymap) },
+    ]
+}
+
+/// What the pointer's buttons do to the view.
+fn mouse(keymap: &Keymap) -> Vec<(&'static str, String)> {
+    let none = Modifiers::default();
+    let held = [
+        ("", none),
+        ("Shift ", Modifiers { shift: true, ..none }),
+        ("Ctrl ", Modifiers { ctrl: true, ..none }),
+        ("Alt ", Modifiers { alt: true, ..none }),
+    ];
+    let buttons = [
+        ("Left", Button::Left),
+        ("Middle", Button::Middle),
+        ("Right", Button::Right),
+        ("Wheel", Button::Wheel),
+    ];
+    let ways = |does: Navigation| {
+        let mut ways = Vec::new();
+        for (name, button) in buttons {
+            let bare = keymap.navigation(button, none) == Some(does);
+            for (prefix, modifiers) in held {
+                // What a button does alone it also does with keys that change nothing.
+                let said = bare && modifiers != none;
+                if keymap.navigation(button, modifiers) == Some(does) && !said {
+                    ways.push(format!("{prefix}{name}"));
+                }
+            }
+        }
+        ways.join(", ")
+    };
+    vec![("Orbit", ways(Navigation::Orbit)), ("Pan", ways(Navigation::Pan)), ("Zoom", ways(Navigation::Zoom))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_of_the_table_is_listed_once() {
+        for preset in [Preset::Blender, Preset::Maya] {
+            let keymap = Keymap { preset, ..Keymap::default() };
+            let shown: usize = groups(&keymap).iter().map(|group| group.rows.len()).sum();
+            assert_eq!(shown, keymap.listed().count() + 3, "a scope has no group");
+        }
+    }
+
+    #[test]
+    fn the_mouse_is_told_as_each_preset_has_it() {
+        let of = |preset| mouse(&Keymap { preset, ..Keymap::default() }).into_iter().map(|row| row.1);
+        assert!(of(Preset::Blender).eq(["Alt Left, Middle", "Shift Middle", "Ctrl Middle, Wheel"]));
+        assert!(of(Preset::Maya).eq(["Alt Left", "Alt Middle", "Alt Right, Wheel"]));
+    }
+}
