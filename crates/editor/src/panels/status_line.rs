@@ -29,7 +29,7 @@ pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, _asks: &mut Vec<Ask>) {
             .inner
         });
         free.max.x = right.inner - 14.0;
-        let whole = ui.interact(free, ui.id().with("status"), egui::Sense::hover());
+        let whole = ui.interact(free, ui.scope_id().with("status"), egui::Sense::hover());
         whole.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Status"));
         ui.ctx().accesskit_node_builder(whole.id, |node| {
             node.set_live(accesskit::Live::Polite);

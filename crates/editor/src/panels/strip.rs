@@ -119,7 +119,7 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };
     // The first and the last key can be hit from outside too.
-    let response = ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.id().with("ruler"), Sense::click_and_drag());
+    let response = ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
     scrub(&response, across, (shown, asks));
 
     let clip = ui.painter().with_clip_rect(rect.expand2(vec2(12.0, 0.0)));

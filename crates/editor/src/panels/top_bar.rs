@@ -22,7 +22,7 @@ pub fn top_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
         let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH) / 2.0);
-        let mut part = |ui: &mut Ui, (left, right): (f32, f32), rtl: bool, show: &mut dyn FnMut(&mut Ui)| {
+        let part = |ui: &mut Ui, (left, right): (f32, f32), rtl: bool, show: &mut dyn FnMut(&mut Ui)| {
             let rect = egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
             let layout =
                 if rtl { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };
