@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec2;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{FrameOptions, Painting, Preparer};
+use impasto_painting::{FrameOptions, Painting, Preparer, Quality};
 use impasto_scene::document::{Direction, Guide, Region, Scene, Selector};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
@@ -124,8 +124,9 @@ fn pictures() {
     let painting: Painting = Preparer::default().prepare(Arc::new(shipped("still_life"))).expect("the scene has its meshes");
     let camera = motion::camera_at(painting.scene(), 0.0);
     let mut renderer = Renderer::new(open(Driver::Auto, &OpenOptions::default()).expect("a driver")).expect("shaders");
-    for size_px in [[475, 325], [640, 400], [950, 650]] {
-        let options = FrameOptions::new(size_px);
+    let sizes = [[475, 325], [640, 400], [950, 650]];
+    for (size_px, quality) in sizes.into_iter().flat_map(|size| [(size, Quality::Exact), (size, Quality::Draft)]) {
+        let options = FrameOptions { quality, ..FrameOptions::new(size_px) };
         let (mut seen, mut drawn, mut cpu) = (Vec::new(), Vec::new(), 0.0);
         for turn in 0..12 {
             let mut camera = camera.clone();
@@ -144,13 +145,19 @@ fn pictures() {
             seconds.sort_by(f64::total_cmp);
         }
         println!(
-            "still life at {size_px:?}: {} strokes, data {:.1} ms, whole {:.1} ms, {:.0} ms of CPU, overdraw {:.1}",
+            "still life at {size_px:?}, {quality:?}: {} strokes, data {:.1} ms, whole {:.1} ms, {:.0} ms of CPU, overdraw {:.1}",
             frame.strokes.len(), seen[6] * 1e3, drawn[6] * 1e3, cpu / 12.0 * 1e3, cost.overdraw
         );
         for pass in &cost.passes {
             print!("  {} {:.1}", pass.name, pass.seconds * 1e3);
         }
         println!();
+        // To be looked at: four bytes a pixel, top row first.
+        if let Some(folder) = std::env::args().nth(2) {
+            let picture = renderer.render(&frame).expect("it is drawn");
+            let file = format!("{folder}/{}x{}_{quality:?}.rgba", size_px[0], size_px[1]);
+            std::fs::write(file, picture.rgba8).expect("the folder is there");
+        }
         for run in &frame.layers {
             print!("  {} {}", run.kind.name(), run.count);
         }

@@ -3,16 +3,20 @@
 #include "shared/encode.glsl"
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
+#ifndef DRAFT
 uniform sampler2D height;            // of the paint, in brush thicknesses
 uniform sampler2D soft_height;       // half the size
 uniform sampler2D canvas;            // one tile: height, its slope in x and in y, around the middle value
-uniform vec4 ground;                 // premultiplied, display-linear
-uniform vec4 tone;                   // of the ground under paint, and how far it hides a wash of the body's colour
-uniform float wash;                  // 0 bare ground .. 1 toned
 uniform vec3 to_light;               // unit, in the picture's space
-uniform vec4 finish;                 // relief, weave, varnish, output pixels per pixel of the scene's own size
 uniform vec4 canvas_axes;            // canvas tiles per pixel: along x, along y
 uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left corner
+#endif
+uniform vec4 ground;                 // premultiplied, display-linear
+#ifndef DRAFT
+uniform vec4 tone;                   // of the ground under paint, and how far it hides a wash of the body's colour
+#endif
+uniform float wash;                  // 0 bare ground .. 1 toned
+uniform vec4 finish;                 // relief, weave, varnish, output pixels per pixel of the scene's own size
 
 out vec4 encoded;
 
@@ -22,11 +26,17 @@ const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 vec4 toned_ground(ivec2 at) {
     vec4 body = texelFetch(reference_color, at, 0);
+#ifdef DRAFT
+    // Stands in for the underpainting too.
+    vec3 under = mix(body.rgb, vec3(0.10, 0.08, 0.06), 0.35);
+#else
     vec3 under = mix(body.rgb * vec3(0.90, 0.85, 0.80), tone.rgb, tone.a);
+#endif
     // Ground that is left out (transparent) stays out.
     return vec4(mix(ground.rgb, under, wash * body.a * ground.a), ground.a);
 }
 
+#ifndef DRAFT
 // What the light of the room makes of the paint's surface.
 vec3 in_room_light(vec3 color) {
     vec2 texel = 1.0 / vec2(textureSize(height, 0));
@@ -58,6 +68,7 @@ vec3 in_room_light(vec3 color) {
     float value = clamp(dot(color, LUMINANCE), 0.0, 1.0);
     return color + 0.09 * min(finish.x, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
 }
+#endif
 
 // Deeper darks, fuller colour, a little warmer; on encoded values, which are nearly even to the eye.
 vec3 varnished(vec3 color) {
@@ -73,7 +84,9 @@ void main() {
     vec4 below = toned_ground(at);
     vec4 both = laid + (1.0 - laid.a) * below;
     vec3 straight = both.rgb / max(both.a, 1e-6);
+#ifndef DRAFT
     if (finish.x > 0.0 || finish.y > 0.0) straight = in_room_light(straight);
+#endif
     vec3 display = srgb_from_linear(clamp(straight, 0.0, 1.0));
     if (finish.z > 0.0) display = varnished(display);
     encoded = vec4(clamp(display, 0.0, 1.0), both.a);

@@ -14,7 +14,9 @@ uniform float units_per_px_at_1; // world units per pixel at depth 1; at any dep
 uniform float orthographic;
 
 layout(location = 0) out vec4 over;
+#ifndef DRAFT
 layout(location = 1) out vec4 height;
+#endif
 
 // As in `core::brush`.
 const float FILL = 0.84;
@@ -55,11 +57,18 @@ void main() {
         if (here.y != own.y) alpha *= past_body(here, tint);
     }
     vec3 color = max(paint.rgb + half_mixed * tint, 0.0);
+#ifdef DRAFT
+    // No light falls on the relief; what it would make of the bristles, about.
+    color *= 1.0 + 0.30 * body.y * (texel.g - 0.42);
+#else
     // Wet paint from below comes with the stroke, more of it towards its end.
     color = mix(color, picked_up.rgb, picked_up.a * (0.35 + 0.65 * u));
+#endif
     // Thin edges are a little darker.
     color *= 1.0 - 0.10 * (1.0 - alpha);
     alpha *= body.x;
     over = vec4(color * alpha, alpha);
+#ifndef DRAFT
     height = vec4(texel.g * HEIGHT_SCALE * body.y * alpha, 0.0, 0.0, 0.8 * alpha);
+#endif
 }

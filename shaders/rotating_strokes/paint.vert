@@ -11,7 +11,9 @@ layout(location = 7) in vec4 fitted;         // centre in px where it lies on it
 
 uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
+#ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
+#endif
 
 out vec2 mark_at;
 out vec2 from_center_px;
@@ -25,6 +27,7 @@ flat out vec2 own;               // depth and id of the body
 const float MARGIN = 1.0 / 0.84;
 const float BYTE = 1.0 / 255.0;
 
+#ifndef DRAFT
 // The mean colour below, straight, and how much of it there is.
 vec4 paint_below(vec2 center_px, float spread_px) {
     vec4 sum = vec4(0.0);
@@ -35,6 +38,7 @@ vec4 paint_below(vec2 center_px, float spread_px) {
     }
     return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
 }
+#endif
 
 void main() {
     float there = resolved.a;
@@ -51,13 +55,21 @@ void main() {
     // Soft over about a pixel, as a share of the mark.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
+#ifdef DRAFT
+    half_mixed = resolved.rgb * vec3(0.26, 0.25, 0.20) + 0.004;
+#else
     vec3 lab = oklab_from_linear(resolved.rgb);
     half_mixed = linear_from_oklab(lab + vec3(0.055, 0.0, 0.014)) - resolved.rgb;
+#endif
 
     vec2 along = vec2(cos(place.w), sin(place.w));
     vec2 center_px = fitted.xy;
+#ifdef DRAFT
+    picked_up = vec4(0.0);
+#else
     vec4 under = pickup > 0.0 ? paint_below(center_px - along * (0.3 * size.x), 0.15 * size.y) : vec4(0.0);
     picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
+#endif
 
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     from_center_px =

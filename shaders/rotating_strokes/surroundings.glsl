@@ -13,6 +13,11 @@ vec2 surface_at(vec2 at_px) {
 // Colour between four pixels, of those that show the body; W how much of it. The plain render has hard edges, and a tap on
 // one pixel would jump with them.
 vec4 own_color_at(vec2 at_px, float id) {
+#ifdef DRAFT
+    ivec2 nearest = clamp(ivec2(at_px), ivec2(0), textureSize(reference_color, 0) - 1);
+    bool is_own = texelFetch(depth_and_id, nearest, 0).y == id;
+    return is_own ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
+#endif
     vec2 at = at_px - 0.5;
     ivec2 corner = ivec2(floor(at));
     ivec2 last = textureSize(reference_color, 0) - 1;
@@ -39,9 +44,14 @@ vec2 direction(int index, int count) {
 // where nothing of the body was found.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
     vec4 sum = vec4(0.0);
+#ifdef DRAFT
+    const int TAPS = 6;
+#else
+    const int TAPS = 12;
+#endif
     for (int widening = 0; widening < 3 && sum.a < 0.2; widening++) {
         sum = own_color_at(center_px, id) * 0.7;
-        for (int index = 0; index < 12; index++) {
+        for (int index = 0; index < TAPS; index++) {
             float radius = index < 6 ? 1.0 : 1.9;
             float angle = 1.0471976 * (float(index) + (index < 6 ? 0.0 : 0.5));
             vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * radius;
@@ -88,6 +98,15 @@ vec3 detail_at(vec2 center_px, float id) {
 float share_on_body(vec2 center_px, vec2 to_end_px, vec2 across_px, vec2 own) {
     float bias = 0.02 * own.x;
     float beyond = 0.0;
+#ifdef DRAFT
+    for (int index = 1; index < 24; index += 3) {
+        float along = (float(index / 3) + 0.5) / 8.0;
+        vec2 there = surface_at(center_px + to_end_px * along);
+        if (there.y == own.y) continue;
+        beyond += there.y == 0.0 ? 3.0 : 3.0 * smoothstep(-bias, bias, there.x - own.x);
+    }
+    return 1.0 - beyond / 24.0;
+#endif
     for (int index = 0; index < 24; index++) {
         float along = (float(index / 3) + 0.5 + float(index % 3) / 3.0 - 0.33) / 8.0;
         vec2 tap_px = center_px + to_end_px * along + across_px * (float(index % 3) - 1.0);

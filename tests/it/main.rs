@@ -20,3 +20,4 @@ mod rotating_strokes;
 mod scenes_in_motion;
 mod shipped_scenes;
 mod steadiness;
+mod warm_prepare;

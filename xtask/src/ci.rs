@@ -12,7 +12,7 @@ use crate::{layers, test, tidy};
 /// Runs every check, each with its seconds; stops at the first that fails.
 pub fn run(root: &Path) -> anyhow::Result<()> {
     let start = Instant::now();
-    step("system packages", || packages::ensure(root, packages::TESTS, Install::Yes))?;
+    step("system packages", || packages::ensure(root, packages::FOR_TESTS, Install::Yes))?;
     step("format", || steps::run(root, &cargo(), &["fmt", "--all", "--check"]))?;
     step("layers", || layers::run(root))?;
     step("tidy", || tidy::run(root))?;

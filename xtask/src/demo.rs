@@ -15,7 +15,7 @@ const FRAMES: usize = 24;
 
 /// Installs what rendering needs, builds in release, paints [`FRAMES`] frames into `out/`, and says what came out.
 pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
-    packages::ensure(root, packages::RENDERING, install)?;
+    packages::ensure(root, &[packages::RENDERING], install)?;
     let impasto = step("build", || build_release(root))?;
     let start = Instant::now();
     let events = step("paint", || paint(root, &impasto))?;

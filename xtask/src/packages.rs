@@ -1,4 +1,4 @@
-//! System packages: found by looking for the libraries themselves, installed with apt-get where there is one.
+//! System packages: found by looking for the libraries and programs themselves, installed with apt-get where there is one.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -17,46 +17,77 @@ pub enum Install {
     PrintOnly,
 }
 
-/// A library that has to be there, and the Debian package that brings it.
+/// Where the files of a [`Need`] lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    /// In a library folder, or its `dri` folder.
+    Libraries,
+    /// In a folder of `PATH`.
+    Programs,
+}
+
+/// A library or a program that has to be there, and the Debian package that brings it.
 pub struct Need {
     /// What it is, for people.
     what: &'static str,
     /// The Debian and Ubuntu package.
     package: &'static str,
-    /// Starts of file names, one of which has to lie in a library folder (or its `dri` folder).
+    /// Where its files lie.
+    place: Place,
+    /// Of a library, starts of file names, one of which has to be there; of a program, its name.
     files: &'static [&'static str],
     /// Whether newer systems no longer have the package at all.
     retired: bool,
 }
 
-const EGL: Need =
-    Need { what: "the EGL library", package: "libegl1", files: &["libEGL.so.1"], retired: false };
+const EGL: Need = library("the EGL library", "libegl1", &["libEGL.so.1"]);
 
-const MESA: Need = Need {
-    what: "an OpenGL driver for EGL",
-    package: "libgl1-mesa-dri",
-    files: &["swrast_dri.so", "libgallium-", "libEGL_nvidia.so.0"],
-    retired: false,
-};
+const MESA: Need = library(
+    "an OpenGL driver for EGL",
+    "libgl1-mesa-dri",
+    &["swrast_dri.so", "libgallium-", "libEGL_nvidia.so.0"],
+);
 
 const OSMESA: Need = Need {
-    what: "the OSMesa library",
-    package: "libosmesa6",
-    files: &["libOSMesa.so.8", "libOSMesa.so.6"],
     // Mesa 25.1 dropped it.
     retired: true,
+    ..library("the OSMesa library", "libosmesa6", &["libOSMesa.so.8", "libOSMesa.so.6"])
 };
+
+const fn library(what: &'static str, package: &'static str, files: &'static [&'static str]) -> Need {
+    Need { what, package, place: Place::Libraries, files, retired: false }
+}
+
+const fn program_of(package: &'static str, files: &'static [&'static str]) -> Need {
+    Need { what: files[0], package, place: Place::Programs, files, retired: false }
+}
 
 /// What `impasto render` needs on a machine without a display.
 pub const RENDERING: &[Need] = &[EGL, MESA];
 
 /// What the tests need: they draw with every driver.
-pub const TESTS: &[Need] = &[EGL, MESA, OSMESA];
+const TESTS: &[Need] = &[EGL, MESA, OSMESA];
+
+/// What the tests of the editor's window need: what winit loads, a display without a screen, and a hand for it. Xvfb shows
+/// its picture in a file (`-fbdir`).
+const WINDOW_TESTS: &[Need] = &[
+    library("the X11 library", "libx11-6", &["libX11.so.6"]),
+    library("the bridge from X11 to XCB", "libx11-xcb1", &["libX11-xcb.so.1"]),
+    library("the X11 cursors", "libxcursor1", &["libXcursor.so.1"]),
+    library("the X11 input library", "libxi6", &["libXi.so.6"]),
+    library("the X11 keyboard library", "libxkbcommon-x11-0", &["libxkbcommon-x11.so.0"]),
+    program_of("xvfb", &["Xvfb"]),
+    program_of("xdotool", &["xdotool"]),
+];
+
+/// What `cargo xtask test` and `ci` make sure of.
+pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS];
 
 /// Makes sure that everything in `needs` is there, or says how to get it.
-pub fn ensure(root: &Path, needs: &[Need], install: Install) -> anyhow::Result<()> {
+pub fn ensure(root: &Path, needs: &[&[Need]], install: Install) -> anyhow::Result<()> {
     let folders = library_folders();
-    let missing: Vec<&Need> = needs.iter().filter(|need| !is_there(need, &folders)).collect();
+    let missing: Vec<&Need> =
+        needs.iter().copied().flatten().filter(|need| !is_there(need, &folders)).collect();
     if missing.is_empty() {
         return Ok(());
     }
@@ -66,9 +97,12 @@ pub fn ensure(root: &Path, needs: &[Need], install: Install) -> anyhow::Result<(
     let names: Vec<&str> = missing.iter().map(|need| need.package).collect();
     if program("apt-get").is_none() {
         bail!(
-            "this system has no apt-get; install what brings {} (Mesa's EGL, its software driver{}) and try again",
-            missing.iter().map(|need| need.files[0]).collect::<Vec<_>>().join(", "),
-            if missing.iter().any(|need| need.retired) { ", OSMesa" } else { "" }
+            "this system has no apt-get; install what brings {} and try again",
+            missing
+                .iter()
+                .map(|need| format!("{} ({})", need.files[0], need.what))
+                .collect::<Vec<_>>()
+                .join(", ")
         );
     }
     let prefix = prefix()?;
@@ -133,8 +167,11 @@ fn program(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Whether one of the need's files lies in one of the folders or in its `dri` folder.
+/// Whether one of the need's files lies in one of the folders of libraries or in its `dri` folder; of a program, in `PATH`.
 fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
+    if need.place == Place::Programs {
+        return need.files.iter().any(|name| program(name).is_some());
+    }
     folders.iter().flat_map(|folder| [folder.clone(), folder.join("dri")]).any(|folder| {
         let Ok(entries) = std::fs::read_dir(folder) else { return false };
         entries.flatten().any(|entry| {
@@ -187,5 +224,14 @@ mod tests {
         assert!(is_there(&EGL, &folders) && !is_there(&MESA, &folders));
         std::fs::write(folder.path().join("dri/swrast_dri.so"), "").expect("written");
         assert!(is_there(&MESA, &folders) && !is_there(&OSMESA, &folders));
+    }
+
+    #[test]
+    fn a_program_is_found_in_the_path_and_not_among_libraries() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        std::fs::write(folder.path().join("no-such-program"), "").expect("written");
+        let folders = [folder.path().to_path_buf()];
+        assert!(!is_there(&program_of("none", &["no-such-program"]), &folders));
+        assert!(is_there(&program_of("cargo", &["cargo"]), &[]));
     }
 }

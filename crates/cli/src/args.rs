@@ -15,6 +15,9 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Open the editor's window: paint directions on a scene or a mesh, move things, animate them.
+    #[cfg(feature = "editor")]
+    Edit(EditArguments),
     /// Paint frames of a scene, or any OBJ model from a sensible camera.
     Render(RenderArguments),
     /// Write down the scene that `render MODEL.obj` would use.
@@ -109,6 +112,33 @@ pub(crate) enum ColorsChoice {
     Scene,
     /// How far the turn of each stroke can be trusted: green, yellow, red.
     Trust,
+}
+
+/// What draws the editor's paintings.
+#[cfg(feature = "editor")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EditDriver {
+    /// The graphics card where there is one, else software.
+    Auto,
+    /// EGL, on a graphics card or in software.
+    Egl,
+    /// OSMesa, in software.
+    Osmesa,
+    /// Software, whatever the machine has.
+    Software,
+}
+
+#[cfg(feature = "editor")]
+#[derive(Args, Debug)]
+pub(crate) struct EditArguments {
+    /// A scene (.ron), or a model (.obj) to begin one with.
+    pub(crate) scene: Option<PathBuf>,
+    /// What draws the paintings; the preferences say when left out.
+    #[arg(long, value_enum)]
+    pub(crate) driver: Option<EditDriver>,
+    /// Ask for files in the window, never by the desktop's dialogs.
+    #[arg(long, hide = true)]
+    pub(crate) in_app_dialogs: bool,
 }
 
 #[derive(Args, Debug)]

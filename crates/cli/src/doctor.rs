@@ -1,4 +1,4 @@
-//! `impasto doctor`: which drivers work here, and whether they draw what they should.
+//! `impasto doctor`: which drivers work here, whether they draw what they should, and whether a window could be opened.
 
 use std::io::Write as _;
 use std::sync::Arc;
@@ -46,6 +46,8 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
             }
         }
     }
+    #[cfg(feature = "editor")]
+    tell_of_window(&mut out, arguments.json)?;
     if findings.iter().any(|finding| finding.outcome.is_ok()) {
         return Ok(());
     }
@@ -53,6 +55,43 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
         writeln!(out, "no driver works: nothing can be rendered here")?;
     }
     Err(Failure::Quiet(4))
+}
+
+/// Whether the editor could open a window. Rendering needs none, so it does not count against the machine.
+#[cfg(feature = "editor")]
+fn tell_of_window(out: &mut std::io::Stdout, json: bool) -> Result<(), Failure> {
+    let found = crate::window_libraries::find();
+    if json {
+        let (display, packages) = (&found.display, found.packages.join(" "));
+        let works = found.could_open();
+        writeln!(
+            out,
+            "{}",
+            serde_json::json!({
+                "version": 1, "window": works, "display": display, "packages": packages,
+            })
+        )?;
+        return Ok(());
+    }
+    match &found.display {
+        _ if found.could_open() => {
+            writeln!(out, "window: could be opened on {}", found.display.unwrap_or_default())?
+        }
+        None => writeln!(
+            out,
+            "window: none: neither WAYLAND_DISPLAY nor DISPLAY is set (only `impasto edit` needs it)"
+        )?,
+        Some(display) => {
+            writeln!(
+                out,
+                "window: none on {display}: libraries are missing (only `impasto edit` needs them)"
+            )?;
+        }
+    }
+    if !found.packages.is_empty() {
+        writeln!(out, "  mend, on Debian and Ubuntu: apt-get install {}", found.packages.join(" "))?;
+    }
+    Ok(())
 }
 
 fn examine(driver: Driver) -> Finding {

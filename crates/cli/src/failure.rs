@@ -22,6 +22,9 @@ pub(crate) enum Failure {
     Refused(String),
     /// No driver.
     NoOpenGl(ContextError),
+    /// No window, with the words that say why.
+    #[cfg(feature = "editor")]
+    NoWindow(String),
     /// Some frames failed, the others are done.
     SomeFrames { failed: u64, done: u64 },
     /// A signal came; so many frames are done.
@@ -36,6 +39,8 @@ impl Failure {
             Self::Usage(_) => USAGE,
             Self::Input(_) | Self::Refused(_) => 3,
             Self::NoOpenGl(_) => 4,
+            #[cfg(feature = "editor")]
+            Self::NoWindow(_) => 4,
             Self::SomeFrames { .. } => 5,
             Self::Interrupted { .. } => 130,
         }
@@ -49,6 +54,8 @@ impl Failure {
             }
             Self::Input(report) => report.to_string(),
             Self::NoOpenGl(error) => format!("impasto: error: {error}"),
+            #[cfg(feature = "editor")]
+            Self::NoWindow(words) => format!("impasto: error: {words}"),
             Self::SomeFrames { failed, done } => {
                 format!("impasto: error: {failed} frames failed, {done} are done")
             }

@@ -1,9 +1,11 @@
-//! The `impasto` command: paints scenes with no window, and tells what is in them.
+//! The `impasto` command: paints scenes with no window, tells what is in them, and opens the editor.
 
 mod args;
 mod brushes;
 mod check;
 mod doctor;
+#[cfg(feature = "editor")]
+mod edit;
 mod failure;
 mod frame_list;
 mod info;
@@ -16,6 +18,8 @@ mod render;
 mod session;
 mod sheet;
 mod strokes;
+#[cfg(feature = "editor")]
+mod window_libraries;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -36,6 +40,8 @@ fn main() -> ExitCode {
         }
     };
     let result = match arguments.command {
+        #[cfg(feature = "editor")]
+        Command::Edit(arguments) => edit::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -29,7 +29,7 @@ pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) ->
     is_reached[first] = true;
     let mut open = vec![(first, face_normal(mesh, first))];
     while let Some((triangle, facing)) = open.pop() {
-        let corners = points.of_triangle(mesh, triangle);
+        let corners = points.of_triangle[triangle];
         for corner in 0..3 {
             let (from, to) = (corners[corner], corners[(corner + 1) % 3]);
             let near = points.triangles_at_fewer(from, to);
@@ -39,7 +39,7 @@ pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) ->
             }
             for &other in near {
                 let other = other as usize;
-                let shared = points.of_triangle(mesh, other);
+                let shared = points.of_triangle[other];
                 if is_reached[other] || !shared.contains(&to) || !shared.contains(&from) {
                     continue;
                 }
@@ -67,7 +67,15 @@ fn nearest_triangle(mesh: &TriangleMesh, at: DVec3, normal: DVec3) -> Option<usi
     let mut best: Option<(f64, usize)> = None;
     let tie = mesh.bounds().map_or(0.0, |(low, high)| f64::from((high - low).length()) * 1e-6);
     for triangle in 0..mesh.triangles.len() {
-        let corners = mesh.corners(triangle).map(|corner| corner.as_dvec3());
+        let corners = mesh.corners(triangle);
+        // No triangle is nearer than the box round it.
+        let (low, high) =
+            (corners[0].min(corners[1]).min(corners[2]), corners[0].max(corners[1]).max(corners[2]));
+        let least = (at - at.clamp(low.as_dvec3(), high.as_dvec3())).length();
+        if best.is_some_and(|(cost, _)| least >= cost) {
+            continue;
+        }
+        let corners = corners.map(|corner| corner.as_dvec3());
         let far = (at - nearest_point(at, corners)).length() + tie;
         let turned = (1.0 - face_normal(mesh, triangle).dot(normal)) * 0.5;
         let cost = far * (1.0 + (TURNED_AWAY - 1.0) * turned);
@@ -80,7 +88,7 @@ fn nearest_triangle(mesh: &TriangleMesh, at: DVec3, normal: DVec3) -> Option<usi
 
 /// Places of a mesh, whichever vertices lie there, with the triangles round each.
 struct Points {
-    of_vertex: Vec<u32>,
+    of_triangle: Vec<[u32; 3]>,
     starts: Vec<u32>,
     triangles: Vec<u32>,
 }
@@ -90,27 +98,24 @@ impl Points {
         let of_vertex = shells::weld(&mesh.positions);
         let count = of_vertex.iter().max().map_or(0, |&last| last as usize + 1);
         let mut starts = vec![0u32; count + 1];
-        let point = |vertex: &u32| of_vertex[*vertex as usize] as usize;
-        for vertex in mesh.triangles.iter().flatten() {
-            starts[point(vertex) + 1] += 1;
+        let of_triangle: Vec<[u32; 3]> =
+            mesh.triangles.iter().map(|corners| corners.map(|vertex| of_vertex[vertex as usize])).collect();
+        for &point in of_triangle.iter().flatten() {
+            starts[point as usize + 1] += 1;
         }
         for index in 0..count {
             starts[index + 1] += starts[index];
         }
         let mut next = starts.clone();
         let mut triangles = vec![0; mesh.triangles.len() * 3];
-        for (triangle, vertices) in mesh.triangles.iter().enumerate() {
-            for vertex in vertices {
-                let slot = &mut next[point(vertex)];
+        for (triangle, corners) in of_triangle.iter().enumerate() {
+            for &point in corners {
+                let slot = &mut next[point as usize];
                 triangles[*slot as usize] = triangle as u32;
                 *slot += 1;
             }
         }
-        Self { of_vertex, starts, triangles }
-    }
-
-    fn of_triangle(&self, mesh: &TriangleMesh, triangle: usize) -> [u32; 3] {
-        mesh.triangles[triangle].map(|vertex| self.of_vertex[vertex as usize])
+        Self { of_triangle, starts, triangles }
     }
 
     /// The triangles at one end of an edge, where there are fewer.

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use crate::TriangleMesh;
+use crate::{TriangleMesh, hash};
 
 /// From where the triangles of a shell can be seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,17 +79,31 @@ fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
     (shells, open)
 }
 
-/// Gives vertices at the same position the same number.
+/// Gives vertices at the same position the same number, counted from 0 in the order in which positions begin.
 pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
-    let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(positions.len());
-    positions
-        .iter()
-        .map(|position| {
-            let next = numbers.len() as u32;
-            // Adding zero turns −0 into +0.
-            *numbers.entry(position.to_array().map(|value| (value + 0.0).to_bits())).or_insert(next)
-        })
-        .collect()
+    // A table of first vertices, at most half full; a place that is taken sends on to the next.
+    const FREE: u32 = u32::MAX;
+    let mask = (2 * positions.len()).next_power_of_two() - 1;
+    let mut first_at = vec![FREE; mask + 1];
+    let mut numbers: Vec<u32> = Vec::with_capacity(positions.len());
+    let mut count = 0;
+    // Adding zero turns −0 into +0.
+    let key = |vertex: usize| positions[vertex].to_array().map(|value| (value + 0.0).to_bits());
+    for vertex in 0..positions.len() {
+        let own = key(vertex);
+        let mut slot = hash::combine(hash::combine(own[0], own[1]), own[2]) as usize & mask;
+        while first_at[slot] != FREE && key(first_at[slot] as usize) != own {
+            slot = (slot + 1) & mask;
+        }
+        if first_at[slot] == FREE {
+            first_at[slot] = vertex as u32;
+            numbers.push(count);
+            count += 1;
+        } else {
+            numbers.push(numbers[first_at[slot] as usize]);
+        }
+    }
+    numbers
 }
 
 /// Disjoint sets of triangles.

@@ -11,7 +11,7 @@ use crate::picking::{Hit, View, world_units_per_model_unit};
 
 mod curve;
 mod mirror;
-mod simplify;
+pub(crate) mod simplify;
 #[cfg(test)]
 mod tests;
 mod view;
@@ -191,6 +191,17 @@ impl SurfacePath {
     /// The pieces as guides, each as few points as keep it within half a pixel. `seen` is the view that it was drawn in,
     /// `reference` the one that the region's directions refer to.
     pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
+        self.guides_turned(style, [seen, reference], &|_, _| 0.0)
+    }
+
+    /// The same, with strokes turned from the gesture's line: `turn_deg` is asked at each point, with the angle at which the
+    /// line shows there (radians, counter-clockwise).
+    pub fn guides_turned(
+        &self,
+        style: &GuideStyle,
+        [seen, reference]: [&ObjectView; 2],
+        turn_deg: &dyn Fn(&PathPoint, f64) -> f64,
+    ) -> Vec<Guide> {
         let mut guides = Vec::new();
         for piece in &self.pieces {
             let kept = simplify::within(piece, TOLERANCE_PX / self.px_per_unit);
@@ -198,7 +209,12 @@ impl SurfacePath {
             if kept.len() < 2 || length_px < 2.0 * STEP_PX {
                 continue;
             }
-            let mut points: Vec<GuidePoint> = kept.iter().map(PathPoint::to_guide).collect();
+            let mut points: Vec<GuidePoint> = (0..kept.len())
+                .map(|index| GuidePoint {
+                    turn_deg: turn_deg(&kept[index], line_rad(&kept, index)),
+                    ..kept[index].to_guide()
+                })
+                .collect();
             if style.sense == PathSense::Against {
                 points.reverse();
             }
@@ -276,6 +292,15 @@ impl SurfacePath {
     }
 }
 
+/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through its neighbours.
+fn line_rad(points: &[PathPoint], index: usize) -> f64 {
+    let piece = |from: usize| points[from + 1].at_px - points[from].at_px;
+    let last = points.len() - 2;
+    let (before, after) = (piece(index.saturating_sub(1).min(last)), piece(index.min(last)));
+    let along = before.normalize_or_zero() * after.length() + after.normalize_or_zero() * before.length();
+    (along * DVec2::new(1.0, -1.0)).to_angle()
+}
+
 impl PathPoint {
     fn new(at_px: DVec2, hit: &Hit) -> Self {
         Self { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
@@ -289,7 +314,7 @@ impl PathPoint {
         }
     }
 
-    fn to_guide(&self) -> GuidePoint {
+    pub(crate) fn to_guide(&self) -> GuidePoint {
         GuidePoint { at: self.position.to_array(), normal: self.normal.to_array(), turn_deg: 0.0 }
     }
 }

@@ -81,17 +81,8 @@ impl Picker {
             let direction = model_from_world.transform_vector3(ray.direction);
             let farthest = nearest.map_or(f64::INFINITY, |hit| hit.distance);
             if let Some((point, distance, front)) = tree.first_hit(origin, direction, farthest) {
-                nearest = Some(Hit {
-                    object,
-                    triangle: point.triangle,
-                    barycentric: point.barycentric,
-                    position_in_model: point.position,
-                    normal_in_model: point.normal,
-                    face_normal_in_model: point.face_normal,
-                    position_in_world: pose.transform_point3(point.position),
-                    distance,
-                    front,
-                });
+                let at = pose.transform_point3(point.position);
+                nearest = Some(Hit::new(object, &point, (at, distance), front));
             }
         }
         nearest
@@ -112,6 +103,28 @@ impl Picker {
     /// Least and greatest corner of the box round an object, in its own space; `None` without triangles.
     pub fn bounds_in_model(&self, object: usize) -> Option<[DVec3; 2]> {
         self.trees.get(object)?.bounds()
+    }
+
+    /// The surface of an object.
+    pub fn surface(&self, object: usize) -> Option<&BodySurface> {
+        self.trees.get(object).map(|tree| tree.surface())
+    }
+
+    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, in its own space.
+    pub fn bounds_where(&self, object: usize, within: impl Fn(&Hit) -> bool) -> Option<[DVec3; 2]> {
+        let tree = self.trees.get(object)?;
+        let mut bounds: Option<[DVec3; 2]> = None;
+        for triangle in 0..tree.surface().mesh.triangles.len() as u32 {
+            let middle = tree.middle(triangle);
+            let hit = Hit::new(object, &middle, (middle.position, 0.0), true);
+            if within(&hit) {
+                for corner in tree.corners(triangle) {
+                    let [low, high] = bounds.unwrap_or([corner, corner]);
+                    bounds = Some([low.min(corner), high.max(corner)]);
+                }
+            }
+        }
+        bounds
     }
 
     /// Least and greatest corner of the box round some objects as they stand, in world space; `None` without triangles.
@@ -141,6 +154,20 @@ pub fn world_units_per_model_unit(world_from_model: DAffine3) -> f64 {
 }
 
 impl Hit {
+    fn new(object: usize, point: &SurfacePoint, (at, distance): (DVec3, f64), front: bool) -> Self {
+        Self {
+            object,
+            triangle: point.triangle,
+            barycentric: point.barycentric,
+            position_in_model: point.position,
+            normal_in_model: point.normal,
+            face_normal_in_model: point.face_normal,
+            position_in_world: at,
+            distance,
+            front,
+        }
+    }
+
     /// How many pixels a unit of the object's own space takes at this hit, across the gaze.
     pub fn px_per_model_unit(&self, view: &View, poses: &[DAffine3]) -> f64 {
         let scale = poses.get(self.object).map_or(1.0, |&pose| world_units_per_model_unit(pose));

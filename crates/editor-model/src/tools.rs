@@ -172,7 +172,8 @@ impl<'a> Surroundings<'a> {
     pub(crate) fn paintable(&self, hit: Option<&Hit>) -> Result<Paintable, Refusal> {
         let hit = hit.ok_or_else(|| Refusal::new(NOTHING_HERE))?;
         let object = self.object(hit.object).ok_or_else(|| Refusal::new(NOTHING_HERE))?;
-        let region = self.painted.region_at(hit).and_then(|index| Some((index, self.scene().regions.get(index)?)));
+        let region =
+            self.painted.region_at(hit).and_then(|index| Some((index, self.scene().regions.get(index)?)));
         let name = region.map_or(&object.name, |(_, region)| &region.name).clone();
         if object.locked {
             return Err(Refusal::new(format!("{} is locked", object.name)));
@@ -192,12 +193,8 @@ impl<'a> Surroundings<'a> {
 
     /// The view, and the reference of a region, as an object sees them.
     pub(crate) fn views(&self, object: usize, region: Option<usize>) -> [ObjectView; 2] {
-        let [camera, reference] = [(&self.view.camera, self.pose(object)), {
-            let (camera, pose) = self.reference(object, region);
-            (&camera.clone(), pose)
-        }]
-        .map(|(camera, pose)| ObjectView::new(camera, pose));
-        [camera, reference]
+        let (camera, pose) = self.reference(object, region);
+        [ObjectView::new(&self.view.camera, self.pose(object)), ObjectView::new(&camera, pose)]
     }
 
     /// The camera of a region's reference, and an object's pose there.

@@ -163,6 +163,6 @@ mod tests {
                 assert!(found, "{name} is not in the icon font");
             }
         });
-        output.textures_delta.drop_without_applying_deltas();
+        output.drop_without_applying_deltas();
     }
 }

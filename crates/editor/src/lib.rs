@@ -1,8 +1,69 @@
 //! The editor's window: egui panels and the viewport over `editor-model`.
 
+use std::path::PathBuf;
+
+pub mod files;
 pub mod icons;
 pub mod panels;
 pub mod theme;
+pub mod viewport;
 pub mod widgets;
 pub mod window;
 pub mod worker;
+
+use files::dialogs::Source;
+use files::incoming;
+use files::preferences::DriverChoice;
+
+/// What `impasto edit` was told.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EditOptions {
+    /// The scene or mesh to open; none for an empty window.
+    pub path: Option<PathBuf>,
+    /// What draws the paintings; none for what the preferences say.
+    pub driver: Option<DriverChoice>,
+    /// Whose file dialogs.
+    pub dialogs: Source,
+}
+
+/// Why there is nothing to edit in.
+#[derive(Debug, thiserror::Error)]
+pub enum EditError {
+    /// The file cannot be edited, with the words that say why.
+    #[error("{0}")]
+    Refused(String),
+    /// There is no window.
+    #[error(transparent)]
+    Window(#[from] window::WindowError),
+}
+
+/// Opens the editor and stays until it is closed. Must be called on the main thread, once.
+///
+/// # Errors
+/// [`EditError`]: a file that is no scene and no mesh, no display, no OpenGL.
+pub fn run(options: &EditOptions) -> Result<(), EditError> {
+    use incoming::Kind;
+    if let Some(path) = &options.path {
+        match incoming::taken(path).map_err(EditError::Refused)? {
+            Kind::Scene | Kind::Mesh => (),
+            Kind::Picture => {
+                let words = format!("{} is a picture: open a scene or a mesh first", path.display());
+                return Err(EditError::Refused(words));
+            }
+        }
+    }
+    Ok(window::run(window::Options::default(), |_| Blank)?)
+}
+
+/// A window with nothing in it.
+struct Blank;
+
+impl window::App for Blank {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut window::Frame<'_>) {
+        ui.centered_and_justified(|ui| ui.label("Drop an OBJ or a scene anywhere in the window"));
+    }
+
+    fn title(&self) -> String {
+        "Impasto".to_owned()
+    }
+}

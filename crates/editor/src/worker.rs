@@ -9,6 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use egui::ColorImage;
+use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{ContextReport, Driver};
 use impasto_painting::Painting;
 use impasto_scene::loaded::LoadedScene;
@@ -51,18 +52,6 @@ pub struct ViewJob {
     pub shading: Shading,
     /// Whether more of its kind will follow at once (a hand is on it): then a draft is enough.
     pub moving: bool,
-}
-
-/// What a picture shows of the scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shading {
-    /// The painting, as it will be rendered.
-    #[default]
-    Painted,
-    /// The lit surfaces under the strokes.
-    Shaded,
-    /// The painting, coloured by how far each turn can be trusted.
-    Trust,
 }
 
 /// What the thread has to tell.

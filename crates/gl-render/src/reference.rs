@@ -4,8 +4,8 @@ use std::rc::Rc;
 use std::sync::{Arc, Weak};
 
 use glam::{Mat4, Vec3, Vec4};
-use impasto_painting::Frame;
 use impasto_painting::frame::{BodySurface, FrameBody, FrameView};
+use impasto_painting::{Frame, Quality};
 
 use crate::gl::{
     Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource,
@@ -43,6 +43,8 @@ pub(crate) struct ReferencePass {
     surface: Program,
     openness: Program,
     light: Program,
+    /// Made when the first draft is drawn.
+    draft_light: Option<Program>,
     screen: VertexArray,
     shadow_depth: Rc<Texture>,
     shadow_pass: Framebuffer,
@@ -238,28 +240,8 @@ impl ReferencePass {
                 "reference/openness.frag",
                 &["size_px", "px_per_unit_at_1", "orthographic", "normal", "depth_and_id", "view_from_world"],
             )?,
-            light: program(
-                "shared/screen.vert",
-                "reference/light.frag",
-                &[
-                    "world_from_view",
-                    "size_px",
-                    "px_per_unit_at_1",
-                    "orthographic",
-                    "lights",
-                    "light_count",
-                    "shadowed_light",
-                    "shadow_depth",
-                    "shadow_from_world",
-                    "shadow_texel",
-                    "ambient_above",
-                    "ambient_below",
-                    "albedo_and_lit",
-                    "normal",
-                    "depth_and_id",
-                    "openness",
-                ],
-            )?,
+            light: Program::new(gpu, &[SHARED, REFERENCE], &LIGHT)?,
+            draft_light: None,
             screen: VertexArray::empty(gpu)?,
             shadow_pass: Framebuffer::new(gpu, &[], Some(&shadow_depth))?,
             shadow_depth,
@@ -293,8 +275,16 @@ impl ReferencePass {
         watch.passed("openness")?;
 
         self.gpu.begin_pass(&targets.light_pass, DrawState::default());
+        if frame.quality == Quality::Draft && self.draft_light.is_none() {
+            let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
+            self.draft_light = Some(Program::new(&self.gpu, &[SHARED, REFERENCE], &source)?);
+        }
+        let light = match (frame.quality, &self.draft_light) {
+            (Quality::Draft, Some(light)) => light,
+            _ => &self.light,
+        };
         let bound = lights
-            .set(lens.set(self.light.bind(), &LENS_UNIFORMS))
+            .set(lens.set(light.bind(), &LENS_UNIFORMS))
             .texture("albedo_and_lit", &targets.albedo)
             .texture("normal", &targets.normal)
             .texture("depth_and_id", &targets.depth_and_id)
@@ -428,3 +418,28 @@ fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
     // Depth grows away from the light.
     Mat4::from_cols(row(right), row(above), row(-to_light), Vec4::W).transpose()
 }
+
+const LIGHT: ProgramSource = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("reference/light.frag"),
+    captured: &[],
+    uniforms: &[
+        "world_from_view",
+        "size_px",
+        "px_per_unit_at_1",
+        "orthographic",
+        "lights",
+        "light_count",
+        "shadowed_light",
+        "shadow_depth",
+        "shadow_from_world",
+        "shadow_texel",
+        "ambient_above",
+        "ambient_below",
+        "albedo_and_lit",
+        "normal",
+        "depth_and_id",
+        "openness",
+    ],
+    defined: &[],
+};

@@ -10,6 +10,7 @@ use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
@@ -107,6 +108,7 @@ pub(crate) struct Look<'a> {
     near_far: [f32; 2],
     pub(crate) rotation: Rotation,
     pub(crate) colors: StrokeColors,
+    quality: Quality,
     /// Differs from frame to frame.
     moment: u32,
 }
@@ -211,6 +213,7 @@ impl<'a> Look<'a> {
             near_far: view.frame_view().near_far,
             rotation: options.rotation,
             colors: options.colors,
+            quality: options.quality,
             moment: hash::scramble((frame * 1000.0).round() as i64 as u32),
         }
     }
@@ -226,7 +229,7 @@ impl Look<'_> {
             .order
             .par_iter()
             .with_min_len(4096)
-            .filter(|entry| self.is_in_picture(**entry))
+            .filter(|entry| !self.is_left_out(**entry) && self.is_in_picture(**entry))
             .filter_map(|&entry| self.stroke(entry).map(|(stroke, source)| (entry, stroke, source)))
             .collect();
         let mut layers = Vec::new();
@@ -256,9 +259,15 @@ impl Look<'_> {
     }
 
     /// The region's layer and the layer of paint.
-    fn layer(&self, entry: OrderEntry) -> (i32, impasto_scene::presets::LayerKind) {
+    fn layer(&self, entry: OrderEntry) -> (i32, LayerKind) {
         let rule = &self.painting.rules[self.region(entry) as usize];
         (rule.strokes.layer, self.seen[entry.coat as usize].coat.kind)
+    }
+
+    /// A draft has no underpainting: its ground stands in.
+    fn is_left_out(&self, entry: OrderEntry) -> bool {
+        let kind = self.seen[entry.coat as usize].coat.kind;
+        self.quality == Quality::Draft && kind == LayerKind::Underpainting
     }
 
     /// Whether a depth is between the nearest and the farthest that show.

@@ -3,7 +3,7 @@
 //! Nothing here opens a file. A finding names its field by a path such as `objects[2].keys[1].frame`, which
 //! [`crate::locate::Located::place_of`] turns into a line and a column.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 use crate::document::Scene;
@@ -50,10 +50,28 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
 /// that are there, guides on the surface, morphs of equal topology. A mesh that is not listed is passed over: whoever failed
 /// to read it has said so.
 pub fn check_with_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Vec<Finding> {
+    check_anew(scene, meshes, &Known::default())
+}
+
+/// As [`check_with_meshes`], passing over what is known to be well.
+pub(crate) fn check_anew(
+    scene: &Scene,
+    meshes: &BTreeMap<String, Arc<MeshFile>>,
+    known: &Known,
+) -> Vec<Finding> {
     let mut findings = Findings::default();
     mesh_names::check(scene, meshes, &mut findings);
-    on_meshes::check(scene, meshes, &mut findings);
+    on_meshes::check(scene, meshes, known, &mut findings);
     findings.done()
+}
+
+/// What was checked before, was well, and has not changed since.
+#[derive(Debug, Default)]
+pub(crate) struct Known {
+    /// Objects, whose morphs go with their meshes.
+    pub(crate) objects: HashSet<usize>,
+    /// Guides that lie on their surface: region, guide.
+    pub(crate) guides: HashSet<(usize, usize)>,
 }
 
 /// Collects findings up to the limit, and counts the rest.
@@ -158,7 +176,7 @@ impl Findings {
 
     /// Names that must differ. `list_path` is the list whose items have a `name`.
     fn unique<'a>(&mut self, list_path: &str, names: impl Iterator<Item = &'a str>) {
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = HashSet::new();
         for (index, name) in names.enumerate() {
             let field_path = format!("{list_path}[{index}].name");
             self.name(&field_path, name);

@@ -8,7 +8,7 @@ use super::PathPoint;
 const END_STEPS: usize = 3;
 
 /// Those points of a path that keep it within `tolerance` (model units); both ends stay.
-pub(super) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
+pub(crate) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
     let Some(last) = path.len().checked_sub(1) else { return Vec::new() };
     let mut keep = vec![false; path.len()];
     let mut ends = vec![0, last];

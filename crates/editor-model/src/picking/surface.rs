@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use glam::{DVec3, Vec3, Vec3A};
 use impasto_core::TriangleMesh;
+use impasto_core::nearest::nearest_point;
 use impasto_core::shells::{self, Side};
 use impasto_painting::frame::BodySurface;
 use obvhs::aabb::Aabb;
@@ -88,11 +89,21 @@ impl SurfaceTree {
         self.bounds
     }
 
+    pub(super) fn surface(&self) -> &BodySurface {
+        &self.surface
+    }
+
+    /// The middle of a triangle, of a sheet on its front.
+    pub(super) fn middle(&self, triangle: u32) -> SurfacePoint {
+        self.point(triangle, [1.0 / 3.0; 3], |_| true).0
+    }
+
     fn mesh(&self) -> &TriangleMesh {
         &self.surface.mesh
     }
 
-    fn corners(&self, triangle: u32) -> [DVec3; 3] {
+    /// Corners of a triangle, in the object's own space.
+    pub(super) fn corners(&self, triangle: u32) -> [DVec3; 3] {
         self.mesh().triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
     }
 
@@ -230,33 +241,11 @@ fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, 
     (inside && distance >= 0.0 && distance.is_finite()).then_some((distance, [1.0 - v - w, v, w]))
 }
 
-/// Weights of the point of a triangle that is nearest to `to` (Ericson, Real-Time Collision Detection, 5.1.5).
+/// Weights of the point of a triangle that is nearest to `to`; of one without area, of its first corner.
 fn closest_weights([a, b, c]: [DVec3; 3], to: DVec3) -> [f64; 3] {
-    let (ab, ac) = (b - a, c - a);
-    let of = |corner: DVec3| (ab.dot(to - corner), ac.dot(to - corner));
-    let ((d1, d2), (d3, d4), (d5, d6)) = (of(a), of(b), of(c));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return [1.0, 0.0, 0.0];
-    }
-    if d3 >= 0.0 && d4 <= d3 {
-        return [0.0, 1.0, 0.0];
-    }
-    if d6 >= 0.0 && d5 <= d6 {
-        return [0.0, 0.0, 1.0];
-    }
-    let (va, vb, vc) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let t = d1 / (d1 - d3);
-        return [1.0 - t, t, 0.0];
-    }
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let t = d2 / (d2 - d6);
-        return [1.0 - t, 0.0, t];
-    }
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return [0.0, 1.0 - t, t];
-    }
-    let sum = va + vb + vc;
-    [va / sum, vb / sum, vc / sum]
+    let near = nearest_point(to, [a, b, c]);
+    let normal = (b - a).cross(c - a);
+    let share = |from: DVec3, to: DVec3| (to - from).cross(near - from).dot(normal) / normal.length_squared();
+    let (v, w) = (share(c, a), share(a, b));
+    if v.is_finite() && w.is_finite() { [1.0 - v - w, v, w] } else { [1.0, 0.0, 0.0] }
 }

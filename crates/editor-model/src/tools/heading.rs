@@ -52,8 +52,12 @@ impl Heading {
 
     /// Whether it moved at least 12 px in the last 150 ms.
     pub(super) fn is_moving(&self, at_secs: f64) -> bool {
-        let recent: Vec<DVec2> =
-            self.trail.iter().take_while(|(_, then)| at_secs - then <= RECENT_SECS).map(|(at, _)| *at).collect();
+        let recent: Vec<DVec2> = self
+            .trail
+            .iter()
+            .take_while(|(_, then)| at_secs - then <= RECENT_SECS)
+            .map(|(at, _)| *at)
+            .collect();
         recent.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() >= BACK_PX
     }
 

@@ -18,10 +18,19 @@ pub mod welcome;
 
 use std::path::{Path, PathBuf};
 
+pub mod brush_thumbnails;
+mod column_state;
+mod inspector;
+mod tree;
+
 use impasto_editor_model::command::Command;
 use impasto_editor_model::keymap::{Action, Keymap, Preset};
 use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
+
+pub use column_state::rename;
+pub use inspector::inspector;
+pub use tree::tree;
 
 /// What the panels show.
 #[derive(Clone, Copy)]
@@ -110,6 +119,8 @@ pub enum Ask {
     EndPreview,
     /// Select this.
     Select(Selection),
+    /// Ask for a mesh file and give it to this object.
+    ChooseMesh(String),
     /// Do what a key would do.
     Act(Action),
     /// Mode, tools, overlays and frame as they are in this session.

@@ -42,7 +42,8 @@ pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> boo
             *ends.entry(to).or_default() -= 1;
         }
     }
-    let mut starts: Vec<(usize, usize)> = ends.into_iter().filter(|&(_, excess)| excess > 0).map(|(at, _)| at).collect();
+    let mut starts: Vec<(usize, usize)> =
+        ends.into_iter().filter(|&(_, excess)| excess > 0).map(|(at, _)| at).collect();
     starts.sort_unstable();
     let mut others: Vec<(usize, usize)> = next.keys().copied().collect();
     others.sort_unstable();
@@ -107,7 +108,8 @@ mod tests {
     #[test]
     fn a_disc_has_one_closed_line_at_its_radius() {
         let centre = DVec2::splat(40.0);
-        let inside = |x: usize, y: usize| (DVec2::new(x as f64 + 0.5, y as f64 + 0.5) - centre).length() < 25.0;
+        let inside =
+            |x: usize, y: usize| (DVec2::new(x as f64 + 0.5, y as f64 + 0.5) - centre).length() < 25.0;
         let lines = contours([80, 80], inside);
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].first(), lines[0].last());

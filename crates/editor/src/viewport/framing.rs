@@ -23,7 +23,11 @@ impl Framing {
         let size = viewport.size().max(vec2(1.0, 1.0));
         let viewport = Rect::from_min_size(viewport.min, size);
         let aspect = scene_size.0.max(1) as f32 / scene_size.1.max(1) as f32;
-        let shot_size = if size.x / size.y > aspect { vec2(size.y * aspect, size.y) } else { vec2(size.x, size.x / aspect) };
+        let shot_size = if size.x / size.y > aspect {
+            vec2(size.y * aspect, size.y)
+        } else {
+            vec2(size.x, size.x / aspect)
+        };
         Self { viewport, shot: Rect::from_center_size(viewport.center(), shot_size), pixels_per_point }
     }
 
@@ -45,7 +49,9 @@ impl Framing {
                 let slope = (0.5 * fov_y_deg.to_radians()).tan() * more;
                 Lens::Perspective { fov_y_deg: 2.0 * slope.atan().to_degrees(), near, far }
             }
-            Lens::Orthographic { height, near, far } => Lens::Orthographic { height: height * more, near, far },
+            Lens::Orthographic { height, near, far } => {
+                Lens::Orthographic { height: height * more, near, far }
+            }
         };
         CameraPose { lens, ..camera.clone() }
     }

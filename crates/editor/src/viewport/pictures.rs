@@ -1,6 +1,6 @@
 //! The worker's pictures as textures.
 
-use egui::{ColorImage, Context, ImageData, TextureHandle, TextureId, TextureOptions};
+use egui::{Context, ImageData, TextureHandle, TextureId, TextureOptions};
 
 use crate::worker::{Picture, ViewJob};
 
@@ -12,7 +12,6 @@ pub struct Pictures {
 
 struct Shown {
     texture: TextureHandle,
-    size: [usize; 2],
     view: ViewJob,
     exact: bool,
 }
@@ -20,23 +19,21 @@ struct Shown {
 impl Pictures {
     /// Takes a picture in; only the texture of its own view changes.
     pub fn take(&mut self, ctx: &Context, picture: Picture) {
-        if self.shown.len() <= picture.index {
-            self.shown.resize_with(picture.index + 1, || None);
-        }
         let Picture { index, view, image, exact, .. } = picture;
-        let size = image.size;
-        let slot = &mut self.shown[index];
-        let options = TextureOptions::LINEAR;
-        match slot {
-            Some(shown) if shown.size == size => shown.texture.set(ImageData::Color(image), options),
-            _ => {}
+        if self.shown.len() <= index {
+            self.shown.resize_with(index + 1, || None);
         }
-        let texture = match slot.take() {
-            Some(shown) if shown.size == size => shown.texture,
-            // A texture of another size is another texture: the old one is shown to the end of this pass.
-            _ => ctx.load_texture(format!("view {index}"), ImageData::Color(image), options),
-        };
-        *slot = Some(Shown { texture, size, view, exact });
+        let options = TextureOptions::LINEAR;
+        match &mut self.shown[index] {
+            Some(shown) => {
+                shown.texture.set(ImageData::Color(image), options);
+                (shown.view, shown.exact) = (view, exact);
+            }
+            empty => {
+                let texture = ctx.load_texture(format!("view {index}"), ImageData::Color(image), options);
+                *empty = Some(Shown { texture, view, exact });
+            }
+        }
     }
 
     /// The texture of a view with what it shows, and whether it is exact.
@@ -49,9 +46,4 @@ impl Pictures {
     pub fn clear(&mut self) {
         self.shown.clear();
     }
-}
-
-/// An empty picture, for tests of what surrounds it.
-pub fn plain_image(size: [usize; 2], colour: egui::Color32) -> ColorImage {
-    ColorImage::filled(size, colour)
 }

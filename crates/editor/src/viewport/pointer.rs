@@ -48,7 +48,12 @@ pub(super) struct Held {
 
 impl Held {
     /// The events of this pass. `over` says whether a place of the window is on the picture and not on what floats over it.
-    pub(super) fn events(&mut self, ui: &Ui, framing: &Framing, over: impl Fn(egui::Pos2) -> bool) -> Vec<PointerEvent> {
+    pub(super) fn events(
+        &mut self,
+        ui: &Ui,
+        framing: &Framing,
+        over: impl Fn(egui::Pos2) -> bool,
+    ) -> Vec<PointerEvent> {
         let (raw, at_secs, double) = ui.input(|input| {
             let double = input.pointer.button_double_clicked(PointerButton::Primary);
             (input.raw.events.clone(), input.time, double)
@@ -100,7 +105,9 @@ impl Held {
                         };
                     push(PointerKind::Wheel(steps), self.last_px, plain(modifiers));
                 }
-                Event::Zoom(factor) if self.inside => push(PointerKind::Pinch(f64::from(factor)), self.last_px, held),
+                Event::Zoom(factor) if self.inside => {
+                    push(PointerKind::Pinch(f64::from(factor)), self.last_px, held)
+                }
                 Event::WindowFocused(false) => {
                     for button in std::mem::take(&mut self.buttons) {
                         push(PointerKind::Released(button), self.last_px, held);
@@ -110,7 +117,12 @@ impl Held {
             }
         }
         if double && self.inside {
-            events.push(PointerEvent { kind: PointerKind::DoublePressed, at_px: self.last_px, held, at_secs });
+            events.push(PointerEvent {
+                kind: PointerKind::DoublePressed,
+                at_px: self.last_px,
+                held,
+                at_secs,
+            });
         }
         events
     }

@@ -58,7 +58,8 @@ struct Corner {
 impl SurfaceMap {
     /// Looks at all bodies; index in `bodies` is index in the scene. `cells_per_point` is 1 or less.
     pub fn new(bodies: &[StandingBody], view: &View, cells_per_point: f64) -> Self {
-        let size = [view.size_px.x, view.size_px.y].map(|side| ((side * cells_per_point).ceil() as usize).clamp(1, 4096));
+        let size = [view.size_px.x, view.size_px.y]
+            .map(|side| ((side * cells_per_point).ceil() as usize).clamp(1, 4096));
         let cells = size[0] * size[1];
         let mut map =
             Self { size, cells_per_point, depth: vec![f32::INFINITY; cells], faces: vec![NOTHING; cells] };

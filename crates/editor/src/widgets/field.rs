@@ -16,6 +16,7 @@ pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
     range: RangeInclusive<f64>,
+    limits: RangeInclusive<f64>,
     label: bool,
     letter: &'a str,
     unit: &'a str,
@@ -38,6 +39,10 @@ pub struct FieldResponse {
     pub began: bool,
     /// It ended in this pass.
     pub ended: bool,
+    /// It was one step of the wheel, of an arrow key or of a screen reader.
+    pub stepped: bool,
+    /// It was the reset icon.
+    pub reset: bool,
 }
 
 /// What a field remembers between passes.
@@ -57,6 +62,7 @@ impl<'a> NumberField<'a> {
         Self {
             name,
             value,
+            limits: range.clone(),
             range,
             label: true,
             letter: "",
@@ -73,6 +79,11 @@ impl<'a> NumberField<'a> {
     /// No label: the name is only spoken.
     pub fn unlabelled(self, width: f32) -> Self {
         Self { label: false, width: Some(width), ..self }
+    }
+
+    /// How far typing, the wheel and the arrows may go, where that is further than a drag.
+    pub fn limits(self, limits: RangeInclusive<f64>) -> Self {
+        Self { limits, ..self }
     }
 
     /// A letter in the box before the number: X, Y, Z.
@@ -114,7 +125,7 @@ impl<'a> NumberField<'a> {
         ui.skip_ahead_auto_ids(1);
         let id = response.id;
         let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
-        let (mut began, mut ended) = (false, false);
+        let (mut began, mut ended, mut was_step) = (false, false, false);
 
         let mut editor = None;
         if memory.typed.is_some() {
@@ -127,8 +138,9 @@ impl<'a> NumberField<'a> {
                 self.set(before + stepped * self.step);
             }
             let spoken = self.set_by_reader(ui, &response);
-            began |= stepped != 0.0 || spoken;
-            ended |= stepped != 0.0 || spoken;
+            was_step = stepped != 0.0 || spoken;
+            began |= was_step;
+            ended |= was_step;
             let (drag_began, drag_ended) = self.drag(ui, &response, &mut memory);
             began |= drag_began;
             ended |= drag_ended;
@@ -138,16 +150,16 @@ impl<'a> NumberField<'a> {
                 memory.dragged = None;
             }
         }
-        if self.reset(ui, row) {
-            (began, ended) = (true, true);
-        }
+        let reset = self.reset(ui, row);
+        began |= reset;
+        ended |= reset;
         if editor.is_none() {
             self.draw(ui, &response, frame);
         }
         ui.data_mut(|data| data.insert_temp(id, memory));
         let changed = *self.value != before;
         let response = self.describe(response.on_hover_cursor(CursorIcon::ResizeHorizontal), changed);
-        FieldResponse { response, changed, began, ended }
+        FieldResponse { response, changed, began, ended, stepped: was_step, reset }
     }
 
     /// The row, and the box in it.
@@ -287,7 +299,8 @@ impl<'a> NumberField<'a> {
             let per_point =
                 if span.is_finite() { span / f64::from(response.rect.width()) } else { self.step };
             *raw += f64::from(response.drag_delta().x) * per_point * fine;
-            *raw = raw.clamp(*self.range.start(), *self.range.end());
+            // What was typed beyond the range stays until the drag brings it back.
+            *raw = raw.clamp(self.range.start().min(*from), self.range.end().max(*from));
             let (from, raw) = (*from, *raw);
             self.set(raw);
             if ui.input(|input| input.key_pressed(Key::Escape)) {
@@ -398,7 +411,7 @@ impl<'a> NumberField<'a> {
     fn set(&mut self, value: f64) {
         let shift = 10_f64.powi(self.decimals as i32);
         let value = (value * shift).round() / shift;
-        *self.value = value.clamp(*self.range.start(), *self.range.end());
+        *self.value = value.clamp(*self.limits.start(), *self.limits.end());
     }
 
     fn shown(&self) -> String {

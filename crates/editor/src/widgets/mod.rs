@@ -37,7 +37,7 @@ pub use menu_row::MenuRow;
 pub use mode_switch::mode_switch;
 pub use rail_button::rail_button;
 pub use section::section;
-pub use segmented::{segmented, segmented_named, segmented_width};
+pub use segmented::{segmented, segmented_named, segmented_of, segmented_width};
 pub use tip::Tip;
 pub use toast::{Toast, toasts};
 pub use toggle_group::{TOGGLE_GROUP, toggle_group};

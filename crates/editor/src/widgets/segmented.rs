@@ -22,6 +22,13 @@ fn part_width(ui: &Ui, words: &str) -> f32 {
     draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING
 }
 
+/// As [`segmented`], where the words alone do not say of what: each is found by `of` and its words, *Ease smooth*.
+pub fn segmented_of(ui: &mut Ui, of: &str, choices: &[&str], chosen: &mut usize) -> Response {
+    let names: Vec<String> = choices.iter().map(|words| format!("{of} {}", words.to_lowercase())).collect();
+    let named: Vec<_> = choices.iter().copied().zip(names.iter().map(String::as_str)).collect();
+    segmented_named(ui, &named, chosen)
+}
+
 /// As [`segmented`], each choice with its words and the name that it is found by.
 pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);

@@ -44,6 +44,19 @@ mod tests {
         }
     }
 
+    #[derive(Debug)]
+    struct Apple;
+
+    impl egui::DroppedFile for Apple {
+        fn path(&self) -> &std::path::Path {
+            std::path::Path::new("apple.obj")
+        }
+
+        fn bytes(&self) -> Result<Vec<u8>, String> {
+            Err("never read".to_owned())
+        }
+    }
+
     #[test]
     fn a_drag_within_one_frame_becomes_two_passes() {
         let moved = |x| Event::PointerMoved(pos2(x, 1.0));
@@ -59,7 +72,7 @@ mod tests {
     #[test]
     fn a_dropped_file_arrives_once() {
         let events = vec![button(true), button(false)];
-        let dropped_files = vec![egui::DroppedFile::default()];
+        let dropped_files = vec![std::sync::Arc::new(Apple) as _];
         let passes = one_button_event_each(RawInput { events, dropped_files, ..RawInput::default() });
         assert_eq!(passes.iter().map(|pass| pass.dropped_files.len()).collect::<Vec<_>>(), [0, 1]);
     }

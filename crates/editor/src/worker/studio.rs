@@ -6,14 +6,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::ColorImage;
+use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
-use impasto_painting::{Frame, FrameOptions, Painting, Preparer, StrokeColors};
+use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, StrokeColors};
 
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
-use super::{Picture, Report, Shading, ViewJob};
+use super::{Picture, Report, ViewJob};
 
 /// A job that is this old, without a later one, is drawn exactly.
 const REST: Duration = Duration::from_millis(100);
@@ -103,23 +104,31 @@ impl Studio {
         let Some(painting) = self.prepare(order, tell) else { return };
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
-        let wanted: Vec<usize> = (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
+        let wanted: Vec<usize> =
+            (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
         let drafts: Vec<usize> = drafts.collect();
         if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
             let began = Instant::now();
             for &index in &drafts {
                 let size_px = self.draft_size.of(views[index].size_px);
-                if !self.draw(&painting, order, index, &Manner { size_px, exact: false, give_up: &|| false }, tell) {
+                if !self.draw(
+                    &painting,
+                    order,
+                    index,
+                    &Manner { size_px, exact: false, give_up: &|| false },
+                    tell,
+                ) {
                     return;
                 }
             }
             self.draft_size.took(began.elapsed().as_secs_f64());
         }
         let quick = DraftSize::is_needless(self.exact_s);
-        let exact = wanted.iter().copied().filter(|&index| {
-            (quick || !views[index].moving) && !self.shows_exactly(order, index)
-        });
+        let exact = wanted
+            .iter()
+            .copied()
+            .filter(|&index| (quick || !views[index].moving) && !self.shows_exactly(order, index));
         let exact: Vec<usize> = exact.collect();
         if exact.is_empty() || (!quick && !desk.rests(order, REST)) {
             return;
@@ -205,6 +214,7 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
     let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
     let options = FrameOptions {
         shot_height_px: Some(view.shot_height_px * share),
+        quality: if manner.exact { Quality::Exact } else { Quality::Draft },
         colors: match view.shading {
             Shading::Trust => StrokeColors::Trust,
             Shading::Painted | Shading::Shaded => StrokeColors::Scene,
@@ -213,7 +223,9 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
     };
     match view.shading {
         // The scene stays as it was prepared: only the style differs.
-        Shading::Shaded => painting.in_style(FrameStyle::Reference).seen_by(&view.camera, view.frame, &options),
+        Shading::Shaded => {
+            painting.in_style(FrameStyle::Reference).seen_by(&view.camera, view.frame, &options)
+        }
         Shading::Painted | Shading::Trust => painting.seen_by(&view.camera, view.frame, &options),
     }
 }
@@ -224,10 +236,10 @@ fn render(
     frame: &Frame,
     manner: &Manner<'_>,
 ) -> Result<Option<ColorImage>, RenderError> {
-    if (manner.give_up)() {
-        return Ok(None);
-    }
-    let picture = renderer.render(frame)?;
-    let size = picture.size_px.map(|side| side as usize);
-    Ok(Some(ColorImage::from_rgba_unmultiplied(size, &picture.rgba8)))
+    let picture = renderer.render_unless(frame, &mut || (manner.give_up)())?;
+    let image = |picture: impasto_gl_render::Picture| {
+        // Pictures of the window have a ground: they are opaque.
+        ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
+    };
+    Ok(picture.map(image))
 }

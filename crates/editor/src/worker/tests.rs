@@ -51,8 +51,9 @@ fn until(worker: &(Worker, mpsc::Receiver<()>), last: impl Fn(&Report) -> bool) 
     told
 }
 
-fn pictures(told: &[Report]) -> Vec<&Picture> {
-    let picture = |report| if let Report::Picture(picture) = report { Some(picture) } else { None };
+fn pictures<'a>(told: &'a [Report]) -> Vec<&'a Picture> {
+    let picture =
+        |report: &'a Report| if let Report::Picture(picture) = report { Some(picture) } else { None };
     told.iter().filter_map(picture).collect()
 }
 
@@ -115,7 +116,11 @@ fn at_rest_comes_what_a_file_would_get() {
         worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view.clone()] });
         let told = until(&worker, is_exact);
         let prepared = told.iter().filter(|report| matches!(report, Report::Prepared(_, 1))).count();
-        assert_eq!(prepared, usize::from(shading == Shading::Painted), "a change of shading prepares nothing");
+        assert_eq!(
+            prepared,
+            usize::from(shading == Shading::Painted),
+            "a change of shading prepares nothing"
+        );
         let last = *pictures(&told).last().unwrap();
         assert_eq!(last.image.size, [160, 90]);
         assert!(bytes(last) == rendered(&loaded, &view, style), "{shading:?}");
@@ -131,7 +136,10 @@ fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
         let view = ViewJob { moving: true, ..view(&loaded, f64::from(frame)) };
         worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view] });
     }
-    let told = until(&worker, |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame));
+    let told = until(
+        &worker,
+        |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame),
+    );
     // The job that was worked on, if any, and the last one: the others never reached the thread.
     assert!(pictures(&told).len() <= 13);
     let first = *pictures(&told).last().unwrap();
@@ -147,9 +155,13 @@ fn a_picture_that_did_not_change_is_not_drawn_again() {
     let loaded = scene();
     let worker = worker();
     let [left, right] = [0.0, 5.0].map(|frame| view(&loaded, frame));
-    let job = |right: ViewJob| Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![left.clone(), right] };
+    let job =
+        |right: ViewJob| Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![left.clone(), right] };
     worker.0.show(job(right));
-    until(&worker, |report| matches!(report, Report::Picture(picture) if picture.exact && picture.index == 1));
+    until(
+        &worker,
+        |report| matches!(report, Report::Picture(picture) if picture.exact && picture.index == 1),
+    );
     worker.0.show(job(view(&loaded, 6.0)));
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.index == 1));

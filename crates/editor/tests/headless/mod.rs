@@ -15,7 +15,7 @@ pub struct Headless {
 impl Headless {
     pub fn open(driver: Driver) -> Self {
         let context = open(driver, &OpenOptions::default()).expect("an off-screen context");
-        let painter = Painter::new(context.glow(), "", None, true).expect("egui's shaders compile");
+        let painter = Painter::new(context.glow(), "", None, false).expect("egui's shaders compile");
         Self { painter, context }
     }
 }

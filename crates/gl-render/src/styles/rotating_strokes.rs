@@ -11,13 +11,13 @@ use std::rc::Rc;
 
 use glam::{Vec2, Vec4};
 use impasto_core::brush;
-use impasto_painting::Frame;
 use impasto_painting::frame::{LayerRun, Stroke};
+use impasto_painting::{Frame, Quality};
 
 use super::{Style, StyleInput, ground};
 use crate::gl::{
     Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
-    ProgramSource, Records, Texture, VertexArray, Vertices,
+    ProgramSource, Records, ShaderFile, Texture, VertexArray, Vertices,
 };
 use crate::reference::{LENS_UNIFORMS, LensSetup, LightSetup};
 use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
@@ -45,12 +45,12 @@ const PALETTE: usize = 16;
 /// The style.
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
-    resolve: Program,
     detail: Program,
     spread: Program,
-    paint: Program,
     soften: Program,
-    encode: Program,
+    exact: StrokePrograms,
+    /// Made when the first draft is drawn.
+    draft: Option<StrokePrograms>,
     canvas: Texture,
     marks: Option<Marks>,
     strokes: Buffer,
@@ -60,6 +60,28 @@ pub(crate) struct RotatingStrokes {
     stroke_quads: VertexArray,
     screen: VertexArray,
     targets: Option<Targets>,
+}
+
+/// The programs that a draft has of its own.
+struct StrokePrograms {
+    resolve: Program,
+    paint: Program,
+    encode: Program,
+}
+
+impl StrokePrograms {
+    fn new(gpu: &Gpu, quality: Quality) -> Result<Self, GlError> {
+        let [resolve, paint, encode] = match quality {
+            Quality::Exact => [RESOLVE, PAINT, ENCODE],
+            Quality::Draft => [
+                ProgramSource { defined: DRAFT, ..RESOLVE },
+                ProgramSource { defined: DRAFT, uniforms: DRAFT_PAINT_UNIFORMS, ..PAINT },
+                ProgramSource { defined: DRAFT, uniforms: DRAFT_ENCODE_UNIFORMS, ..ENCODE },
+            ],
+        }
+        .map(|source| Program::new(gpu, FILES, &source));
+        Ok(Self { resolve: resolve?, paint: paint?, encode: encode? })
+    }
 }
 
 struct Targets {
@@ -72,6 +94,8 @@ struct Targets {
     below: Rc<Texture>,
     soft_height: Rc<Texture>,
     paint_pass: Framebuffer,
+    /// Paint without height.
+    flat_pass: Framebuffer,
     below_pass: Framebuffer,
     soften_pass: Framebuffer,
 }
@@ -100,6 +124,7 @@ impl Targets {
             detail,
             block_px,
             paint_pass: Framebuffer::new(gpu, &[&paint, &height], None)?,
+            flat_pass: Framebuffer::new(gpu, &[&paint], None)?,
             below_pass: Framebuffer::new(gpu, &[&below], None)?,
             soften_pass: Framebuffer::new(gpu, &[&soft_height], None)?,
             paint,
@@ -110,18 +135,26 @@ impl Targets {
     }
 }
 
+impl Targets {
+    /// What strokes are painted into.
+    fn strokes_pass(&self, quality: Quality) -> &Framebuffer {
+        match quality {
+            Quality::Exact => &self.paint_pass,
+            Quality::Draft => &self.flat_pass,
+        }
+    }
+}
+
 impl RotatingStrokes {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let files = &[SHARED, REFERENCE, ROTATING_STROKES];
         let side = canvas::SIDE;
         Ok(Self {
             gpu: gpu.clone(),
-            resolve: Program::new(gpu, files, &RESOLVE)?,
-            detail: Program::new(gpu, files, &DETAIL)?,
-            spread: Program::new(gpu, files, &SPREAD)?,
-            paint: Program::new(gpu, files, &PAINT)?,
-            soften: Program::new(gpu, files, &SOFTEN)?,
-            encode: Program::new(gpu, files, &ENCODE)?,
+            detail: Program::new(gpu, FILES, &DETAIL)?,
+            spread: Program::new(gpu, FILES, &SPREAD)?,
+            soften: Program::new(gpu, FILES, &SOFTEN)?,
+            exact: StrokePrograms::new(gpu, Quality::Exact)?,
+            draft: None,
             canvas: Texture::with_driver_levels(gpu, Format::Rgba8, [side, side], &canvas::tile())?,
             marks: None,
             strokes: Buffer::new(gpu, BufferUse::Streamed)?,
@@ -132,6 +165,13 @@ impl RotatingStrokes {
             screen: VertexArray::empty(gpu)?,
             targets: None,
         })
+    }
+
+    fn programs(&self, quality: Quality) -> &StrokePrograms {
+        match quality {
+            Quality::Exact => &self.exact,
+            Quality::Draft => self.draft.as_ref().unwrap_or(&self.exact),
+        }
     }
 
     /// Where small strokes are wanted; the result lies in the first of the two targets.
@@ -169,7 +209,7 @@ impl RotatingStrokes {
         for layer in &frame.layers {
             let bound = input
                 .lights
-                .set(lens.set(self.resolve.bind(), &LENS_UNIFORMS))
+                .set(lens.set(self.programs(frame.quality).resolve.bind(), &LENS_UNIFORMS))
                 .texture("reference_color", &input.reference.color)
                 .texture("depth_and_id", &input.reference.depth_and_id)
                 .texture("detail", &targets.detail[0])
@@ -189,7 +229,7 @@ impl RotatingStrokes {
     fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         let strokes = &input.frame.strokes[layer.first as usize..][..layer.count as usize];
-        if strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
+        if input.frame.quality == Quality::Exact && strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
             targets.paint_pass.copy_to(&targets.below_pass);
         }
         let mut first = layer.first;
@@ -219,15 +259,18 @@ impl RotatingStrokes {
             });
         }
         self.stroke_quads.set(&inputs, None);
-        self.gpu.begin_pass(&targets.paint_pass, DrawState { blend: Blend::Over, ..DrawState::default() });
+        let pass = targets.strokes_pass(frame.quality);
+        self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
         let lens = LensSetup::new(&frame.view, frame.size_px);
-        let bound = lens
-            .set(self.paint.bind(), &["size_px", "orthographic"])
+        let mut bound = lens
+            .set(self.programs(frame.quality).paint.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
             .set("mark_rows", brush::SIZE[1] as f32)
-            .texture("below", &targets.below)
             .texture("brush_marks", &marks.texture)
             .texture("depth_and_id", &input.reference.depth_and_id);
+        if frame.quality == Quality::Exact {
+            bound = bound.texture("below", &targets.below);
+        }
         self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })
     }
 
@@ -240,11 +283,13 @@ impl RotatingStrokes {
         let Some(targets) = &self.targets else { return Ok(()) };
         let frame = input.frame;
         let finish = &frame.finish;
-        self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
-        let bound =
-            self.soften.bind().texture("height", &targets.height).set("step_px", frame.px_scale.max(0.5));
-        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        watch.passed("soften")?;
+        if frame.quality == Quality::Exact {
+            self.gpu.begin_pass(&targets.soften_pass, DrawState::default());
+            let bound =
+                self.soften.bind().texture("height", &targets.height).set("step_px", frame.px_scale.max(0.5));
+            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+            watch.passed("soften")?;
+        }
 
         self.gpu.begin_pass(output, DrawState::default());
         let (tone, wash) = match finish.ground {
@@ -258,21 +303,25 @@ impl RotatingStrokes {
         let axes = finish.canvas_from_px.matrix2;
         let origin: Vec2 = finish.canvas_from_px.transform_point2(-half_px * scale) * tiles;
         let axes = Vec4::from((axes.x_axis, axes.y_axis)) * (scale * tiles);
-        let bound = self
+        let mut bound = self
+            .programs(frame.quality)
             .encode
             .bind()
             .texture("picture", &targets.paint)
             .texture("reference_color", &input.reference.color)
-            .texture("height", &targets.height)
-            .texture("soft_height", &targets.soft_height)
-            .texture("canvas", &self.canvas)
             .set("ground", ground(frame))
-            .set("tone", tone)
             .set("wash", wash)
-            .set("to_light", glam::Vec3::from(finish.to_relief_light))
-            .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale))
-            .set("canvas_axes", axes)
-            .set("canvas_origin", origin);
+            .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale));
+        if frame.quality == Quality::Exact {
+            bound = bound
+                .set("tone", tone)
+                .texture("height", &targets.height)
+                .texture("soft_height", &targets.soft_height)
+                .texture("canvas", &self.canvas)
+                .set("to_light", glam::Vec3::from(finish.to_relief_light))
+                .set("canvas_axes", axes)
+                .set("canvas_origin", origin);
+        }
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("encode")
     }
@@ -298,11 +347,15 @@ impl Style for RotatingStrokes {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
-        let block_px = (BLOCK_PX * frame.px_scale).round().clamp(1.0, 8.0) as u32;
+        let coarser = if frame.quality == Quality::Draft { 2.0 } else { 1.0 };
+        let block_px = (BLOCK_PX * coarser * frame.px_scale).round().clamp(1.0, 8.0) as u32;
         let fits =
             |targets: &Targets| targets.paint_pass.size_px() == frame.size_px && targets.block_px == block_px;
         if !self.targets.as_ref().is_some_and(fits) {
             self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
+        }
+        if frame.quality == Quality::Draft && self.draft.is_none() {
+            self.draft = Some(StrokePrograms::new(&self.gpu, Quality::Draft)?);
         }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
         self.find_detail(input, watch)?;
@@ -310,7 +363,7 @@ impl Style for RotatingStrokes {
         watch.passed("resolve")?;
         if let Some(targets) = &self.targets {
             let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
-            self.gpu.begin_pass(&targets.paint_pass, clear);
+            self.gpu.begin_pass(targets.strokes_pass(frame.quality), clear);
         }
         for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
             self.paint(input, layer, watch)?;
@@ -378,6 +431,16 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
         input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
     ]
 }
+
+const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES];
+
+/// What the shaders of a draft find defined.
+const DRAFT: &[&str] = &["DRAFT"];
+
+const DRAFT_PAINT_UNIFORMS: &[&str] =
+    &["size_px", "mark_rows", "brush_marks", "depth_and_id", "units_per_px_at_1", "orthographic"];
+
+const DRAFT_ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "ground", "wash", "finish"];
 
 const RESOLVE: ProgramSource = ProgramSource {
     vertex: "rotating_strokes/resolve.vert",

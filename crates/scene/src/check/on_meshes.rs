@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use impasto_core::nearest::nearest_point;
 
-use super::{Findings, shown};
+use super::{Findings, Known, shown};
 use crate::document::{Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
@@ -14,8 +14,15 @@ use crate::morph;
 /// Distances of guides to triangles that are measured at most; past that, the rest is taken on trust.
 const MOST_DISTANCES: usize = 200_000_000;
 
-pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, findings: &mut Findings) {
-    for (index, object) in scene.objects.iter().enumerate() {
+pub(super) fn check(
+    scene: &Scene,
+    meshes: &BTreeMap<String, Arc<MeshFile>>,
+    known: &Known,
+    findings: &mut Findings,
+) {
+    for (index, object) in
+        scene.objects.iter().enumerate().filter(|(index, _)| !known.objects.contains(index))
+    {
         let Some(target) = object.morph.as_ref().and_then(|path| meshes.get(path)) else { continue };
         let Some(base) = meshes.get(&object.mesh) else { continue };
         if let Err(difference) = morph::target_of(base, target) {
@@ -37,7 +44,8 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
                 check_covers(&format!("regions[{index}].on"), patch, file, findings);
             }
         }
-        for (guide_index, guide) in region.guides.iter().enumerate() {
+        let is_new = |guide: usize| !known.guides.contains(&(index, guide));
+        for (guide_index, guide) in region.guides.iter().enumerate().filter(|(guide, _)| is_new(*guide)) {
             let name = guide.object.as_deref().or(region.on.object());
             if let Some((object, file)) = name.and_then(mesh_of) {
                 let guide_path = format!("regions[{index}].guides[{guide_index}]");

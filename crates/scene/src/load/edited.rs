@@ -1,13 +1,13 @@
 //! A document that was edited in memory, with the files that are held already.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::files::{Files, Readers};
 use super::{Told, read_brush, read_mesh, read_texture, shared, sort_and_cap};
 use crate::assets::AssetFolders;
 use crate::check;
-use crate::document::Scene;
+use crate::document::{Object, Scene};
 use crate::loaded::LoadedScene;
 use crate::problem::{Problem, Report};
 
@@ -39,7 +39,7 @@ impl LoadedScene {
         };
         let mut files =
             Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
-        let in_meshes = check::check_with_meshes(&scene, &files.meshes);
+        let in_meshes = check::check_anew(&scene, &files.meshes, &self.known_in(&scene));
         problems.extend(in_meshes.into_iter().map(|finding| told.problem(finding)));
         files.problems.splice(..0, self.warnings_of_files(&files.meshes));
         sort_and_cap(path, &mut problems, files.problems);
@@ -48,6 +48,57 @@ impl LoadedScene {
         }
         let Files { meshes, textures, brushes, .. } = files;
         Ok(Self { path: path.clone(), scene, meshes, textures, brushes, warnings: problems })
+    }
+
+    /// What of another document was checked in this one already, and was well: this one stands, so its morphs fit, and its
+    /// guides lie well where no warning names them.
+    fn known_in(&self, scene: &Scene) -> check::Known {
+        let old = &self.scene;
+        let same_surface = |old: &Object, new: &Object| {
+            let place = |object: &Object| (object.scale, object.up);
+            place(old) == place(new)
+                && [&old.mesh, &new.mesh].iter().all(|mesh| self.meshes.contains_key(*mesh))
+                && (&old.mesh, &old.group, &old.morph) == (&new.mesh, &new.group, &new.morph)
+        };
+        let of_old: HashMap<&str, &Object> =
+            old.objects.iter().map(|object| (object.name.as_str(), object)).collect();
+        let mut known = check::Known::default();
+        let mut kept = HashSet::new();
+        for (index, object) in scene.objects.iter().enumerate() {
+            if of_old.get(object.name.as_str()).is_some_and(|old| same_surface(old, object)) {
+                known.objects.insert(index);
+                kept.insert(object.name.as_str());
+            }
+        }
+        let doubted: Vec<&str> = self.warnings.iter().map(|warning| warning.field_path.as_str()).collect();
+        // Not all that was found is listed.
+        let is_cut = self.warnings.iter().any(|warning| {
+            warning.field_path.is_empty() && warning.path == self.path && warning.place.is_none()
+        });
+        let old_regions: HashMap<&str, usize> =
+            old.regions.iter().enumerate().map(|(index, region)| (region.name.as_str(), index)).collect();
+        for (index, region) in scene.regions.iter().enumerate().filter(|_| !is_cut) {
+            let Some(&old_index) = old_regions.get(region.name.as_str()) else { continue };
+            let old_region = &old.regions[old_index];
+            for (guide_index, guide) in region.guides.iter().enumerate() {
+                let object = guide.object.as_deref().or(region.on.object());
+                let old_object = guide.object.as_deref().or(old_region.on.object());
+                if object != old_object || !object.is_some_and(|object| kept.contains(object)) {
+                    continue;
+                }
+                // Where it was, or one place on: a guide before it was added or removed.
+                let places = [guide_index, guide_index + 1, guide_index.wrapping_sub(1)];
+                let was = places.into_iter().find(|&place| old_region.guides.get(place) == Some(guide));
+                let is_well = |place: usize| {
+                    let path = format!("regions[{old_index}].guides[{place}].");
+                    !doubted.iter().any(|doubted| doubted.starts_with(&path))
+                };
+                if was.is_some_and(is_well) {
+                    known.guides.insert((index, guide_index));
+                }
+            }
+        }
+        known
     }
 
     /// What was odd in files that are still in use: it is not read again, so it is not said again.

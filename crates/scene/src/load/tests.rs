@@ -51,17 +51,17 @@ fn every_kind_of_fault_is_said_at_its_place_with_a_mend() {
         (
             "flatness: 0.5)",
             "flatness: 0.5), turn_dg: 3",
-            "s.ron:8:76: error: unknown field `turn_dg`; did you mean `turn_deg`?",
+            "s.ron:8:73: error: unknown field `turn_dg`; did you mean `turn_deg`?",
         ),
         (
             "flatness: 0.5)",
             "flatness: 0.5), hiden: true",
-            "s.ron:8:76: error: unknown field `hiden`; did you mean `hidden`?",
+            "s.ron:8:73: error: unknown field `hiden`; did you mean `hidden`?",
         ),
         (
             "flatness: 0.5)",
             "flatness: 0.5), color: 3",
-            "s.ron:8:83: error: `3` does not fit `regions[0].color`",
+            "s.ron:8:80: error: `3` does not fit `regions[0].color`",
         ),
         ("10)", "10, loked: true)", "s.ron:6:74: error: unknown field `loked`; did you mean `locked`?"),
         ("version: 1,", "version: 1, style: RotatingStrokes(canva: 1),", "s.ron:2:40: error: unknown field"),

@@ -10,9 +10,9 @@ mod shelf;
 mod surface;
 mod text;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
 
@@ -63,6 +63,22 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     warnings.extend(more);
     let mesh = mesh.ok_or(Report(Vec::new()))?;
     Ok((MeshFile { mesh, groups: checked.groups.list, materials }, warnings))
+}
+
+/// The MTL files and pictures that an OBJ file in `root` names and that are found in `root`: what has to go with it to
+/// another folder. Pictures are found, not opened.
+///
+/// # Errors
+/// A [`Report`] where the file can not be read or has errors.
+pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report> {
+    let bytes = assets::read_regular_file(path, MAX_FILE_BYTES)
+        .map_err(|error| Report(vec![unread(path, &error)]))?;
+    let (text, _) = text::to_utf8(bytes);
+    let mut findings = Findings::new(path, &text);
+    let checked = lint::check(&text, &mut findings);
+    let folders = AssetFolders::default();
+    let found = Shelf::new(path, root, &folders).files(&checked.libraries, &|offset| findings.place(offset));
+    findings.finish().map(|_| found)
 }
 
 /// The mesh file itself was not read: no folder was searched for it, so only its path can be mended.

@@ -30,6 +30,8 @@ pub(super) struct Shelf<'a> {
     root: &'a Path,
     folders: &'a AssetFolders,
     warnings: Vec<Problem>,
+    /// The MTL files that were read.
+    libraries: BTreeSet<PathBuf>,
     /// Warnings about files that were not found: those told, and those beyond [`MAX_TOLD`].
     unfound: usize,
     described: HashMap<String, (Described, Arc<PathBuf>)>,
@@ -45,6 +47,7 @@ impl<'a> Shelf<'a> {
             root,
             folders,
             warnings: Vec::new(),
+            libraries: BTreeSet::new(),
             unfound: 0,
             described: HashMap::new(),
             pictures: BTreeMap::new(),
@@ -90,6 +93,19 @@ impl<'a> Shelf<'a> {
         Ok(materials)
     }
 
+    /// The MTL files and pictures that are named and found, whether faces use them or not. Pictures are not opened.
+    pub fn files(mut self, libraries: &[Library], place_of: PlaceOf<'_>) -> BTreeSet<PathBuf> {
+        self.read_libraries(libraries, place_of);
+        let mut files = std::mem::take(&mut self.libraries);
+        for (described, mtl) in self.described.values() {
+            let Some(name) = &described.picture else { continue };
+            let request =
+                AssetRequest { beside: mtl, root: self.root, name, max_bytes: texture::MAX_FILE_BYTES };
+            files.extend(self.folders.find(&request));
+        }
+        files
+    }
+
     fn read_libraries(&mut self, libraries: &[Library], place_of: PlaceOf<'_>) {
         let mut seen: BTreeSet<&str> = BTreeSet::new();
         for library in libraries {
@@ -123,6 +139,7 @@ impl<'a> Shelf<'a> {
             Ok(Asset { path, bytes }) => {
                 let (list, warnings) = materials::parse(&path, bytes);
                 self.warnings.extend(warnings);
+                self.libraries.insert(path.clone());
                 let path = Arc::new(path);
                 for material in list {
                     let name = material.name.clone();

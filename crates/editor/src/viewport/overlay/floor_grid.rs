@@ -22,7 +22,10 @@ pub fn floor_grid(sheet: &Sheet<'_>) {
         for offset in -REACH..=REACH {
             let number = middle as i64 + i64::from(offset);
             let stroke = match number {
-                0 => Stroke::new(1.4, OVER_PAINT.axis[if line_axis == DVec3::X { 0 } else { 2 }].gamma_multiply(0.8)),
+                0 => Stroke::new(
+                    1.4,
+                    OVER_PAINT.axis[if line_axis == DVec3::X { 0 } else { 2 }].gamma_multiply(0.8),
+                ),
                 _ if number % 10 == 0 => Stroke::new(1.0, ink::white(0.30)),
                 _ => Stroke::new(1.0, ink::white(0.13)),
             };

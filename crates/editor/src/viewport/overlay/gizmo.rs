@@ -10,7 +10,11 @@ use crate::theme::type_face;
 /// Draws handles, the farthest first; `lit` is the one that the pointer is on or holds.
 pub fn gizmo(sheet: &Sheet<'_>, gizmo: &Gizmo, lit: Option<&Constraint>) {
     for handle in gizmo.handles() {
-        draw(sheet, handle, if lit == Some(&handle.constraint) { ink::WHITE } else { colour(&handle.constraint) });
+        draw(
+            sheet,
+            handle,
+            if lit == Some(&handle.constraint) { ink::WHITE } else { colour(&handle.constraint) },
+        );
     }
 }
 
@@ -24,7 +28,8 @@ fn draw(sheet: &Sheet<'_>, handle: &Handle, colour: Color32) {
             let edge = Stroke::new(1.2, EDGE);
             if handle.operation == Operation::Scale {
                 let (along, side) = (direction * 6.0, direction.rot90() * 6.0);
-                let corners = vec![to - along - side, to + along - side, to + along + side, to - along + side];
+                let corners =
+                    vec![to - along - side, to + along - side, to + along + side, to - along + side];
                 sheet.painter.add(Shape::convex_polygon(corners, colour, edge));
             } else {
                 sheet.painter.add(ink::head(to, direction, (15.0, 13.0), (colour, edge)));

@@ -46,7 +46,11 @@ impl GuideCurve {
         let runs = points.split(Option::is_none).filter(|run| run.len() > 1);
         Self {
             runs_px: runs.map(|run| run.iter().flatten().copied().collect()).collect(),
-            handles_px: handles.iter().enumerate().filter_map(|(index, at)| Some((index, seen(at)?))).collect(),
+            handles_px: handles
+                .iter()
+                .enumerate()
+                .filter_map(|(index, at)| Some((index, seen(at)?)))
+                .collect(),
             end_shows: points.len() > 1 && points[points.len() - 2..].iter().all(Option::is_some),
             ..Self::default()
         }

@@ -38,11 +38,6 @@ impl Ink {
         painter.add(Shape::line(points.to_vec(), self.over));
     }
 
-    pub(super) fn closed(&self, painter: &Painter, points: &[Pos2]) {
-        painter.add(Shape::closed_line(points.to_vec(), self.under));
-        painter.add(Shape::closed_line(points.to_vec(), self.over));
-    }
-
     pub(super) fn dashed(&self, painter: &Painter, points: &[Pos2], (dash, gap): (f32, f32)) {
         painter.extend(Shape::dashed_line(points, self.under, dash, gap));
         painter.extend(Shape::dashed_line(points, self.over, dash, gap));
@@ -56,7 +51,12 @@ pub(super) fn along(angle_rad: f32) -> Vec2 {
 }
 
 /// An arrow's head with its tip at `tip`.
-pub(super) fn head(tip: Pos2, direction: Vec2, (length, width): (f32, f32), (fill, edge): (Color32, Stroke)) -> Shape {
+pub(super) fn head(
+    tip: Pos2,
+    direction: Vec2,
+    (length, width): (f32, f32),
+    (fill, edge): (Color32, Stroke),
+) -> Shape {
     let back = tip - direction * length;
     let side = direction.rot90() * (width * 0.5);
     Shape::convex_polygon(vec![tip, back + side, back - side], fill, edge)
@@ -64,7 +64,8 @@ pub(super) fn head(tip: Pos2, direction: Vec2, (length, width): (f32, f32), (fil
 
 /// Words in white, edged with black on all sides.
 pub(super) fn edged_words(painter: &Painter, at: Pos2, (text, font): (&str, FontId), colour: Color32) {
-    for (x, y) in [(-1.0, -1.0), (0.0, -1.4), (1.0, -1.0), (-1.4, 0.0), (1.4, 0.0), (-1.0, 1.0), (0.0, 1.4), (1.0, 1.0)]
+    for (x, y) in
+        [(-1.0, -1.0), (0.0, -1.4), (1.0, -1.0), (-1.4, 0.0), (1.4, 0.0), (-1.0, 1.0), (0.0, 1.4), (1.0, 1.0)]
     {
         painter.text(pos2(at.x + x, at.y + y), Align2::CENTER_CENTER, text, font.clone(), Color32::BLACK);
     }

@@ -24,7 +24,8 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     }
     for &(frame, place) in &path.keys {
         let Some(at) = sheet.project(place) else { continue };
-        let corners = [vec2(0.0, -7.0), vec2(7.0, 0.0), vec2(0.0, 7.0), vec2(-7.0, 0.0)].map(|corner| at + corner);
+        let corners =
+            [vec2(0.0, -7.0), vec2(7.0, 0.0), vec2(0.0, 7.0), vec2(-7.0, 0.0)].map(|corner| at + corner);
         let edge = Stroke::new(1.4, ink::EDGE);
         sheet.painter.add(Shape::convex_polygon(corners.to_vec(), OVER_PAINT.key, edge));
         let number = format!("{frame:.0}");

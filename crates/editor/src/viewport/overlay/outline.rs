@@ -1,8 +1,8 @@
 use egui::Pos2;
 use glam::DVec2;
 
-use super::ink::{self, Ink, OVER_PAINT};
 use super::Sheet;
+use super::ink::{self, Ink, OVER_PAINT};
 use crate::viewport::contour::contours;
 use crate::viewport::surface_map::SurfaceMap;
 

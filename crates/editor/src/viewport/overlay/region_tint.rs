@@ -1,9 +1,9 @@
 use egui::{Color32, Mesh, Rect, Shape, pos2};
 use glam::DVec2;
 
+use super::Sheet;
 use super::ink::{self, Ink};
 use super::outline::Outline;
-use super::Sheet;
 use crate::theme::type_face;
 use crate::viewport::contour::contours;
 use crate::viewport::surface_map::{Face, SurfaceMap};
@@ -57,7 +57,8 @@ impl RegionTint {
             }
             let scale = 1.0 / map.cells_per_point();
             let to_points = |line: Vec<DVec2>| line.into_iter().map(|at| at * scale).collect();
-            let edge = Outline::of_lines(contours([columns, rows], is_in).into_iter().map(to_points).collect());
+            let edge =
+                Outline::of_lines(contours([columns, rows], is_in).into_iter().map(to_points).collect());
             (count > 0).then(|| Self {
                 name: (*name).to_owned(),
                 colour: *colour,

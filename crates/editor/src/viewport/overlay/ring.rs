@@ -25,7 +25,8 @@ pub fn ring(sheet: &Sheet<'_>, ring: &Ring) {
     let share = if ring.mirrored { 0.6 } else { 1.0 };
     let outline = line(&ring.points_px);
     if ring.hollow {
-        let ink = Ink::new(1.4, Color32::from_gray(165).gamma_multiply(share), (3.0, ink::black(0.35 * share)));
+        let ink =
+            Ink::new(1.4, Color32::from_gray(165).gamma_multiply(share), (3.0, ink::black(0.35 * share)));
         return ink.line(sheet.painter, &outline);
     }
     Ink::new(1.8, ink::white(share), (4.0, ink::black(0.5 * share))).line(sheet.painter, &outline);

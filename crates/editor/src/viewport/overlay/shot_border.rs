@@ -11,7 +11,8 @@ pub fn shot_border(painter: &Painter, viewport: Rect, shot: Rect, ground: Color3
     let above = Rect::from_min_max(viewport.min, egui::pos2(viewport.max.x, shot.min.y));
     let below = Rect::from_min_max(egui::pos2(viewport.min.x, shot.max.y), viewport.max);
     let left = Rect::from_min_max(egui::pos2(viewport.min.x, shot.min.y), egui::pos2(shot.min.x, shot.max.y));
-    let right = Rect::from_min_max(egui::pos2(shot.max.x, shot.min.y), egui::pos2(viewport.max.x, shot.max.y));
+    let right =
+        Rect::from_min_max(egui::pos2(shot.max.x, shot.min.y), egui::pos2(viewport.max.x, shot.max.y));
     for part in [above, below, left, right].into_iter().filter(Rect::is_positive) {
         painter.rect_filled(part, 0.0, veil);
     }

@@ -1,0 +1,404 @@
+//! The whole editor without its window: a document, a session, and a hand that works on them by plain events.
+//!
+//! ```text
+//! keys ─▶ Editor::key ─▶ Action ─┐
+//! menus, palette ───────▶ Action ─┼▶ Editor::act ─▶ document, session, or a Request for the window
+//! pointer ─▶ Editor::pointer ─────┘   (tools, gizmo, navigation, selection)
+//! ```
+
+mod actions;
+mod objects;
+mod painted;
+mod pointer;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec2, DVec3};
+use impasto_painting::Painting;
+use impasto_scene::document::{Reference, Scene};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::motion::{self, CameraPose};
+
+use crate::camera_rig::Looking;
+use crate::command::Command;
+use crate::document::{Document, Step};
+use crate::gizmo::Gizmo;
+use crate::keymap::{Key, Keymap, Modifiers, Navigation, Scope};
+use crate::picking::{Picker, View};
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+use crate::session::{Mode, Session, Tool};
+use crate::tools::{Hand, ToolOutput};
+use crate::transform::{Operation, Transforming};
+
+pub use pointer::{PointerEvent, PointerKind};
+
+/// What only the window can do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// A new, empty scene; asks about unsaved work first.
+    New,
+    /// Asks for a scene or a mesh to open.
+    Open,
+    /// Writes to the document's own file, or asks for one.
+    Save,
+    /// Asks for a file to write to.
+    SaveAs,
+    /// Asks for a mesh to add.
+    Import,
+    /// The command search.
+    Palette,
+    /// The sheet of all keys.
+    Shortcuts,
+    /// Types a new name for what is selected.
+    Rename,
+    /// The menu of things to add.
+    Add,
+    /// Shows or folds the right column.
+    ToggleColumn,
+    /// Shows only the viewport, or everything.
+    MaximiseViewport,
+    /// The next area of the window takes the keys.
+    NextArea,
+    /// Asks before this frame becomes the reference.
+    Recapture(i64),
+}
+
+/// A line to be shown for a while.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Said {
+    /// The words.
+    pub words: String,
+    /// What a click on it does.
+    pub offers: Option<Offer>,
+    /// Whether it tells of something that was not done.
+    pub is_refusal: bool,
+}
+
+/// What a line offers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offer {
+    /// Takes the last entry back.
+    Undo,
+}
+
+/// A transform of objects under way.
+#[derive(Debug)]
+struct TransformDrag {
+    machine: Transforming,
+    objects: Vec<String>,
+    /// Begun by a press: ends with its release.
+    held: bool,
+}
+
+/// What the hand is at.
+#[derive(Debug, Default)]
+enum Busy {
+    /// Nothing.
+    #[default]
+    Idle,
+    /// It moves the view round or beside a point.
+    Navigating(Navigation, DVec3),
+    /// It moves the shot's camera by the shot camera tool.
+    Shot(CameraPose),
+    /// A tool of Paint has the pointer.
+    Painting,
+    /// It pressed on an object; farther than a few pixels it drags it.
+    Pressed(DVec2),
+    /// It moves, turns or scales objects.
+    Transforming(Box<TransformDrag>),
+}
+
+/// The editor without its window.
+pub struct Editor {
+    document: Document,
+    /// Mode, tools, overlays, frame.
+    pub session: Session,
+    /// What the viewport looks through.
+    pub looking: Looking,
+    /// Whose habits the keys follow.
+    pub keymap: Keymap,
+    painting: Option<Painting>,
+    picker: Picker,
+    hand: Hand,
+    output: ToolOutput,
+    busy: Busy,
+    /// Where the pointer is, when it is over the viewport.
+    pointer_px: Option<DVec2>,
+    held: Modifiers,
+    at_secs: f64,
+    said: Vec<Said>,
+    requests: Vec<Request>,
+    version: u64,
+}
+
+impl Editor {
+    /// An editor with a document.
+    pub fn new(document: Document) -> Self {
+        let reference_frame = reference_frame(document.scene());
+        let session = Session { frame: reference_frame, ..Session::default() };
+        Self {
+            document,
+            session,
+            looking: Looking::Shot,
+            keymap: Keymap::default(),
+            painting: None,
+            picker: Picker::default(),
+            hand: Hand::default(),
+            output: ToolOutput::default(),
+            busy: Busy::Idle,
+            pointer_px: None,
+            held: Modifiers::default(),
+            at_secs: 0.0,
+            said: Vec::new(),
+            requests: Vec::new(),
+            version: 1,
+        }
+    }
+
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Goes on with another document: what was under the hand and in the view goes.
+    pub fn open(&mut self, document: Document) {
+        let session = Session {
+            frame: reference_frame(document.scene()),
+            frame_before_paint: None,
+            ..self.session.clone()
+        };
+        let (keymap, version) = (self.keymap, self.version + 1);
+        *self = Self { session, keymap, version, ..Self::new(document) };
+    }
+
+    /// Saves; see [`Document::save`] and [`Document::save_as`].
+    ///
+    /// # Errors
+    /// As those.
+    pub fn save(&mut self, target: Option<&std::path::Path>) -> Result<(), crate::document::SaveError> {
+        match target {
+            Some(target) => self.document.save_as(target)?,
+            None => drop(self.document.save()?),
+        }
+        self.say(format!("Saved {}", self.document.name()));
+        Ok(())
+    }
+
+    /// The scene as it is to be shown, and a number that changes with it.
+    pub fn shown(&self) -> (&Arc<LoadedScene>, u64) {
+        (self.document.shown(), self.version)
+    }
+
+    /// Takes the painting that was prepared of what is shown.
+    pub fn prepared(&mut self, painting: Painting) {
+        let morphs = motion::morphs_at(painting.scene(), self.session.frame);
+        let count = painting.scene().objects.len();
+        let bodies: Vec<_> =
+            (0..count).map(|object| Arc::clone(painting.surface(object))).zip(morphs).collect();
+        self.picker.update(&bodies);
+        self.painting = Some(painting);
+    }
+
+    /// The painting that was prepared last.
+    pub fn painting(&self) -> Option<&Painting> {
+        self.painting.as_ref()
+    }
+
+    /// Surfaces under rays.
+    pub fn picker(&self) -> &Picker {
+        &self.picker
+    }
+
+    /// The shot's camera at the frame that is shown.
+    pub fn shot(&self) -> CameraPose {
+        match &self.busy {
+            Busy::Shot(pose) => pose.clone(),
+            _ => motion::camera_at(&self.document.shown().scene, self.session.frame),
+        }
+    }
+
+    /// The camera that the viewport looks through.
+    pub fn camera(&self) -> CameraPose {
+        self.looking.pose(&self.shot()).clone()
+    }
+
+    /// The objects' `world_from_model` at the frame that is shown.
+    pub fn poses(&self) -> Vec<DAffine3> {
+        motion::poses_at(&self.document.shown().scene, self.session.frame)
+    }
+
+    /// What the tool has to show: rings, needle, lines.
+    pub fn tool_output(&self) -> &ToolOutput {
+        &self.output
+    }
+
+    /// The handles round the selected object, in Arrange and Animate.
+    pub fn gizmo(&self, view: &View) -> Option<Gizmo> {
+        let operation = match self.session.tool() {
+            Tool::Move | Tool::Select => Operation::Move,
+            Tool::Turn => Operation::Turn,
+            Tool::Scale => Operation::Scale,
+            _ => return None,
+        };
+        let is_shown = self.session.mode != Mode::Paint && !matches!(self.busy, Busy::Navigating(..));
+        let object = self.active_object().filter(|_| is_shown)?;
+        let pose = *self.poses().get(object)?;
+        Some(Gizmo::new(operation, self.session.options.axes, pose, view))
+    }
+
+    /// Index of the object that is selected last.
+    pub fn active_object(&self) -> Option<usize> {
+        let Some(Item::Object(name)) = self.document.selection().active() else { return None };
+        self.document.shown().scene.objects.iter().position(|object| object.name == *name)
+    }
+
+    /// Whether a hand is on something: pictures may be drafts.
+    pub fn is_moving(&self) -> bool {
+        !matches!(self.busy, Busy::Idle | Busy::Pressed(_))
+    }
+
+    /// Takes all lines that are to be shown.
+    pub fn take_said(&mut self) -> Vec<Said> {
+        std::mem::take(&mut self.said)
+    }
+
+    /// Takes what only the window can do.
+    pub fn take_requests(&mut self) -> Vec<Request> {
+        std::mem::take(&mut self.requests)
+    }
+
+    /// Carries a command out and says what is to be said.
+    pub fn run(&mut self, command: &Command) -> bool {
+        let result = self.document.apply(command);
+        self.version += 1;
+        self.told(result)
+    }
+
+    /// As [`Editor::run`]; steps of one key within a second are one entry.
+    pub fn run_merged(&mut self, command: &Command, key: &str, at_secs: f64) -> bool {
+        let result = self.document.apply_merged(command, key, at_secs);
+        self.version += 1;
+        self.told(result)
+    }
+
+    /// Adds a mesh by its path from the scene's folder.
+    pub fn import(&mut self, mesh: &str) -> bool {
+        let result = self.document.import(mesh);
+        self.version += 1;
+        self.told(result)
+    }
+
+    /// Shows the document as a command would leave it.
+    pub fn preview(&mut self, command: &Command) {
+        match self.document.preview(command) {
+            Ok(()) => self.version += 1,
+            Err(refusal) => self.refuse(&refusal),
+        }
+    }
+
+    /// Shows the document as it is.
+    pub fn end_preview(&mut self) {
+        self.document.end_preview();
+        self.version += 1;
+    }
+
+    /// Selects.
+    pub fn select(&mut self, selection: Selection) {
+        self.document.select(selection);
+    }
+
+    fn told(&mut self, result: Result<Step, Refusal>) -> bool {
+        match result {
+            Ok(step) => {
+                if let Some(note) = step.note {
+                    self.said.push(Said { words: note, offers: Some(Offer::Undo), is_refusal: false });
+                } else if step.text.starts_with("Delete ") {
+                    let words = step.text.replacen("Delete", "Deleted", 1);
+                    self.said.push(Said { words, offers: Some(Offer::Undo), is_refusal: false });
+                }
+                !step.text.is_empty()
+            }
+            Err(refusal) => {
+                self.refuse(&refusal);
+                false
+            }
+        }
+    }
+
+    fn say(&mut self, words: impl Into<String>) {
+        self.said.push(Said { words: words.into(), offers: None, is_refusal: false });
+    }
+
+    fn refuse(&mut self, refusal: &Refusal) {
+        // The same words again add nothing.
+        if self.said.last().is_none_or(|said| said.words != refusal.0) {
+            self.said.push(Said { words: refusal.0.clone(), offers: None, is_refusal: true });
+        }
+    }
+
+    /// Takes a key; false where it means nothing here. `typing` while a text field has the focus.
+    pub fn key(&mut self, key: Key, held: Modifiers, (typing, view): (bool, &View)) -> bool {
+        self.held = held;
+        let scope = match (&self.busy, self.session.mode) {
+            _ if typing => Scope::Typing,
+            (Busy::Transforming(_), _) => Scope::Transform,
+            (Busy::Painting, _) => Scope::Drawing,
+            (_, Mode::Paint) if self.hand.is_busy() => Scope::Drawing,
+            (_, Mode::Arrange) => Scope::Arrange,
+            (_, Mode::Paint) => Scope::Paint,
+            (_, Mode::Animate) => Scope::Animate,
+        };
+        if scope == Scope::Transform
+            && let Some(character) = key.typed()
+        {
+            self.type_into_transform(character, view);
+            return true;
+        }
+        match self.keymap.action_for(key, held, scope) {
+            Some(action) => {
+                self.act(action, view);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// The window lost its focus: what the hand was at is as if never begun.
+    pub fn focus_lost(&mut self, view: &View) {
+        self.cancel(view);
+        self.pointer_px = None;
+    }
+
+    /// The words of the status line, keys in brackets.
+    pub fn status(&self) -> String {
+        if let Busy::Transforming(drag) = &self.busy {
+            return drag.machine.status();
+        }
+        if self.document.scene().objects.is_empty() {
+            return "Drop an OBJ or a scene anywhere in the window".to_owned();
+        }
+        let object = self.active_object().map(|object| self.document.shown().scene.objects[object].name.clone());
+        let object = object.as_deref().unwrap_or("an object");
+        match self.session.mode {
+            Mode::Arrange => match self.session.tool() {
+                Tool::AddLight => "[Click] add a light here  [Middle] orbit".to_owned(),
+                Tool::ShotCamera => "[Drag] orbit the shot  [NumPad 0] look through it  [Middle] orbit".to_owned(),
+                _ => format!("[Drag] move {object}  [G R S] move, turn, scale  [Shift A] add  [Middle] orbit"),
+            },
+            Mode::Paint => self.output.status.clone(),
+            Mode::Animate => {
+                format!("[Drag] move {object}  [X Y Z] lock axis  [I] key  [Space] play  [Middle] orbit")
+            }
+        }
+    }
+}
+
+/// The frame of a scene's reference.
+pub fn reference_frame(scene: &Scene) -> f64 {
+    match scene.reference {
+        Reference::Frame(frame) | Reference::View { frame, .. } => frame as f64,
+    }
+}

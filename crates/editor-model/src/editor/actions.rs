@@ -1,0 +1,326 @@
+//! What keys, menus and the command search do.
+
+use impasto_scene::motion;
+
+use super::{Busy, Editor, Request, reference_frame};
+use crate::camera_rig::{AxisView, Looking};
+use crate::command::{Arrange, Command, Directions, Edit, KeyOf, Time};
+use crate::keymap::Action;
+use crate::picking::View;
+use crate::refusal::Refusal;
+use crate::selection::{Item, Selection};
+use crate::session::{Hairs, Mode, Tool};
+use crate::tools::ToolEvent;
+use crate::transform::{Operation, TransformEvent};
+
+impl Editor {
+    /// Does what an action says.
+    pub fn act(&mut self, action: Action, view: &View) {
+        if self.act_on_the_hand(action, view) {
+            return;
+        }
+        match action {
+            Action::NewScene => self.requests.push(Request::New),
+            Action::OpenScene => self.requests.push(Request::Open),
+            Action::Save => self.requests.push(Request::Save),
+            Action::SaveAs => self.requests.push(Request::SaveAs),
+            Action::ImportMesh => self.requests.push(Request::Import),
+            Action::Palette => self.requests.push(Request::Palette),
+            Action::Shortcuts => self.requests.push(Request::Shortcuts),
+            Action::Rename => self.requests.push(Request::Rename),
+            Action::Add => self.requests.push(Request::Add),
+            Action::ToggleColumn => self.requests.push(Request::ToggleColumn),
+            Action::MaximiseViewport => self.requests.push(Request::MaximiseViewport),
+            Action::NextArea => self.requests.push(Request::NextArea),
+            Action::Undo | Action::Redo => self.travel(action),
+            Action::Arrange => self.set_mode(Mode::Arrange, view),
+            Action::Paint => self.set_mode(Mode::Paint, view),
+            Action::Animate => self.set_mode(Mode::Animate, view),
+            Action::TogglePaint => {
+                let to = if self.session.mode == Mode::Paint { self.session.mode_before } else { Mode::Paint };
+                self.set_mode(to, view);
+            }
+            Action::NextMode => self.set_mode(
+                match self.session.mode {
+                    Mode::Arrange => Mode::Paint,
+                    Mode::Paint => Mode::Animate,
+                    Mode::Animate => Mode::Arrange,
+                },
+                view,
+            ),
+            Action::Compare => self.session.compare = !self.session.compare,
+            Action::CycleHairs => {
+                let hairs = &mut self.session.overlays.hairs;
+                *hairs = match hairs {
+                    Hairs::Off => Hairs::Plain,
+                    Hairs::Plain => Hairs::ByRegion,
+                    Hairs::ByRegion => Hairs::Off,
+                };
+            }
+            Action::ToggleTrust => self.session.overlays.trust = !self.session.overlays.trust,
+            Action::StepBack => self.session.frame = (self.session.frame - 1.0).floor(),
+            Action::StepOn => self.session.frame = (self.session.frame + 1.0).ceil(),
+            Action::FirstFrame => self.session.frame = self.document.scene().timeline.first as f64,
+            Action::LastFrame => self.session.frame = self.document.scene().timeline.last as f64,
+            Action::PreviousKey | Action::NextKey => self.to_key(action == Action::NextKey),
+            _ => self.act_on_things(action, view),
+        }
+    }
+
+    fn act_on_things(&mut self, action: Action, view: &View) {
+        match action {
+            Action::SelectAll => {
+                let objects = self.document.scene().objects.iter();
+                let all = objects.map(|object| Item::Object(object.name.clone())).collect();
+                self.document.select(all);
+            }
+            Action::SelectNone => self.document.select(Selection::default()),
+            Action::Delete | Action::Duplicate => {
+                let items = self.document.selection().items().to_vec();
+                if items.is_empty() {
+                    return self.refuse(&Refusal::new("Select something first"));
+                }
+                self.run(&Command::Edit(match action {
+                    Action::Delete => Edit::Delete(items),
+                    _ => Edit::Duplicate(items),
+                }));
+            }
+            Action::Hide | Action::Lock => self.hide_or_lock(action),
+            Action::ShowAll => {
+                let scene = self.document.scene();
+                let objects = scene.objects.iter().filter(|object| object.hidden);
+                let regions = scene.regions.iter().filter(|region| region.hidden);
+                let hidden: Vec<Item> = objects
+                    .map(|object| Item::Object(object.name.clone()))
+                    .chain(regions.map(|region| Item::Region(region.name.clone())))
+                    .collect();
+                if !hidden.is_empty() {
+                    self.run(&Command::Edit(Edit::SetHidden(hidden, false)));
+                }
+            }
+            Action::FrameSelected | Action::FrameAll => self.frame(action == Action::FrameSelected, view),
+            Action::ViewFront => self.look_along(AxisView::Front),
+            Action::ViewRight => self.look_along(AxisView::Right),
+            Action::ViewTop => self.look_along(AxisView::Top),
+            Action::ToggleOrthographic => {
+                let shot = self.shot();
+                self.looking.free(&shot).toggle_orthographic();
+            }
+            Action::LookThrough => self.looking = Looking::Shot,
+            Action::CameraFromView => {
+                let (frame, pose) = (self.session.frame, self.camera());
+                if self.run(&Command::Arrange(Arrange::SetCamera { frame, pose })) {
+                    self.looking = Looking::Shot;
+                }
+            }
+            Action::SetKey => {
+                let keyed = self.document.selection().items().iter().filter_map(|item| match item {
+                    Item::Object(name) => Some(KeyOf::Object(name.clone())),
+                    Item::Camera => Some(KeyOf::Camera),
+                    _ => None,
+                });
+                let keyed: Vec<KeyOf> = keyed.collect();
+                for of in keyed {
+                    self.run(&Command::Time(Time::SetKey(of, self.session.frame)));
+                }
+            }
+            Action::Render => self.refuse(&Refusal::new(
+                "Rendering from here comes with playback; File, Copy render command does it in a terminal",
+            )),
+            Action::Play => self.refuse(&Refusal::new("Playback comes with the timeline's lanes")),
+            _ => {}
+        }
+    }
+
+    /// Tools, and what a hand is at; whether the action was one of those.
+    fn act_on_the_hand(&mut self, action: Action, view: &View) -> bool {
+        let tool = match action {
+            Action::Select => Tool::Select,
+            Action::Comb => Tool::Comb,
+            Action::GuideCurve => Tool::GuideCurve,
+            Action::Fill => Tool::Fill,
+            Action::TurnDirection => Tool::TurnDirection,
+            Action::Smooth => Tool::Smooth,
+            Action::Erase => Tool::Erase,
+            Action::Region => Tool::Region,
+            Action::Pick => Tool::Pick,
+            Action::Move | Action::Turn | Action::Scale => {
+                let (operation, tool) = match action {
+                    Action::Move => (Operation::Move, Tool::Move),
+                    Action::Turn => (Operation::Turn, Tool::Turn),
+                    _ => (Operation::Scale, Tool::Scale),
+                };
+                // Over the viewport the key takes hold at once, as in Blender; elsewhere it takes the tool up.
+                match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
+                    Some(at_px) if matches!(self.busy, Busy::Idle) => {
+                        self.begin_transform((operation, None), (at_px, false), view);
+                    }
+                    _ => self.session.set_tool(tool),
+                }
+                return true;
+            }
+            Action::HoldAxis(axis) => {
+                self.transform(TransformEvent::Axis(axis), view);
+                return true;
+            }
+            Action::HoldPlane(axis) => {
+                self.transform(TransformEvent::Plane(axis), view);
+                return true;
+            }
+            Action::Confirm | Action::TakeBack | Action::Cancel if matches!(self.busy, Busy::Transforming(_)) => {
+                match action {
+                    Action::Confirm => self.transform(TransformEvent::Keep, view),
+                    Action::TakeBack => self.transform(TransformEvent::Backspace, view),
+                    _ => self.transform(TransformEvent::Back, view),
+                }
+                return true;
+            }
+            Action::Cancel => {
+                self.cancel(view);
+                return true;
+            }
+            Action::Confirm
+            | Action::TakeBack
+            | Action::SizeRadius
+            | Action::SizeStrength
+            | Action::SmallerRadius
+            | Action::LargerRadius
+            | Action::FlipUnderCursor => {
+                if self.session.mode == Mode::Paint {
+                    self.tool(ToolEvent::Key(action), view);
+                }
+                return true;
+            }
+            Action::Delete if self.session.mode == Mode::Paint && self.hand.is_busy() => {
+                self.tool(ToolEvent::Key(action), view);
+                return true;
+            }
+            _ => return false,
+        };
+        self.cancel(view);
+        self.session.set_tool(tool);
+        if self.session.mode == Mode::Paint {
+            self.hover_again(view);
+        }
+        true
+    }
+
+    fn hover_again(&mut self, view: &View) {
+        if let Some(at_px) = self.pointer_px {
+            self.tool(ToolEvent::Hover { at_px, at_secs: self.at_secs }, view);
+        } else {
+            self.tool(ToolEvent::Cancel, view);
+        }
+    }
+
+    /// Changes the mode; what the hand was at is as if never begun.
+    pub fn set_mode(&mut self, mode: Mode, view: &View) {
+        self.cancel(view);
+        let frame = reference_frame(self.document.scene());
+        if mode == Mode::Paint && self.session.mode != Mode::Paint {
+            self.looking = Looking::Shot;
+        }
+        self.session.set_mode(mode, frame);
+        if mode == Mode::Paint {
+            self.hover_again(view);
+        }
+    }
+
+    fn travel(&mut self, action: Action) {
+        if self.is_moving() {
+            return self.refuse(&Refusal::new("Finish or cancel the gesture first"));
+        }
+        let step = if action == Action::Undo { self.document.undo() } else { self.document.redo() };
+        self.version += 1;
+        match step {
+            Some(step) => {
+                let done = if action == Action::Undo { "Undid" } else { "Did again" };
+                self.say(format!("{done}: {}", step.text));
+                if let Some(note) = step.note {
+                    self.refuse(&Refusal::new(note));
+                }
+            }
+            None => self.say(if action == Action::Undo { "Nothing to undo" } else { "Nothing to do again" }),
+        }
+    }
+
+    fn hide_or_lock(&mut self, action: Action) {
+        let items = self.document.selection().items().iter();
+        let items: Vec<Item> =
+            items.filter(|item| matches!(item, Item::Object(_) | Item::Region(_))).cloned().collect();
+        let Some(active) = items.last() else {
+            return self.refuse(&Refusal::new("Select an object or a region first"));
+        };
+        let scene = self.document.scene();
+        let (hidden, locked) = match active {
+            Item::Object(name) => {
+                let object = scene.objects.iter().find(|object| object.name == *name);
+                object.map_or((false, false), |object| (object.hidden, object.locked))
+            }
+            _ => {
+                let region = scene.regions.iter().find(|region| region.name == active.name());
+                region.map_or((false, false), |region| (region.hidden, region.locked))
+            }
+        };
+        self.run(&Command::Edit(match action {
+            Action::Hide => Edit::SetHidden(items, !hidden),
+            _ => Edit::SetLocked(items, !locked),
+        }));
+    }
+
+    fn look_along(&mut self, axis: AxisView) {
+        let shot = self.shot();
+        self.looking.free(&shot).look_along(axis);
+    }
+
+    fn frame(&mut self, selected: bool, view: &View) {
+        let scene = &self.document.shown().scene;
+        let chosen: Vec<usize> = (0..scene.objects.len())
+            .filter(|&object| {
+                let object = &scene.objects[object];
+                let is_scenery = object.mesh.starts_with(impasto_scene::house_mesh::PREFIX);
+                match selected {
+                    true => self.document.selection().contains(&Item::Object(object.name.clone())),
+                    false => !object.hidden && !is_scenery,
+                }
+            })
+            .collect();
+        let Some(bounds) = self.picker.bounds_in_world(chosen, &self.poses()) else {
+            return self.refuse(&Refusal::new("Select an object first"));
+        };
+        let shot = self.shot();
+        self.looking.free(&shot).frame(bounds, view.size_px);
+    }
+
+    fn to_key(&mut self, forward: bool) {
+        let scene = self.document.scene();
+        let objects = scene.objects.iter().flat_map(|object| object.keys.iter().map(|key| key.frame));
+        let frames = objects.chain(scene.camera.keys.iter().map(|key| key.frame));
+        let now = self.session.frame;
+        let next = if forward {
+            frames.filter(|&frame| frame > now).min_by(f64::total_cmp)
+        } else {
+            frames.filter(|&frame| frame < now).max_by(f64::total_cmp)
+        };
+        self.session.frame = next.unwrap_or(now);
+    }
+
+    /// Takes the frame that is shown as the new reference.
+    pub fn recapture(&mut self, frame: i64) {
+        self.run(&Command::Directions(Directions::Recapture(frame)));
+    }
+
+    /// By how much an object has turned about the gaze since the reference, degrees: what Compare tells beside its strokes.
+    pub fn turned_deg(&self, object: usize) -> Option<f64> {
+        let scene = &self.document.shown().scene;
+        let (camera, at) = motion::referred_to(scene, &scene.reference);
+        let [before, now] = [at, self.session.frame].map(|frame| motion::poses_at(scene, frame));
+        let gaze = (camera.target - camera.eye).try_normalize()?;
+        let turn = now.get(object)?.matrix3 * before.get(object)?.matrix3.inverse();
+        let quat = glam::DQuat::from_mat3(&(turn * (1.0 / turn.determinant().cbrt())));
+        let (axis, angle_rad) = quat.to_axis_angle();
+        // As the picture shows it: counter-clockwise about the way to the eye.
+        let angle_rad = impasto_core::angle::wrap_pi(angle_rad);
+        Some((angle_rad * -axis.dot(gaze)).to_degrees())
+    }
+}

@@ -1,0 +1,150 @@
+//! Moving, turning and scaling objects.
+
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+use impasto_scene::document::ObjectKey;
+use impasto_scene::motion;
+
+use super::{Busy, Editor, TransformDrag};
+use crate::command::{Arrange, Command, Pose, Shift, Time};
+use crate::euler;
+use crate::picking::View;
+use crate::refusal::Refusal;
+use crate::session::Mode;
+use crate::transform::{
+    Constraint, Operation, TransformDelta, TransformEvent, TransformStart, TransformStep, Transforming,
+};
+
+impl Editor {
+    /// Begins a transform of what is selected; false where nothing is, or it is locked. `from` says where the pointer is, and
+    /// whether its button is held.
+    pub(super) fn begin_transform(
+        &mut self,
+        (operation, constraint): (Operation, Option<Constraint>),
+        (at_px, held): (DVec2, bool),
+        view: &View,
+    ) -> bool {
+        let Some(object) = self.active_object() else {
+            self.refuse(&Refusal::new("Select an object first"));
+            return false;
+        };
+        let scene = &self.document.shown().scene;
+        let objects: Vec<String> = self.document.selection().objects().map(str::to_owned).collect();
+        let locked = scene.objects.iter().find(|object| object.locked && objects.contains(&object.name));
+        if let Some(locked) = locked {
+            let refusal = Refusal::new(format!("{} is locked", locked.name));
+            self.refuse(&refusal);
+            return false;
+        }
+        let name = match &objects[..] {
+            [_] => scene.objects[object].name.clone(),
+            several => format!("{} objects", several.len()),
+        };
+        let start = TransformStart {
+            name,
+            world_from_model: self.poses()[object],
+            view: view.clone(),
+            at_px,
+            space: self.session.options.axes,
+        };
+        let machine = match constraint {
+            Some(constraint) => Transforming::held(operation, constraint, start),
+            None => Transforming::new(operation, start),
+        };
+        self.busy = Busy::Transforming(Box::new(TransformDrag { machine, objects, held }));
+        true
+    }
+
+    /// Hands an event to the transform under way.
+    pub(super) fn transform(&mut self, event: TransformEvent, view: &View) {
+        let Busy::Transforming(drag) = &mut self.busy else { return };
+        let step = drag.machine.take(event);
+        match step {
+            TransformStep::Preview(delta) => {
+                if let Some(command) = self.transform_command(delta) {
+                    self.preview(&command);
+                }
+            }
+            TransformStep::Kept(delta) => {
+                let command = delta.and_then(|delta| self.transform_command(delta));
+                self.busy = Busy::Idle;
+                match command {
+                    Some(command) => drop(self.run(&command)),
+                    None => self.end_preview(),
+                }
+            }
+            TransformStep::Back => self.cancel(view),
+        }
+    }
+
+    pub(super) fn type_into_transform(&mut self, character: char, view: &View) {
+        self.transform(TransformEvent::Typed(character), view);
+    }
+
+    /// The command that a transform comes to: in Arrange the whole motion moves, in Animate the pose at this frame.
+    fn transform_command(&self, delta: TransformDelta) -> Option<Command> {
+        let Busy::Transforming(drag) = &self.busy else { return None };
+        let scene = self.document.scene();
+        let frame = self.session.frame;
+        let poses = motion::poses_at(scene, frame);
+        let active = drag.objects.last()?;
+        let index = scene.objects.iter().position(|object| object.name == *active)?;
+        let pivot = poses[index].translation;
+        let axes = drag.machine.world_from_space();
+        let (world_from_world, verb) = match delta {
+            TransformDelta::Move(by) => (DAffine3::from_translation(axes * by), "Move"),
+            TransformDelta::Turn { axis, angle_rad } => {
+                let turn = DMat3::from_quat(DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad));
+                (about(pivot, turn), "Turn")
+            }
+            TransformDelta::Scale(factors) if factors.max_element() - factors.min_element() < 1e-12 => {
+                (about(pivot, DMat3::from_diagonal(factors)), "Scale")
+            }
+            // Along one axis: an object's own, whatever space it was asked in.
+            TransformDelta::Scale(factors) => {
+                let object = active.clone();
+                return Some(Command::Arrange(Arrange::Stretch { object, factors }));
+            }
+        };
+        if self.session.mode != Mode::Animate {
+            let objects = drag.objects.clone();
+            let shift = Shift { world_from_world, frame };
+            return Some(Command::Arrange(Arrange::ShiftMotion { objects, shift, verb }));
+        }
+        let poses_keyed = drag.objects.iter().filter_map(|name| {
+            let index = scene.objects.iter().position(|object| object.name == *name)?;
+            let object = &scene.objects[index];
+            let now = motion::key_at(scene, object, frame);
+            let in_parent = {
+                let own = pose_of(&now);
+                let world_from_parent = poses[index] * own.inverse();
+                world_from_parent.inverse() * world_from_world * world_from_parent * own
+            };
+            let key = key_of(in_parent, &now);
+            Some(Command::Time(Time::PoseAtFrame(Pose::Object(name.clone(), key), frame)))
+        });
+        let mut commands: Vec<Command> = poses_keyed.collect();
+        if commands.len() == 1 {
+            return commands.pop();
+        }
+        Some(Command::Several(format!("Pose {} objects at {frame}", commands.len()), commands))
+    }
+}
+
+fn about(pivot: DVec3, matrix: DMat3) -> DAffine3 {
+    DAffine3::from_translation(pivot) * DAffine3::from_mat3(matrix) * DAffine3::from_translation(-pivot)
+}
+
+fn pose_of(key: &ObjectKey) -> DAffine3 {
+    let matrix = euler::matrix(key.rotation_deg) * key.scale;
+    DAffine3::from_mat3_translation(matrix, DVec3::from(key.translation))
+}
+
+fn key_of(pose: DAffine3, near: &ObjectKey) -> ObjectKey {
+    let scale = pose.matrix3.determinant().cbrt();
+    ObjectKey {
+        translation: pose.translation.map(euler::tidy).to_array(),
+        rotation_deg: euler::degrees(pose.matrix3 * (1.0 / scale), near.rotation_deg),
+        scale: euler::tidy(scale),
+        ..near.clone()
+    }
+}

@@ -1,0 +1,48 @@
+//! What tools ask of the painting.
+
+use impasto_core::sampling::Particle;
+use impasto_painting::{Painting, SurfacePlace};
+use impasto_scene::motion::CameraPose;
+
+use crate::picking::Hit;
+use crate::tools::{Painted, Shown};
+
+/// A painting as a camera sees it; none before the first is prepared.
+pub(super) struct Seen<'a> {
+    pub(super) painting: Option<&'a Painting>,
+    pub(super) camera: &'a CameraPose,
+    pub(super) frame: f64,
+}
+
+impl Painted for Seen<'_> {
+    fn region_at(&self, hit: &Hit) -> Option<usize> {
+        let painting = self.painting?;
+        let place = Particle {
+            triangle: hit.triangle,
+            barycentric: [hit.barycentric[1] as f32, hit.barycentric[2] as f32],
+            flipped: false,
+            position: hit.position_in_model.as_vec3(),
+            normal: hit.normal_in_model.as_vec3(),
+        };
+        let is_there = (hit.object) < painting.scene().objects.len();
+        let region = is_there.then(|| painting.region_at(hit.object, &place))?;
+        (region < painting.scene().regions.len()).then_some(region)
+    }
+
+    fn shown_at(&self, hit: &Hit) -> Option<Shown> {
+        let painting = self.painting?;
+        if hit.object >= painting.scene().objects.len() {
+            return None;
+        }
+        let surface = painting.surface(hit.object);
+        let (low, high) = surface.mesh.bounds()?;
+        let place = SurfacePlace {
+            object: hit.object,
+            position: hit.position_in_model,
+            normal: hit.normal_in_model,
+            radius: f64::from((high - low).length()) * 0.2,
+        };
+        let shown = painting.angle_at(&place, self.camera, self.frame)?;
+        Some(Shown { angle_rad: f64::from(shown.angle_rad), trust: f64::from(shown.kappa) })
+    }
+}

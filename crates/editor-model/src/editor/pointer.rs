@@ -1,0 +1,284 @@
+//! The pointer over the viewport.
+
+use glam::DVec2;
+use impasto_scene::document::LightKind;
+
+use super::painted::Seen;
+use super::{Busy, Editor};
+use crate::command::{Arrange, Command};
+use crate::keymap::{Button, Modifiers, Navigation};
+use crate::picking::View;
+use crate::selection::{Item, Selection};
+use crate::session::{Mode, Tool};
+use crate::tools::{Surroundings, ToolEvent, ToolOutput};
+use crate::transform::{Operation, Snap, TransformEvent};
+
+/// A drag of an object begins after this many pixels.
+const DRAG_PX: f64 = 4.0;
+
+/// One wheel step brings the eye this much nearer, in drags of pixels.
+const ZOOM_PX_PER_STEP: f64 = 60.0;
+
+/// What the pointer does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointerKind {
+    /// It moves, with whatever is held.
+    Move,
+    /// A button goes down.
+    Press(Button),
+    /// A button goes up.
+    Release(Button),
+    /// The wheel turns, steps towards the screen are positive.
+    Wheel(f64),
+    /// It leaves the viewport.
+    Leave,
+}
+
+/// One event of the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointerEvent {
+    /// What it does.
+    pub kind: PointerKind,
+    /// Where, pixels of the viewport from its upper left corner.
+    pub at_px: DVec2,
+    /// With what held.
+    pub held: Modifiers,
+    /// When, seconds of any clock.
+    pub at_secs: f64,
+}
+
+impl Editor {
+    /// Takes an event of the pointer over the viewport.
+    pub fn pointer(&mut self, event: &PointerEvent, view: &View) {
+        if !event.at_px.is_finite() {
+            return;
+        }
+        let before_px = self.pointer_px.unwrap_or(event.at_px);
+        (self.held, self.at_secs) = (event.held, event.at_secs);
+        self.pointer_px = (event.kind != PointerKind::Leave).then_some(event.at_px);
+        match event.kind {
+            PointerKind::Move => self.moved(event, event.at_px - before_px, view),
+            PointerKind::Press(button) => self.pressed(button, event, view),
+            PointerKind::Release(button) => self.released(button, event, view),
+            PointerKind::Wheel(steps) => self.zoom(steps, event.at_px, view),
+            PointerKind::Leave => {
+                if matches!(self.busy, Busy::Idle) {
+                    self.output = ToolOutput { status: self.output.status.clone(), ..ToolOutput::default() };
+                }
+            }
+        }
+    }
+
+    fn moved(&mut self, event: &PointerEvent, delta_px: DVec2, view: &View) {
+        match &mut self.busy {
+            Busy::Idle => {
+                if self.session.mode == Mode::Paint {
+                    self.tool(ToolEvent::Hover { at_px: event.at_px, at_secs: event.at_secs }, view);
+                }
+            }
+            Busy::Navigating(way, about) => {
+                let (way, about) = (*way, *about);
+                let shot = self.shot();
+                let free = self.looking.free(&shot);
+                match way {
+                    Navigation::Orbit => free.orbit(delta_px, about),
+                    Navigation::Pan => free.pan(delta_px, about, view.size_px),
+                    Navigation::Zoom => free.zoom(-delta_px.y / ZOOM_PX_PER_STEP, about),
+                }
+            }
+            Busy::Shot(pose) => {
+                let mut free = crate::camera_rig::FreeView::new(pose.clone());
+                free.orbit(delta_px, pose.target);
+                *pose = free.pose().clone();
+            }
+            Busy::Painting => {
+                let event = ToolEvent::Move { at_px: event.at_px, at_secs: event.at_secs, held: event.held };
+                self.tool(event, view);
+            }
+            Busy::Pressed(from_px) => {
+                if from_px.distance(event.at_px) >= DRAG_PX {
+                    let from_px = *from_px;
+                    self.busy = Busy::Idle;
+                    let operation = match self.session.tool() {
+                        Tool::Turn => Operation::Turn,
+                        Tool::Scale => Operation::Scale,
+                        _ => Operation::Move,
+                    };
+                    if self.begin_transform((operation, None), (from_px, true), view) {
+                        self.moved(event, DVec2::ZERO, view);
+                    }
+                }
+            }
+            Busy::Transforming(_) => {
+                let snap = if event.held.ctrl != self.session.options.snap { Snap::Steps } else { Snap::Free };
+                self.transform(TransformEvent::Move { at_px: event.at_px, snap }, view);
+            }
+        }
+    }
+
+    fn pressed(&mut self, button: Button, event: &PointerEvent, view: &View) {
+        match (&self.busy, button) {
+            (Busy::Transforming(_), Button::Left) => return self.transform(TransformEvent::Keep, view),
+            (Busy::Idle, _) => {}
+            (_, Button::Right) => return self.cancel(view),
+            _ => return,
+        }
+        if button == Button::Right && self.hand.is_busy() {
+            return self.cancel(view);
+        }
+        if let Some(way) = self.keymap.navigation(button, event.held) {
+            let about = self.about(event.at_px, view);
+            self.busy = Busy::Navigating(way, about);
+            return;
+        }
+        if button != Button::Left {
+            return;
+        }
+        match (self.session.mode, self.session.tool()) {
+            (Mode::Paint, _) => {
+                let press =
+                    ToolEvent::Press { at_px: event.at_px, at_secs: event.at_secs, held: event.held };
+                self.busy = Busy::Painting;
+                self.tool(press, view);
+                if self.output.refusal.is_some() {
+                    self.busy = Busy::Idle;
+                }
+            }
+            (_, Tool::AddLight) => self.add_light(event.at_px, view),
+            (_, Tool::ShotCamera) => self.busy = Busy::Shot(self.shot()),
+            _ => self.press_on_object(event, view),
+        }
+    }
+
+    fn press_on_object(&mut self, event: &PointerEvent, view: &View) {
+        let handle = self.gizmo(view).and_then(|gizmo| gizmo.hit(event.at_px).cloned());
+        if let Some(handle) = handle {
+            let begun = (handle.operation, Some(handle.constraint));
+            self.begin_transform(begun, (event.at_px, true), view);
+            return;
+        }
+        let hit = self.hit(event.at_px, view);
+        let Some(hit) = hit else {
+            if !event.held.shift {
+                self.document.select(Selection::default());
+            }
+            return;
+        };
+        let item = Item::Object(self.document.shown().scene.objects[hit.object].name.clone());
+        let mut selection = self.document.selection().clone();
+        if event.held.shift || event.held.ctrl {
+            selection.toggle(item);
+        } else if selection.active() != Some(&item) {
+            selection = Selection::only(item);
+        }
+        self.document.select(selection);
+        self.busy = Busy::Pressed(event.at_px);
+    }
+
+    fn released(&mut self, button: Button, _event: &PointerEvent, view: &View) {
+        match &self.busy {
+            Busy::Navigating(..) => self.busy = Busy::Idle,
+            Busy::Pressed(_) if button == Button::Left => self.busy = Busy::Idle,
+            Busy::Shot(pose) if button == Button::Left => {
+                let pose = pose.clone();
+                self.busy = Busy::Idle;
+                let frame = self.session.frame;
+                self.run(&Command::Arrange(Arrange::SetCamera { frame, pose }));
+            }
+            Busy::Painting if button == Button::Left => {
+                self.busy = Busy::Idle;
+                self.tool(ToolEvent::Release, view);
+            }
+            Busy::Transforming(drag) if drag.held && button == Button::Left => {
+                self.transform(TransformEvent::Keep, view);
+            }
+            _ => {}
+        }
+    }
+
+    fn zoom(&mut self, steps: f64, at_px: DVec2, view: &View) {
+        let toward = self.about(at_px, view);
+        let shot = self.shot();
+        self.looking.free(&shot).zoom(steps, toward);
+    }
+
+    /// The point that the view turns about: what lies under the pointer, else what is selected, else the target's depth.
+    fn about(&self, at_px: DVec2, view: &View) -> glam::DVec3 {
+        if let Some(hit) = self.hit(at_px, view) {
+            return hit.position_in_world;
+        }
+        let selected = self.active_object().and_then(|object| {
+            let [low, high] = self.picker.bounds_in_world([object], &self.poses())?;
+            Some((low + high) * 0.5)
+        });
+        selected.unwrap_or_else(|| view.at_depth_of(at_px, self.camera().target))
+    }
+
+    pub(super) fn hit(&self, at_px: DVec2, view: &View) -> Option<crate::picking::Hit> {
+        let scene = &self.document.shown().scene;
+        let visible = |object: usize| scene.objects.get(object).is_some_and(|object| !object.hidden);
+        self.picker.pick(&view.ray(at_px), &self.poses(), visible)
+    }
+
+    /// Hands an event to the tool of Paint and does what comes of it.
+    pub(super) fn tool(&mut self, event: ToolEvent, view: &View) {
+        let poses = self.poses();
+        let loaded = std::sync::Arc::clone(self.document.loaded());
+        let painted =
+            Seen { painting: self.painting.as_ref(), camera: &view.camera, frame: self.session.frame };
+        let around = Surroundings {
+            loaded: &loaded,
+            view,
+            poses: &poses,
+            picker: &self.picker,
+            options: &self.session.options,
+            selection: self.document.selection(),
+            painted: &painted,
+        };
+        let output = self.hand.take(self.session.paint_tool, &event, &around);
+        self.output = output;
+        if let Some(options) = self.output.options.clone() {
+            self.session.options = options;
+        }
+        if let Some(refusal) = self.output.refusal.clone() {
+            self.refuse(&refusal);
+        }
+        if let Some(command) = self.output.commit.take() {
+            self.run(&command);
+        } else if let Some(command) = self.output.preview.take() {
+            self.preview(&command);
+        } else if !std::sync::Arc::ptr_eq(self.document.shown(), self.document.loaded()) {
+            self.end_preview();
+        }
+        if let Some(item) = self.output.select.clone() {
+            self.document.select(Selection::only(item));
+        }
+    }
+
+    /// Whatever the hand is at is as if never begun.
+    pub(super) fn cancel(&mut self, view: &View) {
+        match std::mem::take(&mut self.busy) {
+            Busy::Transforming(_) => self.end_preview(),
+            Busy::Idle | Busy::Painting => {
+                if self.session.mode == Mode::Paint {
+                    self.tool(ToolEvent::Cancel, view);
+                }
+            }
+            Busy::Navigating(..) | Busy::Shot(_) | Busy::Pressed(_) => {}
+        }
+    }
+
+    fn add_light(&mut self, at_px: DVec2, view: &View) {
+        let toward = self.about(at_px, view);
+        // Off the surface, towards the eye: a light inside of what it lights is of no use.
+        let to_eye = (view.camera.eye - toward) * 0.25;
+        let kind = LightKind::Point;
+        self.run(&Command::Arrange(Arrange::AddLight { kind, at: toward + to_eye, toward }));
+        self.session.set_tool(Tool::Select);
+    }
+
+    /// With what held the last event came.
+    pub fn held(&self) -> Modifiers {
+        self.held
+    }
+}

@@ -1,0 +1,385 @@
+//! Comb, Smooth, Smear, Erase and the region brush: a ring that is dragged over a surface.
+
+use glam::DVec2;
+use impasto_scene::document::{Dab, Falloff, Guide, GuideMode, Region, Selector};
+
+use super::heading::Heading;
+use super::ring::{Needle, Ring, radius_in_model};
+use super::{NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, erase, smear, waiting_words};
+use crate::command::{Command, Directions, Gesture, RegionTarget, Regions};
+use crate::keymap::{Action, Modifiers};
+use crate::path::{Faces, GuideStyle, MirrorAxes, PathPoint, PathSense, PathSettings, SurfacePath, mirrored};
+use crate::picking::Hit;
+use crate::refusal::Refusal;
+use crate::selection::Item;
+use crate::session::{RegionDoes, Tool};
+
+/// A brush in the hand.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Brush {
+    heading: Heading,
+    stroke: Option<Stroke>,
+}
+
+/// A drag under way.
+#[derive(Clone, Debug)]
+struct Stroke {
+    does: Does,
+    on: Paintable,
+    path: SurfacePath,
+    sense: PathSense,
+    at_px: DVec2,
+}
+
+/// What a drag does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Does {
+    Comb,
+    Smooth,
+    Smear,
+    Erase,
+    /// The region brush.
+    Add,
+    /// The region brush with Ctrl.
+    TakeAway,
+    /// The region brush, for a region that is not there yet.
+    Found,
+}
+
+impl Brush {
+    pub(super) fn is_busy(&self) -> bool {
+        self.stroke.is_some()
+    }
+
+    pub(super) fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
+        match *event {
+            ToolEvent::Hover { at_px, at_secs } => self.aim(tool, (at_px, at_secs), around),
+            ToolEvent::Press { at_px, at_secs, held } => {
+                self.heading.forget();
+                self.heading.follow(at_px, at_secs);
+                self.press(tool, at_px, held, around)
+            }
+            ToolEvent::Move { at_px, at_secs, .. } => {
+                self.heading.follow(at_px, at_secs);
+                let Some(stroke) = &mut self.stroke else { return self.aim(tool, (at_px, at_secs), around) };
+                stroke.at_px = at_px;
+                let on = stroke.on.clone();
+                stroke.path.move_to(at_px, &mut stroke.does.picks(&on, around));
+                let preview = stroke.command(around);
+                ToolOutput { preview, ..self.under_way(around) }
+            }
+            ToolEvent::Release => {
+                let stroke = self.stroke.take();
+                let commit = stroke.as_ref().and_then(|stroke| stroke.command(around));
+                // What was acted on is selected, even where the stroke was too short to leave anything.
+                let on = stroke.and_then(|stroke| stroke.on.region.map(|_| stroke.on.name));
+                let select = on.filter(|_| commit.is_none()).map(Item::Region);
+                ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
+            }
+            ToolEvent::Cancel | ToolEvent::FocusLost | ToolEvent::Key(Action::Cancel) => {
+                self.stroke = None;
+                self.heading.forget();
+                ToolOutput::saying(words(tool, around))
+            }
+            ToolEvent::Key(_) => match &self.stroke {
+                Some(stroke) => ToolOutput { preview: stroke.command(around), ..self.under_way(around) },
+                None => ToolOutput::saying(words(tool, around)),
+            },
+        }
+    }
+
+    /// The ring and the needle before a press.
+    fn aim(&mut self, tool: Tool, (at_px, at_secs): (DVec2, f64), around: &Surroundings) -> ToolOutput {
+        self.heading.follow(at_px, at_secs);
+        let radius_px = around.options.radius_px;
+        let hit = around.hit(at_px);
+        let mut output = match around.paintable(hit.as_ref()) {
+            // Nothing under the ring is said by the ring.
+            Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
+            _ => ToolOutput::saying(words(tool, around)),
+        };
+        let Some(hit) = hit else {
+            output.rings = vec![Ring::hollow(at_px, radius_px)];
+            return output;
+        };
+        output.rings = rings(&hit, radius_px, around);
+        let shown = around.painted.shown_at(&hit);
+        let moving = self.heading.is_moving(at_secs);
+        let lying = shown.map(|shown| DVec2::from_angle(-shown.angle_rad));
+        let along = if moving { self.heading.along().or(lying) } else { lying };
+        output.needle = along.map(|along| Needle { at_px, along, headed: moving });
+        if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
+            output.label =
+                Some(format!("{}°  trust {:.2}", shown.angle_rad.to_degrees().round() + 0.0, shown.trust));
+        }
+        output
+    }
+
+    fn press(&mut self, tool: Tool, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {
+        let does = Does::of(tool, held, around);
+        let begun = does.begin(at_px, around);
+        let (on, hit) = match begun {
+            Ok(begun) => begun,
+            Err(refusal) => return ToolOutput::refusing(refusal),
+        };
+        let options = around.options;
+        let settings = PathSettings {
+            radius_px: options.radius_px,
+            steady: options.steady,
+            faces: if options.front_only { Faces::Front } else { Faces::All },
+        };
+        let path = SurfacePath::press(at_px, &hit, around.view, around.pose(hit.object), &settings);
+        let sense = if options.against != held.ctrl { PathSense::Against } else { PathSense::Along };
+        let stroke = Stroke { does, on, path, sense, at_px };
+        let preview = stroke.command(around);
+        self.stroke = Some(stroke);
+        ToolOutput { preview, ..self.under_way(around) }
+    }
+
+    /// Ring and words while dragging.
+    fn under_way(&self, around: &Surroundings) -> ToolOutput {
+        let Some(stroke) = &self.stroke else { return ToolOutput::default() };
+        let radius_px = around.options.radius_px;
+        let along = self.heading.along();
+        let angle = along.map(|along| {
+            let along = if stroke.sense == PathSense::Against { -along } else { along };
+            // Zero has no sign.
+            let angle_deg = (along * DVec2::new(1.0, -1.0)).to_angle().to_degrees().round() + 0.0;
+            format!(", {angle_deg}°")
+        });
+        let angle = angle.filter(|_| stroke.does == Does::Comb).unwrap_or_default();
+        let (verb, name) = (stroke.does.verb(), &stroke.on.name);
+        let status = format!("{verb} {name}{angle}, radius {radius_px:.0} px   [Esc] take it back");
+        let hit = around.hit(stroke.at_px).filter(|hit| hit.object == stroke.on.object);
+        let rings = match &hit {
+            Some(hit) => rings(hit, radius_px, around),
+            None => vec![Ring::hollow(stroke.at_px, radius_px)],
+        };
+        let needle = along.map(|along| Needle { at_px: stroke.at_px, along, headed: true });
+        ToolOutput { rings, needle, ..ToolOutput::saying(status) }
+    }
+}
+
+/// The words while it waits: the region brush names the region that it paints.
+fn words(tool: Tool, around: &Surroundings) -> String {
+    let selected = around.selected_region().and_then(|region| around.scene().regions.get(region));
+    let name = selected.map_or("a new region", |region| region.name.as_str());
+    waiting_words(tool, around.options, name)
+}
+
+fn rings(hit: &Hit, radius_px: f64, around: &Surroundings) -> Vec<Ring> {
+    let mut rings = Ring::mirrored(hit, radius_px, around);
+    rings.push(Ring::on(hit, radius_px, around));
+    rings
+}
+
+impl Does {
+    fn of(tool: Tool, held: Modifiers, around: &Surroundings) -> Self {
+        match tool {
+            Tool::Smooth if around.options.smear => Self::Smear,
+            Tool::Smooth => Self::Smooth,
+            Tool::Erase => Self::Erase,
+            Tool::Region if held.ctrl || around.options.region_does == RegionDoes::TakeAway => Self::TakeAway,
+            Tool::Region if around.options.region_does == RegionDoes::New => Self::Found,
+            Tool::Region => Self::Add,
+            _ if held.shift => Self::Smooth,
+            _ => Self::Comb,
+        }
+    }
+
+    fn verb(self) -> &'static str {
+        match self {
+            Self::Comb => "Combing",
+            Self::Smooth => "Smoothing",
+            Self::Smear => "Smearing",
+            Self::Erase => "Erasing on",
+            Self::Add => "Adding to",
+            Self::TakeAway => "Taking from",
+            Self::Found => "Painting",
+        }
+    }
+
+    /// Whether it paints which faces belong to a region, wherever they belonged before.
+    fn is_for_regions(self) -> bool {
+        matches!(self, Self::Add | Self::TakeAway | Self::Found)
+    }
+
+    /// What a press acts on.
+    fn begin(self, at_px: DVec2, around: &Surroundings) -> Result<(Paintable, Hit), Refusal> {
+        let nothing = || Refusal::new(NOTHING_HERE);
+        let hit = around.hit(at_px).ok_or_else(nothing)?;
+        if around.options.front_only && !hit.front {
+            return Err(nothing());
+        }
+        if !self.is_for_regions() {
+            return Ok((around.paintable(Some(&hit))?, hit));
+        }
+        let object = around.object(hit.object).ok_or_else(nothing)?;
+        if object.locked {
+            return Err(Refusal::new(format!("{} is locked", object.name)));
+        }
+        if self == Self::Found {
+            let name = "new region".to_owned();
+            let target = RegionTarget::NewOn(object.name.clone());
+            return Ok((
+                Paintable { object: hit.object, region: None, target, name, object_name: None },
+                hit,
+            ));
+        }
+        let chosen =
+            around.selected_region().and_then(|index| Some((index, around.scene().regions.get(index)?)));
+        let Some((index, region)) = chosen else {
+            return Err(Refusal::new("Select a region to paint it, or choose New region"));
+        };
+        let name = region.name.clone();
+        if region.locked {
+            return Err(Refusal::new(format!("{name} is locked")));
+        }
+        match region.on.object() {
+            Some(on) if on != object.name => Err(Refusal::new(format!("{name} lies on {on}"))),
+            _ => {
+                let target = RegionTarget::Named(name.clone());
+                let region = Some(index);
+                Ok((Paintable { object: hit.object, region, target, name, object_name: None }, hit))
+            }
+        }
+    }
+
+    /// Where a drag may go: the object of its press, and within its region.
+    fn picks<'a>(
+        self,
+        on: &'a Paintable,
+        around: &'a Surroundings<'_>,
+    ) -> impl FnMut(DVec2) -> Option<Hit> + 'a {
+        move |at_px| {
+            let hit = around.hit(at_px).filter(|hit| hit.object == on.object)?;
+            let within = self.is_for_regions() || {
+                let region = around.painted.region_at(&hit);
+                region.filter(|&region| region < around.scene().regions.len()) == on.region
+            };
+            within.then_some(hit)
+        }
+    }
+}
+
+impl Stroke {
+    /// What it would do if the hand let go now; nothing where it is too short.
+    fn command(&self, around: &Surroundings) -> Option<Command> {
+        let path = self.path.finished(&mut self.does.picks(&self.on, around));
+        let directions = |gesture: Gesture, guides: Vec<Guide>| {
+            let region = self.on.target.clone();
+            (!guides.is_empty()).then_some(Command::Directions(Directions::Stroke {
+                region,
+                gesture,
+                guides,
+            }))
+        };
+        match self.does {
+            Does::Comb => directions(Gesture::Comb, self.guides(&path, GuideMode::Comb, around)),
+            Does::Smooth => directions(Gesture::Smooth, self.guides(&path, GuideMode::Smooth, around)),
+            Does::Smear => directions(Gesture::Smear, self.guides(&path, GuideMode::Comb, around)),
+            Does::Erase => self.erased(&path, around),
+            Does::Add | Does::TakeAway | Does::Found => Some(self.dabbed(&path, around)),
+        }
+    }
+
+    /// The pieces of a path, each followed by its mirror images.
+    fn guides(&self, path: &SurfacePath, mode: GuideMode, around: &Surroundings) -> Vec<Guide> {
+        let options = around.options;
+        let style = GuideStyle {
+            mode,
+            object: self.on.object_name.clone(),
+            strength: options.strength,
+            falloff: if options.even { Falloff::Flat } else { Falloff::Smooth },
+            sense: self.sense,
+        };
+        let [seen, reference] = around.views(self.on.object, self.on.region);
+        let own = if self.does == Does::Smear {
+            let stamps = path.stamps();
+            let shown = stamps.iter().map(|stamp| {
+                let hit = around.hit(stamp.at_px).filter(|hit| hit.object == self.on.object)?;
+                around.painted.shown_at(&hit).map(|shown| shown.angle_rad)
+            });
+            let carried = smear::carried(shown);
+            path.guides_turned(&style, [&seen, &reference], &|point, line_rad| {
+                smear::turn_deg(point, line_rad, &stamps, &carried)
+            })
+        } else {
+            path.guides(&style, &seen, &reference)
+        };
+        let flips = mirror_axes(around).flips();
+        let mut nearest =
+            |at, facing, farthest| around.picker.closest_on_surface(self.on.object, at, facing, farthest);
+        let mut guides = own.clone();
+        for flip in flips {
+            guides
+                .extend(own.iter().flat_map(|guide| mirrored(guide, flip, &seen, &reference, &mut nearest)));
+        }
+        guides
+    }
+
+    /// Where the brush touches, and the mirror images of that.
+    fn touched(&self, path: &SurfacePath, around: &Surroundings) -> Vec<PathPoint> {
+        let mut touched = path.stamps();
+        let own = touched.len();
+        for flip in mirror_axes(around).flips() {
+            for index in 0..own {
+                let stamp = touched[index];
+                let (at, normal) = (stamp.position * flip, stamp.normal * flip);
+                let reach = path.radius() * 0.5;
+                if let Some(found) = around.picker.closest_on_surface(self.on.object, at, normal, reach) {
+                    touched.push(PathPoint { position: found.position, normal: found.normal, ..stamp });
+                }
+            }
+        }
+        touched
+    }
+
+    fn erased(&self, path: &SurfacePath, around: &Surroundings) -> Option<Command> {
+        let region = around.scene().regions.get(self.on.region?)?;
+        let touched = self.touched(path, around);
+        let object = around.object(self.on.object)?.name.as_str();
+        let guides: Vec<Guide> = region
+            .guides
+            .iter()
+            .flat_map(|guide| match guide.object.as_deref().or(region.on.object()) {
+                Some(on) if on == object => erase::cut(guide, &touched, path.radius()),
+                _ => vec![guide.clone()],
+            })
+            .collect();
+        let erase =
+            || Command::Directions(Directions::Erase { region: region.name.clone(), guides: guides.clone() });
+        (guides != region.guides).then(erase)
+    }
+
+    fn dabbed(&self, path: &SurfacePath, around: &Surroundings) -> Command {
+        let take_away = self.does == Does::TakeAway;
+        let dabs: Vec<Dab> = self
+            .touched(path, around)
+            .iter()
+            .map(|stamp| Dab {
+                at: stamp.position.to_array(),
+                normal: stamp.normal.to_array(),
+                radius: path.radius(),
+                take_away,
+            })
+            .collect();
+        match &self.on.target {
+            RegionTarget::Named(region) => Command::Regions(Regions::Paint { region: region.clone(), dabs }),
+            RegionTarget::NewOn(object) => {
+                let name = format!("{object} part");
+                Command::Regions(Regions::Add(Region::new(name, Selector::Dabs(object.clone(), dabs))))
+            }
+        }
+    }
+}
+
+pub(super) fn mirror_axes(around: &Surroundings) -> MirrorAxes {
+    let [x, y, z] = around.options.mirror;
+    MirrorAxes { x, y, z }
+}
+
+/// Radius of the brush at a hit, in the object's own units.
+pub(super) fn radius_at(hit: &Hit, around: &Surroundings) -> f64 {
+    radius_in_model(hit, around.options.radius_px, around)
+}

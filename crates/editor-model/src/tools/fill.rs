@@ -1,0 +1,166 @@
+//! Fill direction: one statement for a whole region, by a click; a constant angle by dragging its needle.
+
+use glam::{DMat2, DVec2, DVec3};
+use impasto_scene::document::{Bend, Direction};
+
+use super::ring::Needle;
+use super::{Paintable, Surroundings, ToolEvent, ToolOutput, waiting_words};
+use crate::command::{Command, Directions};
+use crate::keymap::Action;
+use crate::picking::Hit;
+use crate::session::{FillKind, Tool};
+
+/// A needle shorter than this is a click.
+const LEAST_NEEDLE_PX: f64 = 6.0;
+
+/// A fill in the hand.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Fill {
+    filling: Option<Filling>,
+}
+
+#[derive(Clone, Debug)]
+struct Filling {
+    on: Paintable,
+    hit: Hit,
+    from_px: DVec2,
+    at_px: DVec2,
+}
+
+impl Fill {
+    pub(super) fn is_busy(&self) -> bool {
+        self.filling.is_some()
+    }
+
+    pub(super) fn take(&mut self, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
+        match *event {
+            ToolEvent::Hover { at_px, .. } => waiting(at_px, around),
+            ToolEvent::Press { at_px, .. } => {
+                let hit = around.hit(at_px);
+                match (around.paintable(hit.as_ref()), hit) {
+                    (Ok(on), Some(hit)) => {
+                        self.filling = Some(Filling { on, hit, from_px: at_px, at_px });
+                        self.under_way(around)
+                    }
+                    (Err(refusal), _) => ToolOutput::refusing(refusal),
+                    (Ok(_), None) => ToolOutput::default(),
+                }
+            }
+            ToolEvent::Move { at_px, .. } => {
+                if let Some(filling) = self.filling.as_mut().filter(|_| at_px.is_finite()) {
+                    filling.at_px = at_px;
+                }
+                self.under_way(around)
+            }
+            ToolEvent::Release => {
+                let commit = self.filling.take().map(|filling| filling.command(around));
+                ToolOutput { commit, ..ToolOutput::default() }
+            }
+            ToolEvent::Cancel | ToolEvent::FocusLost | ToolEvent::Key(Action::Cancel) => {
+                self.filling = None;
+                ToolOutput::default()
+            }
+            ToolEvent::Key(_) => self.under_way(around),
+        }
+    }
+
+    fn under_way(&self, around: &Surroundings) -> ToolOutput {
+        let Some(filling) = &self.filling else { return ToolOutput::default() };
+        let needle =
+            filling.needle(around).map(|along| Needle { at_px: filling.from_px, along, headed: false });
+        let angle = match filling.direction(around) {
+            Direction::Angle(angle_deg) => format!(", {angle_deg}°"),
+            _ => String::new(),
+        };
+        let status = format!("Filling {}{angle}   [Esc] take it back", filling.on.name);
+        ToolOutput { preview: Some(filling.command(around)), needle, ..ToolOutput::saying(status) }
+    }
+}
+
+impl Filling {
+    /// Unit, Y down; only a constant angle has one, and a click keeps the option's.
+    fn needle(&self, around: &Surroundings) -> Option<DVec2> {
+        let drawn = self.at_px - self.from_px;
+        (around.options.fill == FillKind::Angle && drawn.length() >= LEAST_NEEDLE_PX)
+            .then(|| drawn.normalize())
+    }
+
+    fn command(&self, around: &Surroundings) -> Command {
+        let (region, direction) = (self.on.target.clone(), self.direction(around));
+        Command::Directions(Directions::SetBase { region, direction })
+    }
+
+    fn direction(&self, around: &Surroundings) -> Direction {
+        match around.options.fill {
+            FillKind::Automatic => Direction::Auto,
+            FillKind::Curvature => Direction::Curvature(Bend::Min),
+            FillKind::Up => Direction::Up,
+            FillKind::Along => Direction::Along(self.longest_axis(around)),
+            FillKind::Around => Direction::Around(self.longest_axis(around)),
+            FillKind::Angle => {
+                let Some(along) = self.needle(around) else {
+                    return Direction::Angle(around.options.fill_angle_deg);
+                };
+                let shown = (along * DVec2::new(1.0, -1.0)).to_angle();
+                let turned = to_reference_rad(&self.hit, self.on.region, around).unwrap_or(0.0);
+                let angle_deg = (shown + turned).to_degrees();
+                // A line's two ends are one.
+                let angle_deg = angle_deg - 180.0 * (angle_deg / 180.0).round();
+                Direction::Angle((angle_deg * 10.0).round() / 10.0)
+            }
+        }
+    }
+
+    /// The longest side of the box round the region, in the object's own axes.
+    fn longest_axis(&self, around: &Surroundings) -> [f64; 3] {
+        let object = self.hit.object;
+        let own = self.on.region;
+        let within = |hit: &Hit| own.is_none() || around.painted.region_at(hit) == own;
+        let bounds =
+            around.picker.bounds_where(object, within).or_else(|| around.picker.bounds_in_model(object));
+        let side = bounds.map_or(DVec3::Y, |[low, high]| high - low);
+        match side.max_position() {
+            0 => DVec3::X.to_array(),
+            1 => DVec3::Y.to_array(),
+            _ => DVec3::Z.to_array(),
+        }
+    }
+}
+
+/// How far what shows here is turned in the reference of a region, radians: the polar rotation of the screen map
+/// A = (J_ref B)(J B)⁻¹. `None` where either view sees the surface from its edge.
+pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surroundings) -> Option<f64> {
+    let (camera, pose) = around.reference(hit.object, region);
+    let reference = crate::picking::View { camera, size_px: around.view.size_px };
+    let (right, up) = hit.normal_in_model.any_orthonormal_pair();
+    let shown = |view: &crate::picking::View, pose| {
+        let [jx, jy] = view.map(pose).jacobian(hit.position_in_model);
+        DMat2::from_cols(DVec2::new(jx.dot(right), jy.dot(right)), DVec2::new(jx.dot(up), jy.dot(up)))
+    };
+    let (now, then) = (shown(around.view, around.pose(hit.object)), shown(&reference, pose));
+    let area = now.determinant() * then.determinant();
+    if area.is_nan() || area <= 0.0 {
+        return None;
+    }
+    let map = then * now.inverse();
+    Some((map.x_axis.y - map.y_axis.x).atan2(map.x_axis.x + map.y_axis.y))
+}
+
+fn waiting(at_px: DVec2, around: &Surroundings) -> ToolOutput {
+    let hit = around.hit(at_px);
+    match around.paintable(hit.as_ref()) {
+        Ok(on) => {
+            let angle = around.options.fill_angle_deg.to_radians();
+            let turned = hit.and_then(|hit| to_reference_rad(&hit, on.region, around));
+            let constant = around.options.fill == FillKind::Angle;
+            let needle = turned.filter(|_| constant).map(|turned| Needle {
+                at_px,
+                along: DVec2::from_angle(angle - turned) * DVec2::new(1.0, -1.0),
+                headed: false,
+            });
+            ToolOutput { needle, ..ToolOutput::saying(waiting_words(Tool::Fill, around.options, &on.name)) }
+        }
+        Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
+        Err(_) => ToolOutput::saying(waiting_words(Tool::Fill, around.options, "a region")),
+    }
+}

@@ -1,0 +1,134 @@
+//! The hand: the tool of Paint that is held, and the sizes that F and Shift F change in it.
+
+use glam::DVec2;
+
+use super::brush::Brush;
+use super::curve::Curve;
+use super::fill::Fill;
+use super::sizing::{self, Sizing};
+use super::turn::{self, Turn};
+use super::{Surroundings, ToolEvent, ToolOutput, region};
+use crate::command::{Command, Directions};
+use crate::keymap::Action;
+use crate::session::{RegionBy, Tool};
+
+/// What the hand is doing in Paint. One lives as long as the window.
+#[derive(Clone, Debug, Default)]
+pub struct Hand {
+    tool: Option<Tool>,
+    held: Held,
+    sizing: Option<Sizing>,
+    /// A button is still down whose press ended a size: its release says nothing.
+    let_go: bool,
+    at_px: Option<DVec2>,
+}
+
+/// The machine of a tool.
+#[derive(Clone, Debug, Default)]
+enum Held {
+    #[default]
+    Nothing,
+    Brush(Brush),
+    Curve(Curve),
+    Fill(Fill),
+    Turn(Turn),
+}
+
+impl Hand {
+    /// Whether a gesture is under way: keys go to it first, and Esc ends it.
+    pub fn is_busy(&self) -> bool {
+        let held = match &self.held {
+            Held::Nothing => false,
+            Held::Brush(brush) => brush.is_busy(),
+            Held::Curve(curve) => curve.is_busy(),
+            Held::Fill(fill) => fill.is_busy(),
+            Held::Turn(turn) => turn.is_busy(),
+        };
+        held || self.sizing.is_some()
+    }
+
+    /// Takes an event for a tool of Paint; another tool than before drops what the last one had begun.
+    pub fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
+        if self.tool != Some(tool) {
+            let at_px = self.at_px;
+            *self = Self { tool: Some(tool), held: Held::of(tool), at_px, ..Self::default() };
+        }
+        if let ToolEvent::Hover { at_px, .. }
+        | ToolEvent::Press { at_px, .. }
+        | ToolEvent::Move { at_px, .. } = *event
+        {
+            self.at_px = Some(at_px);
+        }
+        if let Some(sizing) = &mut self.sizing {
+            let (output, goes_on) = sizing.take(event);
+            if !goes_on {
+                self.sizing = None;
+                self.let_go = matches!(event, ToolEvent::Press { .. });
+            }
+            return output;
+        }
+        if self.let_go {
+            match event {
+                ToolEvent::Release => {
+                    self.let_go = false;
+                    return ToolOutput::default();
+                }
+                ToolEvent::Move { .. } => return ToolOutput::default(),
+                _ => self.let_go = false,
+            }
+        }
+        if let ToolEvent::Key(action) = *event
+            && !self.is_busy()
+            && let Some(output) = self.key(action, around)
+        {
+            return output;
+        }
+        match &mut self.held {
+            Held::Brush(_) if tool == Tool::Region && around.options.region_by != RegionBy::Brush => {
+                region::take(event, around)
+            }
+            Held::Brush(brush) => brush.take(tool, event, around),
+            Held::Curve(curve) => curve.take(event, around),
+            Held::Fill(fill) => fill.take(event, around),
+            Held::Turn(turn) => turn.take(event, around),
+            Held::Nothing if tool == Tool::Pick => turn::pick(event, around),
+            Held::Nothing => ToolOutput::default(),
+        }
+    }
+
+    /// Keys that every tool of Paint has.
+    fn key(&mut self, action: Action, around: &Surroundings) -> Option<ToolOutput> {
+        if let Some(options) = sizing::stepped(action, around.options) {
+            let words = format!("Radius {:.0} px", options.radius_px);
+            return Some(ToolOutput { options: Some(options), ..ToolOutput::saying(words) });
+        }
+        if let Some(mut sizing) = Sizing::begin(action, around.options, self.at_px) {
+            let (output, _) = sizing.take(&ToolEvent::Key(action));
+            self.sizing = Some(sizing);
+            return Some(output);
+        }
+        if action == Action::FlipUnderCursor {
+            let hit = self.at_px.and_then(|at_px| around.hit(at_px));
+            return Some(match around.paintable(hit.as_ref()) {
+                Ok(on) => ToolOutput {
+                    commit: Some(Command::Directions(Directions::Flip(on.target))),
+                    ..ToolOutput::default()
+                },
+                Err(refusal) => ToolOutput::refusing(refusal),
+            });
+        }
+        None
+    }
+}
+
+impl Held {
+    fn of(tool: Tool) -> Self {
+        match tool {
+            Tool::Comb | Tool::Smooth | Tool::Erase | Tool::Region => Self::Brush(Brush::default()),
+            Tool::GuideCurve => Self::Curve(Curve::default()),
+            Tool::Fill => Self::Fill(Fill::default()),
+            Tool::TurnDirection => Self::Turn(Turn::default()),
+            _ => Self::Nothing,
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Doing what panels and the editor ask for.
+
+use egui::Context;
+use impasto_editor_model::editor::Request;
+use impasto_editor_model::picking::View;
+
+use super::EditorApp;
+use crate::files::dialogs::Ask as FileAsk;
+use crate::panels::{self, Ask};
+
+impl EditorApp {
+    pub(super) fn answer(&mut self, ask: Ask, ctx: &Context, view: &View) {
+        match ask {
+            Ask::Do(command) => drop(self.editor.run(&command)),
+            Ask::DoMerged(command, key) => {
+                let now = ctx.input(|input| input.time);
+                self.editor.run_merged(&command, &key, now);
+            }
+            Ask::Preview(command) => self.editor.preview(&command),
+            Ask::EndPreview => self.editor.end_preview(),
+            Ask::Select(selection) => self.editor.select(selection),
+            Ask::Act(action) => self.editor.act(action, view),
+            Ask::Session(session) => {
+                let mode = session.mode;
+                let tool = session.tool();
+                if mode != self.editor.session.mode {
+                    self.editor.set_mode(mode, view);
+                } else if tool != self.editor.session.tool() {
+                    self.editor.take_up(tool, view);
+                } else {
+                    self.editor.session = *session;
+                }
+            }
+            Ask::Open(path) => self.open_asking(&path),
+            Ask::Copy(words) => ctx.copy_text(words),
+            Ask::Welcome => self.sheets.welcome = true,
+        }
+    }
+
+    pub(super) fn requests(&mut self, ctx: &Context) {
+        for request in self.editor.take_requests() {
+            let start = self.editor.document().folder().to_owned();
+            match request {
+                Request::New => self.new_asking(),
+                Request::Open => self.files.dialogs.open(ctx, FileAsk::Open, &start),
+                Request::Save if self.editor.document().file().is_some() => drop(self.save(None)),
+                Request::Save | Request::SaveAs => {
+                    let start = self.editor.document().suggested_file();
+                    self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
+                }
+                Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),
+                Request::Palette => self.sheets.palette = true,
+                Request::Shortcuts => self.sheets.shortcuts = true,
+                Request::Rename => drop(panels::rename(ctx, self.editor.document())),
+                Request::Add => panels::add_menu(ctx),
+                Request::ToggleColumn => self.folds.column = !self.folds.column,
+                Request::MaximiseViewport => self.folds.everything = !self.folds.everything,
+                Request::NextArea => {}
+                Request::Recapture(frame) => self.sheets.recapture = Some(frame),
+            }
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! Files: new, open, save, import, what is dropped, and the questions on the way.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use egui::{Context, Ui};
+use impasto_editor_model::document::{Document, SaveError};
+use impasto_editor_model::keymap::Preset;
+
+use super::EditorApp;
+use crate::files::dialogs::{Answer, Ask, FileDialogs};
+use crate::files::incoming::{self, Present, Step, adopt_mesh, adopt_picture};
+use crate::files::preferences::{self, Keys, Loaded, Preferences};
+use crate::panels::ask_close::{self, Question};
+use crate::panels::welcome::{self, Choices, Left};
+use crate::theme::{self, Theme};
+
+/// What goes on once unsaved work is settled.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Next {
+    Close,
+    New,
+    Open(PathBuf),
+}
+
+/// Dialogs and what waits for them.
+pub(super) struct FileFlow {
+    pub(super) dialogs: FileDialogs,
+    /// Waits until unsaved work is settled.
+    waiting: Option<Next>,
+    /// Whether the question about it shows; else a file is being asked for.
+    asks: bool,
+    /// Since when there are edits.
+    edited_since: Option<Instant>,
+    closes: bool,
+}
+
+impl FileFlow {
+    pub(super) fn new(dialogs: FileDialogs) -> Self {
+        Self { dialogs, waiting: None, asks: false, edited_since: None, closes: false }
+    }
+
+    pub(super) fn is_asking(&self) -> bool {
+        self.asks || self.dialogs.is_open()
+    }
+}
+
+/// The preferences of this user.
+pub(super) fn preferences() -> Loaded {
+    match preferences::config_folder() {
+        Some(folder) => preferences::load(&folder),
+        None => Loaded { preferences: Preferences::default(), note: None },
+    }
+}
+
+/// Writes the preferences down; words where that fails.
+pub(super) fn keep(preferences: &Preferences) -> Result<(), String> {
+    let Some(folder) = preferences::config_folder() else { return Ok(()) };
+    preferences::save(&folder, preferences).map_err(|error| error.to_string())
+}
+
+impl EditorApp {
+    /// Whether the window may close now; else a question shows.
+    pub(super) fn may_close(&mut self) -> bool {
+        if !self.editor.document().is_edited() {
+            return true;
+        }
+        self.wait_for(Next::Close);
+        false
+    }
+
+    pub(super) fn new_asking(&mut self) {
+        self.settle_then(Next::New);
+    }
+
+    pub(super) fn open_asking(&mut self, path: &Path) {
+        self.settle_then(Next::Open(path.to_owned()));
+    }
+
+    fn settle_then(&mut self, next: Next) {
+        if self.editor.document().is_edited() {
+            self.wait_for(next);
+        } else {
+            self.go_on(next);
+        }
+    }
+
+    fn wait_for(&mut self, next: Next) {
+        self.files.waiting = Some(next);
+        self.files.asks = true;
+    }
+
+    fn go_on(&mut self, next: Next) {
+        match next {
+            Next::Close => self.files.closes = true,
+            Next::New => {
+                let folder = self.editor.document().folder().to_owned();
+                self.editor.open(Document::empty(&folder));
+                self.keymap();
+                self.studio.forget();
+            }
+            Next::Open(path) => self.open(&path),
+        }
+    }
+
+    /// Saves to a file, or to the document's own. Whether that went well.
+    pub(super) fn save(&mut self, target: Option<&Path>) -> bool {
+        match self.editor.save(target) {
+            Ok(()) => {
+                if let Some(file) = self.editor.document().file().map(Path::to_owned) {
+                    self.preferences.note_recent(&file);
+                    self.keep_preferences();
+                }
+                true
+            }
+            Err(error @ SaveError::FilesElsewhere { .. }) => {
+                self.toast(error.to_string(), None, true);
+                false
+            }
+            Err(error) => {
+                self.toast(error.to_string(), None, true);
+                false
+            }
+        }
+    }
+
+    /// Sheets and questions about files. Whether the window closes.
+    pub(super) fn file_sheets(&mut self, ctx: &Context, ui: &mut Ui) -> bool {
+        self.welcome_sheet(ctx);
+        self.dropped(ui);
+        let is_edited = self.editor.document().is_edited();
+        if !is_edited {
+            self.files.edited_since = None;
+        } else if self.files.edited_since.is_none() {
+            self.files.edited_since = Some(Instant::now());
+        }
+        if self.files.asks {
+            self.ask_about_changes(ctx);
+        } else if let Some(frame) = self.sheets.recapture {
+            if let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame }) {
+                if answer == ask_close::Answer::Recapture {
+                    self.editor.recapture(frame);
+                }
+                self.sheets.recapture = None;
+            }
+        }
+        if let Some(answer) = self.files.dialogs.poll(ctx) {
+            self.answered(answer);
+        }
+        self.files.closes
+    }
+
+    fn ask_about_changes(&mut self, ctx: &Context) {
+        let minutes = self.files.edited_since.map_or(0, |since| since.elapsed().as_secs() / 60);
+        let question = Question::SaveChanges { name: self.editor.document().name(), minutes };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        self.files.asks = false;
+        match answer {
+            ask_close::Answer::Save if self.editor.document().file().is_some() => {
+                if self.save(None)
+                    && let Some(next) = self.files.waiting.take()
+                {
+                    self.go_on(next);
+                }
+            }
+            // Goes on once the file is written.
+            ask_close::Answer::Save => {
+                let start = self.editor.document().suggested_file();
+                self.files.dialogs.open(ctx, Ask::SaveAs, &start);
+            }
+            ask_close::Answer::Discard => {
+                if let Some(next) = self.files.waiting.take() {
+                    self.go_on(next);
+                }
+            }
+            _ => self.files.waiting = None,
+        }
+    }
+
+    fn answered(&mut self, answer: Answer) {
+        let Some(path) = answer.path else {
+            self.files.waiting = None;
+            return;
+        };
+        match answer.ask {
+            Ask::Open => self.open_asking(&path),
+            Ask::ImportMesh => self.import(&path),
+            Ask::SaveAs => {
+                if self.save(Some(&path))
+                    && let Some(next) = self.files.waiting.take()
+                {
+                    self.go_on(next);
+                }
+            }
+            Ask::SaveCopy => match self.editor.document().save_copy(&path) {
+                Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
+                Err(error) => self.toast(error.to_string(), None, true),
+            },
+            Ask::LocateMesh => {}
+        }
+    }
+
+    fn import(&mut self, path: &Path) {
+        if self.editor.document().scene().objects.is_empty() {
+            return self.open(path);
+        }
+        let folder = self.editor.document().folder().to_owned();
+        match adopt_mesh(path, &folder) {
+            Ok(adopted) => {
+                if !adopted.copied.is_empty() {
+                    let words = format!("Copied {} beside the scene", adopted.name);
+                    self.toast(words, None, false);
+                }
+                self.editor.import(&adopted.name);
+            }
+            Err(error) => self.toast(error.to_string(), None, true),
+        }
+    }
+
+    fn dropped(&mut self, ui: &mut Ui) {
+        let paths: Vec<PathBuf> = ui.input(|input| {
+            input.raw.dropped_files.iter().filter_map(|file| file.path.clone()).collect()
+        });
+        if paths.is_empty() || self.is_modal() && !self.sheets.welcome {
+            return;
+        }
+        self.sheets.welcome = false;
+        let plan = incoming::plan(&paths, Present::of(self.editor.document()));
+        for words in plan.refused {
+            self.toast(words, None, true);
+        }
+        for step in plan.steps {
+            match step {
+                Step::Open(path) => self.open_asking(&path),
+                Step::Begin(path) => self.open(&path),
+                Step::Import(path) => self.import(&path),
+                Step::Brush(path) => self.brush(&path),
+            }
+        }
+    }
+
+    /// A picture becomes the brush of the selected region, or of the scene.
+    fn brush(&mut self, path: &Path) {
+        use impasto_editor_model::Item;
+        use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
+        use impasto_scene::document::BrushMix;
+        let folder = self.editor.document().folder().to_owned();
+        match adopt_picture(path, &folder) {
+            Ok(adopted) => {
+                let of = match self.editor.document().selection().active() {
+                    Some(Item::Region(name)) => StrokesOf::Region(name.clone()),
+                    _ => StrokesOf::Scene,
+                };
+                let brush = StrokeChange::Brush(Some(BrushMix(vec![adopted.name])));
+                self.editor.run(&Command::Regions(Regions::SetStroke(of, brush)));
+            }
+            Err(error) => self.toast(error.to_string(), None, true),
+        }
+    }
+
+    fn welcome_sheet(&mut self, ctx: &Context) {
+        if !self.sheets.welcome || self.files.is_asking() {
+            return;
+        }
+        let before = Choices {
+            keys: self.editor.keymap.preset,
+            theme: self.theme(),
+            scale: self.preferences.scale,
+            at_start: self.preferences.show_welcome,
+        };
+        let mut choices = before;
+        let left = welcome::welcome(ctx, &mut choices);
+        if choices != before {
+            self.preferences.keys = match choices.keys {
+                Preset::Blender => Keys::Blender,
+                Preset::Maya => Keys::Maya,
+            };
+            self.preferences.theme = match choices.theme {
+                Theme::Dark => preferences::Theme::Dark,
+                Theme::Light => preferences::Theme::Light,
+            };
+            (self.preferences.scale, self.preferences.show_welcome) = (choices.scale, choices.at_start);
+            self.keymap();
+            theme::apply(ctx, choices.theme, choices.scale);
+            self.keep_preferences();
+        }
+        let start = self.editor.document().folder().to_owned();
+        match left {
+            None => return,
+            Some(Left::OpenMesh | Left::OpenScene) => {
+                self.files.dialogs.open(ctx, Ask::Open, &start);
+            }
+            Some(Left::StillLife) => match still_life() {
+                Some(path) => self.open(&path),
+                None => {
+                    let words = "The still life comes with Impasto's source: open scenes/still_life.ron there";
+                    self.toast(words, None, true);
+                }
+            },
+            Some(Left::Closed) => {}
+        }
+        self.sheets.welcome = false;
+    }
+}
+
+/// The still life that comes with Impasto: in the folder that one works in, beside the program, or in the source.
+fn still_life() -> Option<PathBuf> {
+    let file = Path::new("scenes/still_life.ron");
+    let mut folders: Vec<PathBuf> = std::env::current_dir().into_iter().collect();
+    if let Ok(program) = std::env::current_exe() {
+        folders.extend(program.ancestors().skip(1).take(4).map(Path::to_owned));
+    }
+    folders.into_iter().map(|folder| folder.join(file)).find(|path| path.is_file())
+}

@@ -1,0 +1,85 @@
+//! From egui's keys to the editor's.
+
+use egui::{Event, Key as EguiKey, Ui};
+use impasto_editor_model::editor::Editor;
+use impasto_editor_model::keymap::{Key, Modifiers};
+use impasto_editor_model::picking::View;
+
+/// Hands the keys of this pass to the editor; what it takes does not reach the panels.
+pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View) {
+    let typing = ui.ctx().text_edit_focused();
+    // A control that was reached by Tab has Space, Enter and the arrows to itself.
+    let walking = !typing && ui.memory(|memory| memory.focused().is_some());
+    let events = ui.input(|input| input.events.clone());
+    let mut taken = Vec::new();
+    for (index, event) in events.iter().enumerate() {
+        let Event::Key { key, pressed: true, modifiers, .. } = event else { continue };
+        let held = Modifiers { ctrl: modifiers.command, shift: modifiers.shift, alt: modifiers.alt };
+        let Some(key) = key_of(*key) else { continue };
+        let own = matches!(
+            key,
+            Key::Space | Key::Enter | Key::Left | Key::Right | Key::Up | Key::Down | Key::Escape | Key::Tab
+        );
+        if walking && own {
+            continue;
+        }
+        if key != Key::Tab && editor.key(key, held, (typing, view)) {
+            taken.push(index);
+        }
+    }
+    if taken.is_empty() {
+        return;
+    }
+    ui.input_mut(|input| {
+        let mut index = 0;
+        input.events.retain(|event| {
+            let keep = !taken.contains(&index)
+                && !(matches!(event, Event::Text(_)) && !typing);
+            index += 1;
+            keep
+        });
+    });
+}
+
+fn key_of(key: EguiKey) -> Option<Key> {
+    let name = key.name();
+    let mut characters = name.chars();
+    Some(match key {
+        EguiKey::Space => Key::Space,
+        EguiKey::Tab => Key::Tab,
+        EguiKey::Enter => Key::Enter,
+        EguiKey::Escape => Key::Escape,
+        EguiKey::Backspace => Key::Backspace,
+        EguiKey::Delete => Key::Delete,
+        EguiKey::Home => Key::Home,
+        EguiKey::ArrowLeft => Key::Left,
+        EguiKey::ArrowRight => Key::Right,
+        EguiKey::ArrowUp => Key::Up,
+        EguiKey::ArrowDown => Key::Down,
+        EguiKey::OpenBracket => Key::Sign('['),
+        EguiKey::CloseBracket => Key::Sign(']'),
+        EguiKey::Comma => Key::Sign(','),
+        EguiKey::Period => Key::Sign('.'),
+        EguiKey::Minus => Key::Sign('-'),
+        _ => match (characters.next()?, characters.as_str()) {
+            (letter @ 'A'..='Z', "") => Key::Letter(letter),
+            (digit @ '0'..='9', "") => Key::Digit(digit as u8 - b'0'),
+            ('F', number) => Key::Function(number.parse().ok()?),
+            _ => return None,
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_what_is_printed_on_them() {
+        assert_eq!(key_of(EguiKey::A), Some(Key::Letter('A')));
+        assert_eq!(key_of(EguiKey::Num7), Some(Key::Digit(7)));
+        assert_eq!(key_of(EguiKey::F12), Some(Key::Function(12)));
+        assert_eq!(key_of(EguiKey::F), Some(Key::Letter('F')));
+        assert_eq!(key_of(EguiKey::OpenBracket), Some(Key::Sign('[')));
+    }
+}

@@ -1,0 +1,328 @@
+//! What is drawn over the picture, made from what the editor knows; what is costly is kept while its inputs stay.
+
+use std::sync::Arc;
+
+use egui::{Color32, Ui};
+use glam::{DAffine3, DVec2, DVec3};
+use impasto_core::sampling::Particle;
+use impasto_editor_model::editor::Editor;
+use impasto_editor_model::gizmo::Gizmo;
+use impasto_editor_model::picking::View;
+use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
+use impasto_editor_model::Item;
+use impasto_painting::Painting;
+use impasto_scene::document::{Guide, LightKind, Scene};
+use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::new_scene::REGION_COLORS;
+
+use super::picture::Studio;
+use crate::viewport::overlay::{
+    CurvePart, GuideCurve, HairMark, Needle, Outline, RegionTint, Ring, Sight, SingularPoint, StandIn,
+};
+use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
+use crate::viewport::{Framing, HairLook, Marks, hair_marks};
+
+/// The map of what shows has so many cells a point.
+const CELLS_PER_POINT: f64 = 0.5;
+
+/// What one picture's marks are made from, kept with what it was made of.
+#[derive(Default)]
+pub(super) struct MarkCache {
+    halves: [Half; 2],
+}
+
+#[derive(Default)]
+struct Half {
+    of: Option<Key>,
+    map: Option<SurfaceMap>,
+    hairs: Vec<HairMark>,
+    tints: Vec<RegionTint>,
+    outline: Option<Outline>,
+}
+
+/// What the kept marks depend on.
+#[derive(Clone, PartialEq)]
+struct Key {
+    prepared: u64,
+    camera: CameraPose,
+    frame: f64,
+    framing: Framing,
+    overlays: Overlays,
+    mode: Mode,
+    selected: Option<Item>,
+}
+
+/// Marks that are made anew in every pass.
+pub(super) struct Fresh {
+    rings: Vec<Ring>,
+    needle: Option<Needle>,
+    tag: Option<String>,
+    guides: Vec<GuideCurve>,
+    gizmo: Option<Gizmo>,
+    stand_ins: Vec<(StandIn, bool)>,
+    singular: Vec<SingularPoint>,
+    radius_px: f64,
+    hides_pointer: bool,
+}
+
+/// Which of the two pictures of a comparison; one alone is the first.
+pub(super) struct Seen<'a> {
+    pub(super) index: usize,
+    pub(super) camera: &'a CameraPose,
+    pub(super) frame: f64,
+}
+
+impl MarkCache {
+    /// Makes anew what does not hold any more.
+    pub(super) fn refresh(&mut self, editor: &Editor, studio: &Studio, seen: &Seen<'_>) {
+        let Some(painting) = editor.painting() else { return };
+        let Some(&framing) = studio.layout().framings().get(seen.index) else { return };
+        let session = &editor.session;
+        let key = Key {
+            prepared: studio.prepared(),
+            camera: seen.camera.clone(),
+            frame: seen.frame,
+            framing,
+            overlays: session.overlays,
+            mode: session.mode,
+            selected: editor.document().selection().active().cloned(),
+        };
+        let half = &mut self.halves[seen.index];
+        if half.of.as_ref() == Some(&key) {
+            return;
+        }
+        let shows_hairs = session.mode == Mode::Paint && session.overlays.hairs != Hairs::Off || session.overlays.trust;
+        let active = editor.active_object();
+        let outlines = session.mode != Mode::Paint && active.is_some();
+        *half = Half { of: Some(key), ..Half::default() };
+        if !(shows_hairs || session.overlays.regions || outlines) {
+            return;
+        }
+        let view = framing.view(seen.camera);
+        let map = SurfaceMap::new(&bodies(painting, seen.frame), &view, CELLS_PER_POINT);
+        let scene = painting.scene();
+        let colours = region_colours(scene);
+        if shows_hairs {
+            let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
+            let look = HairLook { overlays: session.overlays, region_colours: &colours, region };
+            half.hairs = hair_marks(painting, (seen.camera, seen.frame), &framing, &map, &look);
+        }
+        if session.overlays.regions {
+            let names: Vec<(&str, Color32)> =
+                scene.regions.iter().zip(&colours).map(|(region, &colour)| (region.name.as_str(), colour)).collect();
+            half.tints = RegionTint::all(&map, &names, |face| region_of(painting, face));
+        }
+        if outlines && let Some(active) = active {
+            half.outline = Some(Outline::new(&map, |object| object == active));
+        }
+        half.map = Some(map);
+    }
+
+    /// All marks of a picture, those of the hand included where `fresh` is handed in.
+    pub(super) fn marks<'a>(&'a self, index: usize, editor: &Editor, fresh: Option<&'a Fresh>) -> Marks<'a> {
+        let half = &self.halves[index];
+        let marks = Marks {
+            grid: editor.session.overlays.grid,
+            regions: &half.tints,
+            selected: half.outline.as_ref(),
+            hairs: &half.hairs,
+            ..Marks::default()
+        };
+        let Some(fresh) = fresh else { return marks };
+        Marks {
+            rings: &fresh.rings,
+            needle: fresh.needle,
+            radius_px: fresh.radius_px,
+            tag: fresh.tag.as_deref(),
+            guides: &fresh.guides,
+            stand_ins: &fresh.stand_ins,
+            gizmo: fresh.gizmo.as_ref().map(|gizmo| (gizmo, None)),
+            hides_pointer: fresh.hides_pointer,
+            ..marks
+        }
+    }
+
+    /// Singular points of the bodies, for [`Marks::singular`].
+    pub(super) fn singular<'a>(fresh: &'a Fresh, sight: Sight<'a>) -> Option<(&'a [SingularPoint], Sight<'a>)> {
+        (!fresh.singular.is_empty()).then_some((&fresh.singular[..], sight))
+    }
+}
+
+/// What the hand and the selection show in this pass.
+pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
+    let output = editor.tool_output();
+    let is_painting = editor.session.mode == Mode::Paint;
+    let rings: Vec<Ring> = if is_painting {
+        output
+            .rings
+            .iter()
+            .map(|ring| Ring {
+                points_px: ring.points_px.clone(),
+                half_px: ring.half_px.clone(),
+                at_px: ring.at_px,
+                hollow: ring.hollow,
+                mirrored: ring.mirrored,
+            })
+            .collect()
+    } else {
+        Vec::new()
+    };
+    let needle = output.needle.filter(|_| is_painting);
+    let has_ring = !rings.is_empty();
+    let poses = editor.poses();
+    let scene = &editor.document().shown().scene;
+    let visible = |object: usize| scene.objects.get(object).is_some_and(|object| !object.hidden);
+    let sight = Sight { picker: editor.picker(), poses: &poses, visible: &visible, view };
+    let mut guides = if is_painting { guides(editor, scene, &sight) } else { Vec::new() };
+    if is_painting && output.line_px.len() > 1 {
+        guides.push(GuideCurve {
+            runs_px: vec![output.line_px.clone()],
+            handles_px: output.handles_px.iter().copied().enumerate().collect(),
+            end_shows: true,
+            selected: true,
+            lit: Some(CurvePart::Line),
+            adrift_px: Vec::new(),
+        });
+    }
+    // A label beside the ring waits for a rest.
+    if is_painting && has_ring {
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(420));
+    }
+    Fresh {
+        rings,
+        needle: needle.map(|needle| Needle { at_px: needle.at_px, along: needle.along, headed: needle.headed }),
+        tag: output.label.clone().filter(|_| is_painting),
+        guides,
+        gizmo: editor.gizmo(view),
+        stand_ins: if editor.session.mode == Mode::Arrange { stand_ins(editor, scene) } else { Vec::new() },
+        singular: singular(editor, &poses),
+        radius_px: editor.session.options.radius_px,
+        hides_pointer: has_ring && editor.session.tool() != Tool::Pick,
+    }
+}
+
+fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
+    let scene = painting.scene();
+    let poses = motion::poses_at(scene, frame);
+    let morphs = motion::morphs_at(scene, frame);
+    (0..scene.objects.len())
+        .map(|object| StandingBody {
+            surface: Arc::clone(painting.surface(object)),
+            morph: morphs[object],
+            world_from_model: poses[object],
+            visible: !scene.objects[object].hidden,
+        })
+        .collect()
+}
+
+fn region_of(painting: &Painting, face: Face) -> Option<usize> {
+    let surface = painting.surface(face.object as usize);
+    let [a, b, c] = surface.mesh.corners(face.triangle as usize);
+    let place = Particle {
+        triangle: face.triangle,
+        barycentric: [1.0 / 3.0; 2],
+        flipped: false,
+        position: (a + b + c) / 3.0,
+        normal: (b - a).cross(c - a).normalize_or_zero(),
+    };
+    let region = painting.region_at(face.object as usize, &place);
+    (region < painting.scene().regions.len()).then_some(region)
+}
+
+/// The colours of a scene's regions: their own, or those of the list in turn.
+fn region_colours(scene: &Scene) -> Vec<Color32> {
+    let colour = |index: usize, own: Option<impasto_scene::document::Color>| {
+        let [r, g, b] = own.unwrap_or(REGION_COLORS[index % REGION_COLORS.len()]).0.map(|c| (c * 255.0).round() as u8);
+        Color32::from_rgb(r, g, b)
+    };
+    scene.regions.iter().enumerate().map(|(index, region)| colour(index, region.color)).collect()
+}
+
+fn selected_region(editor: &Editor, scene: &Scene) -> Option<usize> {
+    let name = match editor.document().selection().active()? {
+        Item::Region(name) | Item::Guide(name, _) => name,
+        _ => return None,
+    };
+    scene.regions.iter().position(|region| region.name == *name)
+}
+
+/// The guides of the selected region; of a selected guide, its handles.
+fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> {
+    let Some(region) = selected_region(editor, scene) else { return Vec::new() };
+    let region = &scene.regions[region];
+    let selected = match editor.document().selection().active() {
+        Some(Item::Guide(_, index)) => Some(*index),
+        _ => None,
+    };
+    // Of many combs only the newest show: all of them would hide the strokes.
+    let first = region.guides.len().saturating_sub(24);
+    let curve = |(index, guide): (usize, &Guide)| {
+        let name = guide.object.as_deref().or(region.on.object())?;
+        let object = scene.objects.iter().position(|object| object.name == name)?;
+        let pose = sight.poses.get(object)?;
+        let place = |at: [f64; 3], normal: [f64; 3]| lifted(pose, at, normal);
+        let points: Vec<[DVec3; 2]> =
+            guide.points.iter().map(|point| place(point.at, point.normal)).collect();
+        let is_selected = selected == Some(index);
+        let handles = if is_selected { points.clone() } else { Vec::new() };
+        Some(GuideCurve { selected: is_selected, ..GuideCurve::seen(&points, &handles, sight) })
+    };
+    let is_shown = |index: usize| index >= first || selected == Some(index);
+    region.guides.iter().enumerate().filter(|(index, _)| is_shown(*index)).filter_map(curve).collect()
+}
+
+fn lifted(pose: &DAffine3, at: [f64; 3], normal: [f64; 3]) -> [DVec3; 2] {
+    let normal = (pose.matrix3.inverse().transpose() * DVec3::from(normal)).normalize_or(DVec3::Y);
+    [pose.transform_point3(DVec3::from(at)), normal]
+}
+
+fn singular(editor: &Editor, poses: &[DAffine3]) -> Vec<SingularPoint> {
+    let Some(painting) = editor.painting().filter(|_| editor.session.overlays.trust) else { return Vec::new() };
+    let objects = 0..painting.scene().objects.len().min(poses.len());
+    objects
+        .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
+        .map(|(object, point)| {
+            let [position_in_world, normal_in_world] = lifted(
+                &poses[object],
+                point.position.as_dvec3().to_array(),
+                point.normal.as_dvec3().to_array(),
+            );
+            SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }
+        })
+        .collect()
+}
+
+/// Lights and, seen from elsewhere, the shot camera.
+fn stand_ins(editor: &Editor, scene: &Scene) -> Vec<(StandIn, bool)> {
+    let selection = editor.document().selection();
+    let middle = editor
+        .picker()
+        .bounds_in_world(0..scene.objects.len(), &editor.poses())
+        .map_or(DVec3::ZERO, |[low, high]| (low + high) * 0.5);
+    let mut all: Vec<(StandIn, bool)> = scene
+        .lights
+        .iter()
+        .filter_map(|light| {
+            let selected = selection.contains(&Item::Light(light.name.clone()));
+            let stand_in = match light.kind {
+                LightKind::Point => StandIn::Point { at: DVec3::from(light.position?) },
+                LightKind::Sun => {
+                    let direction = DVec3::from(light.direction?).normalize_or(DVec3::NEG_Y);
+                    StandIn::Sun { at: middle - direction * 2.0, direction }
+                }
+                LightKind::Ambient => return None,
+            };
+            Some((stand_in, selected))
+        })
+        .collect();
+    let shot = editor.shot();
+    if editor.camera() != shot {
+        let view = View { camera: shot.clone(), size_px: DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1)) };
+        let ahead = shot.eye + (shot.target - shot.eye) * 0.3;
+        let [width, height] = [view.size_px.x, view.size_px.y];
+        let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+        let corners = corners.map(|[x, y]| view.at_depth_of(DVec2::new(x, y), ahead));
+        all.push((StandIn::Camera { eye: shot.eye, corners }, selection.contains(&Item::Camera)));
+    }
+    all
+}

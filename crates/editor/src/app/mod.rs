@@ -1,0 +1,289 @@
+//! The editor in its window: panels and viewport round `editor_model::Editor`, and the thread that draws.
+//!
+//! ```text
+//! keys, pointer ─▶ Editor ─▶ scene as shown ─▶ Worker ─▶ painting, pictures ─▶ viewport
+//! panels ─▶ Ask ──────▲                                       └─▶ hairs, picking
+//! ```
+
+mod asks;
+mod file_flow;
+mod keys;
+mod marks;
+mod picture;
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use egui::{CentralPanel, Context, Ui};
+use impasto_editor_model::document::Document;
+use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
+use impasto_editor_model::keymap::{Digits, Keymap, Preset};
+use impasto_editor_model::session::Mode;
+use impasto_scene::load::LoadOptions;
+
+use crate::EditOptions;
+use crate::files::dialogs::FileDialogs;
+use crate::files::preferences::{Keys, Preferences};
+use crate::panels::{self, Ask, Numbers, Shown};
+use crate::theme::{self, Theme};
+use crate::widgets::{Toast, toasts};
+use crate::window::{self, Opened, tab_pressed};
+
+use file_flow::FileFlow;
+use marks::MarkCache;
+use picture::Studio;
+
+/// A line at the bottom stays so long; what was refused, too.
+const TOAST: Duration = Duration::from_secs(4);
+
+/// The editor in its window.
+pub(crate) struct EditorApp {
+    editor: Editor,
+    studio: Studio,
+    marks: MarkCache,
+    files: FileFlow,
+    preferences: Preferences,
+    sheets: Sheets,
+    toasts: Vec<(Toast, Instant, Option<Offer>)>,
+    folds: Folds,
+}
+
+/// Which sheets lie over the window.
+#[derive(Default)]
+struct Sheets {
+    welcome: bool,
+    palette: bool,
+    shortcuts: bool,
+    recapture: Option<i64>,
+}
+
+/// What is folded away.
+#[derive(Default)]
+struct Folds {
+    column: bool,
+    everything: bool,
+    had_focus: bool,
+}
+
+impl EditorApp {
+    /// An app with what the command line named, or with an empty scene.
+    pub(crate) fn new(options: &EditOptions, opened: &Opened) -> Self {
+        let loaded = file_flow::preferences();
+        let mut preferences = loaded.preferences;
+        if let Some(driver) = options.driver {
+            preferences.driver = driver;
+        }
+        let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
+        let mut app = Self {
+            editor: Editor::new(Document::empty(&here)),
+            studio: Studio::new(preferences.driver, opened.waker.clone()),
+            marks: MarkCache::default(),
+            files: FileFlow::new(FileDialogs::new(options.dialogs)),
+            sheets: Sheets { welcome: preferences.show_welcome && options.path.is_none(), ..Sheets::default() },
+            preferences,
+            toasts: Vec::new(),
+            folds: Folds::default(),
+        };
+        app.keymap();
+        opened.ctx.add_plugin(window::FocusRules);
+        theme::apply(&opened.ctx, app.theme(), app.preferences.scale);
+        if let Some(note) = loaded.note {
+            app.toast(note, None, true);
+        }
+        if let Some(path) = &options.path {
+            app.open(path);
+        }
+        app
+    }
+
+    fn theme(&self) -> Theme {
+        match self.preferences.theme {
+            crate::files::preferences::Theme::Dark => Theme::Dark,
+            crate::files::preferences::Theme::Light => Theme::Light,
+        }
+    }
+
+    fn keymap(&mut self) {
+        self.editor.keymap = Keymap {
+            preset: match self.preferences.keys {
+                Keys::Blender => Preset::Blender,
+                Keys::Maya => Preset::Maya,
+            },
+            digits: if self.preferences.digits_as_numpad { Digits::NumPad } else { Digits::Modes },
+        };
+        self.editor.session.options.foresee =
+            self.preferences.foresee_strokes && !self.preferences.reduced_motion;
+    }
+
+    fn open(&mut self, path: &Path) {
+        match Document::open(path, &LoadOptions::default()) {
+            Ok(document) => {
+                let scene = document.scene();
+                let regions = scene.regions.len();
+                let triangles: usize =
+                    document.loaded().meshes.values().map(|file| file.mesh.triangles.len()).sum();
+                let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+                let warnings = document.loaded().warnings.len();
+                self.editor.open(document);
+                self.keymap();
+                self.studio.forget();
+                self.sheets.welcome = false;
+                self.toast(format!("{name}: {triangles} triangles, {regions} regions"), None, false);
+                if warnings > 0 {
+                    let words = format!("{warnings} warnings: `impasto check {name}` lists them");
+                    self.toast(words, None, false);
+                }
+                self.preferences.note_recent(path);
+                self.keep_preferences();
+            }
+            Err(report) => {
+                for problem in report.0.iter().filter(|problem| problem.severity.is_fatal()).take(3) {
+                    self.toast(problem.to_string(), None, true);
+                }
+            }
+        }
+    }
+
+    fn keep_preferences(&mut self) {
+        if let Err(words) = file_flow::keep(&self.preferences) {
+            self.toast(words, None, true);
+        }
+    }
+
+    fn toast(&mut self, words: impl Into<String>, offers: Option<Offer>, error: bool) {
+        let action = if offers.is_some() { "Undo".to_owned() } else { String::new() };
+        let toast = Toast { words: words.into(), action, error };
+        self.toasts.retain(|(other, ..)| other.words != toast.words);
+        self.toasts.push((toast, Instant::now(), offers));
+    }
+
+    fn is_modal(&self) -> bool {
+        let Sheets { welcome, palette, shortcuts, recapture } = &self.sheets;
+        *welcome || *palette || *shortcuts || recapture.is_some() || self.files.is_asking()
+    }
+
+    fn page(&mut self, ui: &mut Ui) {
+        let status = self.editor.status();
+        let driver = self.studio.driver().to_owned();
+        let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
+        let mut asks: Vec<Ask> = Vec::new();
+        let shown = Shown {
+            document: self.editor.document(),
+            session: &self.editor.session,
+            painting: self.editor.painting(),
+            keys: self.editor.keymap.preset,
+            status: &status,
+            numbers: Numbers {
+                strokes: self.studio.strokes(),
+                pictures_per_second: self.studio.pictures_per_second(),
+                driver: &driver,
+            },
+            recent: &recent,
+        };
+        if !self.folds.everything {
+            panels::top_bar::top_bar(ui, &shown, &mut asks);
+            panels::status_line::status_line(ui, &shown, &mut asks);
+            panels::strip::strip(ui, &shown, &mut asks);
+            if !self.folds.column && ui.available_width() >= 900.0 {
+                panels::column(ui, &shown, &mut asks);
+            }
+            panels::options_bar::options_bar(ui, &shown, &mut asks);
+            panels::rail::rail(ui, &shown, &mut asks);
+        }
+        let palette_closed = self.sheets.palette && panels::palette::palette(ui.ctx(), &shown, &mut asks);
+        let shortcuts_closed = self.sheets.shortcuts && panels::shortcuts::shortcuts(ui.ctx(), &shown);
+        self.sheets.palette &= !palette_closed;
+        self.sheets.shortcuts &= !shortcuts_closed;
+        CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.viewport(ui, &mut asks));
+        let view = self.studio.view(&self.editor);
+        for ask in asks {
+            self.answer(ask, ui.ctx(), &view);
+        }
+    }
+
+    fn lines(&mut self, ctx: &Context) {
+        for Said { words, offers, is_refusal } in self.editor.take_said() {
+            self.toast(words, offers, is_refusal);
+        }
+        self.toasts.retain(|(_, since, _)| since.elapsed() < TOAST);
+        let shown: Vec<Toast> = self.toasts.iter().map(|(toast, ..)| toast.clone()).collect();
+        let clear = if self.folds.everything { 12.0 } else { 44.0 + 24.0 };
+        if let Some(clicked) = toasts(ctx, &shown, clear) {
+            let (_, _, offers) = self.toasts.remove(clicked);
+            if offers == Some(Offer::Undo) {
+                let view = self.studio.view(&self.editor);
+                self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
+            }
+        }
+        if !self.toasts.is_empty() {
+            ctx.request_repaint_after(Duration::from_millis(500));
+        }
+    }
+}
+
+impl window::App for EditorApp {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
+        let ctx = ui.ctx().clone();
+        self.studio.poll(&ctx, &mut self.editor);
+        let view = self.studio.view(&self.editor);
+        let focused = ui.input(|input| input.focused);
+        if self.folds.had_focus && !focused {
+            self.editor.focus_lost(&view);
+        }
+        self.folds.had_focus = focused;
+        if !self.is_modal() {
+            if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
+                self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
+            }
+            keys::hand_on(ui, &mut self.editor, &view);
+        }
+        self.page(ui);
+        self.requests(&ctx);
+        if self.file_sheets(&ctx, ui) {
+            frame.close();
+        }
+        self.lines(&ctx);
+    }
+
+    fn title(&self) -> String {
+        let document = self.editor.document();
+        let edited = if document.is_edited() { " (edited)" } else { "" };
+        format!("{}{edited} - Impasto", document.name())
+    }
+
+    fn on_close_request(&mut self) -> bool {
+        self.may_close()
+    }
+}
+
+/// Where the playhead stands to the reference.
+fn badge(editor: &Editor) -> crate::viewport::Badge {
+    use crate::viewport::Badge;
+    let reference = reference_frame(editor.document().scene());
+    let frame = editor.session.frame;
+    if editor.looking != impasto_editor_model::camera_rig::Looking::Shot {
+        Badge::Free(frame)
+    } else if frame == reference {
+        Badge::Reference(frame)
+    } else {
+        Badge::Turned { frame, reference }
+    }
+}
+
+/// What a screen reader says of the viewport.
+fn value(editor: &Editor) -> String {
+    let session = &editor.session;
+    let mode = match session.mode {
+        Mode::Arrange => "Arrange",
+        Mode::Paint => "Paint",
+        Mode::Animate => "Animate",
+    };
+    let tool = format!("{:?}", session.tool()).to_lowercase();
+    let camera = if editor.looking == impasto_editor_model::camera_rig::Looking::Shot {
+        "shot camera"
+    } else {
+        "free view"
+    };
+    let reference = if reference_frame(editor.document().scene()) == session.frame { ", reference" } else { "" };
+    format!("{mode}, {tool}, {camera}, frame {}{reference}", session.frame)
+}

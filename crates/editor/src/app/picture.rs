@@ -1,0 +1,172 @@
+//! The thread that draws, seen from the window: what it is asked for, and what it has to tell.
+
+use std::collections::VecDeque;
+use std::time::Instant;
+
+use egui::{Context, Rect};
+use impasto_editor_model::editor::Editor;
+use impasto_editor_model::picking::View;
+use impasto_editor_model::session::Shading as Shown;
+use impasto_gl_render::context::Driver;
+use impasto_scene::motion::{self, CameraPose};
+
+use crate::files::preferences::DriverChoice;
+use crate::viewport::{Layout, Pictures};
+use crate::window::Waker;
+use crate::worker::{Job, Report, Shading, ViewJob, Worker};
+
+/// Pictures of the last second tell how many come a second.
+const SPAN_S: f64 = 1.0;
+
+/// The thread, what it was asked for last, and what it has sent.
+pub(super) struct Studio {
+    worker: Option<Worker>,
+    driver: String,
+    pub(super) pictures: Pictures,
+    pub(super) trouble: Option<String>,
+    asked: Option<(u64, Vec<ViewJob>)>,
+    /// Whether the newest scene is prepared.
+    prepared: u64,
+    layout: Layout,
+    strokes: usize,
+    came: VecDeque<Instant>,
+}
+
+impl Studio {
+    pub(super) fn new(driver: DriverChoice, waker: Waker) -> Self {
+        let driver = match driver {
+            DriverChoice::Auto => Driver::Auto,
+            DriverChoice::Egl => Driver::Egl,
+            DriverChoice::Osmesa | DriverChoice::Software => Driver::Osmesa,
+        };
+        let (worker, trouble) = match Worker::new(driver, move || waker.wake()) {
+            Ok(worker) => (Some(worker), None),
+            Err(error) => (None, Some(format!("No thread to draw with: {error}"))),
+        };
+        Self {
+            worker,
+            driver: String::new(),
+            pictures: Pictures::default(),
+            trouble,
+            asked: None,
+            prepared: 0,
+            layout: Layout::single(Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(950.0, 650.0)), (16, 9), 1.0),
+            strokes: 0,
+            came: VecDeque::new(),
+        }
+    }
+
+    /// Another document: its pictures are not those of the last one.
+    pub(super) fn forget(&mut self) {
+        self.pictures.clear();
+        self.asked = None;
+    }
+
+    pub(super) fn driver(&self) -> &str {
+        &self.driver
+    }
+
+    pub(super) fn strokes(&self) -> usize {
+        self.strokes
+    }
+
+    /// Whether the painting is that of what is shown.
+    pub(super) fn prepared(&self) -> u64 {
+        self.prepared
+    }
+
+    pub(super) fn pictures_per_second(&self) -> Option<f64> {
+        let newest = self.came.back()?;
+        let recent = self.came.iter().filter(|at| newest.duration_since(**at).as_secs_f64() < SPAN_S).count();
+        (newest.elapsed().as_secs_f64() < SPAN_S && recent > 1).then_some(recent as f64)
+    }
+
+    /// What the viewport shows, for picking and tools.
+    pub(super) fn view(&self, editor: &Editor) -> View {
+        self.layout.framings()[0].view(&self.camera(editor))
+    }
+
+    /// The camera of the first picture: what is looked through, or the reference's in a comparison.
+    pub(super) fn camera(&self, editor: &Editor) -> CameraPose {
+        editor.camera()
+    }
+
+    pub(super) fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    pub(super) fn set_layout(&mut self, layout: Layout) {
+        self.layout = layout;
+    }
+
+    /// Takes what the thread has to tell.
+    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) {
+        let Some(worker) = &self.worker else { return };
+        for report in worker.poll() {
+            match report {
+                Report::Opened(report) => {
+                    let name = report.renderer.split(" (").next().unwrap_or(&report.renderer);
+                    name.clone_into(&mut self.driver);
+                }
+                Report::Prepared(painting, serial) => {
+                    self.prepared = serial;
+                    editor.prepared(painting);
+                }
+                Report::Picture(picture) => {
+                    self.trouble = None;
+                    self.came.push_back(Instant::now());
+                    while self.came.len() > 120 {
+                        self.came.pop_front();
+                    }
+                    if picture.exact {
+                        self.strokes = picture.strokes;
+                    }
+                    self.pictures.take(ctx, picture);
+                }
+                Report::Failed(words) => self.trouble = Some(words),
+            }
+        }
+    }
+
+    /// Asks for pictures of what is to be seen, where it is not what was asked for last.
+    pub(super) fn ask(&mut self, editor: &Editor) {
+        let (loaded, version) = editor.shown();
+        if loaded.scene.objects.is_empty() {
+            self.forget();
+            return;
+        }
+        let shading = match editor.session.shading {
+            Shown::Painted => Shading::Painted,
+            Shown::Shaded => Shading::Shaded,
+            Shown::Trust => Shading::Trust,
+        };
+        let now = (editor.camera(), editor.session.frame);
+        let seen = if editor.session.compare {
+            vec![motion::referred_to(&loaded.scene, &loaded.scene.reference), now]
+        } else {
+            vec![now]
+        };
+        let views: Vec<ViewJob> = self
+            .layout
+            .framings()
+            .iter()
+            .zip(seen)
+            .map(|(framing, (camera, frame))| ViewJob {
+                camera: framing.widened(&camera),
+                frame,
+                size_px: framing.size_px(),
+                shot_height_px: framing.shot_height_px(),
+                shading,
+                moving: editor.is_moving(),
+            })
+            .collect();
+        let job = (version, views);
+        if self.asked.as_ref() == Some(&job) {
+            return;
+        }
+        if let Some(worker) = &self.worker {
+            worker.show(Job { loaded: std::sync::Arc::clone(loaded), serial: version, views: job.1.clone() });
+        }
+        self.asked = Some(job);
+    }
+}

@@ -1,0 +1,260 @@
+//! Asking for a file: by the desktop's dialog where there is one, by a sheet in the window where there is none.
+//!
+//! The desktop's dialog can be missing, silent or stuck, and says so to nobody. So it runs on a thread of its own; an
+//! answer of nothing that comes faster than a hand means that there is no dialog here, and after [`PATIENCE`] the window
+//! offers its own sheet beside it.
+
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use egui::{Align2, Area, Context, Frame, Id, Margin, RichText, vec2};
+
+use super::incoming::Kind;
+use super::path_sheet::{PathSheet, Picked};
+use crate::theme::{Theme, measure, type_face};
+use crate::widgets::Button;
+
+/// No hand cancels a dialog this soon after it was asked for.
+const HAND: Duration = Duration::from_millis(300);
+
+/// How long the window waits before it offers its own sheet too.
+pub const PATIENCE: Duration = Duration::from_secs(3);
+
+/// What a file is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Ask {
+    /// Open a scene, or a mesh in a new scene.
+    Open,
+    /// Import a mesh.
+    ImportMesh,
+    /// Save the scene to another file.
+    SaveAs,
+    /// Save a copy of the scene.
+    SaveCopy,
+    /// Find a mesh that the scene names.
+    LocateMesh,
+}
+
+impl Ask {
+    /// The head of the dialog.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a scene or a mesh",
+            Self::ImportMesh => "Import a mesh",
+            Self::SaveAs => "Save the scene as",
+            Self::SaveCopy => "Save a copy of the scene",
+            Self::LocateMesh => "Locate the mesh",
+        }
+    }
+
+    /// The kinds of files that answer it.
+    pub fn kinds(self) -> &'static [Kind] {
+        match self {
+            Self::Open => &[Kind::Scene, Kind::Mesh],
+            Self::ImportMesh | Self::LocateMesh => &[Kind::Mesh],
+            Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
+        }
+    }
+
+    /// The file is written.
+    pub fn is_save(self) -> bool {
+        matches!(self, Self::SaveAs | Self::SaveCopy)
+    }
+}
+
+/// What came of an [`Ask`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// What was asked.
+    pub ask: Ask,
+    /// The file; none where the user let it be. Of a save, its name ends in `.ron`, and a file that is there may be
+    /// replaced.
+    pub path: Option<PathBuf>,
+}
+
+/// Which dialogs are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Source {
+    /// The desktop's, where it has them.
+    #[default]
+    Desktop,
+    /// The window's own, always.
+    InApp,
+}
+
+/// Asks for one file at a time.
+pub struct FileDialogs {
+    source: Source,
+    choose: Choose,
+    open: Option<Open>,
+}
+
+/// Shows the desktop's dialog and waits for it; the path to begin with is a folder, or a file to be saved.
+type Choose = fn(Ask, &Path) -> Option<PathBuf>;
+
+struct Open {
+    ask: Ask,
+    start: PathBuf,
+    since: Instant,
+    shown: Shown,
+}
+
+enum Shown {
+    Desktop(Receiver<Option<PathBuf>>),
+    Sheet(PathSheet),
+}
+
+impl FileDialogs {
+    /// Dialogs from `source`, and from the window where the desktop has none.
+    pub fn new(source: Source) -> Self {
+        let source = if has_session_bus() { source } else { Source::InApp };
+        Self { source, choose: choose_on_desktop, open: None }
+    }
+
+    /// A dialog waits for its answer: no other can be opened.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
+    /// Asks for a file. `start` is a folder; to save, the file that is proposed. Nothing happens while another dialog is
+    /// open.
+    pub fn open(&mut self, ctx: &Context, ask: Ask, start: &Path) {
+        if self.open.is_some() {
+            return;
+        }
+        let shown = match self.source {
+            Source::InApp => Shown::Sheet(PathSheet::new(ask, start)),
+            Source::Desktop => {
+                let (answer, answers) = channel();
+                let (choose, from, ctx) = (self.choose, start.to_owned(), ctx.clone());
+                std::thread::spawn(move || {
+                    // Nobody listens once the sheet has taken over.
+                    let _late = answer.send(choose(ask, &from));
+                    ctx.request_repaint();
+                });
+                Shown::Desktop(answers)
+            }
+        };
+        self.open = Some(Open { ask, start: start.to_owned(), since: Instant::now(), shown });
+        ctx.request_repaint();
+    }
+
+    /// The answer, once; none while there is no answer. Call it in every pass: it shows what is shown in the window.
+    pub fn poll(&mut self, ctx: &Context) -> Option<Answer> {
+        let open = self.open.as_mut()?;
+        let ask = open.ask;
+        let path = match &mut open.shown {
+            Shown::Sheet(sheet) => match sheet.show(ctx)? {
+                Picked::File(path) => Some(path),
+                Picked::Cancelled => None,
+            },
+            Shown::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
+                (Ok(Some(path)), _) => Some(if ask.is_save() { as_scene_file(path) } else { path }),
+                (Ok(None), waited) if waited > HAND => None,
+                (Ok(None) | Err(TryRecvError::Disconnected), _) => {
+                    // There is no dialog here: it is not tried again.
+                    self.source = Source::InApp;
+                    open.shown = Shown::Sheet(PathSheet::new(ask, &open.start));
+                    ctx.request_repaint();
+                    return None;
+                }
+                (Err(TryRecvError::Empty), waited) => {
+                    match PATIENCE.checked_sub(waited).filter(|rest| !rest.is_zero()) {
+                        Some(rest) => {
+                            ctx.request_repaint_after(rest);
+                            return None;
+                        }
+                        None => match offer(ctx)? {
+                            Offer::Sheet => {
+                                open.shown = Shown::Sheet(PathSheet::new(ask, &open.start));
+                                ctx.request_repaint();
+                                return None;
+                            }
+                            Offer::Cancel => None,
+                        },
+                    }
+                }
+            },
+        };
+        self.open = None;
+        Some(Answer { ask, path })
+    }
+}
+
+/// The file with the ending of a scene, whatever was typed.
+pub(super) fn as_scene_file(path: PathBuf) -> PathBuf {
+    if Kind::of(&path) == Some(Kind::Scene) {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(".ron");
+    PathBuf::from(name)
+}
+
+enum Offer {
+    Sheet,
+    Cancel,
+}
+
+/// A small bar at the bottom: the desktop's dialog has the word, and the user can do without it.
+fn offer(ctx: &Context) -> Option<Offer> {
+    let theme = if ctx.global_style().visuals.dark_mode { Theme::Dark } else { Theme::Light };
+    let tokens = theme.tokens();
+    let area = Area::new(Id::unique("waiting for the desktop's dialog"));
+    let area = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -(measure::STATUS_LINE + measure::STRIP)));
+    let frame =
+        Frame::new().fill(tokens.panel).stroke((1.0, tokens.div)).corner_radius(measure::SHEET_CORNER);
+    area.show(ctx, |ui| {
+        frame
+            .inner_margin(Margin::same(12))
+            .show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    let words = "The file dialog of your desktop is open.";
+                    ui.label(RichText::new(words).font(type_face::body()).color(tokens.text));
+                    if Button::new("Choose here instead").show(ui).clicked() {
+                        return Some(Offer::Sheet);
+                    }
+                    let cancel = Button::new("Cancel").plain().show(ui).clicked();
+                    cancel.then_some(Offer::Cancel)
+                })
+                .inner
+            })
+            .inner
+    })
+    .inner
+}
+
+/// Whether there is a session bus, which the desktop's dialogs are asked for over.
+fn has_session_bus() -> bool {
+    let is_set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    if is_set("DBUS_SESSION_BUS_ADDRESS").is_some() {
+        return true;
+    }
+    is_set("XDG_RUNTIME_DIR").is_some_and(|folder| PathBuf::from(folder).join("bus").exists())
+}
+
+fn choose_on_desktop(ask: Ask, start: &Path) -> Option<PathBuf> {
+    let mut dialog = rfd::FileDialog::new().set_title(ask.title());
+    dialog = match ask {
+        Ask::Open => dialog
+            .add_filter("Scenes and meshes", &["ron", "obj", "OBJ"])
+            .add_filter("Scenes", &["ron"])
+            .add_filter("Meshes", &["obj", "OBJ"]),
+        Ask::ImportMesh | Ask::LocateMesh => dialog.add_filter("Meshes", &["obj", "OBJ"]),
+        Ask::SaveAs | Ask::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
+    };
+    if !ask.is_save() {
+        return dialog.set_directory(start).pick_file();
+    }
+    if let Some(folder) = start.parent() {
+        dialog = dialog.set_directory(folder);
+    }
+    if let Some(name) = start.file_name() {
+        dialog = dialog.set_file_name(name.to_string_lossy());
+    }
+    dialog.save_file()
+}

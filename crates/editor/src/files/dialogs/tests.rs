@@ -1,0 +1,126 @@
+use std::fs;
+use std::thread::sleep;
+
+use egui::vec2;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+
+use super::*;
+use crate::theme;
+
+struct Page {
+    dialogs: FileDialogs,
+    answers: Vec<Answer>,
+}
+
+fn page(source: Source, choose: Choose, ask: Ask, start: &Path) -> Harness<'static, Page> {
+    let dialogs = FileDialogs { source, choose, open: None };
+    let mut harness = Harness::builder()
+        .with_size(vec2(1280.0, 800.0))
+        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
+        .build_ui_state(
+            |ui, page: &mut Page| page.answers.extend(page.dialogs.poll(ui.ctx())),
+            Page { dialogs, answers: Vec::new() },
+        );
+    let ctx = harness.ctx.clone();
+    harness.state_mut().dialogs.open(&ctx, ask, start);
+    harness
+}
+
+/// Steps until `is_done`, for ten seconds at most.
+fn wait(harness: &mut Harness<'_, Page>, is_done: impl Fn(&Harness<'_, Page>) -> bool) {
+    let since = Instant::now();
+    while !is_done(harness) {
+        assert!(since.elapsed() < Duration::from_secs(10), "it never came");
+        harness.step();
+        sleep(Duration::from_millis(10));
+    }
+}
+
+fn has_sheet(harness: &Harness<'_, Page>) -> bool {
+    harness.query_by_label("File name").is_some()
+}
+
+/// The dialog was opened so long ago.
+fn wait_so_long(harness: &mut Harness<'_, Page>, waited: Duration) {
+    let open = harness.state_mut().dialogs.open.as_mut().expect("open");
+    open.since = open.since.checked_sub(waited).expect("a clock that runs");
+}
+
+#[test]
+fn what_the_desktop_answers_is_the_answer() {
+    let mut harness =
+        page(Source::Desktop, |_, start| Some(start.join("a")), Ask::SaveAs, Path::new("/scenes"));
+    wait(&mut harness, |harness| !harness.state().answers.is_empty());
+    let path = Some(PathBuf::from("/scenes/a.ron"));
+    assert_eq!(harness.state().answers, [Answer { ask: Ask::SaveAs, path }]);
+    assert!(!harness.state().dialogs.is_open());
+}
+
+#[test]
+fn nothing_at_once_means_no_dialogs_and_the_window_shows_its_own() {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    fs::write(home.path().join("apple.obj"), "").expect("written");
+    let mut harness = page(Source::Desktop, |_, _| None, Ask::Open, home.path());
+    wait(&mut harness, has_sheet);
+    harness.get_by_label("apple.obj").click();
+    harness.run();
+    harness.get_by_label("Open").click();
+    harness.run();
+    let path = Some(home.path().join("apple.obj"));
+    assert_eq!(harness.state().answers, [Answer { ask: Ask::Open, path }]);
+    assert_eq!(harness.state().dialogs.source, Source::InApp, "the desktop is not asked again");
+}
+
+#[test]
+fn a_crash_of_the_desktops_dialog_is_no_answer() {
+    let mut harness = page(Source::Desktop, |_, _| panic!("the portal broke"), Ask::Open, Path::new("/"));
+    wait(&mut harness, has_sheet);
+}
+
+#[test]
+fn nothing_after_a_while_is_a_cancel() {
+    let choose: Choose = |_, _| {
+        sleep(HAND * 2);
+        None
+    };
+    let mut harness = page(Source::Desktop, choose, Ask::ImportMesh, Path::new("/"));
+    wait(&mut harness, |harness| !harness.state().answers.is_empty());
+    assert_eq!(harness.state().answers, [Answer { ask: Ask::ImportMesh, path: None }]);
+    assert_eq!(harness.state().dialogs.source, Source::Desktop);
+}
+
+#[test]
+fn a_dialog_that_hangs_leaves_a_way() {
+    let choose: Choose = |_, _| {
+        sleep(Duration::from_secs(3600));
+        None
+    };
+    let mut harness = page(Source::Desktop, choose, Ask::Open, Path::new("/"));
+    harness.step();
+    assert!(harness.query_by_label("Choose here instead").is_none(), "the desktop has the word at first");
+    wait_so_long(&mut harness, PATIENCE);
+    harness.step();
+    harness.get_by_label("Choose here instead").click();
+    wait(&mut harness, has_sheet);
+    harness.get_by_label("Cancel").click();
+    harness.run();
+    assert_eq!(harness.state().answers, [Answer { ask: Ask::Open, path: None }]);
+
+    let ctx = harness.ctx.clone();
+    harness.state_mut().dialogs.open(&ctx, Ask::Open, Path::new("/"));
+    wait_so_long(&mut harness, PATIENCE);
+    harness.step();
+    harness.get_by_label("Cancel").click();
+    wait(&mut harness, |harness| harness.state().answers.len() == 2);
+    assert!(!harness.state().dialogs.is_open());
+}
+
+#[test]
+fn one_dialog_at_a_time() {
+    let mut harness = page(Source::InApp, |_, _| None, Ask::Open, Path::new("/"));
+    let ctx = harness.ctx.clone();
+    harness.state_mut().dialogs.open(&ctx, Ask::SaveAs, Path::new("/"));
+    harness.run();
+    assert!(harness.query_by_label("Save").is_none() && harness.query_by_label("Open").is_some());
+}

@@ -1,0 +1,165 @@
+//! What to do with files that are dropped on the window, opened or imported.
+
+mod adopt;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
+use impasto_editor_model::Document;
+
+pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture};
+
+/// Endings of the names of pictures that can serve as brushes.
+pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
+
+/// What a file is, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A scene, `.ron`.
+    Scene,
+    /// A mesh, `.obj`.
+    Mesh,
+    /// A picture, one of [`PICTURES`].
+    Picture,
+}
+
+impl Kind {
+    /// The kind of a file by the ending of its name; none where Impasto reads no such file.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "ron" => Some(Self::Scene),
+            "obj" => Some(Self::Mesh),
+            ending => PICTURES.contains(&ending).then_some(Self::Picture),
+        }
+    }
+}
+
+/// What the window holds when files come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Present {
+    /// Nothing: an untitled document that nobody has touched.
+    Nothing,
+    /// A scene as its file has it.
+    Saved,
+    /// A scene with work that its file does not have.
+    Edited,
+}
+
+impl Present {
+    /// How much of the user's work a document holds.
+    pub fn of(document: &Document) -> Self {
+        let is_empty = document.file().is_none() && document.scene().objects.is_empty();
+        match document.is_edited() {
+            true => Self::Edited,
+            false if is_empty => Self::Nothing,
+            false => Self::Saved,
+        }
+    }
+}
+
+/// One thing to do with one file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Open the scene in place of the document.
+    Open(PathBuf),
+    /// Make a new scene for the mesh in place of the document.
+    Begin(PathBuf),
+    /// Bring the mesh into the document ([`adopt_mesh`]).
+    Import(PathBuf),
+    /// Bring the picture in as a brush ([`adopt_picture`]).
+    Brush(PathBuf),
+}
+
+/// What to do with files that came.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Plan {
+    /// In this order.
+    pub steps: Vec<Step>,
+    /// The first step takes the place of work that is not saved: ask first.
+    pub asks: bool,
+    /// What is not taken, in words to show.
+    pub refused: Vec<String>,
+}
+
+/// What to do with files that are dropped or opened together.
+///
+/// A scene is opened alone. A mesh begins a scene where there is nothing yet, and is imported otherwise; pictures come in
+/// as brushes once there is a scene.
+pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
+    let mut plan = Plan::default();
+    let mut known = Vec::new();
+    for path in paths {
+        match taken(path) {
+            Ok(kind) if !known.contains(&(kind, path)) => known.push((kind, path)),
+            Ok(_) => (),
+            Err(words) => plan.refused.push(words),
+        }
+    }
+    if let Some(&(_, scene)) = known.iter().find(|(kind, _)| *kind == Kind::Scene) {
+        plan.steps.push(Step::Open(scene.clone()));
+        plan.asks = present == Present::Edited;
+        let left = known.iter().filter(|(_, path)| *path != scene);
+        plan.refused.extend(left.map(|(kind, path)| match kind {
+            Kind::Scene => format!("{} is left: one scene is open at a time", name_of(path)),
+            _ => format!("{} is left: drop it again to bring it into {}", name_of(path), name_of(scene)),
+        }));
+        return plan;
+    }
+    let mut is_there = present != Present::Nothing;
+    for (_, mesh) in known.iter().filter(|(kind, _)| *kind == Kind::Mesh) {
+        let mesh = (*mesh).clone();
+        plan.steps.push(if is_there { Step::Import(mesh) } else { Step::Begin(mesh) });
+        is_there = true;
+    }
+    for (_, picture) in known.iter().filter(|(kind, _)| *kind == Kind::Picture) {
+        if is_there {
+            plan.steps.push(Step::Brush((*picture).clone()));
+        } else {
+            let words = format!(
+                "{} could be a brush, and there is nothing to paint yet: open a mesh first",
+                name_of(picture)
+            );
+            plan.refused.push(words);
+        }
+    }
+    plan
+}
+
+/// The kind of a file that can be used.
+///
+/// # Errors
+/// Why it cannot, in words to show.
+pub fn taken(path: &Path) -> Result<Kind, String> {
+    let name = name_of(path);
+    if path.is_dir() {
+        return Err(format!("{name} is a folder: drop the files in it"));
+    }
+    if !path.exists() {
+        return Err(format!("{name} is not there: {}", path.display()));
+    }
+    if !path.is_file() {
+        return Err(format!("{name} is a device or a pipe, not a file"));
+    }
+    Kind::of(path).ok_or_else(|| refusal(path))
+}
+
+/// Why a file of no known kind is not taken.
+pub(super) fn refusal(path: &Path) -> String {
+    let name = name_of(path);
+    let ending =
+        path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    match ending.as_str() {
+        "blend" | "fbx" | "glb" | "gltf" | "ply" | "stl" | "dae" | "abc" | "usd" | "usda" | "usdc"
+        | "usdz" => {
+            format!("{name} is a model that Impasto does not read: export it as OBJ")
+        }
+        "mtl" => format!("{name} holds materials only: open the OBJ file that names it"),
+        _ => format!("{name} is no scene (.ron), mesh (.obj) or picture (.png, .jpg)"),
+    }
+}
+
+pub(super) fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

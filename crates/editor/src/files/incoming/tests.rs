@@ -1,0 +1,192 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use impasto_scene::assets::AssetFolders;
+use impasto_scene::obj;
+
+use super::*;
+
+const OBJ: &str = "mtllib looks/all.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl skin\nf 1/1 2/1 3/1\n";
+const MTL: &str =
+    "newmtl skin\nKd 1 0 0\nmap_Kd ../pictures/skin.png\nnewmtl spare\nmap_Kd ../../secret.png\n";
+
+/// A home with a mesh of three files, a file beside the mesh's folder, and an empty scene folder.
+struct Home(tempfile::TempDir);
+
+impl Home {
+    fn new() -> Self {
+        let home = Self(tempfile::tempdir().expect("a temporary folder"));
+        home.write("models/apple.obj", OBJ);
+        home.write("models/looks/all.mtl", MTL);
+        home.write("models/pictures/skin.png", "picture");
+        home.write("models/diary.txt", "private");
+        home.write("secret.png", "secret");
+        fs::create_dir(home.at("scene")).expect("made");
+        home
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        let path = self.at(name);
+        fs::create_dir_all(path.parent().expect("a parent")).expect("made");
+        fs::write(path, text).expect("written");
+    }
+
+    /// The files under a folder, sorted.
+    fn files(&self, folder: &str) -> Vec<String> {
+        fn walk(folder: &Path, top: &Path, found: &mut Vec<String>) {
+            for entry in fs::read_dir(folder).expect("a folder").flatten() {
+                let path = entry.path();
+                if path.is_dir() {
+                    walk(&path, top, found);
+                } else {
+                    found.push(path.strip_prefix(top).expect("inside").display().to_string());
+                }
+            }
+        }
+        let mut found = Vec::new();
+        walk(&self.at(folder), &self.at(folder), &mut found);
+        found.sort();
+        found
+    }
+}
+
+#[test]
+fn a_mesh_from_elsewhere_comes_with_what_it_names_and_with_nothing_else() {
+    let home = Home::new();
+    let adopted = adopt_mesh(&home.at("models/apple.obj"), &home.at("scene")).expect("adopted");
+    assert_eq!(adopted.name, "meshes/apple/apple.obj");
+    let all = ["meshes/apple/apple.obj", "meshes/apple/looks/all.mtl", "meshes/apple/pictures/skin.png"];
+    assert_eq!(home.files("scene"), all);
+    assert_eq!(adopted.copied.len(), 3);
+    assert_eq!(
+        fs::read_to_string(home.at("scene/meshes/apple/pictures/skin.png")).expect("there"),
+        "picture"
+    );
+
+    let copy = home.at("scene").join(&adopted.name);
+    let (mesh, _) = obj::read(&copy, &home.at("scene"), &AssetFolders::default()).expect("readable");
+    assert_eq!(mesh.materials[0].color, [1.0, 0.0, 0.0], "the copy finds its materials");
+}
+
+#[test]
+fn the_same_mesh_is_copied_once_and_another_of_its_name_beside_it() {
+    let home = Home::new();
+    let (mesh, scene) = (home.at("models/apple.obj"), home.at("scene"));
+    adopt_mesh(&mesh, &scene).expect("adopted");
+    let again = adopt_mesh(&mesh, &scene).expect("adopted");
+    assert_eq!((again.name.as_str(), again.copied.len()), ("meshes/apple/apple.obj", 0));
+
+    home.write("models/pictures/skin.png", "another picture");
+    let other = adopt_mesh(&mesh, &scene).expect("adopted");
+    assert_eq!((other.name.as_str(), other.copied.len()), ("meshes/apple-2/apple.obj", 3));
+    assert_eq!(
+        fs::read_to_string(home.at("scene/meshes/apple/pictures/skin.png")).expect("there"),
+        "picture"
+    );
+    assert_eq!(home.files("scene").len(), 6, "and nothing half done stays");
+}
+
+#[test]
+fn a_mesh_in_the_scenes_folder_is_named_where_it_is() {
+    let home = Home::new();
+    let adopted = adopt_mesh(&home.at("models/apple.obj"), &home.at("")).expect("adopted");
+    assert_eq!(adopted, Adopted { name: "models/apple.obj".to_owned(), copied: Vec::new() });
+    // A scene could not name these: spaces at the ends are trimmed, a backslash parts folders.
+    for (name, plain) in [("scene/ a.obj", "meshes/a/a.obj"), ("scene/b\\c.obj", "meshes/b_c/b_c.obj")] {
+        home.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        assert_eq!(adopt_mesh(&home.at(name), &home.at("scene")).expect("adopted").name, plain);
+        assert!(home.at("scene").join(plain).is_file());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_out_of_the_meshs_folder_is_not_followed() {
+    let home = Home::new();
+    fs::remove_file(home.at("models/pictures/skin.png")).expect("removed");
+    std::os::unix::fs::symlink(home.at("secret.png"), home.at("models/pictures/skin.png")).expect("linked");
+    adopt_mesh(&home.at("models/apple.obj"), &home.at("scene")).expect("adopted");
+    assert_eq!(home.files("scene"), ["meshes/apple/apple.obj", "meshes/apple/looks/all.mtl"]);
+}
+
+#[test]
+fn what_cannot_be_copied_leaves_nothing_behind() {
+    let home = Home::new();
+    home.write("models/bad.obj", "v 0 0 zero\nf 1 1 1\n");
+    let words = adopt_mesh(&home.at("models/bad.obj"), &home.at("scene")).expect_err("refused").to_string();
+    assert!(words.contains("zero"), "{words}");
+    fs::create_dir_all(home.at("models/pictures/skin.png.d")).expect("made");
+    home.write("models/looks/all.mtl", "newmtl skin\nmap_Kd ../pictures/skin.png.d\n");
+    let words = adopt_mesh(&home.at("models/apple.obj"), &home.at("scene")).expect_err("refused").to_string();
+    assert!(words.contains("not a regular file"), "{words}");
+    assert_eq!(fs::read_dir(home.at("scene")).expect("a folder").count(), 0);
+    home.write("scene/meshes", "a file in the way");
+    assert!(matches!(
+        adopt_picture(&home.at("secret.png"), &home.at("nowhere/\0")),
+        Err(AdoptError::Unwritable { .. })
+    ));
+}
+
+#[test]
+fn a_picture_comes_as_a_brush() {
+    let home = Home::new();
+    let adopted = adopt_picture(&home.at("secret.png"), &home.at("scene")).expect("adopted");
+    assert_eq!(adopted.name, "brushes/secret/secret.png");
+    assert_eq!(home.files("scene"), ["brushes/secret/secret.png"]);
+}
+
+#[test]
+fn what_comes_is_opened_begun_or_imported() {
+    let home = Home::new();
+    home.write("models/pear.OBJ", OBJ);
+    home.write("a.ron", "");
+    home.write("b.ron", "");
+    let [apple, pear, scene, other, picture] =
+        ["models/apple.obj", "models/pear.OBJ", "a.ron", "b.ron", "secret.png"].map(|name| home.at(name));
+    let both = [apple.clone(), pear.clone(), apple.clone(), picture.clone()];
+    let steps = |present| plan(&both, present).steps;
+    let brush = Step::Brush(picture.clone());
+    let begun = [Step::Begin(apple.clone()), Step::Import(pear.clone()), brush.clone()];
+    assert_eq!(steps(Present::Nothing), begun, "each once, the first into a scene of its own");
+    assert_eq!(steps(Present::Edited), [Step::Import(apple.clone()), Step::Import(pear), brush]);
+    assert!(!plan(&both, Present::Edited).asks, "an import takes nothing away");
+
+    for (present, asks) in [(Present::Nothing, false), (Present::Saved, false), (Present::Edited, true)] {
+        let plan = plan(&[apple.clone(), scene.clone(), other.clone()], present);
+        assert_eq!((&plan.steps[..], plan.asks), (&[Step::Open(scene.clone())][..], asks));
+        assert_eq!(plan.refused.len(), 2, "{:?}", plan.refused);
+        assert!(plan.refused[1].contains("b.ron"), "{:?}", plan.refused);
+    }
+    let alone = plan(&[picture], Present::Nothing);
+    assert!(alone.steps.is_empty() && alone.refused[0].contains("open a mesh first"), "{alone:?}");
+}
+
+#[test]
+fn what_is_no_file_of_ours_is_refused_with_words() {
+    let home = Home::new();
+    home.write("chair.glb", "");
+    home.write("looks.mtl", "");
+    for (name, words) in [
+        ("models/diary.txt", "no scene"),
+        ("chair.glb", "export it as OBJ"),
+        ("looks.mtl", "the OBJ file"),
+        ("models", "is a folder"),
+        ("gone.obj", "is not there"),
+    ] {
+        let plan = plan(&[home.at(name)], Present::Nothing);
+        assert!(plan.steps.is_empty(), "{name}");
+        assert!(plan.refused[0].contains(words), "{:?}", plan.refused);
+    }
+}
+
+#[test]
+fn a_document_is_nothing_until_it_holds_something() {
+    let home = Home::new();
+    assert_eq!(Present::of(&Document::empty(&home.at("scene"))), Present::Nothing);
+    let begun = Document::open(&home.at("models/apple.obj"), &Default::default()).expect("opened");
+    assert_eq!(Present::of(&begun), Present::Edited);
+}

@@ -1,0 +1,310 @@
+//! A sheet that asks for a file by its path: a folder's list, and a field to type in. It needs nothing of the desktop.
+
+mod listing;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
+use egui::{
+    Align, Color32, Context, Id, Key, Layout, Modifiers, RichText, ScrollArea, Sense, Stroke, TextEdit, Ui,
+    vec2,
+};
+
+use super::dialogs::{Ask, as_scene_file};
+use super::incoming::{self, Kind, name_of};
+use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{Button, Dialog, dialog, sheet};
+use listing::{Listing, Row, resolve};
+
+/// Width of the sheet, and height of its list, points.
+const WIDTH: f32 = 620.0;
+const LIST_HEIGHT: f32 = 260.0;
+
+/// What came of a [`PathSheet`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Picked {
+    /// This file. Of a save, the user agreed to replace it where it is there.
+    File(PathBuf),
+    /// None.
+    Cancelled,
+}
+
+/// Asks for a file.
+pub struct PathSheet {
+    ask: Ask,
+    listing: Listing,
+    /// What stands in the field.
+    typed: String,
+    /// Why the file cannot be had.
+    error: Option<String>,
+    /// The file that would be replaced, while that is asked.
+    replaces: Option<PathBuf>,
+    /// The field takes the focus in the next pass.
+    wants_focus: bool,
+}
+
+impl PathSheet {
+    /// A sheet that begins in the folder `start`; to save, with the file `start` in the field.
+    pub fn new(ask: Ask, start: &Path) -> Self {
+        let is_file = ask.is_save() && !start.is_dir();
+        let typed = if is_file { name_of(start) } else { String::new() };
+        let folder = if is_file { start.parent().unwrap_or(Path::new("")) } else { start };
+        let listing = Listing::read(&nearest_folder(folder), ask.kinds());
+        Self { ask, listing, typed, error: None, replaces: None, wants_focus: true }
+    }
+
+    /// Shows it; the answer, once there is one.
+    pub fn show(&mut self, ctx: &Context) -> Option<Picked> {
+        if let Some(path) = self.replaces.clone() {
+            let title = format!("Replace \u{201c}{}\u{201d}?", name_of(&path));
+            let words = "A file of this name is there already. What is in it would be lost.";
+            let asked = Dialog { title: &title, words, verbs: &["Replace", "Keep it"], cancel: 1 };
+            let verb = dialog(ctx, &asked)?;
+            self.replaces = None;
+            self.wants_focus = true;
+            return (verb == 0).then_some(Picked::File(path));
+        }
+        let mut done = None;
+        sheet(ctx, self.ask.title(), WIDTH, |ui| {
+            let tokens = Tokens::of(ui);
+            ui.spacing_mut().item_spacing.y = measure::GAP;
+            ui.label(RichText::new(self.ask.title()).font(type_face::title()).color(tokens.text));
+            self.folder(ui);
+            done = self.list(ui).or(self.field(ui));
+            ui.add_space(measure::GAP);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let verb = if self.ask.is_save() { "Save" } else { "Open" };
+                if Button::new(verb).on_sheet().primary().show(ui).clicked() {
+                    done = self.submit();
+                }
+                if Button::new("Cancel").on_sheet().show(ui).clicked() {
+                    done = Some(Picked::Cancelled);
+                }
+            });
+            if ui.input(|input| input.key_pressed(Key::Escape)) {
+                done = Some(Picked::Cancelled);
+            }
+        });
+        done
+    }
+
+    /// Where the list is.
+    fn folder(&self, ui: &mut Ui) {
+        let tokens = Tokens::of(ui);
+        let shown = self.listing.folder.display().to_string();
+        let text = RichText::new(&shown).font(type_face::small()).color(tokens.weak);
+        let label = ui.add(egui::Label::new(text).truncate());
+        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Group, true, "Folder"));
+        ui.ctx().accesskit_node_builder(label.id, |node| node.set_value(shown));
+    }
+
+    fn list(&mut self, ui: &mut Ui) -> Option<Picked> {
+        let mut chosen = None;
+        let mut done = None;
+        let rows = self.listing.rows.len();
+        let frame = egui::Frame::new().fill(Tokens::of(ui).field).corner_radius(measure::CORNER);
+        frame.show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            let id = ("rows", &self.listing.folder);
+            let area = ScrollArea::vertical().id_salt(id).auto_shrink(false).max_height(LIST_HEIGHT);
+            area.show_rows(ui, measure::TREE_ROW, rows, |ui, shown| {
+                for row in &self.listing.rows[shown] {
+                    let is_on = self.typed == row.name();
+                    let response = show_row(ui, row, is_on);
+                    let enter = response.has_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+                    if response.clicked() {
+                        chosen = Some((row.clone(), enter || response.double_clicked()));
+                    }
+                }
+            });
+        });
+        if let Some(words) = &self.listing.note {
+            let tokens = Tokens::of(ui);
+            ui.label(RichText::new(words).font(type_face::small()).color(tokens.weak));
+        }
+        match chosen {
+            Some((Row::Parent | Row::Folder(_), _)) => {
+                if let Some((row, _)) = &chosen {
+                    self.enter(row.name());
+                }
+            }
+            Some((Row::File(name), is_final)) => {
+                self.typed = name;
+                self.error = None;
+                if is_final {
+                    done = self.submit();
+                }
+            }
+            None => (),
+        }
+        done
+    }
+
+    /// The field for the name, and what is wrong with it.
+    fn field(&mut self, ui: &mut Ui) -> Option<Picked> {
+        let tokens = Tokens::of(ui);
+        let id = Id::unique("file name of the path sheet");
+        if ui.memory(|memory| memory.has_focus(id)) {
+            self.complete_on_tab(ui, id);
+        }
+        let line = if self.error.is_some() { tokens.vermilion } else { Color32::TRANSPARENT };
+        let frame = egui::Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(measure::CORNER);
+        let edit = TextEdit::singleline(&mut self.typed)
+            .id(id)
+            .font(type_face::body())
+            .desired_width(f32::INFINITY)
+            .min_size(vec2(0.0, measure::FIELD))
+            .hint_text("Name, or a whole path")
+            // Tab completes; it goes on to the next control where there is nothing to complete.
+            .lock_focus(true);
+        let response = frame.show(ui, |ui| ui.add(edit)).inner;
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("File name"));
+        if std::mem::take(&mut self.wants_focus) {
+            response.request_focus();
+        }
+        if response.changed() {
+            self.error = None;
+        }
+        if let Some(words) = &self.error {
+            let error = ui.label(RichText::new(words).font(type_face::small()).color(tokens.vermilion));
+            ui.ctx().accesskit_node_builder(error.id, |node| node.set_live(egui::accesskit::Live::Assertive));
+        }
+        let enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        enter.then(|| self.submit()).flatten()
+    }
+
+    fn complete_on_tab(&mut self, ui: &Ui, field: Id) {
+        let pressed = |modifiers| ui.input_mut(|input| input.consume_key(modifiers, Key::Tab));
+        if pressed(Modifiers::SHIFT) {
+            ui.memory_mut(|memory| memory.move_focus(egui::FocusDirection::Previous));
+            return;
+        }
+        if !pressed(Modifiers::NONE) {
+            return;
+        }
+        match self.listing.complete(&self.typed, self.ask.kinds()) {
+            Some(longer) => {
+                let end = egui::text::CCursor::new(egui::text::CharIndex(longer.chars().count()));
+                self.typed = longer;
+                self.error = None;
+                let mut state = TextEdit::load_state(ui.ctx(), field).unwrap_or_default();
+                state.cursor.set_char_range(Some(egui::text::CCursorRange::one(end)));
+                state.store(ui.ctx(), field);
+            }
+            None => ui.memory_mut(|memory| memory.move_focus(egui::FocusDirection::Next)),
+        }
+    }
+
+    fn enter(&mut self, folder: &str) {
+        self.listing = Listing::read(&resolve(&self.listing.folder, folder), self.ask.kinds());
+        self.error = None;
+        if !self.ask.is_save() {
+            self.typed.clear();
+        }
+    }
+
+    /// The file in the field, where it can be had; else the words say why not.
+    fn submit(&mut self) -> Option<Picked> {
+        self.wants_focus = true;
+        match self.judge() {
+            Ok(Judged::Folder(folder)) => {
+                self.typed.clear();
+                self.enter(&folder.to_string_lossy());
+                None
+            }
+            Ok(Judged::Replaces(path)) => {
+                self.replaces = Some(path);
+                None
+            }
+            Ok(Judged::File(path)) => Some(Picked::File(path)),
+            Err(words) => {
+                self.error = Some(words);
+                None
+            }
+        }
+    }
+
+    fn judge(&self) -> Result<Judged, String> {
+        let typed = self.typed.trim();
+        if typed.is_empty() {
+            let verb = if self.ask.is_save() { "Type a name" } else { "Choose a file, or type its name" };
+            return Err(verb.to_owned());
+        }
+        let path = resolve(&self.listing.folder, typed);
+        if path.is_dir() {
+            return Ok(Judged::Folder(path));
+        }
+        let folder = path.parent().unwrap_or(Path::new("/"));
+        if !folder.is_dir() {
+            return Err(format!("There is no folder {}", folder.display()));
+        }
+        if self.ask.is_save() {
+            if typed.ends_with('/') {
+                return Err(format!("There is no folder {}", path.display()));
+            }
+            let path = as_scene_file(path);
+            return match std::fs::symlink_metadata(&path) {
+                Ok(metadata) if metadata.is_dir() => Err(format!("{} is a folder", name_of(&path))),
+                Ok(_) => Ok(Judged::Replaces(path)),
+                Err(_) => Ok(Judged::File(path)),
+            };
+        }
+        if !path.is_file() {
+            return Err(format!("There is no file {} in {}", name_of(&path), folder.display()));
+        }
+        match Kind::of(&path) {
+            Some(kind) if self.ask.kinds().contains(&kind) => Ok(Judged::File(path)),
+            Some(_) => Err(format!("{} is not what is asked for: {}", name_of(&path), self.ask.title())),
+            None => Err(incoming::refusal(&path)),
+        }
+    }
+}
+
+enum Judged {
+    File(PathBuf),
+    Folder(PathBuf),
+    /// A save that would write over this file.
+    Replaces(PathBuf),
+}
+
+fn show_row(ui: &mut Ui, row: &Row, is_on: bool) -> egui::Response {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), measure::TREE_ROW);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let fill = match (is_on, response.hovered()) {
+        (true, _) => tokens.sel,
+        (false, true) => tokens.hov,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, measure::CORNER, fill);
+    if response.has_focus() {
+        let ring = Stroke::new(2.0, tokens.accent_text);
+        ui.painter().rect_stroke(rect, measure::CORNER, ring, egui::StrokeKind::Inside);
+    }
+    let icon = match row {
+        Row::Parent | Row::Folder(_) => icons::OPEN_FOLDER,
+        Row::File(_) => icons::OBJECT,
+    };
+    let middle = rect.left_center() + vec2(measure::PANEL_PADDING, 0.0);
+    let font = type_face::icon(measure::SMALL_ICON);
+    ui.painter().text(middle, egui::Align2::LEFT_CENTER, icon.glyph(), font, tokens.weak);
+    let at = middle + vec2(measure::SMALL_ICON + measure::GAP, 0.0);
+    let mut job =
+        egui::text::LayoutJob::simple_singleline(row.name().to_owned(), type_face::body(), tokens.text);
+    job.wrap = egui::text::TextWrapping::truncate_at_width((rect.right() - at.x - measure::GAP).max(0.0));
+    let galley = ui.painter().layout_job(job);
+    let at = egui::Align2::LEFT_CENTER.anchor_size(at, galley.size()).min;
+    ui.painter().galley(at, galley, tokens.text);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_on, row.name()));
+    response
+}
+
+/// The folder, or the nearest one above it that is there.
+fn nearest_folder(folder: &Path) -> PathBuf {
+    let whole = std::path::absolute(folder)
+        .or_else(|_| std::env::current_dir())
+        .unwrap_or_else(|_| PathBuf::from("/"));
+    whole.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("/")).to_owned()
+}

@@ -1,0 +1,197 @@
+use std::fs;
+
+use egui::{Key, Modifiers, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::*;
+use crate::theme::{self, Theme};
+use crate::window::FocusRules;
+
+struct Page {
+    sheet: PathSheet,
+    picked: Option<Picked>,
+    passes: usize,
+}
+
+/// A sheet over a folder with two scenes, a mesh, a text, a hidden file and a folder with a scene.
+fn sheet(ask: Ask, start: &str) -> (Harness<'static, Page>, tempfile::TempDir) {
+    let home = tempfile::tempdir().expect("a temporary folder");
+    for name in
+        ["still_life.ron", "still_water.ron", "Apple.OBJ", "diary.txt", ".hidden.ron", "shots/roll.ron"]
+    {
+        let path = home.path().join(name);
+        fs::create_dir_all(path.parent().expect("a parent")).expect("made");
+        fs::write(path, "").expect("written");
+    }
+    let page = Page { sheet: PathSheet::new(ask, &home.path().join(start)), picked: None, passes: 0 };
+    let mut harness = Harness::builder()
+        .with_size(vec2(1280.0, 800.0))
+        .with_context_setup(|ctx| {
+            ctx.add_plugin(FocusRules);
+            theme::apply(ctx, Theme::Dark, 1.0);
+        })
+        .build_ui_state(
+            |ui, page: &mut Page| {
+                page.passes += 1;
+                if page.picked.is_none() {
+                    page.picked = page.sheet.show(ui.ctx());
+                }
+            },
+            page,
+        );
+    harness.run();
+    (harness, home)
+}
+
+fn type_in(harness: &mut Harness<'_, Page>, text: &str) {
+    harness.get_by_label("File name").type_text(text);
+    harness.run();
+}
+
+fn press(harness: &mut Harness<'_, Page>, key: Key) {
+    harness.key_press(key);
+    harness.run();
+}
+
+fn field(harness: &Harness<'_, Page>) -> String {
+    harness.get_by_label("File name").accesskit_node().value().unwrap_or_default()
+}
+
+#[test]
+fn folders_stand_first_then_files_that_can_be_opened() {
+    let (harness, home) = sheet(Ask::Open, "");
+    let rows = &harness.state().sheet.listing.rows;
+    let names: Vec<&str> = rows.iter().map(Row::name).collect();
+    assert_eq!(names, ["..", "shots", "Apple.OBJ", "still_life.ron", "still_water.ron"]);
+    for name in names {
+        harness.get_by_label(name);
+    }
+    let folder = harness.get_by_label("Folder").accesskit_node().value();
+    assert_eq!(folder.as_deref(), home.path().to_str());
+    let (harness, _home) = sheet(Ask::ImportMesh, "");
+    assert!(harness.query_by_label("still_life.ron").is_none());
+}
+
+#[test]
+fn a_file_is_picked_by_clicks() {
+    let (mut harness, home) = sheet(Ask::Open, "");
+    harness.get_by_label("shots").click();
+    harness.run();
+    harness.get_by_label("roll.ron").click();
+    harness.run();
+    assert_eq!(harness.state().picked, None);
+    harness.get_by_label("Open").click();
+    harness.run();
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("shots/roll.ron"))));
+}
+
+#[test]
+fn a_file_is_picked_by_the_keyboard_alone() {
+    let (mut harness, home) = sheet(Ask::Open, "");
+    type_in(&mut harness, "sti");
+    press(&mut harness, Key::Tab);
+    assert_eq!(field(&harness), "still_", "as far as there is one way on");
+    type_in(&mut harness, "w");
+    press(&mut harness, Key::Tab);
+    assert_eq!(field(&harness), "still_water.ron");
+    press(&mut harness, Key::Enter);
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("still_water.ron"))));
+
+    let (mut harness, home) = sheet(Ask::Open, "");
+    type_in(&mut harness, "sh");
+    press(&mut harness, Key::Tab);
+    type_in(&mut harness, "r");
+    press(&mut harness, Key::Tab);
+    assert_eq!(field(&harness), "shots/roll.ron");
+    press(&mut harness, Key::Enter);
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("shots/roll.ron"))));
+}
+
+#[test]
+fn tab_goes_on_where_nothing_can_be_completed() {
+    let (mut harness, _home) = sheet(Ask::Open, "");
+    let is_in_field =
+        |harness: &Harness<'_, Page>| harness.get_by_label("File name").accesskit_node().is_focused();
+    assert!(is_in_field(&harness));
+    type_in(&mut harness, "zzz");
+    press(&mut harness, Key::Tab);
+    assert!(!is_in_field(&harness), "no trap for the keyboard");
+    harness.get_by_label("File name").focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::Tab);
+    harness.run();
+    assert!(!is_in_field(&harness), "nor backwards");
+}
+
+#[test]
+fn what_cannot_be_had_is_said_under_the_field() {
+    for (ask, typed, words) in [
+        (Ask::Open, "", "Choose a file"),
+        (Ask::Open, "gone.ron", "There is no file gone.ron"),
+        (Ask::Open, "nowhere/gone.ron", "There is no folder"),
+        (Ask::Open, "diary.txt", "no scene"),
+        (Ask::ImportMesh, "still_life.ron", "not what is asked for"),
+        (Ask::SaveAs, "nowhere/new", "There is no folder"),
+    ] {
+        let (mut harness, _home) = sheet(ask, "");
+        type_in(&mut harness, typed);
+        press(&mut harness, Key::Enter);
+        harness.get_by_label_contains(words);
+        assert_eq!(harness.state().picked, None);
+        type_in(&mut harness, "x");
+        assert!(harness.query_by_label_contains(words).is_none(), "{words} goes when one types on");
+    }
+}
+
+#[test]
+fn a_folder_that_is_typed_is_entered() {
+    let (mut harness, home) = sheet(Ask::Open, "");
+    type_in(&mut harness, "shots/");
+    press(&mut harness, Key::Enter);
+    harness.get_by_label("roll.ron");
+    assert_eq!(field(&harness), "");
+    harness.get_by_label("..").click();
+    harness.run();
+    assert_eq!(harness.state().sheet.listing.folder, home.path());
+    press(&mut harness, Key::Escape);
+    assert_eq!(harness.state().picked, Some(Picked::Cancelled));
+}
+
+#[test]
+fn a_save_asks_before_it_replaces() {
+    let (mut harness, home) = sheet(Ask::SaveAs, "still_life.ron");
+    assert_eq!(field(&harness), "still_life.ron");
+    harness.get_by_label("Save").click();
+    harness.run();
+    assert_eq!(harness.state().picked, None);
+    harness.get_by_label("Keep it").click();
+    harness.run();
+    assert_eq!(harness.state().picked, None, "the sheet is there again");
+    harness.get_by_label("Save").click();
+    harness.run();
+    harness.get_by_label("Replace").click();
+    harness.run();
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("still_life.ron"))));
+}
+
+#[test]
+fn a_save_gives_the_name_its_ending() {
+    let (mut harness, home) = sheet(Ask::SaveCopy, "apple.v2");
+    harness.get_by_label("Save").click();
+    harness.run();
+    assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("apple.v2.ron"))));
+
+    let (mut harness, _home) = sheet(Ask::SaveCopy, "still_life");
+    harness.get_by_label("Save").click();
+    harness.run();
+    harness.get_by_label("Replace");
+}
+
+#[test]
+fn the_sheet_rests() {
+    let (mut harness, _home) = sheet(Ask::Open, "");
+    let before = harness.state().passes;
+    harness.run();
+    assert!(harness.state().passes - before <= 2, "it draws only when something changes");
+}

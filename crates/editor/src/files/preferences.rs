@@ -1,0 +1,207 @@
+//! What the editor remembers of its user, as readable RON in the user's config folder.
+
+mod store;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
+use impasto_editor_model::session::Mode;
+use serde::{Deserialize, Serialize};
+
+use crate::theme::Theme;
+
+pub use store::{Loaded, PreferencesError, config_folder, load, save};
+
+/// The newest layout that this build reads.
+pub const VERSION: u32 = 1;
+
+/// How many files *Open recent* lists.
+pub const MAX_RECENT: usize = 10;
+
+/// Of how many scenes the last mode and view are kept.
+pub const MAX_LAST_SEEN: usize = 50;
+
+/// What the user chose, and where he was. Fields that a file lacks have their defaults; fields that it should not have
+/// are passed over.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Preferences {
+    /// The layout of the file.
+    pub version: u32,
+    /// Whose keys.
+    pub keys: Keys,
+    /// The palette.
+    #[serde(with = "ThemeText")]
+    pub theme: Theme,
+    /// Size of the interface, 0.75 to 3.
+    pub scale: f32,
+    /// The welcome sheet is shown at the start.
+    pub show_welcome: bool,
+    /// What draws the paintings.
+    pub driver: DriverChoice,
+    /// Minutes between two copies of unsaved work; 0 for none.
+    pub autosave_minutes: u32,
+    /// The digits above the letters choose views, as those of the number pad do.
+    pub digits_as_numpad: bool,
+    /// Show what a stroke would do, before the press.
+    pub foresee_strokes: bool,
+    /// Nothing moves that need not.
+    pub reduced_motion: bool,
+    /// Files that were opened or saved, newest first.
+    pub recent: Vec<PathBuf>,
+    /// Where the user was in each scene, newest first.
+    pub last_seen: Vec<LastSeen>,
+    /// Width and height of the window, points.
+    pub window_size: (f32, f32),
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            version: VERSION,
+            keys: Keys::default(),
+            theme: Theme::default(),
+            scale: 1.0,
+            show_welcome: true,
+            driver: DriverChoice::default(),
+            autosave_minutes: 2,
+            digits_as_numpad: false,
+            foresee_strokes: true,
+            reduced_motion: false,
+            recent: Vec::new(),
+            last_seen: Vec::new(),
+            window_size: (1280.0, 800.0),
+        }
+    }
+}
+
+/// A set of keys and drags that artists know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Keys {
+    /// Those of Blender.
+    #[default]
+    Blender,
+    /// Those of Maya.
+    Maya,
+}
+
+/// What draws the paintings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DriverChoice {
+    /// The graphics card where there is one, else software.
+    #[default]
+    Auto,
+    /// EGL.
+    Egl,
+    /// OSMesa, always in software.
+    Osmesa,
+    /// Software, whatever the machine has.
+    Software,
+}
+
+/// Where the user was in one scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LastSeen {
+    /// The scene file.
+    pub file: PathBuf,
+    /// The mode.
+    #[serde(with = "ModeText")]
+    pub mode: Mode,
+    /// The free view; none when he looked through the shot camera.
+    pub view: Option<LastView>,
+}
+
+impl Default for LastSeen {
+    fn default() -> Self {
+        Self { file: PathBuf::new(), mode: Mode::default(), view: None }
+    }
+}
+
+/// A free view. World space, world units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LastView {
+    /// Where the eye is.
+    pub eye: [f64; 3],
+    /// What it looks at.
+    pub target: [f64; 3],
+    /// Turn about the line of sight, degrees.
+    #[serde(default)]
+    pub roll_deg: f64,
+    /// Parallel rays.
+    #[serde(default)]
+    pub orthographic: bool,
+}
+
+impl Preferences {
+    /// Puts a file that was opened or saved on top of the recent ones. A name that is no text cannot be kept.
+    pub fn note_recent(&mut self, file: &Path) {
+        let Some(file) = lasting(file) else { return };
+        self.recent.retain(|known| *known != file);
+        self.recent.insert(0, file);
+        self.recent.truncate(MAX_RECENT);
+    }
+
+    /// The recent files that are still there, newest first.
+    pub fn recent_there(&self) -> Vec<&Path> {
+        self.recent.iter().map(PathBuf::as_path).filter(|file| file.is_file()).collect()
+    }
+
+    /// Keeps where the user was in a scene.
+    pub fn note_last_seen(&mut self, file: &Path, mode: Mode, view: Option<LastView>) {
+        let Some(file) = lasting(file) else { return };
+        self.last_seen.retain(|known| known.file != file);
+        self.last_seen.insert(0, LastSeen { file, mode, view });
+        self.last_seen.truncate(MAX_LAST_SEEN);
+    }
+
+    /// Where the user was in a scene; none where it was never left.
+    pub fn last_seen_in(&self, file: &Path) -> Option<&LastSeen> {
+        let file = lasting(file)?;
+        self.last_seen.iter().find(|known| known.file == file)
+    }
+
+    /// Brings what a hand may have written into the ranges that the editor can use.
+    fn settle(&mut self) {
+        let within = |value: f32, least: f32, most: f32, otherwise: f32| {
+            if value.is_finite() { value.clamp(least, most) } else { otherwise }
+        };
+        self.version = VERSION;
+        self.scale = within(self.scale, 0.75, 3.0, 1.0);
+        self.autosave_minutes = self.autosave_minutes.min(120);
+        self.window_size.0 = within(self.window_size.0, 960.0, 16_384.0, 1280.0);
+        self.window_size.1 = within(self.window_size.1, 600.0, 16_384.0, 800.0);
+        self.recent.truncate(MAX_RECENT);
+        self.last_seen.truncate(MAX_LAST_SEEN);
+        for seen in &mut self.last_seen {
+            seen.view = seen.view.filter(|view| {
+                let numbers = view.eye.iter().chain(&view.target).chain([&view.roll_deg]);
+                view.eye != view.target && numbers.copied().all(f64::is_finite)
+            });
+        }
+    }
+}
+
+/// The path as it means the same from every folder; none where it is no text.
+fn lasting(file: &Path) -> Option<PathBuf> {
+    let file = std::path::absolute(file).ok()?;
+    file.to_str().is_some().then_some(file)
+}
+
+/// How a theme is written.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Theme")]
+enum ThemeText {
+    Dark,
+    Light,
+}
+
+/// How a mode is written.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Mode")]
+enum ModeText {
+    Arrange,
+    Paint,
+    Animate,
+}

@@ -1,0 +1,110 @@
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use etcetera::BaseStrategy as _;
+use impasto_scene::assets::{AssetError, read_regular_file};
+use serde::Deserialize;
+
+use super::{Preferences, VERSION};
+
+const FILE: &str = "editor.ron";
+const MAX_BYTES: u64 = 1 << 20;
+
+/// The folder of the editor's preferences: `$IMPASTO_CONFIG_DIR`, else `impasto` in the user's config folder; none
+/// where the user has no home.
+pub fn config_folder() -> Option<PathBuf> {
+    match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
+        Some(folder) => Some(PathBuf::from(folder)),
+        None => Some(etcetera::choose_base_strategy().ok()?.config_dir().join("impasto")),
+    }
+}
+
+/// Preferences as they were read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// What to use.
+    pub preferences: Preferences,
+    /// What the user should know: the file could not be used, and where it is kept.
+    pub note: Option<String>,
+}
+
+/// Why preferences were not written.
+#[derive(Debug, thiserror::Error)]
+pub enum PreferencesError {
+    /// The system would not.
+    #[error("the preferences could not be kept in {}: {source}", folder.display())]
+    Unwritable {
+        /// The config folder.
+        folder: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// They are no RON.
+    #[error("the preferences could not be written down: {0}")]
+    NoText(#[from] ron::Error),
+}
+
+#[derive(Deserialize)]
+struct VersionOnly {
+    #[serde(default = "this_version")]
+    version: u32,
+}
+
+fn this_version() -> u32 {
+    VERSION
+}
+
+/// Reads the preferences in a folder. Never fails: a file that cannot be used, or that a newer Impasto wrote, is kept
+/// beside as `editor.ron.bad`, and the defaults serve.
+pub fn load(folder: &Path) -> Loaded {
+    let path = folder.join(FILE);
+    let why = match read_regular_file(&path, MAX_BYTES) {
+        Ok(bytes) => match parse(&bytes) {
+            Ok(mut preferences) => {
+                preferences.settle();
+                return Loaded { preferences, note: None };
+            }
+            Err(why) => why,
+        },
+        Err(AssetError::Missing { .. }) => return Loaded { preferences: Preferences::default(), note: None },
+        Err(error) => error.to_string(),
+    };
+    let kept = folder.join(format!("{FILE}.bad"));
+    let ending = match fs::rename(&path, &kept) {
+        Ok(()) => format!("it is kept as {}", kept.display()),
+        Err(error) => format!("it could not be set aside ({error})"),
+    };
+    let note =
+        format!("Preferences are the default ones: {} cannot be used: {why}; {ending}", path.display());
+    Loaded { preferences: Preferences::default(), note: Some(note) }
+}
+
+fn parse(bytes: &[u8]) -> Result<Preferences, String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text".to_owned())?;
+    let VersionOnly { version } = ron::from_str(text).map_err(|error| error.to_string())?;
+    if version > VERSION {
+        return Err(format!("a newer Impasto wrote it (layout {version}; this one reads {VERSION})"));
+    }
+    ron::from_str(text).map_err(|error| error.to_string())
+}
+
+/// Writes the preferences into a folder, which is made where it is not there. At any moment the file is the old one or
+/// the new one, whole.
+///
+/// # Errors
+/// [`PreferencesError`]; the old file is untouched.
+pub fn save(folder: &Path, preferences: &Preferences) -> Result<(), PreferencesError> {
+    let layout = ron::ser::PrettyConfig::new().depth_limit(3);
+    let text = ron::ser::to_string_pretty(preferences, layout)?;
+    let write = || -> std::io::Result<()> {
+        fs::create_dir_all(folder)?;
+        let mut file = tempfile::NamedTempFile::new_in(folder)?;
+        file.write_all(text.as_bytes())?;
+        file.write_all(b"\n")?;
+        file.as_file().sync_all()?;
+        file.persist(folder.join(FILE)).map_err(|error| error.error)?;
+        Ok(())
+    };
+    write().map_err(|source| PreferencesError::Unwritable { folder: folder.to_owned(), source })
+}

@@ -1,0 +1,101 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+
+fn read(text: &str) -> (Loaded, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("editor.ron"), text).expect("written");
+    (load(folder.path()), folder)
+}
+
+#[test]
+fn what_is_saved_is_read_back() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let config = folder.path().join("deep/impasto");
+    assert_eq!(load(&config), Loaded { preferences: Preferences::default(), note: None });
+    let mut kept = Preferences {
+        keys: Keys::Maya,
+        theme: Theme::Light,
+        scale: 1.5,
+        show_welcome: false,
+        driver: DriverChoice::Osmesa,
+        autosave_minutes: 7,
+        digits_as_numpad: true,
+        foresee_strokes: false,
+        reduced_motion: true,
+        window_size: (1920.0, 1080.0),
+        ..Preferences::default()
+    };
+    kept.note_recent(Path::new("/scenes/a b.ron"));
+    let view = LastView { eye: [0.1, 2.0, 3.0], target: [0.0; 3], roll_deg: 5.0, orthographic: true };
+    kept.note_last_seen(Path::new("/scenes/a b.ron"), Mode::Paint, Some(view));
+    save(&config, &kept).expect("saved");
+    assert_eq!(load(&config), Loaded { preferences: kept.clone(), note: None });
+    save(&config, &Preferences::default()).expect("saved over");
+    assert_eq!(load(&config).preferences, Preferences::default());
+    let files: Vec<_> =
+        fs::read_dir(&config).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
+    assert_eq!(files, ["editor.ron"], "no temporary file stays");
+}
+
+#[test]
+fn missing_and_unknown_fields_are_fine() {
+    let (loaded, _folder) = read("(keys: Maya, perfume: Some((\"rose\", [1, 2])))");
+    assert_eq!(loaded.note, None);
+    assert_eq!(loaded.preferences, Preferences { keys: Keys::Maya, ..Preferences::default() });
+}
+
+#[test]
+fn a_file_that_cannot_be_used_is_kept_beside() {
+    for (text, word) in [
+        ("(keys: Emacs)", "Emacs"),
+        ("(scale: ", "1:9"),
+        ("(version: 2, keys: Sculptor)", "newer"),
+        ("", "cannot be used"),
+    ] {
+        let (loaded, folder) = read(text);
+        assert_eq!(loaded.preferences, Preferences::default(), "{text}");
+        let note = loaded.note.expect("a note");
+        assert!(note.contains(word), "{note}");
+        assert_eq!(fs::read_to_string(folder.path().join("editor.ron.bad")).expect("kept"), text);
+        assert!(!folder.path().join("editor.ron").exists());
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("editor.ron"), b"(scale: \xff)").expect("written");
+    assert!(load(folder.path()).note.expect("a note").contains("no text"));
+}
+
+#[test]
+fn numbers_that_a_hand_wrote_come_into_range() {
+    let view = "Some((eye: (NaN, 0.0, 0.0), target: (0.0, 0.0, 0.0)))";
+    let text = format!(
+        "(scale: 90.0, window_size: (NaN, 3.0), autosave_minutes: 4000, last_seen: [(file: \"/a.ron\", view: {view})])"
+    );
+    let (loaded, _folder) = read(&text);
+    assert_eq!(loaded.note, None);
+    let Preferences { scale, window_size, autosave_minutes, last_seen, .. } = loaded.preferences;
+    assert_eq!((scale, window_size, autosave_minutes), (3.0, (1280.0, 600.0), 120));
+    assert_eq!(last_seen[0].view, None);
+}
+
+#[test]
+fn lists_keep_the_newest_and_each_file_once() {
+    let mut preferences = Preferences::default();
+    for at in 0..70 {
+        let file = PathBuf::from(format!("/scenes/{at}.ron"));
+        preferences.note_recent(&file);
+        preferences.note_last_seen(&file, Mode::Animate, None);
+    }
+    preferences.note_recent(Path::new("/scenes/65.ron"));
+    assert_eq!(preferences.recent.len(), MAX_RECENT);
+    assert_eq!(preferences.recent[..2], [Path::new("/scenes/65.ron"), Path::new("/scenes/69.ron")]);
+    assert_eq!(preferences.last_seen.len(), MAX_LAST_SEEN);
+    assert!(preferences.last_seen_in(Path::new("/scenes/19.ron")).is_none());
+    assert!(preferences.last_seen_in(Path::new("/scenes/20.ron")).is_some());
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let there = folder.path().join("there.ron");
+    fs::write(&there, "").expect("written");
+    preferences.note_recent(&there);
+    assert_eq!(preferences.recent_there(), [there.as_path()]);
+}

@@ -1,0 +1,43 @@
+//! What the right column remembers between passes and no document holds: what is open, searched, renamed, copied.
+
+use std::collections::BTreeMap;
+
+use egui::{Context, Id};
+use impasto_editor_model::{Document, Item};
+use impasto_scene::document::StrokeSettings;
+
+/// What the right column remembers between passes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ColumnState {
+    /// Sections that were opened or folded by hand.
+    pub(super) sections: BTreeMap<String, bool>,
+    /// Objects whose rows were opened or folded, by name.
+    pub(super) rows: BTreeMap<String, bool>,
+    /// What is searched in the tree; none while the search is shut.
+    pub(super) search: Option<String>,
+    /// What gets another name, and that name as it is typed.
+    pub(super) renaming: Option<(Item, String)>,
+    /// Stroke settings that were copied.
+    pub(super) copied_strokes: Option<StrokeSettings>,
+    /// The layer of paint that Advanced shows.
+    pub(super) paint_layer: usize,
+    /// What was active in the pass before, so that the tree goes there when that changes.
+    pub(super) active: Option<Item>,
+}
+
+impl ColumnState {
+    /// Reads or changes it.
+    pub(super) fn with<R>(ctx: &Context, act: impl FnOnce(&mut Self) -> R) -> R {
+        ctx.data_mut(|data| act(data.get_temp_mut_or_default(Id::unique("right column"))))
+    }
+}
+
+/// Begins to rename what is active, in its row of the tree. Says whether that has a name of its own.
+pub fn rename(ctx: &Context, document: &Document) -> bool {
+    let active = document.selection().active();
+    let named = active.filter(|item| matches!(item, Item::Object(_) | Item::Region(_) | Item::Light(_)));
+    ColumnState::with(ctx, |state| {
+        state.renaming = named.map(|item| (item.clone(), item.name().to_owned()));
+    });
+    named.is_some()
+}

@@ -1,0 +1,65 @@
+//! The inspector: the settings of what is selected, or of the scene.
+
+mod camera;
+mod guides;
+mod light;
+mod number;
+mod object;
+mod paint_layers;
+mod parts;
+mod pose;
+mod region;
+mod scene;
+mod strokes;
+
+use egui::{ScrollArea, Ui};
+use impasto_editor_model::Item;
+use impasto_editor_model::command::Command;
+use impasto_scene::document::Scene;
+
+use super::{Ask, Shown};
+
+/// The settings of what is selected. It fills the width and height of `ui`, which has no margins.
+pub fn inspector(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let active = shown.document.selection().active().cloned();
+    let mut asker = Asker { shown, asks };
+    // One scroll position for each thing.
+    let salt = match &active {
+        Some(Item::Guide(region, _)) => Some(Item::Region(region.clone())),
+        other => other.clone(),
+    };
+    ScrollArea::vertical().id_salt(("inspector", salt)).auto_shrink(false).show(ui, |ui| {
+        match &active {
+            Some(Item::Region(name)) => region::show(ui, &mut asker, name),
+            Some(Item::Guide(name, _)) => region::show(ui, &mut asker, name),
+            Some(Item::Object(name)) => object::show(ui, &mut asker, name),
+            Some(Item::Light(name)) => light::show(ui, &mut asker, name),
+            Some(Item::Camera) => camera::show(ui, &mut asker),
+            None => scene::show(ui, &mut asker),
+        };
+        ui.add_space(12.0);
+    });
+}
+
+/// What is shown, and where a part of the inspector asks for changes.
+struct Asker<'a, 'b> {
+    shown: &'a Shown<'a>,
+    asks: &'b mut Vec<Ask>,
+}
+
+impl<'a> Asker<'a, '_> {
+    /// The scene as it is shown, with what is under the hand.
+    fn scene(&self) -> &'a Scene {
+        &self.shown.document.shown().scene
+    }
+
+    /// The scene as the history has it.
+    fn stored(&self) -> &'a Scene {
+        self.shown.document.scene()
+    }
+
+    fn ask(&mut self, command: Command) {
+        self.asks.push(Ask::Do(command));
+    }
+}

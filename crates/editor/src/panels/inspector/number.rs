@@ -1,0 +1,99 @@
+//! Numbers of the inspector: a drag is shown as it goes and is one entry; steps in quick succession are one entry.
+
+use std::ops::RangeInclusive;
+
+use egui::Ui;
+use impasto_editor_model::command::Command;
+
+use super::Asker;
+use crate::panels::Ask;
+use crate::widgets::NumberField;
+
+/// A number as it is shown.
+#[derive(Clone, Debug)]
+pub(super) struct Number<'a> {
+    /// The label, and the name that is spoken.
+    pub(super) name: &'a str,
+    /// What it does, one sentence.
+    pub(super) effect: &'a str,
+    /// Behind the value.
+    pub(super) unit: &'a str,
+    /// Before the value: X, Y, Z.
+    pub(super) letter: &'a str,
+    /// How far a drag goes.
+    pub(super) range: RangeInclusive<f64>,
+    /// How far typing goes; none as far as a drag.
+    pub(super) limits: Option<RangeInclusive<f64>>,
+    /// One step, and digits behind the point.
+    pub(super) step: (f64, usize),
+    /// What the reset icon brings back.
+    pub(super) default: Option<f64>,
+    /// The box alone, this wide.
+    pub(super) unlabelled: Option<f32>,
+}
+
+/// Any number.
+pub(super) const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
+
+impl<'a> Number<'a> {
+    /// A number without unit or end.
+    pub(super) fn new(name: &'a str, effect: &'a str) -> Self {
+        Self {
+            name,
+            effect,
+            unit: "",
+            letter: "",
+            range: ANY,
+            limits: None,
+            step: (1.0, 0),
+            default: None,
+            unlabelled: None,
+        }
+    }
+
+    /// A share of 1.
+    pub(super) fn share(name: &'a str, effect: &'a str) -> Self {
+        Self { range: 0.0..=1.0, step: (0.05, 2), ..Self::new(name, effect) }
+    }
+}
+
+impl Asker<'_, '_> {
+    /// Draws a number that is `shown` now and `stored` in the history, and asks for what is done to it. `command` is given
+    /// the new value, or none for the reset icon.
+    pub(super) fn number(
+        &mut self,
+        ui: &mut Ui,
+        number: &Number<'_>,
+        [shown, stored]: [f64; 2],
+        command: impl Fn(Option<f64>) -> Command,
+    ) {
+        let mut value = shown;
+        let mut field = NumberField::new(number.name, &mut value, number.range.clone())
+            .unit(number.unit)
+            .letter(number.letter)
+            .step(number.step.0, number.step.1)
+            .limits(number.limits.clone().unwrap_or(number.range.clone()))
+            .tip("", number.effect);
+        if let Some(default) = number.default {
+            field = field.default_value(default);
+        }
+        if let Some(width) = number.unlabelled {
+            field = field.unlabelled(width);
+        }
+        let answer = field.show(ui);
+        if answer.reset {
+            self.ask(command(None));
+        } else if answer.stepped {
+            if value != shown {
+                let of = self.shown.document.selection().active();
+                let key = format!("{} of {of:?}", number.name);
+                self.asks.push(Ask::DoMerged(command(Some(value)), key));
+            }
+        } else if answer.ended {
+            // What is typed or dragged back to where it was leaves nothing to undo.
+            self.asks.push(if value == stored { Ask::EndPreview } else { Ask::Do(command(Some(value))) });
+        } else if answer.changed {
+            self.asks.push(Ask::Preview(command(Some(value))));
+        }
+    }
+}

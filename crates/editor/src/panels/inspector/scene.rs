@@ -1,0 +1,180 @@
+//! The scene: size and time, style, backdrop, strokes for everything, reference.
+
+use egui::Ui;
+use impasto_editor_model::command::{Command, Directions, SceneEdit, Time};
+use impasto_scene::document::{Canvas, CanvasFollows, Reference, RotatingStrokes, Solver, Style};
+use impasto_scene::limits::{MAX_SIDE_PX, MAX_STRENGTH};
+
+use super::number::Number;
+use super::parts::{body, head, note, pick, row, section, seen};
+use super::{Asker, strokes};
+use crate::theme::type_face;
+use crate::widgets::{self, Button, Tip};
+
+pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
+    if asker.scene().objects.is_empty() {
+        ui.add_space(12.0);
+        body(ui, |ui| note(ui, "Select something to see its settings."));
+        return;
+    }
+    head(ui, |ui| {
+        ui.add_space(4.0);
+        ui.label(egui::RichText::new("Scene").font(type_face::head()));
+    });
+    section(ui, ("Picture", ""), true, |ui| picture(ui, asker));
+    section(ui, ("Time", ""), true, |ui| time(ui, asker));
+    section(ui, ("Style", ""), true, |ui| style(ui, asker));
+    section(ui, ("All strokes", ""), false, |ui| strokes::contents(ui, asker, None));
+    strokes::advanced(ui, asker, None);
+    section(ui, ("Reference", ""), false, |ui| reference(ui, asker));
+}
+
+fn picture(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
+    let [(width, height), (was_width, was_height)] = [asker.scene().size, asker.stored().size];
+    let number = |name| Number {
+        unit: "px",
+        range: 16.0..=3840.0,
+        limits: Some(1.0..=f64::from(MAX_SIDE_PX)),
+        step: (10.0, 0),
+        ..Number::new(name, "The size that strokes are meant for; pictures can be rendered at any.")
+    };
+    let set = |width: f64, height: f64| Command::Scene(SceneEdit::SetSize(width as u32, height as u32));
+    asker.number(ui, &number("Width px"), [width, was_width].map(f64::from), |to| {
+        set(to.unwrap_or(1280.0), f64::from(was_height))
+    });
+    asker.number(ui, &number("Height px"), [height, was_height].map(f64::from), |to| {
+        set(f64::from(was_width), to.unwrap_or(720.0))
+    });
+    row(ui, "Background", |ui| {
+        asker.colour(ui, "Background colour", seen(asker.scene().background), |color| {
+            Command::Scene(SceneEdit::SetBackground(color))
+        });
+    });
+}
+
+fn time(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
+    let [shown, stored] = [asker.scene(), asker.stored()].map(|scene| scene.timeline.clone());
+    let rate = Number {
+        unit: "fps",
+        range: 1.0..=60.0,
+        limits: Some(0.001..=1000.0),
+        step: (1.0, 2),
+        default: Some(24.0),
+        ..Number::new("Rate", "Frames per second.")
+    };
+    asker.number(ui, &rate, [shown.fps, stored.fps], |fps| Command::Time(Time::SetFps(fps.unwrap_or(24.0))));
+    let (first, last) = (stored.first, stored.last);
+    let number = Number {
+        limits: Some(f64::NEG_INFINITY..=last as f64),
+        ..Number::new("First", "First frame of the shot.")
+    };
+    asker.number(ui, &number, [shown.first as f64, first as f64], |to| {
+        Command::Time(Time::SetRange(to.map_or(first, |to| to as i64), last))
+    });
+    let number = Number {
+        limits: Some(first as f64..=f64::INFINITY),
+        ..Number::new("Last", "Last frame of the shot.")
+    };
+    asker.number(ui, &number, [shown.last as f64, last as f64], |to| {
+        Command::Time(Time::SetRange(first, to.map_or(last, |to| to as i64)))
+    });
+}
+
+fn style(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
+    let [shown, stored] = [asker.scene(), asker.stored()].map(|scene| scene.style.clone());
+    row(ui, "Style", |ui| {
+        let mut plain = usize::from(shown == Style::Reference);
+        if widgets::segmented_of(ui, "Style", &["Strokes", "Plain"], &mut plain).changed() {
+            let (style, words) = if plain == 1 {
+                (Style::Reference, "Style: plain")
+            } else {
+                (Style::default(), "Style: strokes")
+            };
+            asker.ask(Command::Scene(SceneEdit::SetStyle(style, words.to_owned())));
+        }
+    });
+    let (Style::RotatingStrokes(shown), Style::RotatingStrokes(stored)) = (shown, stored) else { return };
+    let set = |style: RotatingStrokes, words: String| {
+        Command::Scene(SceneEdit::SetStyle(Style::RotatingStrokes(style), words))
+    };
+    row(ui, "Solver", |ui| {
+        let solvers = [Solver::Tangent, Solver::Horn, Solver::HornExact];
+        let words = ["Tangent plane", "Neighbours, baked", "Neighbours, exact"];
+        let tip = Tip { name: "Solver", effect: "How the turn of a stroke is found.", ..Tip::default() };
+        let chosen = solvers.iter().position(|solver| *solver == shown.solver).unwrap_or(0);
+        if let Some(picked) = pick(ui, tip, &words, chosen) {
+            let words = format!("Solver: {}", words[picked].to_lowercase());
+            asker.ask(set(RotatingStrokes { solver: solvers[picked], ..stored.clone() }, words));
+        }
+    });
+    row(ui, "Canvas", |ui| {
+        let mut board = usize::from(shown.canvas == Canvas::Board);
+        if widgets::segmented_of(ui, "Canvas", &["Linen", "Board"], &mut board).changed() {
+            let (canvas, words) =
+                if board == 1 { (Canvas::Board, "Canvas: board") } else { (Canvas::Linen, "Canvas: linen") };
+            asker.ask(set(RotatingStrokes { canvas, ..stored.clone() }, words.to_owned()));
+        }
+    });
+    row(ui, "Canvas follows", |ui| {
+        let mut camera = usize::from(shown.canvas_follows == CanvasFollows::Camera);
+        if widgets::segmented_of(ui, "Canvas follows", &["Picture", "Camera"], &mut camera).changed() {
+            let (canvas_follows, words) = if camera == 1 {
+                (CanvasFollows::Camera, "Canvas follows the camera")
+            } else {
+                (CanvasFollows::Picture, "Canvas follows the picture")
+            };
+            asker.ask(set(RotatingStrokes { canvas_follows, ..stored.clone() }, words.to_owned()));
+        }
+    });
+    type OfStyle = fn(&mut RotatingStrokes) -> &mut f64;
+    let numbers: [(&str, &str, OfStyle); 3] = [
+        ("Weave", "How much of the canvas is felt where paint is thin.", |style| &mut style.weave),
+        ("Relief", "How much the paint stands up: 0 flat, 1 oil paint.", |style| &mut style.relief),
+        ("Varnish", "Deeper darks and fuller colour: 0 none, 1 thin.", |style| &mut style.varnish),
+    ];
+    for (name, effect, of) in numbers {
+        let number = Number {
+            range: 0.0..=3.0,
+            limits: Some(0.0..=MAX_STRENGTH),
+            step: (0.05, 2),
+            default: Some(1.0),
+            ..Number::new(name, effect)
+        };
+        let values = [&shown, &stored].map(|style| *of(&mut style.clone()));
+        asker.number(ui, &number, values, |to| {
+            let mut style = stored.clone();
+            let to = to.unwrap_or(1.0);
+            *of(&mut style) = to;
+            set(style, format!("{name} {to:.2}"))
+        });
+    }
+    let mut underpainting = shown.underpainting;
+    if widgets::checkbox(ui, "Underpainting", &mut underpainting).changed() {
+        let words = if underpainting { "Underpainting" } else { "No underpainting" };
+        asker.ask(set(RotatingStrokes { underpainting, ..stored.clone() }, words.to_owned()));
+    }
+}
+
+fn reference(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
+    let frame = asker.shown.session.frame.round() as i64;
+    let words = match &asker.scene().reference {
+        Reference::Frame(frame) => format!("Directions are stated at frame {frame}."),
+        Reference::View { frame, .. } => {
+            format!("Directions are stated from a view of its own, at frame {frame}.")
+        }
+    };
+    note(ui, &words);
+    let is_it = asker.scene().reference == Reference::Frame(frame);
+    ui.add_enabled_ui(!is_it, |ui| {
+        let words = format!("Recapture at frame {frame}");
+        let button = Button::new(&words).name("Recapture").show(ui);
+        let tip = Tip {
+            name: "Recapture",
+            effect: "Takes this frame as the new reference; directions stay as they look now.",
+            ..Tip::default()
+        };
+        if tip.on(button).clicked() {
+            asker.ask(Command::Directions(Directions::Recapture(frame)));
+        }
+    });
+}

@@ -1,0 +1,282 @@
+//! Stroke settings of a region or of the scene: brush, numbers, layer, and what stands under Advanced.
+
+use egui::{Ui, vec2};
+use impasto_core::brush;
+use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange, StrokesOf};
+use impasto_editor_model::stroke_fields::{FieldValue, field_values};
+use impasto_scene::document::{BrushMix, Edges, Region, Scene, Selector, StrokeSettings};
+use impasto_scene::limits::MAX_LAYER;
+use impasto_scene::new_scene;
+use impasto_scene::presets::{self, ResolvedStrokes};
+
+use super::number::Number;
+use super::parts::{note, pick, reset, row, section};
+use super::{Asker, paint_layers};
+use crate::panels::brush_thumbnails::thumbnail;
+use crate::panels::column_state::ColumnState;
+use crate::widgets::{self, Button, Tip};
+
+/// The stroke settings of one place, as they are shown and as they are stored.
+pub(super) struct Place<'a> {
+    pub(super) of: StrokesOf,
+    pub(super) own: [&'a StrokeSettings; 2],
+    pub(super) resolved: [ResolvedStrokes; 2],
+    index: Option<usize>,
+}
+
+impl<'a> Place<'a> {
+    fn new(asker: &Asker<'a, '_>, region: Option<&str>) -> Option<Self> {
+        let scenes = [asker.scene(), asker.stored()];
+        let index_in =
+            |scene: &Scene| scene.regions.iter().position(|other| Some(other.name.as_str()) == region);
+        let indices = scenes.map(index_in);
+        if region.is_some() && indices.contains(&None) {
+            return None;
+        }
+        let own = |which: usize| {
+            let scene = scenes[which];
+            indices[which].map_or(&scene.strokes, |index| &scene.regions[index].strokes)
+        };
+        Some(Self {
+            of: region.map_or(StrokesOf::Scene, |name| StrokesOf::Region(name.to_owned())),
+            own: [own(0), own(1)],
+            resolved: [0, 1].map(|which| presets::resolve(scenes[which], indices[which])),
+            index: indices[0],
+        })
+    }
+
+    /// What would hold with other settings here.
+    pub(super) fn resolve(&self, scene: &Scene, own: StrokeSettings) -> ResolvedStrokes {
+        let bare = Scene { size: scene.size, ..new_scene::empty() };
+        if self.index.is_none() {
+            return presets::resolve(&Scene { strokes: own, ..bare }, None);
+        }
+        let region = Region { strokes: own, ..Region::new("", Selector::Everything) };
+        let alone = Scene { strokes: scene.strokes.clone(), regions: vec![region], ..bare };
+        presets::resolve(&alone, Some(0))
+    }
+
+    /// Changes one setting here.
+    pub(super) fn set(&self, change: StrokeChange) -> Command {
+        Command::Regions(Regions::SetStroke(self.of.clone(), change))
+    }
+}
+
+pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
+    section(ui, ("Strokes", ""), true, |ui| contents(ui, asker, Some(region)));
+}
+
+/// Brush, numbers and layer.
+pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
+    let Some(place) = Place::new(asker, region) else { return };
+    if region.is_none() {
+        preset(ui, asker, &place);
+    }
+    brushes(ui, asker, &place);
+    numbers(ui, asker, &place, false);
+    let layers = place.resolved.each_ref().map(|resolved| f64::from(resolved.layer));
+    let scene = asker.scene();
+    let usual = if region.is_some() { scene.strokes.layer.unwrap_or(0) } else { 0 };
+    let most = f64::from(MAX_LAYER);
+    let layer = Number {
+        range: -8.0..=8.0,
+        limits: Some(-most..=most),
+        default: place.own[0].layer.map(|_| f64::from(usual)),
+        ..Number::new("Layer", "Higher layers are painted over lower ones.")
+    };
+    asker.number(ui, &layer, layers, |to| place.set(StrokeChange::Layer(to.map(|to| to.round() as i32))));
+}
+
+fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, advanced: bool) {
+    let shown = field_values(asker.scene(), place.index);
+    let stored = field_values(asker.stored(), place.index);
+    for (shown, stored) in shown.iter().zip(&stored).filter(|(value, _)| value.field.is_advanced == advanced)
+    {
+        number(ui, asker, place, [shown, stored]);
+    }
+}
+
+fn number(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, [shown, stored]: [&FieldValue; 2]) {
+    let field = shown.field;
+    let number = Number {
+        unit: field.unit,
+        range: field.range.clone(),
+        limits: Some(field.range.start().min(0.0)..=f64::INFINITY),
+        step: (field.step, field.decimals),
+        default: stored.is_own.then_some(shown.usual),
+        ..Number::new(field.label, field.effect)
+    };
+    asker.number(ui, &number, [shown.shown, stored.shown], |to| {
+        place.set(StrokeChange::Number(field.name, to.map(|to| to * field.file_per_shown)))
+    });
+}
+
+/// One radio for each brush; with Shift or Ctrl a brush is taken into the mix, or out of it.
+fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+    let loaded = asker.shown.document.shown();
+    let mix = &place.resolved[0].body().brushes;
+    let names = brush::NAMES.iter().copied().chain(loaded.brushes.keys().map(String::as_str));
+    ui.add_space(4.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(3.0, 0.0);
+        for name in names {
+            let Some(picture) = thumbnail(ui.ctx(), name, loaded) else { continue };
+            let on = mix.iter().any(|other| other == name);
+            let label = format!("Brush {name}");
+            let response = widgets::brush_thumbnail(ui, &label, picture.id(), on);
+            let tip = Tip { name, effect: effect_of(name), range: "Ctrl-click mixes brushes.", key: "" };
+            let response = tip.on(response);
+            if !response.clicked() {
+                continue;
+            }
+            let mixes = ui.input(|input| input.modifiers.shift || input.modifiers.command);
+            let mut wanted = if mixes { mix.clone() } else { vec![name.to_owned()] };
+            if mixes && on && mix.iter().any(|other| other != name) {
+                wanted.retain(|other| other != name);
+            } else if mixes && !on {
+                wanted.push(name.to_owned());
+            }
+            if wanted != *mix {
+                asker.ask(place.set(StrokeChange::Brush(Some(BrushMix(wanted)))));
+            }
+        }
+        if place.own[0].brush.is_some() && reset(ui, "Brush") {
+            asker.ask(place.set(StrokeChange::Brush(None)));
+        }
+    });
+    ui.add_space(2.0);
+    if mix.len() > 1 {
+        note(ui, &mixed(mix));
+    }
+}
+
+/// *filbert 2, round 1*: how often each brush of a mix is taken.
+fn mixed(mix: &[String]) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for (index, name) in mix.iter().enumerate() {
+        if !mix[..index].contains(name) {
+            let times = mix.iter().filter(|other| *other == name).count();
+            words.push(format!("{name} {times}"));
+        }
+    }
+    format!("Mixed: {}", words.join(", "))
+}
+
+fn effect_of(brush: &str) -> &'static str {
+    match brush {
+        "flat" => "Square ends and even edges.",
+        "filbert" => "Rounded ends, soft sides.",
+        "round" => "Pointed, full in the middle.",
+        "fan" => "Many thin lines side by side.",
+        "dry" => "Broken paint that lets the ground through.",
+        "knife" => "A flat slab of thick paint.",
+        "rigger" => "One long thin line.",
+        _ => "A picture of this scene's own.",
+    }
+}
+
+fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+    let is_region = place.index.is_some();
+    // The paper's rule holds for a whole scene.
+    let mut names: Vec<&str> =
+        presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET).collect();
+    if is_region {
+        names.insert(0, "As the scene");
+    }
+    let own = place.own[0].preset.as_deref();
+    let shown = own.unwrap_or(if is_region { names[0] } else { presets::DEFAULT_PRESET });
+    row(ui, "Preset", |ui| {
+        let tip = Tip {
+            name: "Preset",
+            effect: "The set of values that everything begins with.",
+            ..Tip::default()
+        };
+        let chosen = names.iter().position(|name| *name == shown).unwrap_or(0);
+        if let Some(picked) = pick(ui, tip, &names, chosen) {
+            let wanted = (!is_region || picked > 0).then(|| names[picked].to_owned());
+            asker.ask(place.set(StrokeChange::Preset(wanted)));
+        }
+        if !is_region && own.is_some_and(|own| own != presets::DEFAULT_PRESET) && reset(ui, "Preset") {
+            asker.ask(place.set(StrokeChange::Preset(None)));
+        }
+    });
+}
+
+/// What is seldom set: more numbers, edges, layers of paint, preset, seed; and strokes to copy and paste.
+pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
+    let Some(place) = Place::new(asker, region) else { return };
+    section(ui, ("Advanced", "edges, layers, seed"), false, |ui| {
+        if region.is_some() {
+            preset(ui, asker, &place);
+        }
+        numbers(ui, asker, &place, true);
+        edges(ui, asker, &place);
+        paint_layers::show(ui, asker, &place);
+        seed(ui, asker);
+        copy_and_paste(ui, asker, &place);
+    });
+}
+
+fn edges(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+    let [shown, stored] = place.resolved.each_ref().map(|resolved| resolved.edges);
+    let over = |edges| match edges {
+        Edges::Overrun(px) => Some(px),
+        _ => None,
+    };
+    row(ui, "Edges", |ui| {
+        let chosen = match shown {
+            Edges::Clip => 0,
+            Edges::Overrun(_) => 1,
+            Edges::Free => 2,
+        };
+        let tip =
+            Tip { name: "Edges", effect: "How paint ends at the border of its body.", ..Tip::default() };
+        if let Some(picked) = pick(ui, tip, &["Cut off", "Ragged", "Free"], chosen) {
+            let wanted = [Edges::Clip, Edges::Overrun(4.0), Edges::Free][picked];
+            asker.ask(place.set(StrokeChange::Edges(Some(wanted))));
+        }
+        if let Some(px) = over(shown) {
+            let number = Number {
+                unit: "px",
+                range: 0.0..=20.0,
+                limits: Some(0.0..=f64::INFINITY),
+                step: (0.5, 1),
+                unlabelled: Some(58.0),
+                ..Number::new("Overrun", "How far paint goes past the border, at most.")
+            };
+            asker.number(ui, &number, [px, over(stored).unwrap_or(px)], |px| {
+                place.set(StrokeChange::Edges(px.map(Edges::Overrun)))
+            });
+        }
+        if place.own[0].edges.is_some() && reset(ui, "Edges") {
+            asker.ask(place.set(StrokeChange::Edges(None)));
+        }
+    });
+}
+
+pub(super) fn seed(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
+    let [shown, stored] = [asker.scene().seed, asker.stored().seed].map(f64::from);
+    let number = Number {
+        range: 0.0..=99.0,
+        limits: Some(0.0..=f64::from(u32::MAX)),
+        ..Number::new("Seed", "Changes every random choice of the whole scene at once.")
+    };
+    asker.number(ui, &number, [shown, stored], |to| {
+        Command::Scene(SceneEdit::SetSeed(to.unwrap_or(0.0).round() as u32))
+    });
+}
+
+fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+    let copied = ColumnState::with(ui.ctx(), |state| state.copied_strokes.clone());
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        if Button::new("Copy strokes").show(ui).clicked() {
+            let own = place.own[0].clone();
+            ColumnState::with(ui.ctx(), |state| state.copied_strokes = Some(own));
+        }
+        let paste = ui.add_enabled_ui(copied.is_some(), |ui| Button::new("Paste strokes").show(ui)).inner;
+        if let Some(copied) = copied.filter(|_| paste.clicked()) {
+            asker.ask(Command::Regions(Regions::PasteStrokes(place.of.clone(), copied)));
+        }
+    });
+}

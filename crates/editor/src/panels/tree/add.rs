@@ -1,0 +1,86 @@
+//! The menu of what can be added.
+
+use egui::{Popup, Response, Ui};
+use glam::DVec3;
+use impasto_editor_model::Item;
+use impasto_editor_model::command::{Arrange, Command, Regions};
+use impasto_editor_model::keymap::Action;
+use impasto_scene::document::{LightKind, Region, Scene, Selector};
+use impasto_scene::motion;
+
+use crate::icons::{self, Icon};
+use crate::panels::{Ask, Shown};
+use crate::widgets::Button;
+
+pub(super) fn menu(button: &Response, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    Popup::menu(button).width(190.0).show(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        if entry(ui, icons::OBJECT, "Import mesh\u{2026}") {
+            asks.push(Ask::Act(Action::ImportMesh));
+        }
+        let kinds = [("Sun", LightKind::Sun), ("Lamp", LightKind::Point), ("Sky", LightKind::Ambient)];
+        for (words, kind) in kinds {
+            if entry(ui, icons::LIGHT, words) {
+                asks.push(Ask::Do(Command::Arrange(light(shown, kind))));
+            }
+        }
+        let object = object_of(shown.document.scene(), shown.document.selection().active());
+        for region in object.map(|object| regions(shown, object)).unwrap_or_default() {
+            let words = match &region.on {
+                Selector::Object(object) => format!("Region on {object}"),
+                _ => format!("Region {}", region.name),
+            };
+            if entry(ui, icons::REGION, &words) {
+                asks.push(Ask::Do(Command::Regions(Regions::Add(region))));
+            }
+        }
+    });
+}
+
+fn entry(ui: &mut Ui, icon: Icon, words: &str) -> bool {
+    let clicked = Button::new(words).icon(icon).plain().show(ui).clicked();
+    if clicked {
+        ui.close();
+    }
+    clicked
+}
+
+/// A light up and to the left of the camera, which shines where the camera looks.
+fn light(shown: &Shown<'_>, kind: LightKind) -> Arrange {
+    let camera = motion::camera_at(shown.document.scene(), shown.session.frame);
+    let back = camera.eye - camera.target;
+    let left = back.cross(DVec3::Y).normalize_or(DVec3::NEG_X) * back.length();
+    let at = camera.target + 0.5 * back + 0.5 * left + DVec3::Y * (0.7 * back.length());
+    Arrange::AddLight { kind, at, toward: camera.target }
+}
+
+/// The object that is selected, or that the selected region lies on.
+fn object_of<'a>(scene: &'a Scene, active: Option<&'a Item>) -> Option<&'a str> {
+    match active? {
+        Item::Object(name) => Some(name),
+        Item::Region(name) | Item::Guide(name, _) => {
+            scene.regions.iter().find(|region| region.name == *name)?.on.object()
+        }
+        Item::Camera | Item::Light(_) => None,
+    }
+}
+
+/// Regions that the object could have and has not: the whole of it, its groups, its materials.
+fn regions(shown: &Shown<'_>, object: &str) -> Vec<Region> {
+    let loaded = shown.document.loaded();
+    let of_object = loaded.scene.objects.iter().find(|other| other.name == object);
+    let mut wanted = vec![Region::new(object, Selector::Object(object.to_owned()))];
+    if let Some(mesh) = of_object.and_then(|object| loaded.meshes.get(&object.mesh)) {
+        let groups = mesh.groups.iter().filter(|name| mesh.groups.len() > 1 && !name.is_empty());
+        wanted.extend(
+            groups.map(|group| Region::new(group, Selector::Group(object.to_owned(), group.clone()))),
+        );
+        let named = mesh.materials.iter().filter(|of| mesh.materials.len() > 1 && !of.name.is_empty());
+        wanted.extend(named.map(|material| {
+            let on = Selector::Material(object.to_owned(), material.name.clone());
+            Region::new(material.name.clone(), on)
+        }));
+    }
+    wanted.retain(|region| loaded.scene.regions.iter().all(|other| other.on != region.on));
+    wanted
+}

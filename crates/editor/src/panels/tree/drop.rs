@@ -1,0 +1,118 @@
+//! Dragging rows of the tree: onto an object puts one object on another, between rows changes the order.
+
+use egui::{DragAndDrop, Rect, Response, Stroke, StrokeKind, Ui};
+use impasto_editor_model::Item;
+use impasto_editor_model::command::{Command, Edit};
+use impasto_scene::document::Scene;
+
+use super::rows::Row;
+use crate::panels::Ask;
+use crate::theme::Tokens;
+
+/// Where a dragged row would go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Place<'a> {
+    Before(&'a Item),
+    After(&'a Item),
+    Onto(&'a Item),
+    /// Under all rows.
+    Off,
+}
+
+/// Takes a row up.
+pub(super) fn begin(response: &Response, item: &Item) {
+    if *item != Item::Camera {
+        response.dnd_set_drag_payload(item.clone());
+    }
+}
+
+/// Shows where the dragged row would go, and asks for it when it is let go.
+pub(super) fn drag_and_drop(
+    ui: &Ui,
+    (scene, rows): (&Scene, &[Row]),
+    (placed, area): (&[Rect], Rect),
+    asks: &mut Vec<Ask>,
+) {
+    let Some(item) = DragAndDrop::payload::<Item>(ui.ctx()) else { return };
+    let Some(at) = ui.input(|input| input.pointer.latest_pos()).filter(|at| area.contains(*at)) else {
+        return;
+    };
+    let over = placed.iter().position(|rect| rect.contains(at));
+    let target = over.and_then(|index| Some((rows[index].item.as_ref()?, placed[index])));
+    let (place, rect) = match target {
+        Some((onto, rect)) => {
+            let part = (at.y - rect.top()) / rect.height();
+            let place = match part {
+                ..0.3 => Place::Before(onto),
+                0.7.. => Place::After(onto),
+                _ => Place::Onto(onto),
+            };
+            (place, rect)
+        }
+        None => (Place::Off, area),
+    };
+    let Some(command) = command_of(scene, &item, place) else { return };
+    let line = Stroke::new(2.0, Tokens::of(ui).accent_text);
+    match place {
+        Place::Before(_) => _ = ui.painter().hline(rect.x_range(), rect.top(), line),
+        Place::After(_) => _ = ui.painter().hline(rect.x_range(), rect.bottom(), line),
+        Place::Onto(_) => _ = ui.painter().rect_stroke(rect, 4.0, line, StrokeKind::Inside),
+        Place::Off => {}
+    }
+    if ui.input(|input| input.pointer.any_released()) {
+        DragAndDrop::clear_payload(ui.ctx());
+        asks.push(Ask::Do(command));
+    }
+}
+
+/// What letting go of `dragged` would do; none where it would do nothing.
+fn command_of(scene: &Scene, dragged: &Item, place: Place<'_>) -> Option<Command> {
+    let reorder = |target: &Item, after: bool| {
+        let [from, to] = [dragged, target].map(|item| index_of(scene, item));
+        let (from, to) = (from?, to? + usize::from(after));
+        let to = if from < to { to - 1 } else { to };
+        (to != from).then(|| Command::Edit(Edit::Reorder(dragged.clone(), to)))
+    };
+    let put = |object: &str, parent: Option<&str>| {
+        let (object, parent) = (object.to_owned(), parent.map(str::to_owned));
+        Command::Edit(Edit::SetParent { object, parent })
+    };
+    let parent_of = |name: &str| {
+        let object = scene.objects.iter().find(|object| object.name == name);
+        object.and_then(|object| object.parent.as_deref())
+    };
+    match (dragged, place) {
+        (_, Place::Before(target) | Place::After(target) | Place::Onto(target)) if target == dragged => None,
+        (Item::Object(name), Place::Onto(Item::Object(onto))) => {
+            (parent_of(name) != Some(onto)).then(|| put(name, Some(onto)))
+        }
+        (Item::Object(name), Place::Before(Item::Object(beside)) | Place::After(Item::Object(beside))) => {
+            let (Place::Before(target) | Place::After(target)) = place else { return None };
+            let moved = reorder(target, matches!(place, Place::After(_)));
+            let parent = parent_of(beside);
+            if parent == parent_of(name) {
+                return moved;
+            }
+            let text =
+                parent.map_or(format!("Take {name} off"), |parent| format!("Put {name} under {parent}"));
+            Some(Command::Several(text, std::iter::once(put(name, parent)).chain(moved).collect()))
+        }
+        (Item::Object(name), Place::Off) => parent_of(name).is_some().then(|| put(name, None)),
+        (Item::Region(_), Place::Before(target @ Item::Region(_)))
+        | (Item::Light(_), Place::Before(target @ Item::Light(_))) => reorder(target, false),
+        (Item::Region(_), Place::After(target @ Item::Region(_)) | Place::Onto(target @ Item::Region(_)))
+        | (Item::Light(_), Place::After(target @ Item::Light(_)) | Place::Onto(target @ Item::Light(_))) => {
+            reorder(target, true)
+        }
+        _ => None,
+    }
+}
+
+fn index_of(scene: &Scene, item: &Item) -> Option<usize> {
+    match item {
+        Item::Object(name) => scene.objects.iter().position(|object| object.name == *name),
+        Item::Region(name) => scene.regions.iter().position(|region| region.name == *name),
+        Item::Light(name) => scene.lights.iter().position(|light| light.name == *name),
+        Item::Camera | Item::Guide(..) => None,
+    }
+}

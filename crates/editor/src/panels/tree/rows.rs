@@ -1,0 +1,221 @@
+//! The rows of the scene tree.
+
+use egui::Color32;
+use impasto_editor_model::Item;
+use impasto_scene::document::{Color, Direction, Object, Region, Scene};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::new_scene::REGION_COLORS;
+
+use crate::icons;
+use crate::panels::column_state::ColumnState;
+use crate::widgets::RowMark;
+
+/// Objects are open at first where no more rows than this come of it.
+const ROWS_OPEN_AT_FIRST: usize = 20;
+
+/// One row of the scene tree.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    /// What it stands for; none for the backdrop.
+    pub(super) item: Option<Item>,
+    /// What it shows.
+    pub(super) name: String,
+    /// *region*, *object*, *light*.
+    pub(super) kind: &'static str,
+    /// What stands before the name.
+    pub(super) mark: RowMark,
+    /// How deep it lies.
+    pub(super) depth: usize,
+    /// Whether it is open, for a row with rows under it.
+    pub(super) expanded: Option<bool>,
+    /// Words at its right end.
+    pub(super) note: String,
+    /// It has keys.
+    pub(super) keyed: bool,
+    /// Whether the eye is shut.
+    pub(super) hidden: bool,
+    /// Whether the lock is closed.
+    pub(super) locked: bool,
+}
+
+impl Row {
+    fn new(item: Item, kind: &'static str, mark: RowMark) -> Self {
+        Self {
+            name: item.name().to_owned(),
+            item: Some(item),
+            kind,
+            mark,
+            depth: 0,
+            expanded: None,
+            note: String::new(),
+            keyed: false,
+            hidden: false,
+            locked: false,
+        }
+    }
+
+    /// Name, kind and state: *skin, region, 4 guides*.
+    pub(super) fn spoken(&self) -> String {
+        let mut words = format!("{}, {}", self.name, self.kind);
+        if !self.note.is_empty() {
+            words = format!("{words}, {}", self.note);
+        }
+        for (on, word) in [(self.hidden, "hidden"), (self.locked, "locked")] {
+            if on {
+                words = format!("{words}, {word}");
+            }
+        }
+        words
+    }
+}
+
+/// The rows as they are shown, top to bottom.
+pub(super) fn rows(loaded: &LoadedScene, state: &ColumnState) -> Vec<Row> {
+    let scene = &loaded.scene;
+    let searched = state.search.as_deref().map(str::trim).filter(|text| !text.is_empty());
+    let camera = Row {
+        keyed: scene.camera.keys.len() > 1,
+        ..Row::new(Item::Camera, "camera", RowMark::Icon(icons::CAMERA))
+    };
+    let mut rows = vec![camera];
+    let light = RowMark::Icon(icons::LIGHT);
+    rows.extend(scene.lights.iter().map(|of| Row::new(Item::Light(of.name.clone()), "light", light)));
+    let few = scene.objects.len() + scene.regions.len() + rows.len() <= ROWS_OPEN_AT_FIRST;
+    let listing = Listing { loaded, state, few, all: searched.is_some() };
+    listing.objects_on(None, 0, &mut rows);
+    rows.extend(
+        scene
+            .regions
+            .iter()
+            .enumerate()
+            .filter(|(_, region)| region.on.object().is_none())
+            .map(|(index, region)| region_row((index, region), 0)),
+    );
+    rows.push(Row {
+        item: None,
+        name: "backdrop".to_owned(),
+        ..Row::new(Item::Camera, "background", RowMark::Icon(icons::BACKDROP))
+    });
+    match searched {
+        Some(text) => found(rows, &text.to_lowercase()),
+        None => rows,
+    }
+}
+
+struct Listing<'a> {
+    loaded: &'a LoadedScene,
+    state: &'a ColumnState,
+    few: bool,
+    all: bool,
+}
+
+impl Listing<'_> {
+    fn objects_on(&self, parent: Option<&str>, depth: usize, rows: &mut Vec<Row>) {
+        let scene = &self.loaded.scene;
+        for object in scene.objects.iter().filter(|object| object.parent.as_deref() == parent) {
+            let name = object.name.as_str();
+            let regions = || {
+                scene.regions.iter().enumerate().filter(move |(_, region)| region.on.object() == Some(name))
+            };
+            let is_parent = regions().next().is_some()
+                || scene.objects.iter().any(|other| other.parent.as_deref() == Some(name));
+            let open = self.all || self.state.rows.get(name).copied().unwrap_or(self.few);
+            let wrong = !self.loaded.meshes.contains_key(&object.mesh);
+            rows.push(Row {
+                depth,
+                expanded: is_parent.then_some(open),
+                note: if wrong { "mesh missing".to_owned() } else { String::new() },
+                keyed: object.keys.len() > 1,
+                hidden: object.hidden,
+                locked: object.locked,
+                ..Row::new(Item::Object(name.to_owned()), "object", mark_of(wrong))
+            });
+            if is_parent && open {
+                rows.extend(regions().map(|region| region_row(region, depth + 1)));
+                self.objects_on(Some(name), depth + 1, rows);
+            }
+        }
+    }
+}
+
+fn mark_of(wrong: bool) -> RowMark {
+    if wrong { RowMark::Wrong(icons::WARNING) } else { RowMark::Icon(icons::OBJECT) }
+}
+
+fn region_row((index, region): (usize, &Region), depth: usize) -> Row {
+    Row {
+        depth,
+        note: note_of(region),
+        hidden: region.hidden,
+        locked: region.locked,
+        ..Row::new(
+            Item::Region(region.name.clone()),
+            "region",
+            RowMark::Colour(shown_color(region.color, index)),
+        )
+    }
+}
+
+/// The colour that a region shows in: its own, or one by its place.
+pub(crate) fn region_color(scene: &Scene, name: &str) -> Color32 {
+    let index = scene.regions.iter().position(|region| region.name == name).unwrap_or(0);
+    shown_color(scene.regions.get(index).and_then(|region| region.color), index)
+}
+
+fn shown_color(own: Option<Color>, index: usize) -> Color32 {
+    let Color(channels) = own.unwrap_or(REGION_COLORS[index % REGION_COLORS.len()]);
+    let [r, g, b] = channels.map(|channel| (channel * 255.0).round() as u8);
+    Color32::from_rgb(r, g, b)
+}
+
+/// *4 guides*, else the base direction.
+fn note_of(region: &Region) -> String {
+    match region.guides.len() {
+        0 => {}
+        1 => return "1 guide".to_owned(),
+        count => return format!("{count} guides"),
+    }
+    match region.direction {
+        Direction::Auto => String::new(),
+        Direction::Angle(angle) => format!("{angle:.0}\u{b0}").replace('-', "\u{2212}"),
+        Direction::Crossing(..) => "crossing".to_owned(),
+        Direction::Along(_) => "along".to_owned(),
+        Direction::Around(_) => "around".to_owned(),
+        Direction::Up => "up".to_owned(),
+        Direction::Toward(_) => "toward".to_owned(),
+        Direction::Curvature(_) => "curvature".to_owned(),
+    }
+}
+
+/// The rows whose names hold `text`, with the rows that they lie under.
+fn found(rows: Vec<Row>, text: &str) -> Vec<Row> {
+    let mut kept = Vec::new();
+    let mut under = 0;
+    for row in rows.into_iter().rev() {
+        if row.name.to_lowercase().contains(text) || row.depth < under {
+            under = row.depth;
+            kept.push(row);
+        }
+    }
+    kept.reverse();
+    kept
+}
+
+/// The objects that an item lies under, the nearest first.
+pub(super) fn above(scene: &Scene, item: &Item) -> Vec<String> {
+    let object = |name: &str| scene.objects.iter().find(|object: &&Object| object.name == name);
+    let mut next = match item {
+        Item::Region(name) | Item::Guide(name, _) => {
+            let region = scene.regions.iter().find(|region| region.name == *name);
+            region.and_then(|region| region.on.object()).map(str::to_owned)
+        }
+        Item::Object(name) => object(name).and_then(|object| object.parent.clone()),
+        Item::Camera | Item::Light(_) => None,
+    };
+    let mut names = Vec::new();
+    while let Some(name) = next.take().filter(|name| !names.contains(name)) {
+        next = object(&name).and_then(|object| object.parent.clone());
+        names.push(name);
+    }
+    names
+}

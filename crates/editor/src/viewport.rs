@@ -1,0 +1,198 @@
+//! The picture with everything that floats over it: what the pointer does there comes back as plain events, what the chips
+//! ask for as asks. It changes nothing itself.
+
+use egui::{Color32, CursorIcon, Id, Rect, Sense, Ui, pos2};
+use glam::DVec2;
+use impasto_editor_model::Session;
+use impasto_editor_model::camera_rig::AxisView;
+use impasto_scene::motion::CameraPose;
+
+mod chips;
+mod contour;
+mod framing;
+mod layout;
+mod marks;
+pub mod overlay;
+mod pictures;
+mod pointer;
+mod seen_hairs;
+pub mod surface_map;
+
+use crate::panels::Ask;
+use crate::theme::{Tokens, type_face};
+
+pub use framing::Framing;
+pub use layout::Layout;
+pub use marks::Marks;
+pub use pictures::Pictures;
+pub use pointer::{PointerEvent, PointerKind};
+pub use seen_hairs::{HairLook, hair_marks};
+
+/// What the viewport shows.
+#[derive(Clone, Copy)]
+pub struct ViewportInput<'a> {
+    /// The worker's pictures; of a comparison the first is the reference.
+    pub pictures: &'a Pictures,
+    /// Mode, shading, overlays.
+    pub session: &'a Session,
+    /// What is looked through, as it stands in the scene or in the hand: not widened.
+    pub camera: &'a CameraPose,
+    /// Whether that is the shot camera.
+    pub through_shot: bool,
+    /// What is drawn over the picture; in a comparison, over the reference.
+    pub marks: &'a Marks<'a>,
+    /// The other half of a comparison; `None` where nothing is compared.
+    pub now: Option<Now<'a>>,
+    /// How what is seen stands to the reference.
+    pub badge: Badge,
+    /// What a screen reader says of the viewport: *Paint, comb, shot camera, frame 0, reference*.
+    pub value: &'a str,
+    /// What it says of the place under the pointer: *skin, 10 degrees, trust 0.97*.
+    pub under_cursor: &'a str,
+    /// Whether nothing stands in the scene.
+    pub empty: bool,
+    /// What went wrong with the picture, in words.
+    pub trouble: Option<&'a str>,
+}
+
+/// The right half of a comparison.
+#[derive(Clone, Copy)]
+pub struct Now<'a> {
+    /// The camera at this frame, not widened.
+    pub camera: &'a CameraPose,
+    /// This frame.
+    pub frame: f64,
+    /// *apple turned −86°, strokes turned −85.8°*
+    pub note: &'a str,
+    /// What is drawn over it.
+    pub marks: &'a Marks<'a>,
+}
+
+/// How what is seen stands to the reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Badge {
+    /// It is the reference pose, at this frame.
+    Reference(f64),
+    /// Another frame, through the shot camera.
+    Turned {
+        /// What is seen.
+        frame: f64,
+        /// The reference.
+        reference: f64,
+    },
+    /// A camera of the hand's own, at this frame.
+    Free(f64),
+}
+
+/// What the user looks through from now on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// The shot camera.
+    Shot,
+    /// A camera of one's own, from where one is.
+    Free,
+    /// A camera of one's own, along an axis.
+    Along(AxisView),
+}
+
+/// What was done in the viewport.
+#[derive(Debug, Default)]
+pub struct ViewportEvents {
+    /// What the pointer did on the picture (of a comparison: on the reference), in order.
+    pub pointer: Vec<PointerEvent>,
+    /// What the chips ask for.
+    pub asks: Vec<Ask>,
+    /// What is to be looked through.
+    pub look: Option<Look>,
+    /// Take the frame and view that are seen as the reference.
+    pub recapture: bool,
+    /// An orbit by the axis ball, points.
+    pub orbit_px: DVec2,
+    /// Whether the pointer is on the picture.
+    pub hovered: bool,
+}
+
+/// Shows the viewport. `layout` is where things lie in it; it is made before, so that marks can be made for it.
+pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> ViewportEvents {
+    let tokens = Tokens::of(ui);
+    let area = layout.area();
+    let first = &layout.framings()[0];
+    let id = ui.scope_id().with("viewport");
+    let response = ui.interact(area, id, Sense::click_and_drag());
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Viewport");
+        info.current_text_value = Some(input.value.to_owned());
+        info
+    });
+    let painter = ui.painter().with_clip_rect(area);
+    let ground = if input.now.is_some() { tokens.field } else { tokens.app };
+    painter.rect_filled(area, 0.0, ground);
+    for (index, framing) in layout.framings().iter().enumerate() {
+        if let Some((texture, ..)) = input.pictures.of(index) {
+            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            painter.image(texture, framing.viewport(), uv, Color32::WHITE);
+        }
+    }
+    draw_marks(ui, first, (input.camera, input.marks));
+    if let (Some(now), Some(framing)) = (&input.now, layout.framings().get(1)) {
+        draw_marks(ui, framing, (now.camera, now.marks));
+        layout::titles(&painter, layout, (now, input), tokens);
+    } else if input.through_shot {
+        overlay::shot_border(&painter, area, first.shot(), tokens.app);
+    }
+
+    let mut events = ViewportEvents::default();
+    chips::show(ui, area, input, &mut events);
+    let mut held = ui.data_mut(|data| data.get_temp::<pointer::Held>(id)).unwrap_or_default();
+    let layer = response.layer_id;
+    let ctx = ui.ctx().clone();
+    // Chips and sheets float in layers of their own.
+    let over = |at| first.viewport().contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
+    events.pointer = held.events(ui, first, over);
+    events.hovered = held.is_inside();
+    if input.marks.hides_pointer && (held.is_inside() || held.is_dragging()) {
+        ui.ctx().set_cursor_icon(CursorIcon::None);
+    }
+    ui.data_mut(|data| data.insert_temp(id, held));
+
+    if input.empty {
+        let font = type_face::title();
+        let words = "Drop an OBJ here, or open a scene";
+        painter.text(area.center(), egui::Align2::CENTER_CENTER, words, font, tokens.weak);
+    }
+    if let Some(words) = input.trouble {
+        trouble(&painter, area, words, tokens);
+    }
+    if ui.input(|input| !input.raw.hovered_files.is_empty()) {
+        let edge = (2.0, tokens.accent_text);
+        painter.rect_filled(area, 0.0, tokens.accent.gamma_multiply(0.16));
+        painter.rect_stroke(area.shrink(1.0), 0.0, edge, egui::StrokeKind::Inside);
+    }
+    live_label(ui, id, area, input.under_cursor);
+    events
+}
+
+fn draw_marks(ui: &Ui, framing: &Framing, (camera, marks): (&CameraPose, &Marks<'_>)) {
+    let painter = ui.painter().with_clip_rect(framing.viewport());
+    let view = framing.view(camera);
+    marks.draw(&overlay::Sheet { painter: &painter, rect: framing.viewport(), view: &view });
+}
+
+fn trouble(painter: &egui::Painter, area: Rect, words: &str, tokens: &Tokens) {
+    let most = (area.width() - 80.0).max(80.0);
+    let galley = painter.layout(words.to_owned(), type_face::body(), tokens.vermilion, most);
+    let rect = Rect::from_center_size(area.center(), galley.size() + egui::vec2(32.0, 24.0));
+    painter.rect(rect, 6.0, tokens.panel, (1.0, tokens.vermilion), egui::StrokeKind::Inside);
+    painter.galley(rect.min + egui::vec2(16.0, 12.0), galley, tokens.vermilion);
+}
+
+/// A label for screen readers only.
+fn live_label(ui: &Ui, id: Id, area: Rect, words: &str) {
+    let at = Rect::from_min_size(area.left_bottom(), egui::Vec2::ZERO);
+    let label = ui.interact(at, id.with("under the cursor"), Sense::hover());
+    label.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::Role::Status, true, "Under the cursor");
+        info.current_text_value = Some(words.to_owned());
+        info
+    });
+}

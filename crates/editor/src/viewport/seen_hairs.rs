@@ -1,0 +1,59 @@
+//! Which hairs show: evenly over the picture, those that nothing hides.
+
+use egui::Color32;
+use glam::DVec2;
+use impasto_editor_model::session::{Hairs, Overlays};
+use impasto_painting::{FrameOptions, Hair, Painting};
+use impasto_scene::motion::CameraPose;
+
+use super::overlay::{HairInk, HairMark};
+use super::{Framing, surface_map::SurfaceMap};
+
+/// Hairs are at least so far apart, points.
+const APART: f64 = 20.0;
+/// And no more than this many.
+const MOST: f64 = 600.0;
+
+/// How hairs are to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct HairLook<'a> {
+    /// Plain, by region, by trust.
+    pub overlays: Overlays,
+    /// Of each region of the scene.
+    pub region_colours: &'a [Color32],
+    /// The region that is being painted: hairs of others are faint. `None` where all are alike.
+    pub region: Option<usize>,
+}
+
+/// The hairs of a painting at a frame, seen through a camera (not widened) in a framing. `map` is what that camera sees.
+pub fn hair_marks(
+    painting: &Painting,
+    (camera, frame): (&CameraPose, f64),
+    framing: &Framing,
+    map: &SurfaceMap,
+    look: &HairLook<'_>,
+) -> Vec<HairMark> {
+    let size = framing.viewport().size();
+    let options = FrameOptions {
+        shot_height_px: Some(framing.shot().height()),
+        ..FrameOptions::new([size.x, size.y].map(|side| side.ceil().max(1.0) as u32))
+    };
+    let apart = APART.max((f64::from(size.x) * f64::from(size.y) / MOST).sqrt());
+    let place = |hair: &Hair| DVec2::from(hair.position_px.map(f64::from));
+    let shows = |hair: &Hair| map.shows(place(hair), f64::from(hair.depth), hair.object);
+    let hairs = painting.hairs_where(&framing.widened(camera), frame, &options, (apart as f32, &shows));
+    let ink = |hair: &Hair| match look.overlays {
+        Overlays { trust: true, .. } => HairInk::Trust(hair.kappa),
+        Overlays { hairs: Hairs::ByRegion, .. } => {
+            look.region_colours.get(hair.region).map_or(HairInk::Plain, |&colour| HairInk::Region(colour))
+        }
+        _ => HairInk::Plain,
+    };
+    let mark = |hair: &Hair| HairMark {
+        at_px: place(hair),
+        angle_rad: hair.angle_rad,
+        ink: ink(hair),
+        faint: look.region.is_some_and(|region| region != hair.region),
+    };
+    hairs.iter().map(mark).collect()
+}

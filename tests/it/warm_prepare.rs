@@ -1,0 +1,144 @@
+//! A painting prepared after an edit is, to the bit, the one that is prepared from nothing.
+
+use std::sync::Arc;
+
+use impasto_painting::{Frame, FrameOptions, Preparer, prepare};
+use impasto_scene::document::{
+    Bend, Color, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector,
+    Solver, Style,
+};
+use impasto_scene::loaded::LoadedScene;
+use impasto_tests::gestures::{camera, drag};
+use impasto_tests::shapes;
+
+const OPTIONS: FrameOptions = FrameOptions::new([320, 240]);
+
+/// An apple and a ball, each with a region; every layer of paint.
+fn start() -> Arc<LoadedScene> {
+    let mut scene = shapes::scene(vec![shapes::object("apple", 1500), shapes::object("ball", 900)]);
+    scene.style = Style::default();
+    scene.strokes = Default::default();
+    (scene.strokes.length_px, scene.strokes.width_px) = (Some(26.0), Some(9.0));
+    // Of the body layer's count too.
+    scene.objects.iter_mut().for_each(|object| object.particles = None);
+    scene.timeline.last = 10;
+    scene.camera.keys[0] = shapes::camera_key(0.0, [0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);
+    scene.objects[1].keys = vec![key(0.0, [1.1, 0.4, -0.6])];
+    scene.regions = ["apple", "ball"]
+        .map(|name| Region { direction: Direction::Auto, ..Region::new(name, Selector::Object(name.into())) })
+        .into();
+    shapes::loaded(scene, [shapes::apple_skin(), shapes::sphere(24, 12)])
+}
+
+fn key(frame: f64, translation: [f64; 3]) -> ObjectKey {
+    ObjectKey { frame, translation, rotation_deg: [0.0; 3], scale: 1.0, morph: 0.0, ease: Ease::Linear }
+}
+
+type Edit = (&'static str, Box<dyn Fn(&mut Scene)>);
+
+fn edits() -> Vec<Edit> {
+    fn edit(name: &'static str, change: impl Fn(&mut Scene) + 'static) -> Edit {
+        (name, Box::new(change))
+    }
+    let view = camera([0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);
+    let ends = [[-20.0, -9.0], [16.0, 11.0]].map(glam::DVec2::from);
+    let guide = drag(&shapes::apple_skin(), &view, 240.0, ends).unwrap();
+    let comb = move |points: usize| {
+        let guide = guide.clone();
+        move |scene: &mut Scene| {
+            let mut guide = guide.clone();
+            guide.points.truncate(points);
+            scene.regions[0].guides = vec![guide];
+        }
+    };
+    let dab = |x: f64| Dab { at: [x, 0.5, 0.45], normal: [0.0, 0.0, 1.0], radius: 0.2, take_away: false };
+    vec![
+        edit("guide added", comb(4)),
+        edit("guide grown", comb(5)),
+        edit("guide grown far", comb(24)),
+        edit("nothing", |_| ()),
+        edit("angle", |scene| scene.regions[1].direction = Direction::Angle(20.0)),
+        edit("angle of the combed", |scene| scene.regions[0].direction = Direction::Angle(-50.0)),
+        edit("crossing", |scene| scene.regions[1].direction = Direction::Crossing(-58.0, 4.0)),
+        edit("bend", |scene| scene.regions[1].direction = Direction::Curvature(Bend::Max)),
+        edit("shorter", |scene| scene.regions[0].strokes.length_px = Some(19.0)),
+        edit("longer", |scene| scene.regions[0].strokes.length_px = Some(31.0)),
+        edit("jitter", |scene| scene.regions[0].strokes.angle_jitter_deg = Some(15.0)),
+        edit("flatness", |scene| scene.regions[0].strokes.flatness = Some(0.4)),
+        edit("offset", |scene| scene.regions[1].strokes.offset = Some(0.02)),
+        edit("edges", |scene| scene.regions[1].strokes.edges = Some(Edges::Free)),
+        edit("layer", |scene| scene.regions[1].strokes.layer = Some(-1)),
+        edit("dab", move |scene| {
+            let on = Selector::Dabs("apple".into(), vec![dab(0.0)]);
+            let region = Region { direction: Direction::Angle(70.0), ..Region::new("spot", on) };
+            scene.regions.push(region);
+        }),
+        edit("dab added", move |scene| {
+            scene.regions[2].on = Selector::Dabs("apple".into(), vec![dab(0.0), dab(0.15)]);
+        }),
+        edit("soft seam", |scene| scene.regions[2].seam = Seam::Soft(0.2)),
+        edit("object moved later", |scene| scene.objects[1].keys.push(key(8.0, [1.0, 0.5, 0.3]))),
+        edit("object moved", |scene| scene.objects[1].keys[0].translation = [1.05, 0.3, -0.3]),
+        edit("camera", |scene| scene.camera.keys[0].eye = [0.4, 0.7, 3.6]),
+        edit("camera later", |scene| {
+            scene.camera.keys.push(shapes::camera_key(10.0, [1.0, 0.7, 2.6], [0.0, 0.5, 0.0]));
+        }),
+        edit("light", |scene| {
+            scene.lights.push(Light {
+                name: "sun".into(),
+                kind: LightKind::Sun,
+                direction: Some([0.3, -1.0, -0.2]),
+                position: None,
+                color: Color::white(),
+                ground: None,
+                intensity: 2.0,
+            });
+        }),
+        edit("finish", |scene| {
+            if let Style::RotatingStrokes(settings) = &mut scene.style {
+                (settings.relief, settings.varnish) = (0.3, 0.1);
+            }
+        }),
+        edit("seed", |scene| scene.seed += 1),
+        edit("guide removed", |scene| scene.regions[0].guides.clear()),
+        edit("region removed", |scene| drop(scene.regions.remove(2))),
+        edit("horn", |scene| {
+            if let Style::RotatingStrokes(settings) = &mut scene.style {
+                settings.solver = Solver::Horn;
+            }
+        }),
+        edit("shorter by horn", |scene| scene.strokes.length_px = Some(22.0)),
+        edit("object removed", |scene| {
+            scene.objects.remove(1);
+            scene.regions.retain(|region| region.on.object() != Some("ball"));
+        }),
+        edit("paper", |scene| scene.strokes.preset = Some("paper".into())),
+    ]
+}
+
+#[test]
+fn a_warm_prepare_gives_the_bits_of_a_cold_one() {
+    let mut preparer = Preparer::default();
+    let mut loaded = start();
+    let mut counts = Vec::new();
+    preparer.prepare(Arc::clone(&loaded)).unwrap();
+    for (name, edit) in edits() {
+        let mut next = (*loaded).clone();
+        edit(&mut next.scene);
+        loaded = Arc::new(next);
+        let warm = preparer.prepare(Arc::clone(&loaded)).unwrap();
+        let cold = prepare(Arc::clone(&loaded)).unwrap();
+        assert_eq!(warm.particle_counts(), cold.particle_counts(), "{name}");
+        for frame in [0.0, 7.5] {
+            let [a, b]: [Frame; 2] = [&warm, &cold].map(|painting| painting.at(frame, &OPTIONS));
+            assert!(a.strokes.len() > 300, "{name} at {frame}: only {} strokes", a.strokes.len());
+            assert!(a.strokes == b.strokes, "{name} at {frame}: strokes differ");
+            assert!(a.sources == b.sources && a.layers == b.layers, "{name} at {frame}: sources differ");
+            assert_eq!(format!("{:?}", a.lights), format!("{:?}", b.lights), "{name} at {frame}");
+            assert_eq!((a.finish, &a.palettes), (b.finish, &b.palettes), "{name} at {frame}");
+        }
+        counts.push(warm.particle_total());
+    }
+    // The edits did what they say.
+    assert!(counts.windows(2).filter(|pair| pair[0] != pair[1]).count() > 6, "{counts:?}");
+}
