@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+mod app;
 pub mod files;
 pub mod icons;
 pub mod panels;
@@ -52,18 +53,6 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
             }
         }
     }
-    Ok(window::run(window::Options::default(), |_| Blank)?)
-}
-
-/// A window with nothing in it.
-struct Blank;
-
-impl window::App for Blank {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut window::Frame<'_>) {
-        ui.centered_and_justified(|ui| ui.label("Drop an OBJ or a scene anywhere in the window"));
-    }
-
-    fn title(&self) -> String {
-        "Impasto".to_owned()
-    }
+    let dialogs = window::Options::default();
+    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, opened))?)
 }

@@ -78,6 +78,8 @@ pub struct Picture {
     pub image: Arc<ColorImage>,
     /// Whether it is what a file would get, not a draft.
     pub exact: bool,
+    /// How many strokes it has.
+    pub strokes: usize,
     /// How long it took to draw, seconds.
     pub seconds: f64,
 }

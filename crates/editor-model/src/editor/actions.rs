@@ -197,12 +197,17 @@ impl Editor {
             }
             _ => return false,
         };
+        self.take_up(tool, view);
+        true
+    }
+
+    /// Takes a tool up; what the hand was at is as if never begun.
+    pub fn take_up(&mut self, tool: Tool, view: &View) {
         self.cancel(view);
         self.session.set_tool(tool);
         if self.session.mode == Mode::Paint {
             self.hover_again(view);
         }
-        true
     }
 
     fn hover_again(&mut self, view: &View) {

@@ -33,6 +33,11 @@ impl EditorApp {
             }
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
+            Ask::ChooseMesh(object) => {
+                self.files.mesh_of = Some(object);
+                let start = self.editor.document().folder().to_owned();
+                self.files.dialogs.open(ctx, FileAsk::LocateMesh, &start);
+            }
             Ask::Welcome => self.sheets.welcome = true,
         }
     }
@@ -52,7 +57,7 @@ impl EditorApp {
                 Request::Palette => self.sheets.palette = true,
                 Request::Shortcuts => self.sheets.shortcuts = true,
                 Request::Rename => drop(panels::rename(ctx, self.editor.document())),
-                Request::Add => panels::add_menu(ctx),
+                Request::Add => panels::open_add_menu(ctx),
                 Request::ToggleColumn => self.folds.column = !self.folds.column,
                 Request::MaximiseViewport => self.folds.everything = !self.folds.everything,
                 Request::NextArea => {}

@@ -4,8 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use egui::{Context, Ui};
-use impasto_editor_model::document::{Document, SaveError};
+use impasto_editor_model::Item;
+use impasto_editor_model::command::{Arrange, Command, Regions, StrokeChange, StrokesOf};
+use impasto_editor_model::document::Document;
 use impasto_editor_model::keymap::Preset;
+use impasto_scene::document::BrushMix;
 
 use super::EditorApp;
 use crate::files::dialogs::{Answer, Ask, FileDialogs};
@@ -13,7 +16,7 @@ use crate::files::incoming::{self, Present, Step, adopt_mesh, adopt_picture};
 use crate::files::preferences::{self, Keys, Loaded, Preferences};
 use crate::panels::ask_close::{self, Question};
 use crate::panels::welcome::{self, Choices, Left};
-use crate::theme::{self, Theme};
+use crate::theme;
 
 /// What goes on once unsaved work is settled.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +33,8 @@ pub(super) struct FileFlow {
     waiting: Option<Next>,
     /// Whether the question about it shows; else a file is being asked for.
     asks: bool,
+    /// The object that a mesh is being chosen for.
+    pub(super) mesh_of: Option<String>,
     /// Since when there are edits.
     edited_since: Option<Instant>,
     closes: bool,
@@ -37,7 +42,7 @@ pub(super) struct FileFlow {
 
 impl FileFlow {
     pub(super) fn new(dialogs: FileDialogs) -> Self {
-        Self { dialogs, waiting: None, asks: false, edited_since: None, closes: false }
+        Self { dialogs, waiting: None, asks: false, mesh_of: None, edited_since: None, closes: false }
     }
 
     pub(super) fn is_asking(&self) -> bool {
@@ -112,10 +117,6 @@ impl EditorApp {
                     self.keep_preferences();
                 }
                 true
-            }
-            Err(error @ SaveError::FilesElsewhere { .. }) => {
-                self.toast(error.to_string(), None, true);
-                false
             }
             Err(error) => {
                 self.toast(error.to_string(), None, true);
@@ -196,7 +197,7 @@ impl EditorApp {
                 Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
                 Err(error) => self.toast(error.to_string(), None, true),
             },
-            Ask::LocateMesh => {}
+            Ask::LocateMesh => self.replace_mesh(&path),
         }
     }
 
@@ -217,9 +218,22 @@ impl EditorApp {
         }
     }
 
+    /// The mesh that was chosen for the object that asked for one.
+    fn replace_mesh(&mut self, path: &Path) {
+        let Some(object) = self.files.mesh_of.take() else { return };
+        let folder = self.editor.document().folder().to_owned();
+        match adopt_mesh(path, &folder) {
+            Ok(adopted) => {
+                let command = Arrange::ReplaceMesh { object, mesh: adopted.name };
+                self.editor.run(&Command::Arrange(command));
+            }
+            Err(error) => self.toast(error.to_string(), None, true),
+        }
+    }
+
     fn dropped(&mut self, ui: &mut Ui) {
         let paths: Vec<PathBuf> = ui.input(|input| {
-            input.raw.dropped_files.iter().filter_map(|file| file.path.clone()).collect()
+            input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect()
         });
         if paths.is_empty() || self.is_modal() && !self.sheets.welcome {
             return;
@@ -241,9 +255,6 @@ impl EditorApp {
 
     /// A picture becomes the brush of the selected region, or of the scene.
     fn brush(&mut self, path: &Path) {
-        use impasto_editor_model::Item;
-        use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
-        use impasto_scene::document::BrushMix;
         let folder = self.editor.document().folder().to_owned();
         match adopt_picture(path, &folder) {
             Ok(adopted) => {
@@ -264,7 +275,7 @@ impl EditorApp {
         }
         let before = Choices {
             keys: self.editor.keymap.preset,
-            theme: self.theme(),
+            theme: self.preferences.theme,
             scale: self.preferences.scale,
             at_start: self.preferences.show_welcome,
         };
@@ -275,10 +286,7 @@ impl EditorApp {
                 Preset::Blender => Keys::Blender,
                 Preset::Maya => Keys::Maya,
             };
-            self.preferences.theme = match choices.theme {
-                Theme::Dark => preferences::Theme::Dark,
-                Theme::Light => preferences::Theme::Light,
-            };
+            self.preferences.theme = choices.theme;
             (self.preferences.scale, self.preferences.show_welcome) = (choices.scale, choices.at_start);
             self.keymap();
             theme::apply(ctx, choices.theme, choices.scale);

@@ -195,7 +195,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
         guides,
         gizmo: editor.gizmo(view),
         stand_ins: if editor.session.mode == Mode::Arrange { stand_ins(editor, scene) } else { Vec::new() },
-        singular: singular(editor, &poses),
+        singular: singular(editor, &poses, view),
         radius_px: editor.session.options.radius_px,
         hides_pointer: has_ring && editor.session.tool() != Tool::Pick,
     }
@@ -276,17 +276,15 @@ fn lifted(pose: &DAffine3, at: [f64; 3], normal: [f64; 3]) -> [DVec3; 2] {
     [pose.transform_point3(DVec3::from(at)), normal]
 }
 
-fn singular(editor: &Editor, poses: &[DAffine3]) -> Vec<SingularPoint> {
+fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoint> {
     let Some(painting) = editor.painting().filter(|_| editor.session.overlays.trust) else { return Vec::new() };
     let objects = 0..painting.scene().objects.len().min(poses.len());
     objects
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
         .map(|(object, point)| {
-            let [position_in_world, normal_in_world] = lifted(
-                &poses[object],
-                point.position.as_dvec3().to_array(),
-                point.normal.as_dvec3().to_array(),
-            );
+            let position_in_world = poses[object].transform_point3(point.position);
+            // What hides it is asked of the surfaces; which way it faces, of nobody.
+            let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }
         })
         .collect()

@@ -10,6 +10,7 @@ mod file_flow;
 mod keys;
 mod marks;
 mod picture;
+mod view;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -25,7 +26,7 @@ use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Preferences};
 use crate::panels::{self, Ask, Numbers, Shown};
-use crate::theme::{self, Theme};
+use crate::theme;
 use crate::widgets::{Toast, toasts};
 use crate::window::{self, Opened, tab_pressed};
 
@@ -86,7 +87,7 @@ impl EditorApp {
         };
         app.keymap();
         opened.ctx.add_plugin(window::FocusRules);
-        theme::apply(&opened.ctx, app.theme(), app.preferences.scale);
+        theme::apply(&opened.ctx, app.preferences.theme, app.preferences.scale);
         if let Some(note) = loaded.note {
             app.toast(note, None, true);
         }
@@ -94,13 +95,6 @@ impl EditorApp {
             app.open(path);
         }
         app
-    }
-
-    fn theme(&self) -> Theme {
-        match self.preferences.theme {
-            crate::files::preferences::Theme::Dark => Theme::Dark,
-            crate::files::preferences::Theme::Light => Theme::Light,
-        }
     }
 
     fn keymap(&mut self) {

@@ -6,14 +6,13 @@ use std::time::Instant;
 use egui::{Context, Rect};
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::picking::View;
-use impasto_editor_model::session::Shading as Shown;
 use impasto_gl_render::context::Driver;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::files::preferences::DriverChoice;
 use crate::viewport::{Layout, Pictures};
 use crate::window::Waker;
-use crate::worker::{Job, Report, Shading, ViewJob, Worker};
+use crate::worker::{Job, Report, ViewJob, Worker};
 
 /// Pictures of the last second tell how many come a second.
 const SPAN_S: f64 = 1.0;
@@ -135,11 +134,7 @@ impl Studio {
             self.forget();
             return;
         }
-        let shading = match editor.session.shading {
-            Shown::Painted => Shading::Painted,
-            Shown::Shaded => Shading::Shaded,
-            Shown::Trust => Shading::Trust,
-        };
+        let shading = editor.session.shading;
         let now = (editor.camera(), editor.session.frame);
         let seen = if editor.session.compare {
             vec![motion::referred_to(&loaded.scene, &loaded.scene.reference), now]

@@ -17,6 +17,8 @@ pub(super) struct ColumnState {
     pub(super) search: Option<String>,
     /// What gets another name, and that name as it is typed.
     pub(super) renaming: Option<(Item, String)>,
+    /// Whether the menu of what can be added opens in the next pass.
+    pub(super) opens_add_menu: bool,
     /// Stroke settings that were copied.
     pub(super) copied_strokes: Option<StrokeSettings>,
     /// The layer of paint that Advanced shows.
@@ -30,6 +32,11 @@ impl ColumnState {
     pub(super) fn with<R>(ctx: &Context, act: impl FnOnce(&mut Self) -> R) -> R {
         ctx.data_mut(|data| act(data.get_temp_mut_or_default(Id::unique("right column"))))
     }
+}
+
+/// Opens the menu of what can be added, in the head of the tree.
+pub fn open_add_menu(ctx: &Context) {
+    ColumnState::with(ctx, |state| state.opens_add_menu = true);
 }
 
 /// Begins to rename what is active, in its row of the tree. Says whether that has a name of its own.

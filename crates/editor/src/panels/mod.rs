@@ -19,6 +19,7 @@ pub mod welcome;
 use std::path::{Path, PathBuf};
 
 pub mod brush_thumbnails;
+mod column;
 mod column_state;
 mod inspector;
 mod tree;
@@ -28,7 +29,8 @@ use impasto_editor_model::keymap::{Action, Keymap, Preset};
 use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
 
-pub use column_state::rename;
+pub use column::column;
+pub use column_state::{open_add_menu, rename};
 pub use inspector::inspector;
 pub use tree::tree;
 

@@ -181,7 +181,9 @@ impl Studio {
         let Some(renderer) = &mut self.renderer else { return false };
         let view = &order.job.views[index];
         let began = Instant::now();
-        let picture = match render(renderer, &frame_of(painting, view, manner), manner) {
+        let frame = frame_of(painting, view, manner);
+        let strokes = frame.strokes.len();
+        let picture = match render(renderer, &frame, manner) {
             Ok(Some(picture)) => picture,
             Ok(None) => return false,
             Err(error) => {
@@ -197,7 +199,8 @@ impl Studio {
         let serial = order.job.serial;
         self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact });
         let (view, exact) = (view.clone(), manner.exact);
-        tell(Report::Picture(Picture { index, view, serial, image: Arc::new(picture), exact, seconds }));
+        let image = Arc::new(picture);
+        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, seconds }));
         true
     }
 }

@@ -9,10 +9,15 @@ use impasto_scene::document::{LightKind, Region, Scene, Selector};
 use impasto_scene::motion;
 
 use crate::icons::{self, Icon};
+use crate::panels::column_state::ColumnState;
 use crate::panels::{Ask, Shown};
 use crate::widgets::Button;
 
 pub(super) fn menu(button: &Response, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    let asked = ColumnState::with(&button.ctx, |state| std::mem::take(&mut state.opens_add_menu));
+    if asked {
+        Popup::open_id(&button.ctx, Popup::default_response_id(button));
+    }
     Popup::menu(button).width(190.0).show(|ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         if entry(ui, icons::OBJECT, "Import mesh\u{2026}") {

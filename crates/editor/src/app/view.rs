@@ -1,0 +1,126 @@
+//! The viewport in the window: what it is given to show, and what comes back from it.
+
+use egui::Ui;
+use impasto_editor_model::camera_rig::Looking;
+use impasto_editor_model::editor::{PointerEvent, PointerKind, reference_frame};
+use impasto_editor_model::picking::View;
+use impasto_scene::motion;
+
+use super::marks::{self, MarkCache, Seen};
+use super::{EditorApp, badge, value};
+use crate::panels::Ask;
+use crate::viewport::overlay::Sight;
+use crate::viewport::{
+    Badge, Layout, Look, Marks, Now, PointerKind as Kind, ViewportEvents, ViewportInput, viewport,
+};
+
+/// A pinch by this factor is a step of the wheel.
+const PINCH_STEP: f64 = 1.1;
+
+impl EditorApp {
+    /// Shows the viewport, and asks for the pictures that it will show next.
+    pub(super) fn viewport(&mut self, ui: &mut Ui, asks: &mut Vec<Ask>) {
+        let area = ui.max_rect();
+        let scene = &self.editor.document().shown().scene;
+        let (size, pixels_per_point) = (scene.size, ui.ctx().pixels_per_point());
+        let is_empty = scene.objects.is_empty();
+        let compares = self.editor.session.compare && !is_empty;
+        self.studio.set_layout(if compares {
+            Layout::compare(area, size, pixels_per_point)
+        } else {
+            Layout::single(area, size, pixels_per_point)
+        });
+        let (reference_camera, reference) = motion::referred_to(scene, &scene.reference);
+        let (camera, frame) = (self.editor.camera(), self.editor.session.frame);
+        let first = if compares {
+            Seen { index: 0, camera: &reference_camera, frame: reference }
+        } else {
+            Seen { index: 0, camera: &camera, frame }
+        };
+        let second = compares.then_some(Seen { index: 1, camera: &camera, frame });
+        self.marks.refresh(&self.editor, &self.studio, &first);
+        if let Some(second) = &second {
+            self.marks.refresh(&self.editor, &self.studio, second);
+        }
+        let view = self.studio.view(&self.editor);
+        let fresh = marks::fresh(&self.editor, &view, ui);
+        let poses = self.editor.poses();
+        let visible = |object: usize| !self.editor.document().shown().scene.objects[object].hidden;
+        let sight = Sight { picker: self.editor.picker(), poses: &poses, visible: &visible, view: &view };
+        let own = self.marks.marks(0, &self.editor, Some(&fresh));
+        let marks = Marks { singular: MarkCache::singular(&fresh, sight), ..own };
+        let now_marks = self.marks.marks(1, &self.editor, None);
+        let note = self.turned_words();
+        let under_cursor = self.editor.tool_output().label.clone().unwrap_or_default();
+        let input = ViewportInput {
+            pictures: &self.studio.pictures,
+            session: &self.editor.session,
+            camera: first.camera,
+            through_shot: self.editor.looking == Looking::Shot,
+            marks: &marks,
+            now: second.as_ref().map(|second| Now {
+                camera: second.camera,
+                frame: second.frame,
+                note: &note,
+                marks: &now_marks,
+            }),
+            badge: badge(&self.editor),
+            value: &value(&self.editor),
+            under_cursor: &under_cursor,
+            empty: is_empty,
+            trouble: self.studio.trouble.as_deref(),
+        };
+        let events = viewport(ui, self.studio.layout(), &input);
+        self.take(events, asks, &view);
+        self.studio.ask(&self.editor);
+    }
+
+    /// What Compare says of the selected object: how far it turned, and its strokes with it.
+    fn turned_words(&self) -> String {
+        let Some(object) = self.editor.active_object() else { return String::new() };
+        let name = &self.editor.document().shown().scene.objects[object].name;
+        self.editor.turned_deg(object).map_or_else(String::new, |turned| format!("{name} turned {turned:.0}°"))
+    }
+
+    fn take(&mut self, events: ViewportEvents, asks: &mut Vec<Ask>, view: &View) {
+        for event in events.pointer {
+            let kind = match event.kind {
+                Kind::Moved => PointerKind::Move,
+                Kind::Pressed(button) => PointerKind::Press(button),
+                Kind::Released(button) => PointerKind::Release(button),
+                Kind::Wheel(steps) => PointerKind::Wheel(steps),
+                Kind::Pinch(factor) => PointerKind::Wheel(factor.ln() / PINCH_STEP.ln()),
+                Kind::Left => PointerKind::Leave,
+                Kind::DoublePressed => continue,
+            };
+            let event =
+                PointerEvent { kind, at_px: event.at_px, held: event.held, at_secs: event.at_secs };
+            // The view may have moved by the event before.
+            let view = self.studio.view(&self.editor);
+            self.editor.pointer(&event, &view);
+        }
+        asks.extend(events.asks);
+        let shot = self.editor.shot();
+        match events.look {
+            Some(Look::Shot) => self.editor.looking = Looking::Shot,
+            Some(Look::Free) => drop(self.editor.looking.free(&shot)),
+            Some(Look::Along(axis)) => self.editor.looking.free(&shot).look_along(axis),
+            None => {}
+        }
+        if events.orbit_px != glam::DVec2::ZERO {
+            let about = view.at_depth_of(view.size_px * 0.5, self.editor.camera().target);
+            self.editor.looking.free(&shot).orbit(events.orbit_px, about);
+        }
+        if events.recapture {
+            match badge(&self.editor) {
+                Badge::Reference(_) => {
+                    let frame = reference_frame(self.editor.document().scene());
+                    self.toast(format!("Frame {frame} is the reference already"), None, false);
+                }
+                Badge::Turned { frame, .. } | Badge::Free(frame) => {
+                    self.sheets.recapture = Some(frame.round() as i64);
+                }
+            }
+        }
+    }
+}
