@@ -49,7 +49,10 @@ fn click(harness: &mut Harness<'_, Page>, name: &str) {
 }
 
 fn acts(page: &Page) -> Vec<Action> {
-    page.asked.iter().filter_map(|ask| if let Ask::Act(action) = ask { Some(*action) } else { None }).collect()
+    page.asked
+        .iter()
+        .filter_map(|ask| if let Ask::Act(action) = ask { Some(*action) } else { None })
+        .collect()
 }
 
 #[test]
@@ -93,12 +96,37 @@ fn the_sheets_look_as_they_did() {
 #[test]
 fn every_control_of_the_bars_has_its_name_and_can_be_hit() {
     let bars = [
-        "File", "Edit", "View", "Help", "Undo", "Redo", "Document", "Arrange", "Paint", "Animate", "Find a command",
-        "Render", "More tool options", "First frame", "Previous frame", "Play", "Next frame", "Last frame",
-        "Current frame", "Ruler", "Loop", "Show keys",
+        "File",
+        "Edit",
+        "View",
+        "Help",
+        "Undo",
+        "Redo",
+        "Document",
+        "Arrange",
+        "Paint",
+        "Animate",
+        "Find a command",
+        "Render",
+        "More tool options",
+        "First frame",
+        "Previous frame",
+        "Play",
+        "Next frame",
+        "Last frame",
+        "Current frame",
+        "Ruler",
+        "Loop",
+        "Show keys",
     ];
     let tools = [
-        "Comb", "Guide curve", "Fill direction", "Turn direction", "Smooth", "Erase to automatic", "Region",
+        "Comb",
+        "Guide curve",
+        "Fill direction",
+        "Turn direction",
+        "Smooth",
+        "Erase to automatic",
+        "Region",
         "Pick direction",
     ];
     let options = ["Along", "Against", "Brush radius", "Brush strength", "Mirror X", "Mirror Y", "Mirror Z"];
@@ -315,8 +343,7 @@ fn the_first_run_sheet_takes_choices() {
     for name in ["Keys like Maya", "Light", "Interface size 125 %", "Don't show this at start"] {
         click(&mut harness, name);
     }
-    let wanted =
-        welcome::Choices { keys: Preset::Maya, theme: Theme::Light, scale: 1.25, at_start: false };
+    let wanted = welcome::Choices { keys: Preset::Maya, theme: Theme::Light, scale: 1.25, at_start: false };
     assert_eq!(harness.state().choices, wanted);
     for (name, left) in [
         ("Open a mesh", welcome::Left::OpenMesh),
@@ -336,8 +363,20 @@ fn the_first_run_sheet_takes_choices() {
 fn questions_are_answered_by_their_verbs_and_keys() {
     let scene = || "still_life.ron".to_owned();
     let cases = [
-        (Question::SaveChanges { name: scene(), minutes: 12 }, "Don\u{2019}t save", Answer::Discard, Answer::Save, Answer::Cancel),
-        (Question::Recapture { frame: 37 }, "Recapture", Answer::Recapture, Answer::Recapture, Answer::Cancel),
+        (
+            Question::SaveChanges { name: scene(), minutes: 12 },
+            "Don\u{2019}t save",
+            Answer::Discard,
+            Answer::Save,
+            Answer::Cancel,
+        ),
+        (
+            Question::Recapture { frame: 37 },
+            "Recapture",
+            Answer::Recapture,
+            Answer::Recapture,
+            Answer::Cancel,
+        ),
         (
             Question::ChangedOutside { name: scene() },
             "Read it, drop my edits",
@@ -403,5 +442,8 @@ fn edits_are_marked() {
     let mut page = Page::new();
     page.document.apply(&command).expect("a seed");
     let harness = harness(page, Theme::Dark, NARROW);
-    assert_eq!(harness.get_by_label("Document").accesskit_node().value().as_deref(), Some("still_life.ron, edited"));
+    assert_eq!(
+        harness.get_by_label("Document").accesskit_node().value().as_deref(),
+        Some("still_life.ron, edited")
+    );
 }

@@ -146,14 +146,24 @@ fn text_width(ui: &egui::Ui, text: &str, font: egui::FontId) -> f32 {
 }
 
 /// Puts something at a place of its own; what comes after it in `ui` stands where it would without it.
-fn within<R>(ui: &mut egui::Ui, rect: egui::Rect, layout: egui::Layout, show: impl FnOnce(&mut egui::Ui) -> R) -> R {
+fn within<R>(
+    ui: &mut egui::Ui,
+    rect: egui::Rect,
+    layout: egui::Layout,
+    show: impl FnOnce(&mut egui::Ui) -> R,
+) -> R {
     show(&mut ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout)))
 }
 
 /// From left to right, in the middle of the height.
-const ROW: egui::Layout = egui::Layout::left_to_right(egui::Align::Center);
+fn row() -> egui::Layout {
+    egui::Layout::left_to_right(egui::Align::Center)
+}
+
 /// From right to left, in the middle of the height.
-const ROW_FROM_RIGHT: egui::Layout = egui::Layout::right_to_left(egui::Align::Center);
+fn row_from_right() -> egui::Layout {
+    egui::Layout::right_to_left(egui::Align::Center)
+}
 
 /// A short upright line between groups of a bar.
 fn divider(ui: &mut egui::Ui) {

@@ -69,7 +69,12 @@ impl Page {
             status: COMBING.to_owned(),
             recent: vec![scene, PathBuf::from("/pictures/pears.ron")],
             shows: Shows::Bars,
-            choices: welcome::Choices { keys: Preset::Blender, theme: Theme::Dark, scale: 1.0, at_start: true },
+            choices: welcome::Choices {
+                keys: Preset::Blender,
+                theme: Theme::Dark,
+                scale: 1.0,
+                at_start: true,
+            },
             questions: Vec::new(),
             asked: Vec::new(),
             left: None,
