@@ -1,14 +1,13 @@
 //! The timeline as one strip: transport, frame, ruler, range.
 
 use egui::{
-    Align, Align2, Layout, Panel, Pos2, Rect, Response, RichText, Role, Sense, Shape, Ui, UiBuilder, WidgetInfo,
-    accesskit, pos2, vec2,
+    Align2, Panel, Pos2, Rect, Response, RichText, Role, Sense, Shape, Ui, WidgetInfo, accesskit, pos2, vec2,
 };
 use impasto_editor_model::keymap::Action;
 use impasto_scene::document::{Scene, Timeline};
 use impasto_scene::motion;
 
-use super::{Ask, Shown};
+use super::{Ask, Shown, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, NumberField, Tip};
@@ -27,16 +26,15 @@ pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("strip").exact_size(measure::STRIP).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
-        let free = UiBuilder::new().max_rect(whole);
-        let left = ui.scope_builder(free.clone().layout(Layout::left_to_right(Align::Center)), |ui| {
+        let left = within(ui, whole, row(), |ui| {
             transport(ui, shown, asks);
             ui.min_rect().right()
         });
-        let right = ui.scope_builder(free.layout(Layout::right_to_left(Align::Center)), |ui| {
+        let right = within(ui, whole, row_from_right(), |ui| {
             range(ui, shown, asks);
             ui.min_rect().left()
         });
-        let across = left.inner + 22.0..=(right.inner - 66.0).max(left.inner + 23.0);
+        let across = left + 22.0..=(right - 66.0).max(left + 23.0);
         ruler(ui, Rect::from_x_y_ranges(across, whole.y_range()), (shown, asks));
     });
 }
@@ -58,7 +56,8 @@ fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.painter().rect_filled(Rect::from_min_size(pos2(at.x, top), side), measure::CORNER, tokens.wid);
         }
         let response = widgets::icon_button(ui, icon, action.name());
-        let response = Tip { name: action.name(), key: &shown.keys_of(action), effect: "", range: "" }.on(response);
+        let response =
+            Tip { name: action.name(), key: &shown.keys_of(action), effect: "", range: "" }.on(response);
         if response.clicked() {
             asks.push(Ask::Act(action));
         }
@@ -119,7 +118,8 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };
     // The first and the last key can be hit from outside too.
-    let response = ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
+    let response =
+        ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
     scrub(&response, across, (shown, asks));
 
     let clip = ui.painter().with_clip_rect(rect.expand2(vec2(12.0, 0.0)));
@@ -137,7 +137,12 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
     clip.vline(now, top + 5.0..=line + 1.0, (2.0, tokens.accent_text));
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);
-        ui.painter().rect_stroke(rect.shrink2(vec2(0.0, 3.0)), measure::CORNER, ring, egui::StrokeKind::Outside);
+        ui.painter().rect_stroke(
+            rect.shrink2(vec2(0.0, 3.0)),
+            measure::CORNER,
+            ring,
+            egui::StrokeKind::Outside,
+        );
     }
 }
 

@@ -5,14 +5,14 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-use egui::{Align, Layout, Panel, Popup, PopupCloseBehavior, RichText, Ui, UiBuilder, vec2};
+use egui::{Panel, Popup, PopupCloseBehavior, RichText, Ui, vec2};
 use impasto_editor_model::Item;
 use impasto_editor_model::session::{Mode, Tool, ToolOptions};
 
 use self::settings::{Control, Place, Setting};
 use super::tool_names::face;
 use super::top_bar::WIDE;
-use super::{Ask, Shown, divider, text_width};
+use super::{Ask, Shown, divider, row, row_from_right, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
@@ -42,7 +42,7 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
     let all = settings::of(tool, &options);
     let wide = ui.ctx().content_rect().width() >= WIDE;
     let whole = ui.max_rect();
-    ui.scope_builder(UiBuilder::new().max_rect(whole).layout(Layout::left_to_right(Align::Center)), |ui| {
+    within(ui, whole, row(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
         ui.add_space(6.0);
         head(ui, tool, say);
@@ -57,17 +57,14 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
                 Place::WideRight if fits && wide => {
                     right -= width + measure::GAP;
                     let rect = egui::Rect::from_x_y_ranges(right..=right + width, whole.y_range());
-                    let layout = Layout::left_to_right(Align::Center);
-                    ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
-                        control(ui, setting, (&mut options, say));
-                    });
+                    within(ui, rect, row(), |ui| control(ui, setting, (&mut options, say)));
                 }
                 _ => behind.push(index),
             }
         }
         hint(ui, (shown, tool), right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
-        ui.scope_builder(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)), |ui| {
+        within(ui, rect, row_from_right(), |ui| {
             ui.add_space(measure::GAP - 4.0);
             let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
             more(ui, &behind, (&mut options, say));
@@ -87,7 +84,9 @@ fn head(ui: &mut Ui, tool: Tool, say: Say) {
 /// How much of the bar a setting takes, points.
 fn width(ui: &Ui, setting: &Setting, say: Say) -> f32 {
     let control = match &setting.control {
-        Control::Choice(choice) => widgets::segmented_width(ui, choice.words.iter().map(|(words, _)| say(words))),
+        Control::Choice(choice) => {
+            widgets::segmented_width(ui, choice.words.iter().map(|(words, _)| say(words)))
+        }
         Control::Number(number) => number.width,
         Control::Check { words, .. } => 24.0 + text_width(ui, say(words), type_face::body()),
         Control::Mirror => widgets::TOGGLE_GROUP,
@@ -146,9 +145,12 @@ fn control(ui: &mut Ui, setting: &Setting, (options, say): (&mut ToolOptions, Sa
 /// What one should know about a tool or a mode, where there is room.
 fn hint(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), right: f32, say: Say) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
-        (Tool::Pick | Tool::ShotCamera, _) => {
-            [(say(face(tool).effect).to_owned(), false), Default::default(), Default::default(), Default::default()]
-        }
+        (Tool::Pick | Tool::ShotCamera, _) => [
+            (say(face(tool).effect).to_owned(), false),
+            Default::default(),
+            Default::default(),
+            Default::default(),
+        ],
         (_, Some(Item::Object(name))) if shown.session.mode == Mode::Animate => [
             (say("Posing").to_owned(), false),
             (name.clone(), true),
