@@ -68,7 +68,7 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String
         });
         let nodes = output.platform_output.accesskit_update.map(|update| update.nodes).unwrap_or_default();
         found = nodes.into_iter().filter_map(|(_, node)| named_box(&node)).collect();
-        output.textures_delta.drop_without_applying_deltas();
+        output.drop_without_applying_deltas();
     }
     found
 }
