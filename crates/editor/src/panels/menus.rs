@@ -1,11 +1,11 @@
-use egui::containers::menu::{MenuBar, SubMenu};
+use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{Hairs, Mode};
 
-use super::{Ask, Shown, file_name};
+use super::{Ask, Shown, file_name, row, text_width, within};
 use crate::icons;
-use crate::theme::{Tokens, type_face};
+use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::MenuRow;
 
 /// One line of a menu.
@@ -143,11 +143,22 @@ pub(super) fn actions() -> Vec<Action> {
 
 /// File, Edit, View and Help.
 pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
-    MenuBar::new().ui(ui, |ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        for (name, lines) in MENUS {
-            ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
-        }
+    const PADDING: f32 = 10.0;
+    let wide = MENUS.iter().map(|(name, _)| text_width(ui, name, type_face::body()) + 2.0 * PADDING).sum();
+    let size = egui::vec2(wide, measure::BUTTON);
+    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    // A menu bar takes all the width that it is given.
+    within(ui, rect, row(), |ui| {
+        let style = |style: &mut egui::Style| {
+            menu_style(style);
+            style.spacing.button_padding = egui::vec2(PADDING, 4.0);
+            style.spacing.item_spacing.x = 0.0;
+        };
+        MenuBar::new().style(style).ui(ui, |ui| {
+            for (name, lines) in MENUS {
+                ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
+            }
+        });
     });
 }
 
