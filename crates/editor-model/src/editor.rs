@@ -380,13 +380,18 @@ impl Editor {
         if self.document.scene().objects.is_empty() {
             return "Drop an OBJ or a scene anywhere in the window".to_owned();
         }
-        let object = self.active_object().map(|object| self.document.shown().scene.objects[object].name.clone());
+        let object =
+            self.active_object().map(|object| self.document.shown().scene.objects[object].name.clone());
         let object = object.as_deref().unwrap_or("an object");
         match self.session.mode {
             Mode::Arrange => match self.session.tool() {
                 Tool::AddLight => "[Click] add a light here  [Middle] orbit".to_owned(),
-                Tool::ShotCamera => "[Drag] orbit the shot  [NumPad 0] look through it  [Middle] orbit".to_owned(),
-                _ => format!("[Drag] move {object}  [G R S] move, turn, scale  [Shift A] add  [Middle] orbit"),
+                Tool::ShotCamera => {
+                    "[Drag] orbit the shot  [NumPad 0] look through it  [Middle] orbit".to_owned()
+                }
+                _ => {
+                    format!("[Drag] move {object}  [G R S] move, turn, scale  [Shift A] add  [Middle] orbit")
+                }
             },
             Mode::Paint => self.output.status.clone(),
             Mode::Animate => {

@@ -37,7 +37,8 @@ impl Editor {
             Action::Paint => self.set_mode(Mode::Paint, view),
             Action::Animate => self.set_mode(Mode::Animate, view),
             Action::TogglePaint => {
-                let to = if self.session.mode == Mode::Paint { self.session.mode_before } else { Mode::Paint };
+                let to =
+                    if self.session.mode == Mode::Paint { self.session.mode_before } else { Mode::Paint };
                 self.set_mode(to, view);
             }
             Action::NextMode => self.set_mode(
@@ -167,7 +168,9 @@ impl Editor {
                 self.transform(TransformEvent::Plane(axis), view);
                 return true;
             }
-            Action::Confirm | Action::TakeBack | Action::Cancel if matches!(self.busy, Busy::Transforming(_)) => {
+            Action::Confirm | Action::TakeBack | Action::Cancel
+                if matches!(self.busy, Busy::Transforming(_)) =>
+            {
                 match action {
                     Action::Confirm => self.transform(TransformEvent::Keep, view),
                     Action::TakeBack => self.transform(TransformEvent::Backspace, view),

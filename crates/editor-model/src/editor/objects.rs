@@ -93,7 +93,8 @@ impl Editor {
         let (world_from_world, verb) = match delta {
             TransformDelta::Move(by) => (DAffine3::from_translation(axes * by), "Move"),
             TransformDelta::Turn { axis, angle_rad } => {
-                let turn = DMat3::from_quat(DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad));
+                let turn =
+                    DMat3::from_quat(DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad));
                 (about(pivot, turn), "Turn")
             }
             TransformDelta::Scale(factors) if factors.max_element() - factors.min_element() < 1e-12 => {

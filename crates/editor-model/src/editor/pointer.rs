@@ -110,7 +110,8 @@ impl Editor {
                 }
             }
             Busy::Transforming(_) => {
-                let snap = if event.held.ctrl != self.session.options.snap { Snap::Steps } else { Snap::Free };
+                let snap =
+                    if event.held.ctrl != self.session.options.snap { Snap::Steps } else { Snap::Free };
                 self.transform(TransformEvent::Move { at_px: event.at_px, snap }, view);
             }
         }
@@ -136,8 +137,7 @@ impl Editor {
         }
         match (self.session.mode, self.session.tool()) {
             (Mode::Paint, _) => {
-                let press =
-                    ToolEvent::Press { at_px: event.at_px, at_secs: event.at_secs, held: event.held };
+                let press = ToolEvent::Press { at_px: event.at_px, at_secs: event.at_secs, held: event.held };
                 self.busy = Busy::Painting;
                 self.tool(press, view);
                 if self.output.refusal.is_some() {

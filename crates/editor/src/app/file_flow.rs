@@ -232,9 +232,8 @@ impl EditorApp {
     }
 
     fn dropped(&mut self, ui: &mut Ui) {
-        let paths: Vec<PathBuf> = ui.input(|input| {
-            input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect()
-        });
+        let paths: Vec<PathBuf> =
+            ui.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
         if paths.is_empty() || self.is_modal() && !self.sheets.welcome {
             return;
         }
@@ -301,7 +300,8 @@ impl EditorApp {
             Some(Left::StillLife) => match still_life() {
                 Some(path) => self.open(&path),
                 None => {
-                    let words = "The still life comes with Impasto's source: open scenes/still_life.ron there";
+                    let words =
+                        "The still life comes with Impasto's source: open scenes/still_life.ron there";
                     self.toast(words, None, true);
                 }
             },

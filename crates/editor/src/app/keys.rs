@@ -33,8 +33,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View) {
     ui.input_mut(|input| {
         let mut index = 0;
         input.events.retain(|event| {
-            let keep = !taken.contains(&index)
-                && !(matches!(event, Event::Text(_)) && !typing);
+            let keep = !taken.contains(&index) && !(matches!(event, Event::Text(_)) && !typing);
             index += 1;
             keep
         });

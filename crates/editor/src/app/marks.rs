@@ -5,11 +5,11 @@ use std::sync::Arc;
 use egui::{Color32, Ui};
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::sampling::Particle;
+use impasto_editor_model::Item;
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::picking::View;
 use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
-use impasto_editor_model::Item;
 use impasto_painting::Painting;
 use impasto_scene::document::{Guide, LightKind, Scene};
 use impasto_scene::motion::{self, CameraPose};
@@ -91,7 +91,8 @@ impl MarkCache {
         if half.of.as_ref() == Some(&key) {
             return;
         }
-        let shows_hairs = session.mode == Mode::Paint && session.overlays.hairs != Hairs::Off || session.overlays.trust;
+        let shows_hairs =
+            session.mode == Mode::Paint && session.overlays.hairs != Hairs::Off || session.overlays.trust;
         let active = editor.active_object();
         let outlines = session.mode != Mode::Paint && active.is_some();
         *half = Half { of: Some(key), ..Half::default() };
@@ -108,8 +109,12 @@ impl MarkCache {
             half.hairs = hair_marks(painting, (seen.camera, seen.frame), &framing, &map, &look);
         }
         if session.overlays.regions {
-            let names: Vec<(&str, Color32)> =
-                scene.regions.iter().zip(&colours).map(|(region, &colour)| (region.name.as_str(), colour)).collect();
+            let names: Vec<(&str, Color32)> = scene
+                .regions
+                .iter()
+                .zip(&colours)
+                .map(|(region, &colour)| (region.name.as_str(), colour))
+                .collect();
             half.tints = RegionTint::all(&map, &names, |face| region_of(painting, face));
         }
         if outlines && let Some(active) = active {
@@ -143,7 +148,10 @@ impl MarkCache {
     }
 
     /// Singular points of the bodies, for [`Marks::singular`].
-    pub(super) fn singular<'a>(fresh: &'a Fresh, sight: Sight<'a>) -> Option<(&'a [SingularPoint], Sight<'a>)> {
+    pub(super) fn singular<'a>(
+        fresh: &'a Fresh,
+        sight: Sight<'a>,
+    ) -> Option<(&'a [SingularPoint], Sight<'a>)> {
         (!fresh.singular.is_empty()).then_some((&fresh.singular[..], sight))
     }
 }
@@ -190,7 +198,11 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     }
     Fresh {
         rings,
-        needle: needle.map(|needle| Needle { at_px: needle.at_px, along: needle.along, headed: needle.headed }),
+        needle: needle.map(|needle| Needle {
+            at_px: needle.at_px,
+            along: needle.along,
+            headed: needle.headed,
+        }),
         tag: output.label.clone().filter(|_| is_painting),
         guides,
         gizmo: editor.gizmo(view),
@@ -232,7 +244,8 @@ fn region_of(painting: &Painting, face: Face) -> Option<usize> {
 /// The colours of a scene's regions: their own, or those of the list in turn.
 fn region_colours(scene: &Scene) -> Vec<Color32> {
     let colour = |index: usize, own: Option<impasto_scene::document::Color>| {
-        let [r, g, b] = own.unwrap_or(REGION_COLORS[index % REGION_COLORS.len()]).0.map(|c| (c * 255.0).round() as u8);
+        let [r, g, b] =
+            own.unwrap_or(REGION_COLORS[index % REGION_COLORS.len()]).0.map(|c| (c * 255.0).round() as u8);
         Color32::from_rgb(r, g, b)
     };
     scene.regions.iter().enumerate().map(|(index, region)| colour(index, region.color)).collect()
@@ -277,7 +290,9 @@ fn lifted(pose: &DAffine3, at: [f64; 3], normal: [f64; 3]) -> [DVec3; 2] {
 }
 
 fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoint> {
-    let Some(painting) = editor.painting().filter(|_| editor.session.overlays.trust) else { return Vec::new() };
+    let Some(painting) = editor.painting().filter(|_| editor.session.overlays.trust) else {
+        return Vec::new();
+    };
     let objects = 0..painting.scene().objects.len().min(poses.len());
     objects
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
@@ -315,7 +330,10 @@ fn stand_ins(editor: &Editor, scene: &Scene) -> Vec<(StandIn, bool)> {
         .collect();
     let shot = editor.shot();
     if editor.camera() != shot {
-        let view = View { camera: shot.clone(), size_px: DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1)) };
+        let view = View {
+            camera: shot.clone(),
+            size_px: DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1)),
+        };
         let ahead = shot.eye + (shot.target - shot.eye) * 0.3;
         let [width, height] = [view.size_px.x, view.size_px.y];
         let corners = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];

@@ -80,7 +80,10 @@ impl EditorApp {
             studio: Studio::new(preferences.driver, opened.waker.clone()),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
-            sheets: Sheets { welcome: preferences.show_welcome && options.path.is_none(), ..Sheets::default() },
+            sheets: Sheets {
+                welcome: preferences.show_welcome && options.path.is_none(),
+                ..Sheets::default()
+            },
             preferences,
             toasts: Vec::new(),
             folds: Folds::default(),
@@ -278,6 +281,7 @@ fn value(editor: &Editor) -> String {
     } else {
         "free view"
     };
-    let reference = if reference_frame(editor.document().scene()) == session.frame { ", reference" } else { "" };
+    let reference =
+        if reference_frame(editor.document().scene()) == session.frame { ", reference" } else { "" };
     format!("{mode}, {tool}, {camera}, frame {}{reference}", session.frame)
 }

@@ -49,7 +49,11 @@ impl Studio {
             trouble,
             asked: None,
             prepared: 0,
-            layout: Layout::single(Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(950.0, 650.0)), (16, 9), 1.0),
+            layout: Layout::single(
+                Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(950.0, 650.0)),
+                (16, 9),
+                1.0,
+            ),
             strokes: 0,
             came: VecDeque::new(),
         }

@@ -79,7 +79,9 @@ impl EditorApp {
     fn turned_words(&self) -> String {
         let Some(object) = self.editor.active_object() else { return String::new() };
         let name = &self.editor.document().shown().scene.objects[object].name;
-        self.editor.turned_deg(object).map_or_else(String::new, |turned| format!("{name} turned {turned:.0}°"))
+        self.editor
+            .turned_deg(object)
+            .map_or_else(String::new, |turned| format!("{name} turned {turned:.0}°"))
     }
 
     fn take(&mut self, events: ViewportEvents, asks: &mut Vec<Ask>, view: &View) {
@@ -93,8 +95,7 @@ impl EditorApp {
                 Kind::Left => PointerKind::Leave,
                 Kind::DoublePressed => continue,
             };
-            let event =
-                PointerEvent { kind, at_px: event.at_px, held: event.held, at_secs: event.at_secs };
+            let event = PointerEvent { kind, at_px: event.at_px, held: event.held, at_secs: event.at_secs };
             // The view may have moved by the event before.
             let view = self.studio.view(&self.editor);
             self.editor.pointer(&event, &view);

@@ -96,7 +96,11 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
         Question::Recovered { at, changes } => (
             "Impasto closed unexpectedly".to_owned(),
             format!("A copy from {at} has {} that the file does not.", counted(*changes, "change")),
-            &[("Open the file", Answer::OpenFile), ("Compare", Answer::Compare), ("Open the copy", Answer::OpenCopy)],
+            &[
+                ("Open the file", Answer::OpenFile),
+                ("Compare", Answer::Compare),
+                ("Open the copy", Answer::OpenCopy),
+            ],
         ),
         Question::Problems { count, line } => (
             format!("This scene has {} left", counted(*count, "problem")),

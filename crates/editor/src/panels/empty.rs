@@ -14,8 +14,12 @@ pub fn empty(ui: &mut egui::Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         return;
     }
     let words = "Drop an OBJ here, or open a scene";
-    let verbs = [("Open a mesh\u{2026}", "Open a mesh", Action::ImportMesh), ("Open a scene\u{2026}", "Open a scene", Action::OpenScene)];
-    let wide = verbs.iter().map(|(words, ..)| text_width(ui, words, type_face::head()) + 32.0).sum::<f32>() + 32.0;
+    let verbs = [
+        ("Open a mesh\u{2026}", "Open a mesh", Action::ImportMesh),
+        ("Open a scene\u{2026}", "Open a scene", Action::OpenScene),
+    ];
+    let wide =
+        verbs.iter().map(|(words, ..)| text_width(ui, words, type_face::head()) + 32.0).sum::<f32>() + 32.0;
     let wide = wide.max(text_width(ui, words, type_face::title()));
     let rect = egui::Rect::from_center_size(ui.max_rect().center(), vec2(wide, 128.0));
     let tokens = Tokens::of(ui);

@@ -163,7 +163,8 @@ fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>))
         match *line {
             Do(action) => {
                 let keys = shown.keys_of(action);
-                let row = MenuRow { words: action.name(), keys: &keys, on: is_on(shown, action), marked: false };
+                let row =
+                    MenuRow { words: action.name(), keys: &keys, on: is_on(shown, action), marked: false };
                 if usable(ui, shown.why_not(action), row) {
                     asks.push(Ask::Act(action));
                 }

@@ -48,7 +48,8 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, (shown, asks): (&Shown<'_>, 
         .margin(egui::Margin::symmetric(8, 7))
         .show(ui);
     let field = field.response.response;
-    field.widget_info(|| WidgetInfo { label: Some("Command".to_owned()), ..WidgetInfo::new(Role::TextInput) });
+    field
+        .widget_info(|| WidgetInfo { label: Some("Command".to_owned()), ..WidgetInfo::new(Role::TextInput) });
     if field.changed() {
         memory.marked = 0;
     }
@@ -65,29 +66,32 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, (shown, asks): (&Shown<'_>, 
     let mut run = None;
     ui.spacing_mut().item_spacing.y = 0.0;
     let high = ROWS * measure::ROW;
-    ScrollArea::vertical().max_height(high).min_scrolled_height(high).auto_shrink([false, false]).show(ui, |ui| {
-        if found.is_empty() {
-            ui.add_space(6.0);
-            let words = RichText::new("No command has that name.").font(type_face::body());
-            ui.label(words.color(Tokens::of(ui).weak));
-        }
-        for (index, action) in found.iter().enumerate() {
-            let keys = shown.keys_of(*action);
-            let marked = index == memory.marked;
-            let row = MenuRow { words: action.name(), keys: &keys, on: false, marked };
-            let reason = shown.why_not(*action);
-            let mut response = ui.add_enabled_ui(reason.is_none(), |ui| row.show(ui)).inner;
-            if marked && (up || down || field.changed()) {
-                response.scroll_to_me(None);
+    ScrollArea::vertical().max_height(high).min_scrolled_height(high).auto_shrink([false, false]).show(
+        ui,
+        |ui| {
+            if found.is_empty() {
+                ui.add_space(6.0);
+                let words = RichText::new("No command has that name.").font(type_face::body());
+                ui.label(words.color(Tokens::of(ui).weak));
             }
-            if let Some(reason) = reason {
-                response = response.on_disabled_hover_text(reason);
+            for (index, action) in found.iter().enumerate() {
+                let keys = shown.keys_of(*action);
+                let marked = index == memory.marked;
+                let row = MenuRow { words: action.name(), keys: &keys, on: false, marked };
+                let reason = shown.why_not(*action);
+                let mut response = ui.add_enabled_ui(reason.is_none(), |ui| row.show(ui)).inner;
+                if marked && (up || down || field.changed()) {
+                    response.scroll_to_me(None);
+                }
+                if let Some(reason) = reason {
+                    response = response.on_disabled_hover_text(reason);
+                }
+                if reason.is_none() && (response.clicked() || marked && enter) {
+                    run = Some(*action);
+                }
             }
-            if reason.is_none() && (response.clicked() || marked && enter) {
-                run = Some(*action);
-            }
-        }
-    });
+        },
+    );
     asks.extend(run.map(Ask::Act));
     escape || run.is_some()
 }
@@ -117,8 +121,10 @@ fn distance(typed: &str, name: &str) -> Option<u8> {
         return Some(2);
     }
     let mut letters = name.chars();
-    let in_order =
-        typed.chars().filter(|letter| !letter.is_whitespace()).all(|letter| letters.any(|other| other == letter));
+    let in_order = typed
+        .chars()
+        .filter(|letter| !letter.is_whitespace())
+        .all(|letter| letters.any(|other| other == letter));
     in_order.then_some(3)
 }
 

@@ -16,41 +16,44 @@ struct Part<'a> {
 /// Takes the lowest 24 points of `ui`.
 pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, _asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
-    Panel::bottom("status line").exact_size(measure::STATUS_LINE).resizable(false).frame(frame).show(ui, |ui| {
-        let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
-        let right = ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.spacing_mut().item_spacing.x = 14.0;
-                for words in numbers(&shown.numbers) {
-                    note(ui, &words);
-                }
-                ui.min_rect().left()
-            })
-            .inner
-        });
-        free.max.x = right.inner - 14.0;
-        let whole = ui.interact(free, ui.scope_id().with("status"), egui::Sense::hover());
-        whole.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Status"));
-        ui.ctx().accesskit_node_builder(whole.id, |node| {
-            node.set_live(accesskit::Live::Polite);
-            node.set_value(shown.status);
-        });
-        ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
-            ui.set_clip_rect(ui.clip_rect().intersect(free));
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-                for part in parts(shown.status) {
-                    match part.key {
-                        Some(key) => widgets::key_hint(ui, key, part.words),
-                        None => {
-                            note(ui, part.words);
-                            ui.add_space(6.0);
+    Panel::bottom("status line").exact_size(measure::STATUS_LINE).resizable(false).frame(frame).show(
+        ui,
+        |ui| {
+            let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
+            let right = ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    ui.spacing_mut().item_spacing.x = 14.0;
+                    for words in numbers(&shown.numbers) {
+                        note(ui, &words);
+                    }
+                    ui.min_rect().left()
+                })
+                .inner
+            });
+            free.max.x = right.inner - 14.0;
+            let whole = ui.interact(free, ui.scope_id().with("status"), egui::Sense::hover());
+            whole.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Status"));
+            ui.ctx().accesskit_node_builder(whole.id, |node| {
+                node.set_live(accesskit::Live::Polite);
+                node.set_value(shown.status);
+            });
+            ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
+                ui.set_clip_rect(ui.clip_rect().intersect(free));
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+                    for part in parts(shown.status) {
+                        match part.key {
+                            Some(key) => widgets::key_hint(ui, key, part.words),
+                            None => {
+                                note(ui, part.words);
+                                ui.add_space(6.0);
+                            }
                         }
                     }
-                }
+                });
             });
-        });
-    });
+        },
+    );
 }
 
 fn note(ui: &mut egui::Ui, words: &str) {

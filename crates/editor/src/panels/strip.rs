@@ -1,8 +1,8 @@
 //! The timeline as one strip: transport, frame, ruler, range.
 
 use egui::{
-    Align, Align2, Layout, Panel, Pos2, Rect, Response, RichText, Role, Sense, Shape, Ui, UiBuilder, WidgetInfo,
-    accesskit, pos2, vec2,
+    Align, Align2, Layout, Panel, Pos2, Rect, Response, RichText, Role, Sense, Shape, Ui, UiBuilder,
+    WidgetInfo, accesskit, pos2, vec2,
 };
 use impasto_editor_model::keymap::Action;
 use impasto_scene::document::{Scene, Timeline};
@@ -58,7 +58,8 @@ fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.painter().rect_filled(Rect::from_min_size(pos2(at.x, top), side), measure::CORNER, tokens.wid);
         }
         let response = widgets::icon_button(ui, icon, action.name());
-        let response = Tip { name: action.name(), key: &shown.keys_of(action), effect: "", range: "" }.on(response);
+        let response =
+            Tip { name: action.name(), key: &shown.keys_of(action), effect: "", range: "" }.on(response);
         if response.clicked() {
             asks.push(Ask::Act(action));
         }
@@ -119,7 +120,8 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };
     // The first and the last key can be hit from outside too.
-    let response = ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
+    let response =
+        ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
     scrub(&response, across, (shown, asks));
 
     let clip = ui.painter().with_clip_rect(rect.expand2(vec2(12.0, 0.0)));
@@ -137,7 +139,12 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
     clip.vline(now, top + 5.0..=line + 1.0, (2.0, tokens.accent_text));
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);
-        ui.painter().rect_stroke(rect.shrink2(vec2(0.0, 3.0)), measure::CORNER, ring, egui::StrokeKind::Outside);
+        ui.painter().rect_stroke(
+            rect.shrink2(vec2(0.0, 3.0)),
+            measure::CORNER,
+            ring,
+            egui::StrokeKind::Outside,
+        );
     }
 }
 

@@ -14,7 +14,8 @@ pub(super) struct ToolFace {
 }
 
 pub(super) fn face(tool: Tool) -> ToolFace {
-    let keyed = |action: Action, icon, effect| ToolFace { name: action.name(), icon, action: Some(action), effect };
+    let keyed =
+        |action: Action, icon, effect| ToolFace { name: action.name(), icon, action: Some(action), effect };
     match tool {
         Tool::Select => keyed(Action::Select, icons::SELECT, "Picks things, and moves what is picked."),
         Tool::Move => keyed(Action::Move, icons::MOVE, "Moves what is selected along its arrows."),
@@ -33,14 +34,20 @@ pub(super) fn face(tool: Tool) -> ToolFace {
             effect: "Moves the camera of the picture.",
         },
         Tool::Comb => keyed(Action::Comb, icons::COMB, "Strokes follow the drag."),
-        Tool::GuideCurve => keyed(Action::GuideCurve, icons::GUIDE, "Strokes follow a curve that is set point by point."),
+        Tool::GuideCurve => {
+            keyed(Action::GuideCurve, icons::GUIDE, "Strokes follow a curve that is set point by point.")
+        }
         Tool::Fill => keyed(Action::Fill, icons::FILL, "Gives a whole region one base direction."),
-        Tool::TurnDirection => keyed(Action::TurnDirection, icons::TURN, "Turns or flips a region's directions."),
+        Tool::TurnDirection => {
+            keyed(Action::TurnDirection, icons::TURN, "Turns or flips a region's directions.")
+        }
         Tool::Smooth => keyed(Action::Smooth, icons::SMOOTH, "Joins directions that lie side by side."),
         Tool::Erase => keyed(Action::Erase, icons::ERASE, "Brings the region's base direction back."),
         Tool::Region => keyed(Action::Region, icons::REGION, "Says which faces belong to a region."),
-        Tool::Pick => {
-            keyed(Action::Pick, icons::PICK, "Takes the angle under the cursor into Fill, and selects that region.")
-        }
+        Tool::Pick => keyed(
+            Action::Pick,
+            icons::PICK,
+            "Takes the angle under the cursor into Fill, and selects that region.",
+        ),
     }
 }

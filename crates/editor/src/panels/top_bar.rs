@@ -59,7 +59,8 @@ fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 
 /// Undo or redo; the tooltip names the entry.
 fn travel(ui: &mut Ui, (shown, action): (&Shown<'_>, Action), icon: Icon, entry: Option<&str>) -> Response {
-    let response = ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
+    let response =
+        ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
     match entry {
         Some(entry) => {
             ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(entry));
@@ -139,7 +140,8 @@ fn search_field(ui: &mut Ui, keys: &str) -> Response {
     painter.text(at + vec2(17.0, 0.0), Align2::CENTER_CENTER, glyph.0, glyph.1, tokens.text);
     painter.text(at + vec2(32.0, 0.0), Align2::LEFT_CENTER, "Find a command", type_face::body(), colour);
     let cap = text_width(ui, keys, egui::FontId::monospace(11.0)) + 10.0;
-    let cap_rect = egui::Rect::from_center_size(rect.right_center() - vec2(cap / 2.0 + 6.0, 0.0), vec2(cap, 16.0));
+    let cap_rect =
+        egui::Rect::from_center_size(rect.right_center() - vec2(cap / 2.0 + 6.0, 0.0), vec2(cap, 16.0));
     ui.scope_builder(UiBuilder::new().max_rect(cap_rect), |ui| widgets::key_cap(ui, keys));
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);

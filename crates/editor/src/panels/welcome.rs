@@ -179,7 +179,9 @@ fn verbs(ui: &mut Ui, choices: &mut Choices) -> Option<Left> {
         let mesh = Button::new("Open a mesh\u{2026}").name("Open a mesh").icon(icons::OPEN_FOLDER).primary();
         let scene = Button::new("Open a scene\u{2026}").name("Open a scene").plain();
         let still_life = Button::new("Try the still life").icon(icons::SHADING);
-        for (button, leaves) in [(mesh, Left::OpenMesh), (still_life, Left::StillLife), (scene, Left::OpenScene)] {
+        for (button, leaves) in
+            [(mesh, Left::OpenMesh), (still_life, Left::StillLife), (scene, Left::OpenScene)]
+        {
             if button.on_sheet().show(ui).clicked() {
                 left = Some(leaves);
             }

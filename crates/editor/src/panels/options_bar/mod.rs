@@ -67,11 +67,14 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
         }
         hint(ui, (shown, tool), right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
-        ui.scope_builder(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)), |ui| {
-            ui.add_space(measure::GAP - 4.0);
-            let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
-            more(ui, &behind, (&mut options, say));
-        });
+        ui.scope_builder(
+            UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)),
+            |ui| {
+                ui.add_space(measure::GAP - 4.0);
+                let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
+                more(ui, &behind, (&mut options, say));
+            },
+        );
     });
     (options != shown.session.options).then_some(options)
 }
@@ -87,7 +90,9 @@ fn head(ui: &mut Ui, tool: Tool, say: Say) {
 /// How much of the bar a setting takes, points.
 fn width(ui: &Ui, setting: &Setting, say: Say) -> f32 {
     let control = match &setting.control {
-        Control::Choice(choice) => widgets::segmented_width(ui, choice.words.iter().map(|(words, _)| say(words))),
+        Control::Choice(choice) => {
+            widgets::segmented_width(ui, choice.words.iter().map(|(words, _)| say(words)))
+        }
         Control::Number(number) => number.width,
         Control::Check { words, .. } => 24.0 + text_width(ui, say(words), type_face::body()),
         Control::Mirror => widgets::TOGGLE_GROUP,
@@ -146,9 +151,12 @@ fn control(ui: &mut Ui, setting: &Setting, (options, say): (&mut ToolOptions, Sa
 /// What one should know about a tool or a mode, where there is room.
 fn hint(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), right: f32, say: Say) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
-        (Tool::Pick | Tool::ShotCamera, _) => {
-            [(say(face(tool).effect).to_owned(), false), Default::default(), Default::default(), Default::default()]
-        }
+        (Tool::Pick | Tool::ShotCamera, _) => [
+            (say(face(tool).effect).to_owned(), false),
+            Default::default(),
+            Default::default(),
+            Default::default(),
+        ],
         (_, Some(Item::Object(name))) if shown.session.mode == Mode::Animate => [
             (say("Posing").to_owned(), false),
             (name.clone(), true),

@@ -166,7 +166,11 @@ fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -
         width: 64.0,
         times: 1.0,
         get,
-        effect: if most > 90.0 { "Direction in the picture, from level." } else { "The flood stops where faces bend by more." },
+        effect: if most > 90.0 {
+            "Direction in the picture, from level."
+        } else {
+            "The flood stops where faces bend by more."
+        },
     };
     at(Place::Always, "Angle", Control::Number(number))
 }
