@@ -1,8 +1,9 @@
 //! The sheet that a newcomer sees first.
 
-use egui::{Align, Align2, Layout, Rect, RichText, Sense, Ui, UiBuilder, vec2};
+use egui::{Align, Align2, Layout, Rect, RichText, Sense, Ui, vec2};
 use impasto_editor_model::keymap::{Action, Keymap, Preset};
 
+use super::{row, row_from_right, within};
 use crate::icons::{self, Icon};
 use crate::theme::{Theme, Tokens, type_face};
 use crate::widgets::{self, Button, sheet};
@@ -68,7 +69,7 @@ fn head(ui: &mut Ui) -> bool {
     let words = "Strokes sit on the model, stay flat on the picture, and turn with what they lie on.";
     ui.label(RichText::new(words).font(type_face::body()).color(tokens.weak));
     let corner = Rect::from_min_size(top.right_top() + vec2(-24.0, 0.0), vec2(28.0, 28.0));
-    ui.put(corner, |ui: &mut Ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
+    within(ui, corner, row(), |ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
 }
 
 fn cards(ui: &mut Ui, keymap: &Keymap) {
@@ -112,7 +113,7 @@ fn cards(ui: &mut Ui, keymap: &Keymap) {
         let end = egui::pos2(card.right() - 28.0, middle.y);
         painter.text(end, Align2::CENTER_CENTER, glyph.0, glyph.1, tokens.accent_text);
         let inside = Rect::from_min_max(card.min + vec2(16.0, 52.0), card.max - vec2(14.0, 12.0));
-        ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| {
+        within(ui, inside, Layout::top_down(Align::Min), |ui| {
             let words = RichText::new(words).font(type_face::body()).line_height(Some(18.0));
             ui.label(words.color(tokens.weak));
             ui.add_space(8.0);
@@ -131,12 +132,11 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
     let tokens = Tokens::of(ui);
     let row = |ui: &mut Ui, label: &str, contents: &mut dyn FnMut(&mut Ui)| {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 26.0), Sense::hover());
-        let layout = Layout::left_to_right(Align::Center);
-        ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
+        within(ui, rect, row(), |ui| {
             ui.label(RichText::new(label).font(type_face::body()).color(tokens.weak));
         });
         let rect = rect.with_min_x(rect.left() + 164.0);
-        ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
+        within(ui, rect, row(), |ui| {
             ui.spacing_mut().item_spacing.x = 24.0;
             contents(ui);
         });
@@ -162,7 +162,7 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
                 choices.theme = theme;
             }
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.with_layout(row_from_right(), |ui| {
             let names = SIZES.map(|(_, words, name)| (words, name));
             let mut size = SIZES.iter().position(|(scale, ..)| *scale == choices.scale).unwrap_or(usize::MAX);
             if widgets::segmented_named(ui, &names, &mut size).changed() {
@@ -186,7 +186,7 @@ fn verbs(ui: &mut Ui, choices: &mut Choices) -> Option<Left> {
                 left = Some(leaves);
             }
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.with_layout(row_from_right(), |ui| {
             let mut never = !choices.at_start;
             widgets::checkbox(ui, "Don't show this at start", &mut never);
             choices.at_start = !never;
