@@ -44,7 +44,7 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
     let whole = ui.max_rect();
     within(ui, whole, row(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
-        ui.add_space(6.0);
+        ui.add_space(14.0);
         head(ui, tool, say);
         let mut right = whole.right() - MORE;
         let mut behind = Vec::new();
