@@ -309,19 +309,11 @@ impl<'a> EditorWindow<'a> {
     /// # Panics
     /// When it stays.
     pub fn quit(mut self) -> Option<i32> {
-        let mut next = Instant::now();
-        wait_for("the end, by File, Quit", || {
-            let status = self.process.try_wait().ok().flatten();
-            if status.is_none() && Instant::now() >= next {
-                // Again, should the second click have come before the menu.
-                next = Instant::now() + Duration::from_secs(10);
-                let by_menu =
-                    "key Escape mousemove 59 20 click 1 sleep 0.5 mousemove 100 302 sleep 0.2 click 1";
-                self.screen.try_hand(&by_menu.split(' ').collect::<Vec<_>>());
-            }
-            status
-        })
-        .code()
+        let value = self.rest().1;
+        self.screen.hand(&["mousemove", "59", "20", "click", "1"]);
+        self.wait_for_value(&format!("{value}, under a menu"));
+        self.screen.hand(&["mousemove", "100", "302", "sleep", "0.1", "click", "1"]);
+        wait_for("the end, by File, Quit", || self.process.try_wait().ok().flatten()).code()
     }
 }
 

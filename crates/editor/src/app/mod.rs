@@ -222,10 +222,14 @@ impl EditorApp {
     }
 
     /// Tells what the window shows, each time that it has come to rest on something else.
-    fn tell_rest(&mut self) {
+    fn tell_rest(&mut self, ctx: &Context) {
         let (Some(tell), Some(version)) = (self.tell, self.studio.at_rest()) else { return };
-        let sheet = if self.is_modal() { ", under a sheet" } else { "" };
-        let words = format!("at rest, version {version}: {}{sheet}", value(&self.editor));
+        let over = match (self.is_modal(), egui::Popup::is_any_open(ctx)) {
+            (true, _) => ", under a sheet",
+            (false, true) => ", under a menu",
+            (false, false) => "",
+        };
+        let words = format!("at rest, version {version}: {}{over}", value(&self.editor));
         if words != self.told {
             tell(&words);
             self.told = words;
@@ -256,7 +260,7 @@ impl window::App for EditorApp {
             frame.close();
         }
         self.lines(&ctx);
-        self.tell_rest();
+        self.tell_rest(&ctx);
     }
 
     fn title(&self) -> String {
