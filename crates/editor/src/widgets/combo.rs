@@ -26,7 +26,12 @@ pub fn combo(
     painter.rect_filled(rect, draw::corner(), fill);
     let mut at = rect.left_center() + vec2(padding, 0.0);
     if let Some(icon) = icon {
-        draw::icon(painter, at + vec2(measure::SMALL_ICON / 2.0, 0.0), (icon, measure::SMALL_ICON), tokens.text);
+        draw::icon(
+            painter,
+            at + vec2(measure::SMALL_ICON / 2.0, 0.0),
+            (icon, measure::SMALL_ICON),
+            tokens.text,
+        );
         at.x += before;
     }
     draw::words(painter, at, Align2::LEFT_CENTER, (shown, type_face::body()), tokens.text);

@@ -79,7 +79,7 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     let usual = if region.is_some() { scene.strokes.layer.unwrap_or(0) } else { 0 };
     let most = f64::from(MAX_LAYER);
     let layer = Number {
-        range: -8.0..=8.0,
+        range: 0.0..=8.0,
         limits: Some(-most..=most),
         default: place.own[0].layer.map(|_| f64::from(usual)),
         ..Number::new("Layer", "Higher layers are painted over lower ones.")

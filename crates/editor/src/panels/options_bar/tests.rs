@@ -66,7 +66,8 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String
             let rect = Rect::from_min_size(pos2(0.0, 40.0), vec2(wide, measure::OPTIONS_BAR));
             within(ui, rect, row(), |ui| bar(ui, &shown, say));
         });
-        let nodes = output.platform_output.accesskit_update.take().map(|update| update.nodes).unwrap_or_default();
+        let nodes =
+            output.platform_output.accesskit_update.take().map(|update| update.nodes).unwrap_or_default();
         found = nodes.into_iter().filter_map(|(_, node)| named_box(&node)).collect();
         output.drop_without_applying_deltas();
     }
