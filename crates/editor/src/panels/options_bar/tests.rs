@@ -62,11 +62,12 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String
     let input = || egui::RawInput { screen_rect: Some(size), ..egui::RawInput::default() };
     let mut found = Vec::new();
     for _ in 0..2 {
-        let output = ctx.run_ui(input(), |ui| {
+        let mut output = ctx.run_ui(input(), |ui| {
             let rect = Rect::from_min_size(pos2(0.0, 40.0), vec2(wide, measure::OPTIONS_BAR));
-            ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| bar(ui, &shown, say));
+            within(ui, rect, row(), |ui| bar(ui, &shown, say));
         });
-        let nodes = output.platform_output.accesskit_update.map(|update| update.nodes).unwrap_or_default();
+        let nodes =
+            output.platform_output.accesskit_update.take().map(|update| update.nodes).unwrap_or_default();
         found = nodes.into_iter().filter_map(|(_, node)| named_box(&node)).collect();
         output.drop_without_applying_deltas();
     }
