@@ -1,9 +1,9 @@
 //! What the viewport says while the scene has nothing in it.
 
-use egui::{Align, Layout, RichText, UiBuilder, vec2};
+use egui::{Align, Layout, RichText, vec2};
 use impasto_editor_model::keymap::Action;
 
-use super::{Ask, Shown, text_width};
+use super::{Ask, Shown, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, type_face};
 use crate::widgets::Button;
@@ -23,12 +23,12 @@ pub fn empty(ui: &mut egui::Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let wide = wide.max(text_width(ui, words, type_face::title()));
     let rect = egui::Rect::from_center_size(ui.max_rect().center(), vec2(wide, 128.0));
     let tokens = Tokens::of(ui);
-    ui.scope_builder(UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Center)), |ui| {
+    within(ui, rect, Layout::top_down(Align::Center), |ui| {
         ui.label(RichText::new(icons::OBJECT.glyph()).font(type_face::icon(32.0)).color(tokens.weak));
         ui.add_space(8.0);
         ui.label(RichText::new(words).font(type_face::title()).color(tokens.text));
         ui.add_space(16.0);
-        ui.allocate_ui_with_layout(vec2(wide, 34.0), Layout::left_to_right(Align::Center), |ui| {
+        ui.horizontal(|ui| {
             for (index, (words, name, action)) in verbs.into_iter().enumerate() {
                 let button = Button::new(words).name(name).on_sheet();
                 let button = if index == 0 { button.primary() } else { button };

@@ -131,6 +131,8 @@ pub enum Ask {
     Open(PathBuf),
     /// Put these words on the clipboard.
     Copy(String),
+    /// Close the window; unsaved work is asked about first.
+    Quit,
     /// Show the first-run sheet.
     Welcome,
 }
@@ -143,6 +145,26 @@ fn file_name(path: &Path) -> String {
 /// How wide some text stands, points.
 fn text_width(ui: &egui::Ui, text: &str, font: egui::FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size().x
+}
+
+/// Puts something at a place of its own; what comes after it in `ui` stands where it would without it.
+fn within<R>(
+    ui: &mut egui::Ui,
+    rect: egui::Rect,
+    layout: egui::Layout,
+    show: impl FnOnce(&mut egui::Ui) -> R,
+) -> R {
+    show(&mut ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout)))
+}
+
+/// From left to right, in the middle of the height.
+fn row() -> egui::Layout {
+    egui::Layout::left_to_right(egui::Align::Center)
+}
+
+/// From right to left, in the middle of the height.
+fn row_from_right() -> egui::Layout {
+    egui::Layout::right_to_left(egui::Align::Center)
 }
 
 /// A short upright line between groups of a bar.

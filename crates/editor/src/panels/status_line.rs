@@ -1,8 +1,8 @@
 //! The lowest line: what the mouse would do now, and a few numbers.
 
-use egui::{Align, Layout, Panel, RichText, Role, UiBuilder, WidgetInfo, accesskit};
+use egui::{Panel, RichText, Role, WidgetInfo, accesskit};
 
-use super::{Ask, Numbers, Shown};
+use super::{Ask, Numbers, Shown, row, row_from_right, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets;
 
@@ -20,37 +20,32 @@ pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, _asks: &mut Vec<Ask>) {
         ui,
         |ui| {
             let mut free = ui.max_rect().shrink2(egui::vec2(10.0, 0.0));
-            let right = ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    ui.spacing_mut().item_spacing.x = 14.0;
-                    for words in numbers(&shown.numbers) {
-                        note(ui, &words);
-                    }
-                    ui.min_rect().left()
-                })
-                .inner
+            let right = within(ui, free, row_from_right(), |ui| {
+                ui.spacing_mut().item_spacing.x = 14.0;
+                for words in numbers(&shown.numbers) {
+                    note(ui, &words);
+                }
+                ui.min_rect().left()
             });
-            free.max.x = right.inner - 14.0;
+            free.max.x = right - 14.0;
             let whole = ui.interact(free, ui.scope_id().with("status"), egui::Sense::hover());
             whole.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Status"));
             ui.ctx().accesskit_node_builder(whole.id, |node| {
                 node.set_live(accesskit::Live::Polite);
                 node.set_value(shown.status);
             });
-            ui.scope_builder(UiBuilder::new().max_rect(free), |ui| {
+            within(ui, free, row(), |ui| {
                 ui.set_clip_rect(ui.clip_rect().intersect(free));
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-                    for part in parts(shown.status) {
-                        match part.key {
-                            Some(key) => widgets::key_hint(ui, key, part.words),
-                            None => {
-                                note(ui, part.words);
-                                ui.add_space(6.0);
-                            }
+                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+                for part in parts(shown.status) {
+                    match part.key {
+                        Some(key) => widgets::key_hint(ui, key, part.words),
+                        None => {
+                            note(ui, part.words);
+                            ui.add_space(6.0);
                         }
                     }
-                });
+                }
             });
         },
     );

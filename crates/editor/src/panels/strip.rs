@@ -1,14 +1,13 @@
 //! The timeline as one strip: transport, frame, ruler, range.
 
 use egui::{
-    Align, Align2, Layout, Panel, Pos2, Rect, Response, RichText, Role, Sense, Shape, Ui, UiBuilder,
-    WidgetInfo, accesskit, pos2, vec2,
+    Align2, Panel, Pos2, Rect, Response, RichText, Role, Sense, Shape, Ui, WidgetInfo, accesskit, pos2, vec2,
 };
 use impasto_editor_model::keymap::Action;
 use impasto_scene::document::{Scene, Timeline};
 use impasto_scene::motion;
 
-use super::{Ask, Shown};
+use super::{Ask, Shown, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, NumberField, Tip};
@@ -27,16 +26,15 @@ pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("strip").exact_size(measure::STRIP).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
-        let free = UiBuilder::new().max_rect(whole);
-        let left = ui.scope_builder(free.clone().layout(Layout::left_to_right(Align::Center)), |ui| {
+        let left = within(ui, whole, row(), |ui| {
             transport(ui, shown, asks);
             ui.min_rect().right()
         });
-        let right = ui.scope_builder(free.layout(Layout::right_to_left(Align::Center)), |ui| {
+        let right = within(ui, whole, row_from_right(), |ui| {
             range(ui, shown, asks);
             ui.min_rect().left()
         });
-        let across = left.inner + 22.0..=(right.inner - 66.0).max(left.inner + 23.0);
+        let across = left + 22.0..=(right - 66.0).max(left + 23.0);
         ruler(ui, Rect::from_x_y_ranges(across, whole.y_range()), (shown, asks));
     });
 }

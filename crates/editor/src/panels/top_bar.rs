@@ -1,10 +1,10 @@
 //! The bar along the top: menus, undo, the document's name, the mode, commands.
 
-use egui::{Align, Align2, Layout, Panel, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{Align2, Panel, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::Mode;
 
-use super::{Ask, Shown, divider, menus, text_width};
+use super::{Ask, Shown, divider, menus, row, row_from_right, text_width, within};
 use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, Tip};
@@ -22,15 +22,11 @@ pub fn top_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
         let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH) / 2.0);
-        let part = |ui: &mut Ui, (left, right): (f32, f32), rtl: bool, show: &mut dyn FnMut(&mut Ui)| {
-            let rect = egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
-            let layout =
-                if rtl { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };
-            ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| show(ui));
-        };
-        part(ui, (whole.left(), switch - 12.0), false, &mut |ui| left(ui, shown, asks));
-        part(ui, (switch, switch + SWITCH + 8.0), false, &mut |ui| modes(ui, shown, asks));
-        part(ui, (switch + SWITCH + 8.0, whole.right()), true, &mut |ui| right(ui, shown, asks));
+        let part = |left: f32, right: f32| egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
+        let end = switch + SWITCH + measure::GAP;
+        within(ui, part(whole.left(), switch - 12.0), row(), |ui| left(ui, shown, asks));
+        within(ui, part(switch, end), row(), |ui| modes(ui, shown, asks));
+        within(ui, part(end, whole.right()), row_from_right(), |ui| right(ui, shown, asks));
     });
 }
 
@@ -142,7 +138,7 @@ fn search_field(ui: &mut Ui, keys: &str) -> Response {
     let cap = text_width(ui, keys, egui::FontId::monospace(11.0)) + 10.0;
     let cap_rect =
         egui::Rect::from_center_size(rect.right_center() - vec2(cap / 2.0 + 6.0, 0.0), vec2(cap, 16.0));
-    ui.scope_builder(UiBuilder::new().max_rect(cap_rect), |ui| widgets::key_cap(ui, keys));
+    within(ui, cap_rect, row(), |ui| widgets::key_cap(ui, keys));
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);
         ui.painter().rect_stroke(rect.expand(1.0), measure::CORNER + 1.0, ring, egui::StrokeKind::Outside);

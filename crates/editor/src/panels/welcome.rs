@@ -1,10 +1,11 @@
 //! The sheet that a newcomer sees first.
 
-use egui::{Align, Align2, Layout, Rect, RichText, Sense, Ui, UiBuilder, vec2};
+use egui::{Align, Align2, Layout, Rect, RichText, Sense, Ui, vec2};
 use impasto_editor_model::keymap::{Action, Keymap, Preset};
 
+use super::{row, row_from_right, within};
 use crate::icons::{self, Icon};
-use crate::theme::{Theme, Tokens, type_face};
+use crate::theme::{Theme, Tokens, measure, type_face};
 use crate::widgets::{self, Button, sheet};
 
 /// What the sheet lets one choose; it shows at once.
@@ -34,6 +35,7 @@ pub enum Left {
 }
 
 const WIDTH: f32 = 720.0;
+const HEIGHT: f32 = 412.0;
 const CARD: f32 = 148.0;
 const SIZES: [(f32, &str, &str); 4] = [
     (0.9, "90 %", "Interface size 90 %"),
@@ -46,10 +48,11 @@ const SIZES: [(f32, &str, &str); 4] = [
 pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
     sheet(ctx, "Welcome", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
+        ui.set_min_height(HEIGHT - 2.0 * measure::SHEET_PADDING - 2.0);
         let close = head(ui);
-        ui.add_space(16.0);
+        ui.add_space(18.0);
         cards(ui, &Keymap { preset: choices.keys, ..Keymap::default() });
-        ui.add_space(15.0);
+        ui.add_space(14.0);
         habits(ui, choices);
         ui.add_space(22.0);
         let line = ui.available_rect_before_wrap();
@@ -65,10 +68,11 @@ fn head(ui: &mut Ui) -> bool {
     let tokens = Tokens::of(ui);
     let top = ui.max_rect();
     ui.label(RichText::new("Paint a scene in three steps").font(type_face::sheet_title()).color(tokens.text));
+    ui.add_space(4.0);
     let words = "Strokes sit on the model, stay flat on the picture, and turn with what they lie on.";
     ui.label(RichText::new(words).font(type_face::body()).color(tokens.weak));
     let corner = Rect::from_min_size(top.right_top() + vec2(-24.0, 0.0), vec2(28.0, 28.0));
-    ui.put(corner, |ui: &mut Ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
+    within(ui, corner, row(), |ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
 }
 
 fn cards(ui: &mut Ui, keymap: &Keymap) {
@@ -112,7 +116,7 @@ fn cards(ui: &mut Ui, keymap: &Keymap) {
         let end = egui::pos2(card.right() - 28.0, middle.y);
         painter.text(end, Align2::CENTER_CENTER, glyph.0, glyph.1, tokens.accent_text);
         let inside = Rect::from_min_max(card.min + vec2(16.0, 52.0), card.max - vec2(14.0, 12.0));
-        ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| {
+        within(ui, inside, Layout::top_down(Align::Min), |ui| {
             let words = RichText::new(words).font(type_face::body()).line_height(Some(18.0));
             ui.label(words.color(tokens.weak));
             ui.add_space(8.0);
@@ -131,12 +135,11 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
     let tokens = Tokens::of(ui);
     let row = |ui: &mut Ui, label: &str, contents: &mut dyn FnMut(&mut Ui)| {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 26.0), Sense::hover());
-        let layout = Layout::left_to_right(Align::Center);
-        ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
+        within(ui, rect, row(), |ui| {
             ui.label(RichText::new(label).font(type_face::body()).color(tokens.weak));
         });
         let rect = rect.with_min_x(rect.left() + 164.0);
-        ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
+        within(ui, rect, row(), |ui| {
             ui.spacing_mut().item_spacing.x = 24.0;
             contents(ui);
         });
@@ -162,7 +165,7 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
                 choices.theme = theme;
             }
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.with_layout(row_from_right(), |ui| {
             let names = SIZES.map(|(_, words, name)| (words, name));
             let mut size = SIZES.iter().position(|(scale, ..)| *scale == choices.scale).unwrap_or(usize::MAX);
             if widgets::segmented_named(ui, &names, &mut size).changed() {
@@ -186,7 +189,7 @@ fn verbs(ui: &mut Ui, choices: &mut Choices) -> Option<Left> {
                 left = Some(leaves);
             }
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.with_layout(row_from_right(), |ui| {
             let mut never = !choices.at_start;
             widgets::checkbox(ui, "Don't show this at start", &mut never);
             choices.at_start = !never;

@@ -5,14 +5,14 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
-use egui::{Align, Layout, Panel, Popup, PopupCloseBehavior, RichText, Ui, UiBuilder, vec2};
+use egui::{Panel, Popup, PopupCloseBehavior, RichText, Ui, vec2};
 use impasto_editor_model::Item;
 use impasto_editor_model::session::{Mode, Tool, ToolOptions};
 
 use self::settings::{Control, Place, Setting};
 use super::tool_names::face;
 use super::top_bar::WIDE;
-use super::{Ask, Shown, divider, text_width};
+use super::{Ask, Shown, divider, row, row_from_right, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
@@ -42,9 +42,9 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
     let all = settings::of(tool, &options);
     let wide = ui.ctx().content_rect().width() >= WIDE;
     let whole = ui.max_rect();
-    ui.scope_builder(UiBuilder::new().max_rect(whole).layout(Layout::left_to_right(Align::Center)), |ui| {
+    within(ui, whole, row(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
-        ui.add_space(6.0);
+        ui.add_space(14.0);
         head(ui, tool, say);
         let mut right = whole.right() - MORE;
         let mut behind = Vec::new();
@@ -57,24 +57,18 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
                 Place::WideRight if fits && wide => {
                     right -= width + measure::GAP;
                     let rect = egui::Rect::from_x_y_ranges(right..=right + width, whole.y_range());
-                    let layout = Layout::left_to_right(Align::Center);
-                    ui.scope_builder(UiBuilder::new().max_rect(rect).layout(layout), |ui| {
-                        control(ui, setting, (&mut options, say));
-                    });
+                    within(ui, rect, row(), |ui| control(ui, setting, (&mut options, say)));
                 }
                 _ => behind.push(index),
             }
         }
         hint(ui, (shown, tool), right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
-        ui.scope_builder(
-            UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)),
-            |ui| {
-                ui.add_space(measure::GAP - 4.0);
-                let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
-                more(ui, &behind, (&mut options, say));
-            },
-        );
+        within(ui, rect, row_from_right(), |ui| {
+            ui.add_space(measure::GAP - 4.0);
+            let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
+            more(ui, &behind, (&mut options, say));
+        });
     });
     (options != shown.session.options).then_some(options)
 }
