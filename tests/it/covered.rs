@@ -112,13 +112,16 @@ fn a_flood_stops_at_the_edges_of_a_cube() {
 fn three_things(edit: impl FnOnce(&mut Scene)) -> std::sync::Arc<LoadedScene> {
     let names = ["front", "back", "wall"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 3000)).into());
-    for (object, at) in scene.objects.iter_mut().zip([[0.3, 0.0, 0.6], [-0.3, 0.0, -0.4], [0.0, 0.0, -1.5]]) {
-        object.keys = vec![ObjectKey { translation: at, scale: 0.6, ..ObjectKey::at(0.0) }];
+    let places = [([0.3, 0.0, 0.6], 0.6), ([-0.3, 0.0, -0.4], 0.6), ([0.0, 0.0, -1.5], 2.0)];
+    for (object, (translation, scale)) in scene.objects.iter_mut().zip(places) {
+        object.keys = vec![ObjectKey { translation, scale, ..ObjectKey::at(0.0) }];
     }
     scene.regions = names.map(|name| Region::new(name, Selector::Object(name.to_owned()))).into();
     edit(&mut scene);
     shapes::loaded(scene, [shapes::sphere(32, 16), shapes::sphere(32, 16), shapes::sheet(8)])
 }
+
+type Edit<'a> = &'a dyn Fn(&mut Scene);
 
 fn strokes_by_source(frame: &Frame) -> BTreeMap<(u32, u32, u32), Stroke> {
     let mut found = BTreeMap::new();
@@ -136,7 +139,7 @@ fn what_is_hidden_is_left_out_and_no_bit_of_the_rest_changes() {
     let shown =
         |edit: &dyn Fn(&mut Scene)| prepare(three_things(edit)).unwrap().at(0.0, &FrameOptions::new(SIZE_PX));
     let all = strokes_by_source(&shown(&|_| {}));
-    let cases: [(&str, &dyn Fn(&mut Scene)); 3] = [
+    let cases: [(&str, Edit<'_>); 3] = [
         ("object", &|scene| scene.objects[0].hidden = true),
         ("region", &|scene| scene.regions[0].hidden = true),
         ("both, and locks", &|scene| {
@@ -161,6 +164,7 @@ fn a_hidden_body_is_not_drawn_and_casts_no_shadow() {
     let mut picture = |edit: &dyn Fn(&mut Scene)| {
         let painting = prepare(three_things(|scene| {
             scene.lights = impasto_scene::new_scene::empty().lights;
+            scene.lights[0].direction = Some([0.5, -0.2, -1.0]);
             scene.style = Style::Reference;
             edit(scene);
         }));

@@ -91,7 +91,7 @@ const CASES: [(&str, &str, &str, bool); 24] = [
     (
         "turn of a point that is endless",
         r#"regions: [(name: "r", on: Object("a"), guides: [(points: [(at: (0, 0.5, 1), normal: (0, 0, 1)), (at: (0.5, 0.5, 1), normal: (0, 0, 1), turn_deg: inf)], radius: 0.2)])]"#,
-        "scene.ron:2:148: error: inf is out of range",
+        "scene.ron:2:146: error: inf is out of range",
         false,
     ),
     (
@@ -121,7 +121,7 @@ const CASES: [(&str, &str, &str, bool); 24] = [
     (
         "several within several",
         r#"regions: [(name: "r", on: Several("a", [Several("a", [Whole])]))]"#,
-        "error: `regions[0].on[1][0]` cannot be `Several`; known here: Whole, Group, Material, Dabs, Flood",
+        "cannot be `Several`; did you mean `Material`? Known here: Whole, Group, Material, Dabs, Flood",
         false,
     ),
     (

@@ -212,7 +212,7 @@ impl SurfacePath {
             let mut points: Vec<GuidePoint> = (0..kept.len())
                 .map(|index| GuidePoint {
                     turn_deg: turn_deg(&kept[index], line_rad(&kept, index)),
-                    ..kept[index].to_guide()
+                    ..kept[index].guide_point()
                 })
                 .collect();
             if style.sense == PathSense::Against {
@@ -314,7 +314,7 @@ impl PathPoint {
         }
     }
 
-    pub(crate) fn to_guide(&self) -> GuidePoint {
+    pub(crate) fn guide_point(self) -> GuidePoint {
         GuidePoint { at: self.position.to_array(), normal: self.normal.to_array(), turn_deg: 0.0 }
     }
 }

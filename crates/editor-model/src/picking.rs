@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
+use impasto_core::sampling::Particle;
 use impasto_painting::frame::BodySurface;
 
 mod surface;
@@ -43,6 +44,8 @@ pub struct Hit {
     pub distance: f64,
     /// Whether the painted side was met: false inside a closed surface.
     pub front: bool,
+    /// Whether that side is the triangle's back: it winds the other way.
+    pub flipped: bool,
 }
 
 impl Picker {
@@ -165,6 +168,18 @@ impl Hit {
             position_in_world: at,
             distance,
             front,
+            flipped: point.flipped,
+        }
+    }
+
+    /// The place as a painting knows it.
+    pub fn particle(&self) -> Particle {
+        Particle {
+            triangle: self.triangle,
+            barycentric: [self.barycentric[1] as f32, self.barycentric[2] as f32],
+            flipped: self.flipped,
+            position: self.position_in_model.as_vec3(),
+            normal: self.normal_in_model.as_vec3(),
         }
     }
 

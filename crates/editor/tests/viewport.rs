@@ -65,7 +65,7 @@ impl Page {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui) {
-        let area = ui.max_rect();
+        let area = ui.ctx().content_rect();
         let camera = camera();
         let layout =
             if self.compare { Layout::compare(area, SCENE, 1.0) } else { Layout::single(area, SCENE, 1.0) };
@@ -234,7 +234,8 @@ fn the_viewport_says_what_it_shows() {
         harness.get_by_role_and_label(Role::Button, name);
     }
     harness.get_by_role_and_label(Role::Canvas, "Axis ball");
-    harness.get_by_label("Reference");
+    let badge = harness.get_by_label("Reference").accesskit_node().value();
+    assert_eq!(badge.as_deref(), Some("Frame 37, turned from reference 0"));
 }
 
 /// Marks on a slope, with no picture under them.

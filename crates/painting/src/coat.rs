@@ -249,7 +249,8 @@ impl KeptObject {
             orthographic: context.orthographic,
         };
         if self.field.as_ref().is_none_or(|(before, _)| **before != inputs) {
-            let field = inputs.solve().map(Arc::new);
+            let before = self.field.take().and_then(|(_, field)| field);
+            let field = inputs.solve(before.as_deref()).map(Arc::new);
             self.field = Some((Arc::new(inputs), field));
         }
         for coat in &mut self.coats {

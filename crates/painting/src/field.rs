@@ -1,7 +1,7 @@
 //! The direction field of one body: what regions state and guides comb, joined over few samples and carried to every
 //! particle.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DMat4, DVec2, DVec3, Vec3};
 use impasto_core::ScreenMap;
@@ -68,12 +68,20 @@ pub(crate) struct FieldInputs {
 pub(crate) struct BodyField {
     inputs: FieldInputs,
     symmetry: Symmetry,
-    points: Vec<SamplePoint>,
+    ground: Arc<FieldGround>,
     solved: Vec<DVec2>,
     /// The same after the guides that smooth; none where there is none.
     relaxed: Option<Vec<DVec2>>,
     anchors: Vec<f64>,
-    pub(crate) singularities: Vec<Singularity>,
+    /// Found when they are first asked for.
+    singularities: OnceLock<Vec<Singularity>>,
+}
+
+/// What of a field does not depend on guides.
+struct FieldGround {
+    points: Vec<SamplePoint>,
+    /// Made where a field is needed.
+    graph: OnceLock<FieldGraph>,
 }
 
 #[derive(Clone, Copy)]
@@ -155,20 +163,17 @@ impl FieldInputs {
             })
     }
 
-    /// The field, or none where every direction is stated outright.
-    pub(crate) fn solve(&self) -> Option<BodyField> {
-        let samples = &self.samples;
-        let stated = Stated {
-            rules: &self.rules,
-            automatic: self.parts.directions(self.references.own()),
-            extent: self.extent,
+    /// The field, or none where every direction is stated outright. What does not depend on guides comes from the field `before`,
+    /// if all else is the same.
+    pub(crate) fn solve(&self, before: Option<&BodyField>) -> Option<BodyField> {
+        let same = |before: &&BodyField| {
+            Self { guides: Arc::clone(&before.inputs.guides), ..self.clone() } == before.inputs
         };
-        let points: Vec<SamplePoint> = samples
-            .particles
-            .par_iter()
-            .with_min_len(256)
-            .map(|sample| self.point(sample, &stated))
-            .collect();
+        let ground = before.filter(same).map_or_else(
+            || Arc::new(FieldGround { points: self.points(), graph: OnceLock::new() }),
+            |before| Arc::clone(&before.ground),
+        );
+        let points = &ground.points;
         let combs = |guide: &&BodyGuide| guide.mode == GuideMode::Comb;
         let guided =
             |rule: usize| self.guides.iter().filter(combs).any(|guide| usize::from(guide.rule) == rule);
@@ -184,23 +189,31 @@ impl FieldInputs {
         if !soft && !self.smooths() && points.iter().all(settled) {
             return None;
         }
-        let graph = self.graph(&points);
-        let anchors = self.anchors(&points, &free);
+        let graph = ground.graph.get_or_init(|| self.graph(points));
+        let anchors = self.anchors(points, &free);
         let constraints: Vec<Constraint> = (0..points.len())
             .into_par_iter()
             .with_min_len(256)
             .map(|sample| self.constraint(&points[sample], anchors[sample], &free))
             .collect();
-        let constraints = self.with_curvature(&graph, &points, constraints);
+        let constraints = self.with_curvature(graph, points, constraints);
         // A body has one symmetry: arrows only where all of it has.
-        let symmetry = self.symmetry(&points);
+        let symmetry = self.symmetry(points);
         let solved = graph.solve(symmetry, &constraints);
         let relaxed =
-            self.smooths().then(|| graph.relaxed(symmetry, &solved, &self.holds(&points, &solved, symmetry)));
-        let places = (&samples.positions[..], &samples.normals[..]);
-        let shown = relaxed.as_deref().unwrap_or(&solved);
-        let singularities = singularities::find(&graph, places, shown, symmetry);
-        Some(BodyField { inputs: self.clone(), symmetry, points, solved, relaxed, anchors, singularities })
+            self.smooths().then(|| graph.relaxed(symmetry, &solved, &self.holds(points, &solved, symmetry)));
+        let singularities = OnceLock::new();
+        Some(BodyField { inputs: self.clone(), symmetry, ground, solved, relaxed, anchors, singularities })
+    }
+
+    fn points(&self) -> Vec<SamplePoint> {
+        let stated = Stated {
+            rules: &self.rules,
+            automatic: self.parts.directions(self.references.own()),
+            extent: self.extent,
+        };
+        let samples = self.samples.particles.par_iter().with_min_len(256);
+        samples.map(|sample| self.point(sample, &stated)).collect()
     }
 
     fn symmetry(&self, points: &[SamplePoint]) -> Symmetry {
@@ -423,6 +436,17 @@ impl FieldInputs {
 }
 
 impl BodyField {
+    /// The points where strokes have no direction.
+    pub(crate) fn singularities(&self) -> &[Singularity] {
+        let FieldSamples { positions, normals, .. } = &*self.inputs.samples;
+        let shown = self.relaxed.as_deref().unwrap_or(&self.solved);
+        self.singularities.get_or_init(|| {
+            self.ground.graph.get().map_or_else(Vec::new, |graph| {
+                singularities::find(graph, (positions, normals), shown, self.symmetry)
+            })
+        })
+    }
+
     /// The direction of a particle with its stated one: the field's, where what is stated does not hold.
     pub(crate) fn direction(
         &self,
@@ -466,7 +490,7 @@ impl BodyField {
     ) -> Option<(DVec2, f64)> {
         let inputs = &self.inputs;
         let sample = |index: usize| {
-            let sample = &self.points[index];
+            let sample = &self.ground.points[index];
             inputs.joined(sample.point, point).then(|| Carried {
                 position: inputs.samples.positions[index],
                 normal: sample.point.normal,

@@ -316,7 +316,7 @@ impl Painting {
 
     /// The points of one object where strokes have no direction, as far as its directions were combed.
     pub fn singularities(&self, object: usize) -> &[Singularity] {
-        self.bodies[object].field.as_ref().map_or(&[], |field| &field.singularities)
+        self.bodies[object].field.as_ref().map_or(&[], |field| field.singularities())
     }
 
     /// For each particle of an object's body layer, whether the direction that is stated there has a singular point near by:

@@ -99,7 +99,7 @@ impl AssetError {
             severity,
             path: path.to_owned(),
             place,
-            field_path: String::new(),
+            field_path: Box::default(),
             message: self.to_string(),
             mend: self.mend().to_owned(),
         }

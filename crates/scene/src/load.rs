@@ -160,8 +160,14 @@ struct Told<'a> {
 impl Told<'_> {
     fn problem(&self, finding: Finding) -> Problem {
         let Finding { severity, field_path, message, mend } = finding;
-        let problem =
-            Problem { severity, path: PathBuf::new(), place: None, field_path: String::new(), message, mend };
+        let problem = Problem {
+            severity,
+            path: PathBuf::new(),
+            place: None,
+            field_path: Box::default(),
+            message,
+            mend,
+        };
         self.at_field(problem, &field_path)
     }
 
@@ -170,7 +176,7 @@ impl Told<'_> {
     }
 
     fn at_field(&self, problem: Problem, field_path: &str) -> Problem {
-        let problem = Problem { field_path: field_path.to_owned(), ..problem };
+        let problem = Problem { field_path: field_path.into(), ..problem };
         if let Some(scene) = self.edited {
             let message = match field_path {
                 "" => problem.message,

@@ -13,7 +13,7 @@ pub struct Problem {
     /// Line (from 1) and column (from 1, in characters), where the place is known.
     pub place: Option<Place>,
     /// The field of the scene that it is about, as in `objects[2].keys[1].frame`; empty where it is about none.
-    pub field_path: String,
+    pub field_path: Box<str>,
     /// What is wrong, as one sentence without a full stop.
     pub message: String,
     /// What to do about it, as one sentence without a full stop.

@@ -42,7 +42,7 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
         severity,
         path: path.to_owned(),
         place: None,
-        field_path: String::new(),
+        field_path: Box::default(),
         message,
         mend: mend.to_owned(),
     };
@@ -142,7 +142,7 @@ fn over_limit(path: &Path, size_px: Option<[u32; 2]>) -> Problem {
         severity: Severity::Limit,
         path: path.to_owned(),
         place: None,
-        field_path: String::new(),
+        field_path: Box::default(),
         message: format!("the picture claims {claim} pixels; the limit is {MAX_PIXELS} pixels (8192 x 8192)"),
         mend: "scale the picture down".to_owned(),
     }

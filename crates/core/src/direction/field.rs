@@ -5,6 +5,8 @@
 //! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`, ρ the transport of j's axes to i's, raised to the field's power; then
 //! every `u` is made a unit number again and the sum is lowered with that kept.
 
+use std::sync::OnceLock;
+
 use glam::{DVec2, Vec3};
 use rayon::prelude::*;
 
@@ -30,6 +32,10 @@ pub struct FieldGraph {
     /// First edge of each sample, and the end.
     starts: Vec<u32>,
     edges: Vec<Edge>,
+    /// Sum of the weights of each sample's edges.
+    weights: Vec<f64>,
+    /// ρ of every edge, for arrows and for lines; found when they are first asked for.
+    turns: [OnceLock<Vec<DVec2>>; 2],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +88,7 @@ impl FieldGraph {
                     .collect()
             })
             .collect();
+        let weights = lists.iter().map(|list| list.iter().map(|edge| edge.weight).sum()).collect();
         let mut starts = Vec::with_capacity(lists.len() + 1);
         starts.push(0);
         let mut edges = Vec::with_capacity(lists.iter().map(Vec::len).sum());
@@ -89,7 +96,13 @@ impl FieldGraph {
             edges.extend(list);
             starts.push(edges.len() as u32);
         }
-        Self { starts, edges }
+        Self { starts, edges, weights, turns: Default::default() }
+    }
+
+    /// ρ of every edge.
+    fn turns(&self, symmetry: Symmetry) -> &[DVec2] {
+        let turn = |edge: &Edge| symmetry.turn(edge.transport_rad);
+        self.turns[symmetry as usize].get_or_init(|| self.edges.par_iter().map(turn).collect())
     }
 
     /// How many samples.
@@ -119,8 +132,7 @@ impl FieldGraph {
     /// The unit numbers that fit the constraints best; a sample that nothing reaches keeps its target. Depends on the inputs
     /// alone, to the bit.
     pub fn solve(&self, symmetry: Symmetry, constraints: &[Constraint]) -> Vec<DVec2> {
-        let turns: Vec<DVec2> = self.edges.iter().map(|edge| symmetry.turn(edge.transport_rad)).collect();
-        let system = System { graph: self, turns: &turns, constraints };
+        let system = System { graph: self, turns: self.turns(symmetry), constraints };
         let mut u = system.conjugate_gradients();
         for _ in 0..UNIT_ROUNDS {
             u = system.unit_round(&u);
@@ -139,13 +151,13 @@ struct System<'a> {
 impl System<'_> {
     /// Σ w ρ u over the neighbours, and Σ w.
     fn gathered(&self, u: &[DVec2], sample: usize) -> (DVec2, f64) {
-        let first = self.graph.starts[sample] as usize;
-        let (mut sum, mut weights) = (DVec2::ZERO, 0.0);
-        for (offset, edge) in self.graph.edges_of(sample).iter().enumerate() {
-            sum += self.turns[first + offset].rotate(u[edge.to as usize]) * edge.weight;
-            weights += edge.weight;
+        let edges = self.graph.edges_of(sample);
+        let turns = &self.turns[self.graph.starts[sample] as usize..][..edges.len()];
+        let mut sum = DVec2::ZERO;
+        for (edge, turn) in edges.iter().zip(turns) {
+            sum += turn.rotate(u[edge.to as usize]) * edge.weight;
         }
-        (sum, weights)
+        (sum, self.graph.weights[sample])
     }
 
     fn map(&self, value: impl Fn(usize) -> DVec2 + Send + Sync) -> Vec<DVec2> {
@@ -163,12 +175,8 @@ impl System<'_> {
     /// Preconditioned by the diagonal. Sums run in order, so that threads do not change a bit.
     fn conjugate_gradients(&self) -> Vec<DVec2> {
         let count = self.graph.len();
-        let diagonal: Vec<f64> = (0..count)
-            .map(|sample| {
-                let weights: f64 = self.graph.edges_of(sample).iter().map(|edge| edge.weight).sum();
-                weights + self.constraints[sample].weight
-            })
-            .collect();
+        let diagonal: Vec<f64> =
+            (0..count).map(|sample| self.graph.weights[sample] + self.constraints[sample].weight).collect();
         let dot = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>();
         let mut u: Vec<DVec2> = self.constraints.iter().map(|constraint| constraint.target).collect();
         let applied = self.apply(&u);

@@ -213,7 +213,7 @@ impl Editor {
         }
     }
 
-    fn hover_again(&mut self, view: &View) {
+    pub(super) fn hover_again(&mut self, view: &View) {
         if let Some(at_px) = self.pointer_px {
             self.tool(ToolEvent::Hover { at_px, at_secs: self.at_secs }, view);
         } else {

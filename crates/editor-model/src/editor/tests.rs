@@ -1,1 +1,184 @@
+use std::path::Path;
 
+use glam::DVec2;
+use impasto_painting::prepare;
+use impasto_scene::load::LoadOptions;
+
+use super::*;
+use crate::command::{Edit, Regions};
+use crate::keymap::{Action, Button};
+use crate::session::Axes;
+
+const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);
+
+/// An editor with the paper's apple, prepared.
+fn with_apple() -> Editor {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
+    let document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
+    let mut editor = Editor::new(document);
+    prepared(&mut editor);
+    editor
+}
+
+fn prepared(editor: &mut Editor) {
+    let painting = prepare(Arc::clone(editor.shown().0)).expect("it prepares");
+    editor.prepared(painting);
+}
+
+fn view(editor: &Editor) -> View {
+    View { camera: editor.camera(), size_px: SIZE_PX }
+}
+
+fn event(editor: &mut Editor, kind: PointerKind, at_px: DVec2, held: Modifiers) {
+    let view = view(editor);
+    let at_secs = editor.at_secs + 0.01;
+    editor.pointer(&PointerEvent { kind, at_px, held, at_secs }, &view);
+}
+
+fn drag(editor: &mut Editor, button: Button, path: [DVec2; 2], held: Modifiers) {
+    event(editor, PointerKind::Move, path[0], held);
+    event(editor, PointerKind::Press(button), path[0], held);
+    for step in 1..=20 {
+        event(editor, PointerKind::Move, path[0].lerp(path[1], f64::from(step) / 20.0), held);
+    }
+    event(editor, PointerKind::Release(button), path[1], held);
+}
+
+fn act(editor: &mut Editor, action: Action) {
+    let view = view(editor);
+    editor.act(action, &view);
+}
+
+fn key(editor: &mut Editor, key: Key) {
+    let view = view(editor);
+    assert!(editor.key(key, Modifiers::default(), (false, &view)), "{key:?} means nothing here");
+}
+
+/// Where the object that is seen largest shows.
+fn middle_of_the_apple(editor: &Editor) -> DVec2 {
+    let scene = editor.document().scene();
+    let apple = scene.objects.iter().position(|object| object.name.contains("apple")).expect("there is an apple");
+    let [low, high] = editor.picker().bounds_in_world([apple], &editor.poses()).expect("it has a surface");
+    view(editor).project((low + high) * 0.5).expect("it is in the picture")
+}
+
+const HERE: Modifiers = Modifiers { ctrl: false, shift: false, alt: false };
+
+#[test]
+fn one_drag_is_one_entry_and_shows_before_it_is_kept() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Paint);
+    let at = middle_of_the_apple(&editor);
+    let first = editor.document().scene().clone();
+    event(&mut editor, PointerKind::Move, at, HERE);
+    assert!(!editor.tool_output().rings.is_empty(), "no ring");
+    event(&mut editor, PointerKind::Press(Button::Left), at, HERE);
+    for step in 1..=20 {
+        event(&mut editor, PointerKind::Move, at + DVec2::new(4.0 * f64::from(step), -2.0), HERE);
+    }
+    assert!(editor.is_moving());
+    assert_ne!(editor.shown().0.scene, first, "nothing shows while the hand moves");
+    assert_eq!(*editor.document().scene(), first, "kept before the release");
+    event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(80.0, -2.0), HERE);
+    assert_eq!(editor.document().undo_count(), 1);
+    let combed = editor.document().undo_text().expect("an entry").to_owned();
+    assert!(combed.starts_with("Comb "), "{combed}");
+    let guides: usize = editor.document().scene().regions.iter().map(|region| region.guides.len()).sum();
+    assert_eq!(guides, first.regions.iter().map(|region| region.guides.len()).sum::<usize>() + 1);
+    assert!(matches!(editor.document().selection().active(), Some(Item::Region(_))));
+    act(&mut editor, Action::Undo);
+    assert_eq!(*editor.document().scene(), first);
+}
+
+#[test]
+fn escape_and_a_lost_focus_leave_no_trace() {
+    for by_escape in [true, false] {
+        let mut editor = with_apple();
+        act(&mut editor, Action::Paint);
+        let at = middle_of_the_apple(&editor);
+        let first = editor.document().scene().clone();
+        event(&mut editor, PointerKind::Move, at, HERE);
+        event(&mut editor, PointerKind::Press(Button::Left), at, HERE);
+        event(&mut editor, PointerKind::Move, at + DVec2::new(60.0, 10.0), HERE);
+        if by_escape {
+            key(&mut editor, Key::Escape);
+        } else {
+            let view = view(&editor);
+            editor.focus_lost(&view);
+        }
+        assert_eq!(editor.shown().0.scene, first);
+        event(&mut editor, PointerKind::Release(Button::Left), at + DVec2::new(60.0, 10.0), HERE);
+        assert_eq!(*editor.document().scene(), first);
+        assert_eq!(editor.document().undo_count(), 0);
+        assert!(!editor.is_moving());
+    }
+}
+
+#[test]
+fn what_is_locked_is_not_painted_and_says_so() {
+    let mut editor = with_apple();
+    let names: Vec<Item> =
+        editor.document().scene().objects.iter().map(|object| Item::Object(object.name.clone())).collect();
+    assert!(editor.run(&Command::Edit(Edit::SetLocked(names, true))));
+    prepared(&mut editor);
+    act(&mut editor, Action::Paint);
+    let at = middle_of_the_apple(&editor);
+    let count = editor.document().undo_count();
+    drag(&mut editor, Button::Left, [at, at + DVec2::new(60.0, 0.0)], HERE);
+    assert_eq!(editor.document().undo_count(), count);
+    let said = editor.take_said();
+    assert!(said.iter().any(|said| said.words.contains("is locked") && said.is_refusal), "{said:?}");
+}
+
+#[test]
+fn typed_numbers_move_the_whole_motion() {
+    let mut editor = with_apple();
+    let name = editor.document().scene().objects[0].name.clone();
+    editor.select(Selection::only(Item::Object(name)));
+    editor.session.options.axes = Axes::World;
+    let before = editor.poses()[0].translation;
+    let at = middle_of_the_apple(&editor);
+    event(&mut editor, PointerKind::Move, at, HERE);
+    for pressed in [Key::Letter('G'), Key::Letter('X'), Key::NumPadPoint, Key::Digit(5), Key::Enter] {
+        key(&mut editor, pressed);
+    }
+    let moved = editor.poses()[0].translation - before;
+    assert!(moved.abs_diff_eq(DVec3::new(0.5, 0.0, 0.0), 1e-9), "{moved}");
+    assert_eq!(editor.document().undo_count(), 1);
+    for pressed in [Key::Letter('R'), Key::Letter('Z'), Key::Sign('-'), Key::Digit(3), Key::Digit(0), Key::Escape] {
+        key(&mut editor, pressed);
+    }
+    assert_eq!(editor.document().undo_count(), 1);
+}
+
+#[test]
+fn the_middle_button_leaves_the_shot_and_zero_comes_back() {
+    let mut editor = with_apple();
+    let shot = editor.camera();
+    let at = middle_of_the_apple(&editor);
+    drag(&mut editor, Button::Middle, [at, at + DVec2::new(80.0, 30.0)], HERE);
+    assert_ne!(editor.camera(), shot);
+    assert_eq!(editor.document().undo_count(), 0, "a free view is no entry");
+    act(&mut editor, Action::LookThrough);
+    assert_eq!(editor.camera(), shot);
+}
+
+#[test]
+fn painting_begins_at_the_reference_and_leaves_the_frame_as_it_was() {
+    let mut editor = with_apple();
+    editor.session.frame = 3.0;
+    act(&mut editor, Action::TogglePaint);
+    assert_eq!((editor.session.mode, editor.session.frame), (Mode::Paint, 0.0));
+    act(&mut editor, Action::TogglePaint);
+    assert_eq!((editor.session.mode, editor.session.frame), (Mode::Arrange, 3.0));
+}
+
+#[test]
+fn a_refused_command_says_why_once() {
+    let mut editor = with_apple();
+    let command = Command::Regions(Regions::SetColor("nobody".to_owned(), Default::default()));
+    assert!(!editor.run(&command) && !editor.run(&command));
+    let said = editor.take_said();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(said[0].words.contains("nobody"));
+}

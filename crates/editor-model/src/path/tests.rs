@@ -31,6 +31,7 @@ fn hit(object: usize, position: DVec3, normal: DVec3) -> Hit {
         position_in_world: position,
         distance: 1.0,
         front: true,
+        flipped: false,
     }
 }
 
@@ -313,6 +314,7 @@ fn mirror_images_lie_on_the_surface_and_are_seen_from_the_other_side() {
             position: found,
             normal: found,
             face_normal: found,
+            flipped: false,
         })
     };
     let [image] = mirrored(guide, flip, &side, &own_view(), &mut ball).try_into().expect("one piece");

@@ -1,6 +1,6 @@
 //! One object's surface as rays find it: a tree of boxes over its triangles, in the object's own space.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use glam::{DVec3, Vec3, Vec3A};
@@ -27,6 +27,8 @@ pub struct SurfacePoint {
     pub normal: DVec3,
     /// Normal of the flat triangle, unit, of the same side.
     pub face_normal: DVec3,
+    /// Whether that side is the triangle's back: it winds the other way.
+    pub flipped: bool,
 }
 
 /// A surface with its tree.
@@ -35,7 +37,8 @@ pub(super) struct SurfaceTree {
     /// How far the surface has turned into its morph, 0..=1.
     morph: f64,
     positions: Vec<Vec3>,
-    sides: Vec<Side>,
+    /// Found when a back is first met: it takes as long as the tree.
+    sides: OnceLock<Vec<Side>>,
     tree: Bvh2,
     /// Least and greatest corner.
     bounds: Option<[DVec3; 2]>,
@@ -76,8 +79,7 @@ impl SurfaceTree {
         } else {
             build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut Duration::default())
         };
-        let sides = shells::sides(mesh);
-        Self { surface, morph, positions, sides, tree, bounds }
+        Self { surface, morph, positions, sides: OnceLock::new(), tree, bounds }
     }
 
     /// Whether it was built for this very surface at this share of its morph.
@@ -193,11 +195,12 @@ impl SurfaceTree {
     ) -> (SurfacePoint, bool) {
         let corners = self.corners(triangle);
         let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
-        let sign = match self.sides[triangle as usize] {
-            Side::Front => 1.0,
-            Side::Back => -1.0,
-            Side::Both if looked_at(winding) => 1.0,
-            Side::Both => -1.0,
+        // A front that is looked at is painted, but for the inside of what is inside out: an eye is hardly ever there.
+        let sign = if looked_at(winding) {
+            1.0
+        } else {
+            let sides = self.sides.get_or_init(|| shells::sides(self.mesh()));
+            if sides[triangle as usize] == Side::Front { 1.0 } else { -1.0 }
         };
         let face_normal = winding * sign;
         let normals = self.mesh().triangles[triangle as usize]
@@ -207,7 +210,7 @@ impl SurfaceTree {
         let normal = if smooth.dot(face_normal) < 0.0 { -smooth } else { smooth };
         let position = blend(corners, barycentric);
         let front = looked_at(face_normal);
-        (SurfacePoint { triangle, barycentric, position, normal, face_normal }, front)
+        (SurfacePoint { triangle, barycentric, position, normal, face_normal, flipped: sign < 0.0 }, front)
     }
 }
 

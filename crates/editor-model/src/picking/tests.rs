@@ -173,15 +173,21 @@ fn the_painted_side_is_the_outside_of_what_is_closed_and_either_side_of_a_sheet(
         let ray = Ray { origin: from, direction: (DVec3::new(0.01, -0.02, -0.1) - from).normalize() };
         picker.pick(&ray, &[DAffine3::IDENTITY], |_| true).unwrap()
     };
-    for mesh in [ball(16, 8), inside_out] {
+    assert!(pick(inside_out.clone(), DVec3::new(0.0, 0.0, 3.0)).flipped);
+    for (mesh, winds_inwards) in [(ball(16, 8), false), (inside_out, true)] {
         let outside = pick(mesh.clone(), DVec3::new(0.0, 0.0, 3.0));
         assert!(outside.front && outside.normal_in_model.z > 0.9 && outside.face_normal_in_model.z > 0.9);
+        if winds_inwards {
+            continue;
+        }
         let inside = pick(mesh, DVec3::new(0.0, 0.0, 0.2));
         assert!(!inside.front && inside.normal_in_model.dot(inside.position_in_model) > 0.5);
     }
     for z in [2.0, -2.0] {
         let hit = pick(sheet.clone(), DVec3::new(0.0, 0.0, z));
-        assert!(hit.front && hit.normal_in_model.z * z > 0.0, "{z}");
+        assert!(hit.front && hit.normal_in_model.z * z > 0.0 && hit.flipped == (z < 0.0), "{z}");
+        let particle = hit.particle();
+        assert!((particle.position.as_dvec3() - hit.position_in_model).length() < 1e-6);
     }
 }
 

@@ -58,7 +58,7 @@ impl View {
         };
         // A ray begins on the near plane: what it begins at still shows.
         let least = near - near.abs() * 1e-9;
-        (map.depth(position_in_world) >= least).then(|| self.from_centre(map.project(position_in_world)))
+        (map.depth(position_in_world) >= least).then(|| self.viewport_px(map.project(position_in_world)))
     }
 
     /// Depth of a point along the gaze, world units.
@@ -92,7 +92,7 @@ impl View {
         ray.origin + ray.direction * ((position_in_world - ray.origin).dot(gaze) / ray.direction.dot(gaze))
     }
 
-    fn from_centre(&self, from_centre_px: DVec2) -> DVec2 {
+    fn viewport_px(&self, from_centre_px: DVec2) -> DVec2 {
         self.size_px * 0.5 + from_centre_px * DVec2::new(1.0, -1.0)
     }
 

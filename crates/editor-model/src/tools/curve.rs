@@ -61,7 +61,7 @@ struct Dragging {
     grip: Grip,
     from_px: DVec2,
     /// Nothing until the hand has moved.
-    command: Option<Command>,
+    command: Option<Box<Command>>,
 }
 
 /// What is held of a guide.
@@ -108,7 +108,11 @@ impl Curve {
             ToolEvent::Release => match std::mem::take(&mut self.state) {
                 State::Dragging(dragging) => {
                     let select = Item::Guide(dragging.grip.guide.0.clone(), dragging.grip.guide.1);
-                    ToolOutput { commit: dragging.command, select: Some(select), ..self.shown(around) }
+                    ToolOutput {
+                        commit: dragging.command.map(|command| *command),
+                        select: Some(select),
+                        ..self.shown(around)
+                    }
                 }
                 other => {
                     self.state = other;
@@ -206,7 +210,7 @@ impl Curve {
         let mut dragging = Dragging { grip, from_px: at_px, command: None };
         if matches!(dragging.grip.on, GripOn::Line(_)) {
             // Clicked, too, a line gets a point.
-            dragging.command = dragging.command_at(at_px, around);
+            dragging.command = dragging.command_at(at_px, around).map(Box::new);
         }
         self.state = State::Dragging(dragging);
         self.shown(around)
@@ -241,7 +245,7 @@ impl Curve {
             }
             State::Dragging(dragging) => {
                 let words = format!("Dragging a point of {}   [Esc] take it back", dragging.grip.guide.0);
-                ToolOutput { preview: dragging.command.clone(), ..ToolOutput::saying(words) }
+                ToolOutput { preview: dragging.command.as_deref().cloned(), ..ToolOutput::saying(words) }
             }
             State::Idle => {
                 let found = self.at_px.and_then(|at_px| grip(at_px, around));
@@ -297,7 +301,7 @@ impl Drawing {
             mode: GuideMode::Comb,
             object: self.on.object_name.clone(),
             view: seen.guide_view(&reference, curve[curve.len() / 2].position),
-            points: kept.iter().map(PathPoint::to_guide).collect(),
+            points: kept.iter().map(|point| point.guide_point()).collect(),
             radius: self.radius,
             strength: around.options.strength,
             falloff: if around.options.even { Falloff::Flat } else { Falloff::Smooth },
@@ -318,7 +322,7 @@ impl Dragging {
     fn follow(&mut self, at_px: DVec2, around: &Surroundings) {
         let clicked = self.command.is_none() && at_px.distance(self.from_px) < CLICK_PX;
         if !clicked && let Some(command) = self.command_at(at_px, around) {
-            self.command = Some(command);
+            self.command = Some(Box::new(command));
         }
     }
 

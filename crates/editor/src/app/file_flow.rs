@@ -82,6 +82,10 @@ impl EditorApp {
         self.settle_then(Next::Open(path.to_owned()));
     }
 
+    pub(super) fn quit_asking(&mut self) {
+        self.settle_then(Next::Close);
+    }
+
     fn settle_then(&mut self, next: Next) {
         if self.editor.document().is_edited() {
             self.wait_for(next);

@@ -306,5 +306,7 @@ fn nearest_folder(folder: &Path) -> PathBuf {
     let whole = std::path::absolute(folder)
         .or_else(|_| std::env::current_dir())
         .unwrap_or_else(|_| PathBuf::from("/"));
-    whole.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("/")).to_owned()
+    let nearest = whole.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("/"));
+    // Without a slash at the end.
+    nearest.components().collect()
 }

@@ -16,10 +16,11 @@ enum Line {
     Recent,
     CopyRenderCommand,
     FirstRun,
+    Quit,
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{CopyRenderCommand, Do, FirstRun, Part, Recent, Sub};
+use Line::{CopyRenderCommand, Do, FirstRun, Part, Quit, Recent, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -35,6 +36,8 @@ const MENUS: [(&str, &[Line]); 4] = [
             Part,
             Do(Action::Render),
             CopyRenderCommand,
+            Part,
+            Quit,
         ],
     ),
     (
@@ -195,6 +198,11 @@ fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>))
                     asks.extend(file.map(|file| Ask::Copy(render_command(&file.to_string_lossy()))));
                 }
             }
+            Quit => {
+                if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
+                    asks.push(Ask::Quit);
+                }
+            }
             FirstRun => {
                 if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
                     asks.push(Ask::Welcome);
@@ -211,6 +219,7 @@ fn words_of(line: Line) -> &'static str {
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
         FirstRun => "First run sheet",
+        Quit => "Quit",
         Part => "",
     }
 }

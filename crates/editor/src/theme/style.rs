@@ -66,6 +66,8 @@ fn visuals(theme: Theme) -> Visuals {
         Theme::Dark => Visuals::dark(),
         Theme::Light => Visuals::light(),
     };
+    // egui thickens light text; Inter is drawn as it was cut, in both themes.
+    visuals.text_options.color_transfer_function = egui::epaint::FontColorTransferFunction::Off;
     visuals.panel_fill = tokens.panel;
     visuals.window_fill = tokens.panel;
     visuals.extreme_bg_color = tokens.field;

@@ -111,9 +111,11 @@ fn badge(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
     let font = type_face::icon(16.0);
     ui.painter().text(at.center(), Align2::CENTER_CENTER, icons::REFERENCE.glyph(), font, colour);
     ui.add_space(4.0);
-    let label = ui.label(egui::RichText::new(&words).font(type_face::small()).color(tokens.text));
+    let galley = ui.painter().layout_no_wrap(words.clone(), type_face::small(), tokens.text);
+    let (rect, label) = ui.allocate_exact_size(vec2(galley.size().x, 24.0), egui::Sense::hover());
+    ui.painter().galley(rect.center() - galley.size() * 0.5, galley, tokens.text);
     label.widget_info(|| {
-        let mut info = egui::WidgetInfo::labeled(egui::Role::Label, true, "Reference");
+        let mut info = egui::WidgetInfo::labeled(egui::Role::Status, true, "Reference");
         info.current_text_value = Some(words.clone());
         info
     });

@@ -12,7 +12,7 @@ use super::{Framing, surface_map::SurfaceMap};
 /// Hairs are at least so far apart, points.
 const APART: f64 = 20.0;
 /// And no more than this many.
-const MOST: f64 = 600.0;
+const MOST: usize = 600;
 
 /// How hairs are to be drawn.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,13 @@ pub fn hair_marks(
         shot_height_px: Some(framing.shot().height()),
         ..FrameOptions::new([size.x, size.y].map(|side| side.ceil().max(1.0) as u32))
     };
-    let apart = APART.max((f64::from(size.x) * f64::from(size.y) / MOST).sqrt());
+    let cells = |apart: f64| {
+        [size.x, size.y].map(|side| (f64::from(side) / apart).ceil() as usize).iter().product::<usize>()
+    };
+    let mut apart = APART;
+    while cells(apart) > MOST {
+        apart *= 1.02;
+    }
     let place = |hair: &Hair| DVec2::from(hair.position_px.map(f64::from));
     let shows = |hair: &Hair| map.shows(place(hair), f64::from(hair.depth), hair.object);
     let hairs = painting.hairs_where(&framing.widened(camera), frame, &options, (apart as f32, &shows));

@@ -16,7 +16,7 @@ pub fn brush_thumbnail(ui: &mut Ui, name: &str, picture: TextureId, on: bool) ->
     let tint = if ui.visuals().dark_mode { Color32::WHITE } else { tokens.text };
     ui.painter().image(picture, Rect::from_center_size(seen.center(), vec2(40.0, 30.0)), whole, tint);
     if on {
-        let line = Stroke::new(2.0, tokens.accent_text);
+        let line = Stroke::new(1.5, tokens.accent_text);
         ui.painter().rect_stroke(seen, draw::corner(), line, StrokeKind::Outside);
     }
     if response.has_focus() && on {

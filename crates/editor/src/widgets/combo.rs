@@ -15,7 +15,7 @@ pub fn combo(
 ) -> Response {
     let tokens = Tokens::of(ui);
     let shown = choices.get(*chosen).copied().unwrap_or_default();
-    let before = icon.map_or(0.0, |_| measure::ICON + 5.0);
+    let before = icon.map_or(0.0, |_| measure::SMALL_ICON + 6.0);
     let padding = if icon.is_some() { 7.0 } else { 8.0 };
     let size =
         vec2(draw::width(ui, shown, type_face::body()) + before + 2.0 * padding + 18.0, measure::FIELD);
@@ -26,7 +26,12 @@ pub fn combo(
     painter.rect_filled(rect, draw::corner(), fill);
     let mut at = rect.left_center() + vec2(padding, 0.0);
     if let Some(icon) = icon {
-        draw::icon(painter, at + vec2(measure::ICON / 2.0, 0.0), (icon, measure::ICON), tokens.text);
+        draw::icon(
+            painter,
+            at + vec2(measure::SMALL_ICON / 2.0, 0.0),
+            (icon, measure::SMALL_ICON),
+            tokens.text,
+        );
         at.x += before;
     }
     draw::words(painter, at, Align2::LEFT_CENTER, (shown, type_face::body()), tokens.text);

@@ -14,7 +14,7 @@ pub fn mode_switch(ui: &mut Ui, mode: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     // As wide as the bold words, so that nothing moves when the mode changes.
     let widths =
-        MODES.map(|(words, _)| draw::width(ui, words, type_face::head()) + measure::SMALL_ICON + 32.0);
+        MODES.map(|(words, _)| draw::width(ui, words, type_face::head()) + measure::SMALL_ICON + 30.0);
     let size = vec2(widths.iter().sum::<f32>() + 2.0 * INSET, HEIGHT);
     let (rect, mut whole) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter().rect_filled(rect, draw::group_corner(), tokens.field);
@@ -34,9 +34,9 @@ pub fn mode_switch(ui: &mut Ui, mode: &mut usize) -> Response {
             (false, false) => (Color32::TRANSPARENT, tokens.weak, type_face::body()),
         };
         ui.painter().rect_filled(part, draw::corner(), fill);
-        let glyph = part.left_center() + vec2(12.0 + measure::SMALL_ICON / 2.0, 0.0);
+        let glyph = part.left_center() + vec2(11.0 + measure::SMALL_ICON / 2.0, 0.0);
         draw::icon(ui.painter(), glyph, (icon, measure::SMALL_ICON), colour);
-        let at = part.left_center() + vec2(12.0 + measure::SMALL_ICON + 6.0, 0.0);
+        let at = part.left_center() + vec2(11.0 + measure::SMALL_ICON + 6.0, 0.0);
         draw::words(ui.painter(), at, Align2::LEFT_CENTER, (words, font), colour);
         draw::focus_ring(ui, &response, part, measure::CORNER);
         draw::named_state(&response, Role::RadioButton, words, on);

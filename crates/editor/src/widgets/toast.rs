@@ -19,19 +19,15 @@ pub struct Toast {
 pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
     let first = shown.len().saturating_sub(3);
     let mut clicked = None;
-    Area::new(Id::unique("toasts"))
-        .order(Order::Foreground)
-        .anchor(Align2::CENTER_BOTTOM, vec2(0.0, -clear - measure::GAP))
-        .show(ctx, |ui| {
-            ui.spacing_mut().item_spacing.y = measure::GAP;
-            ui.with_layout(egui::Layout::top_down(egui::Align::Center), |ui| {
-                for (index, toast) in shown.iter().enumerate().skip(first) {
-                    if line(ui, toast) {
-                        clicked = Some(index);
-                    }
-                }
-            });
-        });
+    for (index, toast) in shown.iter().enumerate().skip(first) {
+        let below = (shown.len() - 1 - index) as f32 * (measure::CHIP + measure::GAP);
+        let up = vec2(0.0, -clear - measure::GAP - below);
+        let area = Area::new(Id::unique(("toast", below as i32)));
+        let area = area.order(Order::Foreground).anchor(Align2::CENTER_BOTTOM, up);
+        if area.show(ctx, |ui| line(ui, toast)).inner {
+            clicked = Some(index);
+        }
+    }
     clicked
 }
 

@@ -2,40 +2,43 @@
 
 /// All drafts of a job together should take no longer, seconds: fifteen a second, with something left for preparing.
 const BUDGET_S: f64 = 0.055;
-/// Least share of the exact picture's sides.
-const LEAST: f64 = 0.35;
-/// Shares are multiples of this, so that targets are not made anew for every picture.
-const STEP: f64 = 0.05;
-/// What the first draft is drawn at.
-const FIRST: f64 = 0.5;
+/// Shares of the exact picture's sides count in twentieths, so that targets are not made anew for every picture.
+const STEPS: u32 = 20;
+/// The least share: 0.35.
+const LEAST: u32 = 7;
+/// What the first draft is drawn at: 0.5.
+const FIRST: u32 = 10;
 
 /// Chooses the size of the next draft by what the last one took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DraftSize {
-    share: f64,
+    steps: u32,
 }
 
 impl Default for DraftSize {
     fn default() -> Self {
-        Self { share: FIRST }
+        Self { steps: FIRST }
     }
 }
 
 impl DraftSize {
     /// Of a picture of this size, at least one pixel.
     pub(super) fn of(&self, size_px: [u32; 2]) -> [u32; 2] {
-        size_px.map(|side| ((f64::from(side) * self.share).round() as u32).clamp(1, side.max(1)))
+        size_px.map(|side| ((f64::from(side) * self.share()).round() as u32).clamp(1, side.max(1)))
     }
 
     /// Learns from what all drafts of a job took.
     pub(super) fn took(&mut self, seconds: f64) {
-        // Part of the time is by the stroke, not by the pixel: half a step towards the square root is stable.
-        let ideal = (self.share * (BUDGET_S / seconds.max(1e-4)).sqrt()).clamp(LEAST, 1.0);
-        let steps = (ideal / STEP + 1e-6).floor() * STEP;
+        let ideal = f64::from(self.steps) * (BUDGET_S / seconds.max(1e-4)).sqrt();
+        let steps = ((ideal + 1e-6) as u32).clamp(LEAST, STEPS);
         // Up only with something to spare: what is on the edge would swing.
-        if steps < self.share || ideal > self.share + 1.5 * STEP {
-            self.share = steps.clamp(LEAST, 1.0);
+        if steps < self.steps || ideal > f64::from(self.steps) + 1.5 {
+            self.steps = steps;
         }
+    }
+
+    fn share(&self) -> f64 {
+        f64::from(self.steps) / f64::from(STEPS)
     }
 
     /// Whether an exact picture is as quick as a draft need be.
@@ -53,8 +56,8 @@ mod tests {
         let mut size = DraftSize::default();
         (0..40)
             .map(|_| {
-                size.took(fixed_s + whole_s * size.share * size.share);
-                size.share
+                size.took(fixed_s + whole_s * size.share() * size.share());
+                size.share()
             })
             .collect()
     }
@@ -66,15 +69,15 @@ mod tests {
             let last = shares[39];
             assert!(shares[20..].iter().all(|&share| share == last), "{shares:?}");
             assert!(fixed_s + whole_s * last * last <= BUDGET_S * 1.02, "{whole_s} {fixed_s}: {last}");
-            assert!(last > LEAST, "{whole_s} {fixed_s}: {last}");
+            assert!(last > 0.35, "{whole_s} {fixed_s}: {last}");
         }
-        assert_eq!(settled(5.0, 0.0)[39], LEAST);
+        assert_eq!(settled(5.0, 0.0)[39], 0.35);
         assert_eq!(settled(0.001, 0.0)[39], 1.0);
     }
 
     #[test]
     fn a_draft_has_pixels_and_never_more_than_the_picture() {
-        assert_eq!(DraftSize { share: 0.35 }.of([1, 2]), [1, 1]);
-        assert_eq!(DraftSize { share: 1.0 }.of([950, 650]), [950, 650]);
+        assert_eq!(DraftSize { steps: LEAST }.of([1, 2]), [1, 1]);
+        assert_eq!(DraftSize { steps: STEPS }.of([950, 650]), [950, 650]);
     }
 }

@@ -127,6 +127,31 @@ fn at_rest_comes_what_a_file_would_get() {
     }
 }
 
+/// A viewport that is higher than the shot shows the shot in its middle as a file would get it, strokes and all.
+#[test]
+fn a_wider_picture_holds_the_shot() {
+    let loaded = scene();
+    let alone = view(&loaded, 3.0);
+    let area = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(160.0, 130.0));
+    let framing = crate::viewport::Framing::new(area, loaded.scene.size, 1.0);
+    let wide = ViewJob {
+        camera: framing.widened(&alone.camera),
+        size_px: framing.size_px(),
+        shot_height_px: framing.shot_height_px(),
+        ..alone.clone()
+    };
+    let worker = worker();
+    worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![wide] });
+    let told = until(&worker, is_exact);
+    let picture = *pictures(&told).last().expect("there is an exact one");
+    assert_eq!(picture.image.size, [160, 130]);
+    let middle = &bytes(picture)[20 * 160 * 4..110 * 160 * 4];
+    let shot = rendered(&loaded, &alone, None);
+    // What lies outside the shot reaches in at its border: shade, strokes, the light on them.
+    let differ = middle.iter().zip(&shot).filter(|(one, other)| one.abs_diff(**other) > 24).count();
+    assert!(differ * 100 < shot.len(), "{differ} of {}", shot.len());
+}
+
 #[test]
 fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
     let loaded = scene();

@@ -24,6 +24,7 @@ pub fn top(page: &mut Page, ui: &mut Ui) {
         ui.add_space(15.0);
         icon(ui, icons::APP, measure::ICON);
         ui.add_space(5.0);
+        ui.visuals_mut().widgets.inactive.weak_bg_fill = egui::Color32::TRANSPARENT;
         for menu in ["File", "Edit", "View", "Help"] {
             ui.menu_button(menu, |_| ());
         }
@@ -71,17 +72,7 @@ pub fn options(page: &mut Page, ui: &mut Ui) {
             .show(ui);
         divider(ui);
         weak(ui, "Mirror");
-        for (axis, on) in ["X", "Y", "Z"].into_iter().zip(&mut page.mirror) {
-            if Button::new(axis)
-                .name(["Mirror X", "Mirror Y", "Mirror Z"][usize::from(axis.as_bytes()[0] - b'X')])
-                .on(*on)
-                .plain()
-                .show(ui)
-                .clicked()
-            {
-                *on = !*on;
-            }
-        }
+        widgets::toggle_group(ui, ["Mirror X", "Mirror Y", "Mirror Z"], &mut page.mirror);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(8.0);
             widgets::icon_button(ui, icons::MORE_OPTIONS, "More tool options");

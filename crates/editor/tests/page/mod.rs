@@ -8,6 +8,7 @@ use glam::Mat3;
 use impasto_editor::icons;
 use impasto_editor::theme::{Theme, Tokens, measure};
 use impasto_editor::widgets::{self, AxisBall, Dialog, Toast};
+use impasto_editor::window::tab_pressed;
 
 /// What the controls of the page hold.
 pub struct Page {
@@ -37,6 +38,7 @@ pub struct Page {
     pub answer: Option<usize>,
     pub toasts: Vec<Toast>,
     pub edits: Vec<&'static str>,
+    pub tabs: usize,
     brushes: Vec<TextureHandle>,
 }
 
@@ -69,11 +71,13 @@ impl Page {
             answer: None,
             toasts: Vec::new(),
             edits: Vec::new(),
+            tabs: 0,
             brushes: Vec::new(),
         }
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
+        self.tabs += usize::from(tab_pressed(ui.ctx()).is_some());
         let tokens = Tokens::of(ui);
         let bar = |fill| Frame::new().fill(fill);
         Panel::top("top bar")

@@ -6,6 +6,7 @@
 
 mod canvas;
 mod marks;
+mod programs;
 
 use std::rc::Rc;
 
@@ -17,12 +18,12 @@ use impasto_painting::{Frame, Quality};
 use super::{Style, StyleInput, ground};
 use crate::gl::{
     Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
-    ProgramSource, Records, ShaderFile, Texture, VertexArray, Vertices,
+    Records, Texture, VertexArray, Vertices,
 };
-use crate::reference::{LENS_UNIFORMS, LensSetup, LightSetup};
-use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
+use crate::reference::{LENS_UNIFORMS, LensSetup};
 use crate::watch::Watch;
 use marks::Marks;
+use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 
 /// How much of a body's own colour its toned ground carries.
 const WASH: f32 = 0.85;
@@ -60,28 +61,6 @@ pub(crate) struct RotatingStrokes {
     stroke_quads: VertexArray,
     screen: VertexArray,
     targets: Option<Targets>,
-}
-
-/// The programs that a draft has of its own.
-struct StrokePrograms {
-    resolve: Program,
-    paint: Program,
-    encode: Program,
-}
-
-impl StrokePrograms {
-    fn new(gpu: &Gpu, quality: Quality) -> Result<Self, GlError> {
-        let [resolve, paint, encode] = match quality {
-            Quality::Exact => [RESOLVE, PAINT, ENCODE],
-            Quality::Draft => [
-                ProgramSource { defined: DRAFT, ..RESOLVE },
-                ProgramSource { defined: DRAFT, uniforms: DRAFT_PAINT_UNIFORMS, ..PAINT },
-                ProgramSource { defined: DRAFT, uniforms: DRAFT_ENCODE_UNIFORMS, ..ENCODE },
-            ],
-        }
-        .map(|source| Program::new(gpu, FILES, &source));
-        Ok(Self { resolve: resolve?, paint: paint?, encode: encode? })
-    }
 }
 
 struct Targets {
@@ -431,103 +410,3 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
         input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
     ]
 }
-
-const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES];
-
-/// What the shaders of a draft find defined.
-const DRAFT: &[&str] = &["DRAFT"];
-
-const DRAFT_PAINT_UNIFORMS: &[&str] =
-    &["size_px", "mark_rows", "brush_marks", "depth_and_id", "units_per_px_at_1", "orthographic"];
-
-const DRAFT_ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "ground", "wash", "finish"];
-
-const RESOLVE: ProgramSource = ProgramSource {
-    vertex: "rotating_strokes/resolve.vert",
-    fragment: None,
-    captured: &["resolved", "fitted"],
-    uniforms: &[
-        LENS_UNIFORMS[0],
-        LENS_UNIFORMS[1],
-        LENS_UNIFORMS[2],
-        LENS_UNIFORMS[3],
-        LightSetup::UNIFORMS[0],
-        LightSetup::UNIFORMS[1],
-        LightSetup::UNIFORMS[2],
-        LightSetup::UNIFORMS[3],
-        LightSetup::UNIFORMS[4],
-        LightSetup::UNIFORMS[5],
-        LightSetup::UNIFORMS[6],
-        LightSetup::UNIFORMS[7],
-        "reference_color",
-        "depth_and_id",
-        "detail",
-        "block_px",
-        "palettes",
-        "view_from_world",
-        "px_scale",
-        "kind",
-    ],
-    defined: &[],
-};
-
-const DETAIL: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("rotating_strokes/detail.frag"),
-    captured: &[],
-    uniforms: &["reference_color", "depth_and_id", "glint", "px_scale", "block_px"],
-    defined: &[],
-};
-
-const SPREAD: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("rotating_strokes/spread.frag"),
-    captured: &[],
-    uniforms: &["detail", "axis"],
-    defined: &[],
-};
-
-const PAINT: ProgramSource = ProgramSource {
-    vertex: "rotating_strokes/paint.vert",
-    fragment: Some("rotating_strokes/paint.frag"),
-    captured: &[],
-    uniforms: &[
-        "size_px",
-        "mark_rows",
-        "below",
-        "brush_marks",
-        "depth_and_id",
-        "units_per_px_at_1",
-        "orthographic",
-    ],
-    defined: &[],
-};
-
-const SOFTEN: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("rotating_strokes/soften.frag"),
-    captured: &[],
-    uniforms: &["height", "step_px"],
-    defined: &[],
-};
-
-const ENCODE: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("rotating_strokes/encode.frag"),
-    captured: &[],
-    uniforms: &[
-        "picture",
-        "reference_color",
-        "height",
-        "soft_height",
-        "canvas",
-        "ground",
-        "tone",
-        "wash",
-        "to_light",
-        "finish",
-        "canvas_axes",
-        "canvas_origin",
-    ],
-    defined: &[],
-};

@@ -70,7 +70,7 @@ impl LoadedScene {
                 kept.insert(object.name.as_str());
             }
         }
-        let doubted: Vec<&str> = self.warnings.iter().map(|warning| warning.field_path.as_str()).collect();
+        let doubted: Vec<&str> = self.warnings.iter().map(|warning| &*warning.field_path).collect();
         // Not all that was found is listed.
         let is_cut = self.warnings.iter().any(|warning| {
             warning.field_path.is_empty() && warning.path == self.path && warning.place.is_none()

@@ -89,7 +89,7 @@ pub(super) fn error_in(
         severity: Severity::Error,
         path: path.to_owned(),
         place,
-        field_path: String::new(),
+        field_path: Box::default(),
         message,
         mend,
     }

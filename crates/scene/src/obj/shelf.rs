@@ -180,7 +180,7 @@ impl<'a> Shelf<'a> {
             severity: Severity::Warning,
             path,
             place,
-            field_path: String::new(),
+            field_path: Box::default(),
             message,
             mend: mend.to_owned(),
         }
@@ -241,7 +241,7 @@ impl<'a> Shelf<'a> {
             severity: Severity::Limit,
             path: mtl.to_owned(),
             place: None,
-            field_path: String::new(),
+            field_path: Box::default(),
             message: format!("the pictures of this model have more than {MAX_KEPT_PIXELS} pixels altogether"),
             mend: "scale them down: 2048 x 2048 is more than a painting shows".to_owned(),
         });

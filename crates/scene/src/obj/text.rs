@@ -167,7 +167,7 @@ impl<'a> Findings<'a> {
             severity,
             path,
             place,
-            field_path: String::new(),
+            field_path: Box::default(),
             message,
             mend: mend.to_owned(),
         });

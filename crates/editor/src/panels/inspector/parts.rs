@@ -32,10 +32,12 @@ pub(super) fn section(
     open_at_first: bool,
     contents: impl FnOnce(&mut Ui),
 ) {
-    let known = ColumnState::with(ui.ctx(), |state| state.sections.get(name).copied());
+    // *Pose at frame 37* stays open or folded at every frame.
+    let key = name.split(" at ").next().unwrap_or(name);
+    let known = ColumnState::with(ui.ctx(), |state| state.sections.get(key).copied());
     let mut open = known.unwrap_or(open_at_first);
     if widgets::section(ui, name, note, &mut open).changed() {
-        ColumnState::with(ui.ctx(), |state| state.sections.insert(name.to_owned(), open));
+        ColumnState::with(ui.ctx(), |state| state.sections.insert(key.to_owned(), open));
     }
     if open {
         body(ui, contents);

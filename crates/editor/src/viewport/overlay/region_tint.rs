@@ -20,7 +20,7 @@ pub struct RegionTint {
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// Mean of its cells, points.
+    /// Of its cells, the one nearest to their mean; points.
     middle_px: DVec2,
 }
 
@@ -33,53 +33,58 @@ impl RegionTint {
     ) -> Vec<Self> {
         let [columns, rows] = map.size();
         let mut cells: Vec<Option<usize>> = Vec::with_capacity(columns * rows);
+        let mut runs: Vec<Vec<[usize; 3]>> = vec![Vec::new(); names.len()];
         for row in 0..rows {
+            let from = cells.len();
             cells.extend((0..columns).map(|column| map.face(column, row).and_then(&region_of)));
-        }
-        let tint = |(region, (name, colour)): (usize, &(&str, Color32))| {
-            let is_in = |column: usize, row: usize| cells[column + row * columns] == Some(region);
-            let (mut runs, mut sum, mut count) = (Vec::new(), DVec2::ZERO, 0);
-            for row in 0..rows {
-                let mut column = 0;
-                while column < columns {
-                    let first = column;
-                    while column < columns && is_in(column, row) {
-                        column += 1;
-                    }
-                    if column > first {
-                        runs.push([row, first, column]);
-                        let length = (column - first) as f64;
-                        sum += DVec2::new(0.5 * (first + column) as f64, row as f64 + 0.5) * length;
-                        count += column - first;
-                    }
-                    column += 1;
+            let mut first = 0;
+            for run in cells[from..].chunk_by(|one, next| one == next) {
+                if let Some(of) = run[0].and_then(|region| runs.get_mut(region)) {
+                    of.push([row, first, first + run.len()]);
                 }
+                first += run.len();
             }
-            let scale = 1.0 / map.cells_per_point();
-            let to_points = |line: Vec<DVec2>| line.into_iter().map(|at| at * scale).collect();
-            let edge =
-                Outline::of_lines(contours([columns, rows], is_in).into_iter().map(to_points).collect());
-            (count > 0).then(|| Self {
-                name: (*name).to_owned(),
-                colour: *colour,
+        }
+        let shown = runs.into_iter().enumerate().filter(|(_, runs)| !runs.is_empty());
+        let scale = 1.0 / map.cells_per_point();
+        let tint = |(region, runs): (usize, Vec<[usize; 3]>)| {
+            // Its edge is looked for only round about it.
+            let left = runs.iter().map(|run| run[1]).min().unwrap_or(0).saturating_sub(1);
+            let right = (runs.iter().map(|run| run[2]).max().unwrap_or(0) + 1).min(columns);
+            let top = runs[0][0].saturating_sub(1);
+            let bottom = (runs[runs.len() - 1][0] + 2).min(rows);
+            let is_in =
+                |column: usize, row: usize| cells[column + left + (row + top) * columns] == Some(region);
+            let corner = DVec2::new(left as f64, top as f64);
+            let to_points = |line: Vec<DVec2>| line.into_iter().map(|at| (at + corner) * scale).collect();
+            let edge = contours([right - left, bottom - top], is_in).into_iter().map(to_points).collect();
+            let (mut sum, mut count) = (DVec2::ZERO, 0.0);
+            for &[row, first, end] in &runs {
+                let length = (end - first) as f64;
+                sum += DVec2::new(0.5 * (first + end) as f64, row as f64 + 0.5) * length;
+                count += length;
+            }
+            let middle_px = nearest(&runs, sum / count) * scale;
+            Self {
+                name: names[region].0.to_owned(),
+                colour: names[region].1,
                 runs,
-                edge,
+                edge: Outline::of_lines(edge),
                 cells_per_point: map.cells_per_point(),
-                middle_px: sum * scale / count as f64,
-            })
+                middle_px,
+            }
         };
-        names.iter().enumerate().filter_map(tint).collect()
+        shown.map(tint).collect()
     }
+}
 
-    /// The middle of what shows.
-    pub fn middle_px(&self) -> DVec2 {
-        self.middle_px
-    }
-
-    /// How many cells show.
-    pub fn cells(&self) -> usize {
-        self.runs.iter().map(|[_, first, end]| end - first).sum()
-    }
+/// The place within some runs that is nearest to another.
+fn nearest(runs: &[[usize; 3]], to: DVec2) -> DVec2 {
+    let places = runs.iter().map(|&[row, first, end]| {
+        DVec2::new(to.x.clamp(first as f64 + 0.5, end as f64 - 0.5), row as f64 + 0.5)
+    });
+    let near = |place: &DVec2| place.distance_squared(to);
+    places.min_by(|one, other| near(one).total_cmp(&near(other))).unwrap_or(to)
 }
 
 /// Draws a region in its colour, with its edge and its name.

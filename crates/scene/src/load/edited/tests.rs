@@ -53,7 +53,7 @@ fn files_are_shared_read_and_dropped_as_the_document_names_them() {
     assert!(without.meshes.is_empty() && without.warnings.is_empty());
     let gone = edited(&without, |scene| scene.objects.push(Object::new("b", "b.obj")));
     let Err(Report(problems)) = gone else { panic!("a file that is gone was read") };
-    assert_eq!(problems[0].field_path, "objects[0].mesh");
+    assert_eq!(&*problems[0].field_path, "objects[0].mesh");
     assert!(problems[0].message.starts_with("objects.b.mesh: "), "{}", problems[0]);
 }
 
@@ -70,7 +70,7 @@ fn problems_name_their_field() {
     let Err(Report(problems)) = refused else { panic!("taken") };
     let fatal: Vec<_> = problems.iter().filter(|problem| problem.severity.is_fatal()).collect();
     let said = |field_path: &str, message: &str| {
-        let found = fatal.iter().find(|problem| problem.field_path == field_path);
+        let found = fatal.iter().find(|problem| &*problem.field_path == field_path);
         let found = found.unwrap_or_else(|| panic!("nothing about {field_path}: {problems:?}"));
         assert!(found.message.starts_with(message), "{found}");
         assert!(found.place.is_none() && !found.mend.is_empty());
@@ -92,7 +92,7 @@ fn what_is_loaded_has_its_field_too_and_warnings_of_edits_come_and_go() {
     let warned = edited(&loaded, off).unwrap();
     let of_document: Vec<_> = warned.warnings.iter().filter(|w| !w.field_path.is_empty()).collect();
     assert_eq!(of_document.len(), 1);
-    assert_eq!(of_document[0].field_path, "regions[0].guides[0].points[0].at");
+    assert_eq!(&*of_document[0].field_path, "regions[0].guides[0].points[0].at");
     assert_eq!(of_document[0].severity, Severity::Warning);
     assert!(of_document[0].message.starts_with("regions.r.guides[0].points[0].at: the guide is 3 away"));
     let mended = edited(&warned, |scene| {

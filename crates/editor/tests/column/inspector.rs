@@ -1,0 +1,358 @@
+//! The inspector, for each kind of thing.
+
+use egui::{Key, Modifiers, Role, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use impasto_editor_model::session::Mode;
+use impasto_editor_model::{Item, Selection};
+use impasto_scene::document::{Direction, Seam, Sense};
+
+use super::{Column, assert_named, click, drag, harness, object, pick, region, type_in, with_guides};
+
+#[test]
+fn a_region_shows_all_that_can_be_set() {
+    let mut harness = harness("still_life.ron", region("apple"));
+    click(&mut harness, "Advanced");
+    click(&mut harness, "Guides");
+    assert_named(
+        &harness,
+        &[
+            "Region colour",
+            "Region name",
+            "Region hidden",
+            "Region locked",
+            "Direction",
+            "Base direction",
+            "Turn",
+            "Lines",
+            "Arrows",
+            "Seam hard",
+            "Seam soft",
+            "Strokes",
+            "Brush flat",
+            "Brush filbert",
+            "Brush round",
+            "Brush fan",
+            "Brush dry",
+            "Brush knife",
+            "Brush rigger",
+            "Reset Brush",
+            "Length",
+            "Reset Length",
+            "Width",
+            "Coverage",
+            "Flatness",
+            "Angle jitter",
+            "Colour jitter",
+            "Layer",
+            "Guides",
+            "No guides. Comb over the region, or draw a curve (V).",
+            "Advanced",
+            "Preset",
+            "Scale",
+            "Swing",
+            "Contour",
+            "Size jitter",
+            "Size follows",
+            "Offset",
+            "Temperature",
+            "Grading",
+            "Edges",
+            "Paint layer",
+            "Layer coverage",
+            "Layer opacity",
+            "Layer thickness",
+            "Layer dryness",
+            "Layer pickup",
+            "Seed",
+            "Copy strokes",
+            "Paste strokes",
+        ],
+    );
+    let on = |name: &str| harness.get_by_label(name).accesskit_node().toggled();
+    assert_eq!(on("Brush filbert"), Some(egui::accesskit::Toggled::True));
+    assert_eq!(on("Brush fan"), Some(egui::accesskit::Toggled::False));
+    let length = harness.get_by_label("Length");
+    assert_eq!(length.accesskit_node().value().as_deref(), Some("64px"));
+}
+
+#[test]
+fn an_object_shows_all_that_can_be_set() {
+    let mut harness = harness("apple.ron", object("apple"));
+    for part in ["Mesh", "Material", "Parent", "Regions"] {
+        let section = harness.get_by_role_and_label(Role::DisclosureTriangle, part);
+        section.click();
+        harness.run();
+    }
+    assert_named(
+        &harness,
+        &[
+            "Object name",
+            "Object hidden",
+            "Object locked",
+            "Transform",
+            "Move X",
+            "Move Y",
+            "Move Z",
+            "Turn X",
+            "Turn Y",
+            "Turn Z",
+            "Uniform scale",
+            "Mesh file",
+            "Replace mesh",
+            "Turn upright",
+            "Scale to 1 m",
+            "Particles auto",
+            "Particles own",
+            "Particle count",
+            "Material colour",
+            "Gloss",
+            "Without light or shadow",
+            "Parent",
+            "Go to apple stem",
+        ],
+    );
+    assert_eq!(
+        harness.get_by_label("Turn Y").accesskit_node().value().as_deref(),
+        Some("\u{2212}25.0\u{b0}")
+    );
+    click(&mut harness, "Replace mesh");
+    assert_eq!(harness.state().meshes, ["apple"]);
+}
+
+#[test]
+fn lights_camera_and_scene_show_all_that_can_be_set() {
+    let sun = harness("still_life.ron", Some(Item::Light("window".to_owned())));
+    assert_named(
+        &sun,
+        &["Light name", "Kind of light", "Light colour", "Intensity", "Shines X", "Shines Y", "Shines Z"],
+    );
+    let sky = harness("still_life.ron", Some(Item::Light("room".to_owned())));
+    assert_named(&sky, &["Ground colour", "Reset Ground colour"]);
+    let lamp = harness("still_life.ron", Some(Item::Light("pool".to_owned())));
+    assert_named(&lamp, &["Place X", "Place Y", "Place Z"]);
+    let camera = harness("still_life.ron", Some(Item::Camera));
+    assert_named(
+        &camera,
+        &[
+            "Perspective",
+            "Parallel",
+            "Field of view",
+            "Near",
+            "Far",
+            "Eye X",
+            "Target Z",
+            "Roll",
+            "Camera to this view",
+            "To the shot",
+        ],
+    );
+    let mut scene = harness("still_life.ron", None);
+    click(&mut scene, "All strokes");
+    click(&mut scene, "Reference");
+    assert_named(
+        &scene,
+        &[
+            "Width px",
+            "Height px",
+            "Background colour",
+            "Rate",
+            "First",
+            "Last",
+            "Style strokes",
+            "Style plain",
+            "Solver",
+            "Canvas linen",
+            "Canvas board",
+            "Canvas follows camera",
+            "Weave",
+            "Relief",
+            "Varnish",
+            "Underpainting",
+            "Preset",
+            "Length",
+            "Brush flat",
+            "Recapture",
+        ],
+    );
+}
+
+#[test]
+fn a_drag_on_length_previews_and_is_one_entry() {
+    let mut harness = harness("still_life.ron", region("apple"));
+    drag(&mut harness, "Length", 40.0);
+    let column = harness.state();
+    let log = &column.log;
+    assert!(log.iter().filter(|words| *words == "preview").count() >= 2, "{log:?}");
+    assert_eq!(column.document.undo_count(), 1, "{log:?}");
+    // 132 points are the whole range of 156.
+    let wanted = (64.0_f64 + 40.0 * 156.0 / 132.0).round();
+    assert_eq!(column.region("apple").strokes.length_px, Some(wanted));
+    assert_eq!(column.document.undo_text(), Some(format!("Length {wanted} px").as_str()));
+    assert!(
+        std::sync::Arc::ptr_eq(column.document.shown(), column.document.loaded()),
+        "nothing is under the hand"
+    );
+}
+
+#[test]
+fn a_drag_that_goes_back_leaves_nothing() {
+    let mut harness = harness("still_life.ron", region("apple"));
+    let middle = harness.get_by_label("Length").rect().center();
+    harness.drag_at(middle);
+    harness.run();
+    harness.hover_at(middle + vec2(30.0, 0.0));
+    harness.run();
+    assert_ne!(harness.state().document.shown().scene.regions, harness.state().document.scene().regions);
+    harness.key_press(Key::Escape);
+    harness.run();
+    harness.drop_at(middle + vec2(30.0, 0.0));
+    harness.run();
+    let column = harness.state();
+    assert_eq!(column.document.undo_count(), 0, "{:?}", column.log);
+    assert_eq!(column.log.last().map(String::as_str), Some("end preview"));
+    assert_eq!(column.document.shown().scene, *column.document.scene());
+}
+
+#[test]
+fn steps_of_a_number_are_one_entry_and_reset_brings_the_scene_back() {
+    let mut harness = harness("still_life.ron", region("apple"));
+    harness.get_by_label("Width").focus();
+    harness.run();
+    for _ in 0..3 {
+        harness.key_press(Key::ArrowRight);
+        harness.run();
+    }
+    assert_eq!(harness.state().region("apple").strokes.width_px, Some(18.0));
+    assert_eq!(harness.state().document.undo_count(), 1);
+    click(&mut harness, "Reset Width");
+    assert_eq!(harness.state().region("apple").strokes.width_px, None);
+    assert_eq!(harness.state().document.undo_text(), Some("Reset width"));
+    assert!(harness.query_by_label("Reset Width").is_none());
+}
+
+#[test]
+fn typing_may_go_beyond_a_drag_and_what_cannot_be_is_refused() {
+    let mut harness = harness("still_life.ron", region("apple"));
+    type_in(&mut harness, "Length", "300 px");
+    assert_eq!(harness.state().region("apple").strokes.length_px, Some(300.0));
+    type_in(&mut harness, "Length", "99999");
+    assert_eq!(harness.state().region("apple").strokes.length_px, Some(300.0));
+    let last = harness.state().log.last().cloned().unwrap_or_default();
+    assert!(last.starts_with("refused"), "{last}");
+}
+
+#[test]
+fn every_base_direction_can_be_chosen_and_set() {
+    let mut harness = harness("apple.ron", region("apple"));
+    let direction = |harness: &Harness<'_, Column>| harness.state().region("apple").direction.clone();
+    pick(&mut harness, "Base direction", "Angle");
+    type_in(&mut harness, "Base angle", "35");
+    assert_eq!(direction(&harness), Direction::Angle(35.0));
+    pick(&mut harness, "Base direction", "Crossing");
+    type_in(&mut harness, "Second angle", "20");
+    assert_eq!(direction(&harness), Direction::Crossing(-45.0, 20.0));
+    pick(&mut harness, "Base direction", "Around");
+    type_in(&mut harness, "Axis X", "0.5");
+    assert_eq!(direction(&harness), Direction::Around([0.5, 1.0, 0.0]));
+    pick(&mut harness, "Base direction", "Toward");
+    type_in(&mut harness, "Point Z", "\u{2212}1,25");
+    assert_eq!(direction(&harness), Direction::Toward([0.0, 0.0, -1.25]));
+    pick(&mut harness, "Base direction", "Curvature");
+    click(&mut harness, "Bend most");
+    assert_eq!(direction(&harness), Direction::Curvature(impasto_scene::document::Bend::Max));
+    pick(&mut harness, "Base direction", "Automatic");
+    assert_eq!(direction(&harness), Direction::Auto);
+    click(&mut harness, "Arrows");
+    click(&mut harness, "Seam soft");
+    type_in(&mut harness, "Seam distance", "0.25");
+    type_in(&mut harness, "Turn", "30");
+    let region = harness.state().region("apple");
+    assert_eq!((region.sense, region.seam, region.turn_deg), (Sense::Arrows, Seam::Soft(0.25), 30.0));
+    click(&mut harness, "Reset Turn");
+    assert_eq!(harness.state().region("apple").turn_deg, 0.0);
+}
+
+#[test]
+fn brushes_are_picked_and_mixed() {
+    let mut harness = harness("apple.ron", region("apple"));
+    click(&mut harness, "Brush knife");
+    let brush = |harness: &Harness<'_, Column>| {
+        harness.state().region("apple").strokes.brush.clone().map(|mix| mix.0)
+    };
+    assert_eq!(brush(&harness), Some(vec!["knife".to_owned()]));
+    harness.get_by_label("Brush dry").click_modifiers(Modifiers::COMMAND);
+    harness.run();
+    assert_eq!(brush(&harness), Some(vec!["knife".to_owned(), "dry".to_owned()]));
+    assert!(harness.query_by_label("Mixed: knife 1, dry 1").is_some());
+    click(&mut harness, "Reset Brush");
+    assert_eq!(brush(&harness), None);
+}
+
+#[test]
+fn strokes_are_copied_from_one_region_to_another() {
+    let mut harness = harness("still_life.ron", region("jug rim"));
+    click(&mut harness, "Advanced");
+    click(&mut harness, "Copy strokes");
+    click(&mut harness, "lemon, region");
+    click(&mut harness, "Paste strokes");
+    let column = harness.state();
+    assert_eq!(column.region("lemon").strokes, column.region("jug rim").strokes);
+    assert_eq!(column.document.undo_text(), Some("Paste strokes to lemon"));
+}
+
+#[test]
+fn a_layer_of_paint_is_set_and_reset() {
+    let mut harness = harness("still_life.ron", region("lemon"));
+    click(&mut harness, "Advanced");
+    pick(&mut harness, "Paint layer", "lights");
+    let before = harness.get_by_label("Layer opacity").accesskit_node().value();
+    type_in(&mut harness, "Layer opacity", "0.4");
+    let layers = &harness.state().region("lemon").strokes.layers;
+    assert_eq!(layers.iter().find(|layer| layer.name == "lights").and_then(|layer| layer.opacity), Some(0.4));
+    click(&mut harness, "Reset Layer opacity");
+    assert_eq!(harness.get_by_label("Layer opacity").accesskit_node().value(), before);
+}
+
+#[test]
+fn fields_shift_the_motion_in_arrange_and_key_it_in_animate() {
+    let mut harness = harness("still_life.ron", object("apple"));
+    let keys = |harness: &Harness<'_, Column>| {
+        let mut objects = harness.state().document.scene().objects.iter();
+        objects.find(|object| object.name == "apple").map(|object| object.keys.clone()).unwrap_or_default()
+    };
+    let before = keys(&harness);
+    type_in(&mut harness, "Move X", "1.33");
+    let after = keys(&harness);
+    assert!(before.iter().zip(&after).all(|(a, b)| (b.translation[0] - a.translation[0] - 1.0).abs() < 1e-9));
+    harness.state_mut().session.mode = Mode::Animate;
+    harness.state_mut().session.frame = 41.0;
+    harness.run();
+    type_in(&mut harness, "Turn Z", "12");
+    assert_eq!(keys(&harness).len(), before.len() + 1);
+    assert_eq!(harness.get_by_label("Key frame").accesskit_node().value().as_deref(), Some("41"));
+    click(&mut harness, "Ease hold");
+    type_in(&mut harness, "Key frame", "42");
+    let moved = keys(&harness).into_iter().find(|key| key.frame == 42.0).expect("the key has moved");
+    assert_eq!((moved.rotation_deg[2], moved.ease), (12.0, impasto_scene::document::Ease::Step));
+    assert_eq!(harness.state().session.frame, 42.0);
+}
+
+#[test]
+fn guides_are_listed_selected_set_reordered_and_deleted() {
+    let mut harness = harness("apple.ron", region("apple"));
+    with_guides(harness.state_mut());
+    harness.run();
+    assert!(harness.query_by_label("apple, region, 2 guides").is_some());
+    click(&mut harness, "Guides");
+    click(&mut harness, "Guide g2");
+    assert_eq!(harness.state().document.selection(), &Selection::only(Item::Guide("apple".to_owned(), 1)));
+    type_in(&mut harness, "Guide radius", "0.35");
+    click(&mut harness, "Reset Guide strength");
+    click(&mut harness, "Guide up");
+    let guides = &harness.state().region("apple").guides;
+    assert_eq!((guides[0].points.len(), guides[0].radius, guides[0].strength), (5, 0.35, 1.0));
+    click(&mut harness, "Delete guide");
+    let guides = &harness.state().region("apple").guides;
+    assert_eq!(guides.iter().map(|guide| guide.points.len()).collect::<Vec<_>>(), [9]);
+}

@@ -1,0 +1,211 @@
+//! The right column with a document, driven by name.
+
+mod inspector;
+mod looks;
+mod tree;
+
+use std::path::Path;
+
+use egui::{Key, Role, Vec2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use impasto_editor::panels::{self, Ask, Numbers, Shown};
+use impasto_editor::theme::{self, Theme};
+use impasto_editor_model::command::Command;
+use impasto_editor_model::keymap::{Action, Preset};
+use impasto_editor_model::{Document, Item, Session};
+use impasto_gl_render::context::Driver;
+use impasto_scene::document::{Guide, GuidePoint};
+use impasto_scene::load::LoadOptions;
+
+use crate::headless::Headless;
+
+/// The column with a document that does what it is asked.
+pub struct Column {
+    pub document: Document,
+    pub session: Session,
+    /// Asks as they came: *preview*, *end preview*, *merged*, or the words of the history.
+    pub log: Vec<String>,
+    pub acts: Vec<Action>,
+    pub meshes: Vec<String>,
+    pub tree_height: f32,
+}
+
+impl Column {
+    pub fn open(scene: &str) -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(scene);
+        let document = Document::open(&path, &LoadOptions::default()).expect("the scene of the house opens");
+        Self::of(document)
+    }
+
+    pub fn of(document: Document) -> Self {
+        let session = Session::default();
+        let (log, acts, meshes) = (Vec::new(), Vec::new(), Vec::new());
+        Self { document, session, log, acts, meshes, tree_height: 252.0 }
+    }
+
+    pub fn ui(&mut self, ui: &mut egui::Ui) {
+        let mut asks = Vec::new();
+        let shown = Shown {
+            document: &self.document,
+            session: &self.session,
+            painting: None,
+            keys: Preset::Blender,
+            status: "",
+            numbers: Numbers::default(),
+            recent: &[],
+        };
+        let none = egui::Frame::new().fill(ui.visuals().panel_fill);
+        egui::Panel::top("tree").frame(none).exact_size(self.tree_height).show_separator_line(false).show(
+            ui,
+            |ui| {
+                panels::tree(ui, &shown, &mut asks);
+            },
+        );
+        egui::CentralPanel::default().frame(none).show(ui, |ui| panels::inspector(ui, &shown, &mut asks));
+        for ask in asks {
+            self.answer(ask);
+        }
+    }
+
+    pub fn answer(&mut self, ask: Ask) {
+        let words = |step: impasto_editor_model::document::Step| step.text;
+        let refused = |refusal: impasto_editor_model::Refusal| format!("refused: {refusal}");
+        self.log.push(match ask {
+            Ask::Do(command) => self.document.apply(&command).map_or_else(refused, words),
+            Ask::DoMerged(command, key) => {
+                let step = self.document.apply_merged(&command, &key, 0.0);
+                format!("merged {}", step.map_or_else(refused, words))
+            }
+            Ask::Preview(command) => match self.document.preview(&command) {
+                Ok(()) => "preview".to_owned(),
+                Err(refusal) => refused(refusal),
+            },
+            Ask::EndPreview => {
+                self.document.end_preview();
+                "end preview".to_owned()
+            }
+            Ask::Select(selection) => {
+                self.document.select(selection);
+                "select".to_owned()
+            }
+            Ask::ChooseMesh(object) => {
+                self.meshes.push(object);
+                "choose a mesh".to_owned()
+            }
+            Ask::Act(action) => {
+                self.acts.push(action);
+                "act".to_owned()
+            }
+            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome => "of another panel".to_owned(),
+            Ask::Session(session) => {
+                self.session = *session;
+                "session".to_owned()
+            }
+        });
+    }
+
+    pub fn apply(&mut self, command: Command) {
+        self.document.apply(&command).expect("it is no bad command");
+    }
+
+    pub fn region(&self, name: &str) -> &impasto_scene::document::Region {
+        let mut regions = self.document.scene().regions.iter();
+        regions.find(|region| region.name == name).expect("the region is there")
+    }
+}
+
+pub const SIZE: Vec2 = Vec2::new(280.0, 692.0);
+
+pub fn harness_of(column: Column, theme: Theme, size: Vec2) -> Harness<'static, Column> {
+    let mut harness = Harness::builder()
+        .with_size(size)
+        .with_render_cursor(false)
+        .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
+        .renderer(Headless::open(Driver::Auto))
+        .build_ui_state(|ui, column: &mut Column| column.ui(ui), column);
+    harness.run();
+    harness
+}
+
+/// A window that is high enough to hold every row.
+pub fn harness(scene: &str, selected: Option<Item>) -> Harness<'static, Column> {
+    let mut column = Column::open(scene);
+    column.document.select(selected.into_iter().collect());
+    column.tree_height = 800.0;
+    harness_of(column, Theme::Dark, vec2(280.0, 2400.0))
+}
+
+pub fn region(name: &str) -> Option<Item> {
+    Some(Item::Region(name.to_owned()))
+}
+
+pub fn object(name: &str) -> Option<Item> {
+    Some(Item::Object(name.to_owned()))
+}
+
+pub fn click(harness: &mut Harness<'_, Column>, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run();
+}
+
+pub fn pick(harness: &mut Harness<'_, Column>, combo: &str, choice: &str) {
+    click(harness, combo);
+    // The combo itself says what is chosen; the menu's rows are menu items.
+    let row =
+        harness.get_all_by_label(choice).find(|node| node.accesskit_node().role() == Role::MenuItemRadio);
+    row.expect("the menu has it").click();
+    harness.run();
+}
+
+pub fn drag(harness: &mut Harness<'_, Column>, name: &str, by: f32) {
+    let middle = harness.get_by_label(name).rect().center();
+    harness.drag_at(middle);
+    harness.run();
+    for part in 1..=4 {
+        harness.hover_at(middle + vec2(by * part as f32 / 4.0, 0.0));
+        harness.run();
+    }
+    harness.drop_at(middle + vec2(by, 0.0));
+    harness.run();
+}
+
+pub fn type_in(harness: &mut Harness<'_, Column>, name: &str, text: &str) {
+    harness.get_by_label(name).focus();
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+}
+
+pub fn assert_named(harness: &Harness<'_, Column>, names: &[&str]) {
+    for name in names {
+        let found: Vec<_> = harness.get_all_by_label(name).collect();
+        assert!(!found.is_empty(), "{name} is not there");
+        for control in found.iter().filter(|node| node.accesskit_node().role() != Role::Label) {
+            let size = control.rect().size();
+            assert!(size.x >= 24.0 && size.y >= 23.0, "{name} is {size} points");
+        }
+    }
+}
+
+/// Two guides on a region of the apple.
+pub fn with_guides(column: &mut Column) {
+    let point = |x: f64| GuidePoint { at: [x, 0.5, 0.5], normal: [0.0, 0.0, 1.0], turn_deg: 0.0 };
+    let guide = |count: usize| Guide {
+        mode: Default::default(),
+        object: None,
+        view: None,
+        points: (0..count).map(|index| point(0.05 * index as f64)).collect(),
+        radius: 0.2,
+        strength: 0.8,
+        falloff: Default::default(),
+    };
+    column.apply(Command::Directions(impasto_editor_model::command::Directions::Erase {
+        region: "apple".to_owned(),
+        guides: vec![guide(9), guide(5)],
+    }));
+}
