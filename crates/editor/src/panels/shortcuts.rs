@@ -3,12 +3,12 @@
 use egui::{RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
 
-use super::Shown;
+use super::{Shown, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, sheet};
 
-const COLUMN: f32 = 248.0;
+const COLUMN: f32 = 256.0;
 const ROW: f32 = 20.0;
 
 /// Keys that hold in one place.
@@ -20,7 +20,7 @@ struct Group {
 /// Shows the sheet over everything. True once it closes.
 pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
     let room = ctx.content_rect().size() - vec2(48.0, 48.0);
-    let inner = room.x.min(1088.0) - 2.0 * measure::SHEET_PADDING;
+    let inner = room.x.min(1136.0) - 2.0 * measure::SHEET_PADDING;
     let columns = ((inner / COLUMN) as usize).max(1);
     sheet(ctx, "Keys", inner + 2.0 * measure::SHEET_PADDING, |ui| {
         let tokens = Tokens::of(ui);
@@ -32,7 +32,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
                 Preset::Maya => "like Maya",
             };
             ui.label(RichText::new(like).font(type_face::body()).color(tokens.weak));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.with_layout(row_from_right(), |ui| {
                 close = widgets::icon_button(ui, icons::CLOSE, "Close keys").clicked();
             });
         });
@@ -40,7 +40,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
         let lines = lines(groups(&shown.keymap()));
         let high = lines.len().div_ceil(columns);
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;
-        ScrollArea::vertical().max_height(most).show(ui, |ui| {
+        ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 0.0;
                 for part in lines.chunks(high.max(1)) {
@@ -73,31 +73,26 @@ fn lines(groups: Vec<Group>) -> Vec<Line> {
 
 fn column(ui: &mut Ui, lines: &[Line]) {
     let tokens = Tokens::of(ui);
-    ui.vertical(|ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        for line in lines {
-            ui.allocate_ui_with_layout(
-                vec2(ui.available_width() - 16.0, ROW),
-                egui::Layout::left_to_right(egui::Align::Center),
-                |ui| {
-                    ui.set_min_size(ui.available_size());
-                    match line {
-                        Line::Head(name) => {
-                            ui.label(RichText::new(*name).font(type_face::head()).color(tokens.text));
-                        }
-                        Line::Key(name, keys) => {
-                            ui.label(RichText::new(*name).font(type_face::small()).color(tokens.weak));
-                            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                                let keys = RichText::new(keys).font(egui::FontId::monospace(11.0));
-                                ui.label(keys.color(tokens.text));
-                            });
-                        }
-                        Line::Space => (),
-                    }
-                },
-            );
+    let (rect, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
+    for (index, line) in lines.iter().enumerate() {
+        let top = rect.left_top() + vec2(0.0, index as f32 * ROW);
+        let place = egui::Rect::from_min_size(top, vec2(rect.width() - 20.0, ROW));
+        match line {
+            Line::Head(name) => within(ui, place, row(), |ui| {
+                ui.label(RichText::new(*name).font(type_face::head()).color(tokens.text));
+            }),
+            Line::Key(name, keys) => {
+                within(ui, place, row(), |ui| {
+                    ui.label(RichText::new(*name).font(type_face::small()).color(tokens.weak));
+                });
+                within(ui, place, row_from_right(), |ui| {
+                    let keys = RichText::new(keys).font(egui::FontId::monospace(11.0));
+                    ui.label(keys.color(tokens.text));
+                });
+            }
+            Line::Space => (),
         }
-    });
+    }
 }
 
 fn groups(keymap: &Keymap) -> Vec<Group> {
