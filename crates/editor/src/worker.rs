@@ -54,6 +54,13 @@ pub struct ViewJob {
     pub moving: bool,
 }
 
+impl ViewJob {
+    /// Whether both look the same: a hand that is on it changes nothing that is seen.
+    pub fn looks_like(&self, other: &Self) -> bool {
+        *self == Self { moving: self.moving, ..other.clone() }
+    }
+}
+
 /// What the thread has to tell.
 pub enum Report {
     /// The driver that draws.

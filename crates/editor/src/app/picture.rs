@@ -131,6 +131,16 @@ impl Studio {
         }
     }
 
+    /// The version of the scene that is shown exactly, in all views that were asked for and with no hand on it; none while
+    /// something is still to come.
+    pub(super) fn at_rest(&self) -> Option<u64> {
+        let (version, views) = self.asked.as_ref()?;
+        let is_done = |(index, view): (usize, &ViewJob)| {
+            !view.moving && self.pictures.is_exact(index, view, *version)
+        };
+        views.iter().enumerate().all(is_done).then_some(*version)
+    }
+
     /// Asks for pictures of what is to be seen, where it is not what was asked for last.
     pub(super) fn ask(&mut self, editor: &Editor) {
         let (loaded, version) = editor.shown();
