@@ -119,7 +119,10 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     editor.keys(&["ctrl+s"]);
     editor.wait_for_title("apple.ron - Impasto");
     let saved = guides(folder.path());
-    assert_eq!(saved.iter().map(|guide| guide.mode).collect::<Vec<_>>(), [GuideMode::Comb, GuideMode::Smooth]);
+    assert_eq!(
+        saved.iter().map(|guide| guide.mode).collect::<Vec<_>>(),
+        [GuideMode::Comb, GuideMode::Smooth]
+    );
     assert_eq!(saved[0], *combed);
     assert_eq!(editor.close(), Some(0));
 
@@ -141,7 +144,9 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     let (core_deg, core_count) = mean(core.map(|seen| seen.2).collect());
     let far = seen.iter().filter(|(along, aside_px, _)| (0.15..0.85).contains(along) && *aside_px > 75.0);
     let (far_deg, far_count) = mean(far.map(|seen| seen.2).collect());
-    println!("along the drag {core_deg:.3} degrees off ({core_count}), far from it {far_deg:.1} ({far_count})");
+    println!(
+        "along the drag {core_deg:.3} degrees off ({core_count}), far from it {far_deg:.1} ({far_count})"
+    );
     assert!(core_count >= 10 && core_deg <= 1.0, "{core_deg} degrees off the drag, {core_count} strokes");
     assert!(far_count >= 100 && far_deg > 30.0, "{far_deg} degrees far from the drag, {far_count} strokes");
 }

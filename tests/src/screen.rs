@@ -50,14 +50,27 @@ impl Screen {
             }
             assert!(std::env::var_os("CI").is_none(), "{program} is missing; `cargo xtask test` installs it");
             // Not by a macro: those are heard only of tests that fail.
-            let _ = writeln!(std::io::stderr(), "ignored: {program} is missing; `cargo xtask test` installs it");
+            let _ =
+                writeln!(std::io::stderr(), "ignored: {program} is missing; `cargo xtask test` installs it");
             return None;
         }
         let folder = tempfile::tempdir().expect("a temporary folder");
         // It ends when the pipe to `cat` closes. Its own end closes the pipe that the display's number comes through.
         let script = r#"trap "" INT; "$@" & exec >/dev/null; cat; kill $! 2>/dev/null; wait"#;
         let mut leash = Command::new("sh")
-            .args(["-c", script, "sh", "Xvfb", "-displayfd", "1", "-nolisten", "tcp", "-noreset", "-screen", "0"])
+            .args([
+                "-c",
+                script,
+                "sh",
+                "Xvfb",
+                "-displayfd",
+                "1",
+                "-nolisten",
+                "tcp",
+                "-noreset",
+                "-screen",
+                "0",
+            ])
             .arg(format!("{}x{}x24", SIZE_PX[0], SIZE_PX[1]))
             .arg("-fbdir")
             .arg(folder.path())
@@ -205,7 +218,16 @@ impl<'a> EditorWindow<'a> {
             found.lines().next().map(str::to_owned)
         });
         // Without a window manager nobody else does it.
-        screen.hand(&["windowmove", "--sync", &editor.window, "0", "0", "windowfocus", "--sync", &editor.window]);
+        screen.hand(&[
+            "windowmove",
+            "--sync",
+            &editor.window,
+            "0",
+            "0",
+            "windowfocus",
+            "--sync",
+            &editor.window,
+        ]);
         editor.rest_after(0);
         editor
     }

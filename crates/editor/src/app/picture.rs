@@ -135,9 +135,8 @@ impl Studio {
     /// something is still to come.
     pub(super) fn at_rest(&self) -> Option<u64> {
         let (version, views) = self.asked.as_ref()?;
-        let is_done = |(index, view): (usize, &ViewJob)| {
-            !view.moving && self.pictures.is_exact(index, view, *version)
-        };
+        let is_done =
+            |(index, view): (usize, &ViewJob)| !view.moving && self.pictures.is_exact(index, view, *version);
         views.iter().enumerate().all(is_done).then_some(*version)
     }
 

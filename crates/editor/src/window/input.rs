@@ -84,8 +84,16 @@ mod tests {
             repeat,
             modifiers: Modifiers::CTRL,
         };
-        let events =
-            vec![key(false), key(false), moved(0.0), button(true), key(true), button(false), key(false), moved(1.0)];
+        let events = vec![
+            key(false),
+            key(false),
+            moved(0.0),
+            button(true),
+            key(true),
+            button(false),
+            key(false),
+            moved(1.0),
+        ];
         let passes = one_thing_each(RawInput { events, ..RawInput::default() });
         let events: Vec<_> = passes.into_iter().map(|pass| pass.events).collect();
         assert_eq!(
