@@ -179,7 +179,10 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         )),
         32 => Command::Directions(Directions::Simplify { region, tolerance: 0.05 }),
         33 => Command::Directions(Directions::Recapture(i64::from(other % 12))),
-        34 => Command::Regions(Regions::Add(Region::new("patch", Selector::Dabs(object, vec![dab(x, y)])))),
+        34 => Command::Regions(Regions::Add(Box::new(Region::new(
+            "patch",
+            Selector::Dabs(object, vec![dab(x, y)]),
+        )))),
         35 => Command::Regions(match other % 4 {
             0 => Regions::SetSelector(region, Selector::Object(object)),
             1 => Regions::SetColor(region, Color([0.111, 0.5, 0.7])),
