@@ -368,7 +368,10 @@ impl Stroke {
             RegionTarget::Named(region) => Command::Regions(Regions::Paint { region: region.clone(), dabs }),
             RegionTarget::NewOn(object) => {
                 let name = format!("{object} part");
-                Command::Regions(Regions::Add(Region::new(name, Selector::Dabs(object.clone(), dabs))))
+                Command::Regions(Regions::Add(Box::new(Region::new(
+                    name,
+                    Selector::Dabs(object.clone(), dabs),
+                ))))
             }
         }
     }
