@@ -38,12 +38,13 @@ pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
         });
         ui.add_space(measure::GAP);
         let lines = lines(groups(&shown.keymap()));
-        let high = lines.len().div_ceil(columns);
+        // One more, since no column ends with a head.
+        let high = lines.len().div_ceil(columns) + 1;
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;
         ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 0.0;
-                for part in lines.chunks(high.max(1)) {
+                for part in in_columns(&lines, high) {
                     ui.allocate_ui(vec2(inner / columns as f32, high as f32 * ROW), |ui| column(ui, part));
                 }
             });
@@ -69,6 +70,26 @@ fn lines(groups: Vec<Group>) -> Vec<Line> {
         lines.extend(group.rows.into_iter().map(|(name, keys)| Line::Key(name, keys)));
     }
     lines
+}
+
+/// Columns of at most `high` lines; none ends with a head or begins with nothing.
+fn in_columns(mut lines: &[Line], high: usize) -> Vec<&[Line]> {
+    let mut columns = Vec::new();
+    loop {
+        while let [Line::Space, rest @ ..] = lines {
+            lines = rest;
+        }
+        if lines.is_empty() {
+            return columns;
+        }
+        let mut end = lines.len().min(high.max(2));
+        if matches!(lines[end - 1], Line::Head(_)) {
+            end -= 1;
+        }
+        let (column, rest) = lines.split_at(end.max(1));
+        columns.push(column);
+        lines = rest;
+    }
 }
 
 fn column(ui: &mut Ui, lines: &[Line]) {
@@ -154,6 +175,20 @@ mod tests {
             let keymap = Keymap { preset, ..Keymap::default() };
             let shown: usize = groups(&keymap).iter().map(|group| group.rows.len()).sum();
             assert_eq!(shown, keymap.listed().count() + 3, "a scope has no group");
+        }
+    }
+
+    #[test]
+    fn no_column_ends_with_a_head_and_all_fit() {
+        for preset in [Preset::Blender, Preset::Maya] {
+            let lines = lines(groups(&Keymap { preset, ..Keymap::default() }));
+            for count in 1..=5 {
+                let columns = in_columns(&lines, lines.len().div_ceil(count) + 1);
+                assert!(columns.len() <= count, "{} of {count}", columns.len());
+                for column in columns {
+                    assert!(!matches!(column, [.., Line::Head(_)] | [Line::Space, ..]));
+                }
+            }
         }
     }
 
