@@ -243,7 +243,8 @@ impl window::App for EditorApp {
             self.editor.focus_lost(&view);
         }
         self.folds.had_focus = focused;
-        if !self.is_modal() {
+        // An open menu has Esc to itself, and what is typed over it is meant for it.
+        if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
             }
