@@ -49,7 +49,12 @@ impl Editor {
                 },
                 view,
             ),
-            Action::Compare => self.session.compare = !self.session.compare,
+            Action::Compare => {
+                self.session.compare = !self.session.compare;
+                // The pictures lie elsewhere: what was under the pointer is not any more.
+                self.cancel(view);
+                self.output = Default::default();
+            }
             Action::CycleHairs => {
                 let hairs = &mut self.session.overlays.hairs;
                 *hairs = match hairs {

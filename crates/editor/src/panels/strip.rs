@@ -230,7 +230,7 @@ mod tests {
         assert_eq!(label_step(119.0 / 786.0), 20.0);
         assert_eq!(label_step(119.0 / 1388.0), 20.0);
         assert_eq!(label_step(10_000.0 / 786.0), 2000.0);
-        assert_eq!(label_step(23.0 / 2800.0), 1.0);
+        assert_eq!(label_step(23.0 / 3200.0), 1.0);
     }
 
     #[test]
