@@ -248,7 +248,9 @@ fn info_doctor_and_completions_answer() {
         let (name, works) = if found["driver"].is_string() { ("works", true) } else { ("window", false) };
         assert_eq!(found[name], works, "{line}");
     }
-    assert!(words(&folder.run(&["doctor"]).stdout).contains("window: none: neither WAYLAND_DISPLAY nor DISPLAY"));
+    assert!(
+        words(&folder.run(&["doctor"]).stdout).contains("window: none: neither WAYLAND_DISPLAY nor DISPLAY")
+    );
     for shell in ["bash", "zsh", "fish"] {
         assert!(words(&folder.run(&["completions", shell]).stdout).contains("impasto"), "{shell}");
     }

@@ -3,4 +3,5 @@
 pub mod command;
 pub mod gestures;
 pub mod pictures;
+pub mod screen;
 pub mod shapes;

@@ -139,6 +139,9 @@ pub(crate) struct EditArguments {
     /// Ask for files in the window, never by the desktop's dialogs.
     #[arg(long, hide = true)]
     pub(crate) in_app_dialogs: bool,
+    /// Write to standard error what the window shows, each time that its exact pictures are there.
+    #[arg(long, hide = true)]
+    pub(crate) tell: bool,
 }
 
 #[derive(Args, Debug)]

@@ -15,7 +15,8 @@ pub(crate) fn run(arguments: &EditArguments) -> Result<(), Failure> {
         EditDriver::Software => DriverChoice::Software,
     });
     let dialogs = if arguments.in_app_dialogs { Source::InApp } else { Source::Desktop };
-    let options = EditOptions { path: arguments.scene.clone(), driver, dialogs };
+    let tell: Option<fn(&str)> = arguments.tell.then_some(|words| eprintln!("impasto edit: {words}"));
+    let options = EditOptions { path: arguments.scene.clone(), driver, dialogs, tell };
     impasto_editor::run(&options).map_err(|error| match error {
         EditError::Refused(words) => Failure::Refused(words),
         EditError::Window(error) => Failure::NoWindow(error.to_string()),

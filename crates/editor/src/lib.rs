@@ -17,7 +17,7 @@ use files::incoming;
 use files::preferences::DriverChoice;
 
 /// What `impasto edit` was told.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct EditOptions {
     /// The scene or mesh to open; none for an empty window.
     pub path: Option<PathBuf>,
@@ -25,6 +25,8 @@ pub struct EditOptions {
     pub driver: Option<DriverChoice>,
     /// Whose file dialogs.
     pub dialogs: Source,
+    /// Hears what the window shows, each time that its exact pictures are there.
+    pub tell: Option<fn(&str)>,
 }
 
 /// Why there is nothing to edit in.

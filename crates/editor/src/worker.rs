@@ -54,12 +54,19 @@ pub struct ViewJob {
     pub moving: bool,
 }
 
+impl ViewJob {
+    /// Whether both look the same: a hand that is on it changes nothing that is seen.
+    pub fn looks_like(&self, other: &Self) -> bool {
+        *self == Self { moving: self.moving, ..other.clone() }
+    }
+}
+
 /// What the thread has to tell.
 pub enum Report {
     /// The driver that draws.
     Opened(ContextReport),
     /// A scene is prepared: hairs and picking may use it. With its serial.
-    Prepared(Painting, u64),
+    Prepared(Box<Painting>, u64),
     /// A picture.
     Picture(Picture),
     /// What went wrong, in words for people. The thread goes on.

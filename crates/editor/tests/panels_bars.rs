@@ -7,7 +7,7 @@ mod page;
 use egui::accesskit::Role;
 use egui::{Key, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use egui_kittest::{Harness, SnapshotOptions};
+use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use headless::Headless;
 use impasto_editor::panels::ask_close::{Answer, Question};
 use impasto_editor::panels::{Ask, welcome};
@@ -20,12 +20,13 @@ use impasto_gl_render::context::Driver;
 use impasto_scene::document::LightKind;
 use page::{Page, Shows};
 
-const NARROW: (f32, f32) = (1280.0, 420.0);
-const WIDE: (f32, f32) = (1920.0, 420.0);
+const NARROW: (f32, f32) = (1280.0, 500.0);
+const WIDE: (f32, f32) = (1920.0, 500.0);
 
 fn harness(page: Page, theme: Theme, (wide, high): (f32, f32)) -> Harness<'static, Page> {
     let mut harness = Harness::builder()
         .with_size(vec2(wide, high))
+        .with_theme(eguis(theme))
         .with_render_cursor(false)
         .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
         .renderer(Headless::open(Driver::Auto))
@@ -34,13 +35,23 @@ fn harness(page: Page, theme: Theme, (wide, high): (f32, f32)) -> Harness<'stati
     harness
 }
 
+/// The theme as the harness itself has it.
+fn eguis(theme: Theme) -> egui::Theme {
+    match theme {
+        Theme::Dark => egui::Theme::Dark,
+        Theme::Light => egui::Theme::Light,
+    }
+}
+
 fn paint() -> Harness<'static, Page> {
     harness(Page::new().in_mode(Mode::Paint), Theme::Dark, NARROW)
 }
 
-fn snapshot(harness: &mut Harness<'_, Page>, name: &str) {
+/// One set of results for a test, so that all its pictures can be taken again at once.
+fn snapshot(results: &mut SnapshotResults, harness: &mut Harness<'_, Page>, name: &str) {
     harness.run();
     harness.snapshot_options(name, &SnapshotOptions::new().threshold(0.6));
+    results.extend_harness(harness);
 }
 
 fn click(harness: &mut Harness<'_, Page>, name: &str) {
@@ -57,25 +68,26 @@ fn acts(page: &Page) -> Vec<Action> {
 
 #[test]
 fn the_bars_look_as_they_did() {
+    let mut results = SnapshotResults::new();
     let page = || Page::new().in_mode(Mode::Paint).edited();
-    snapshot(&mut harness(page(), Theme::Dark, NARROW), "bars_paint_dark");
-    snapshot(&mut harness(page(), Theme::Light, WIDE), "bars_paint_light_wide");
+    snapshot(&mut results, &mut harness(page(), Theme::Dark, NARROW), "bars_paint_dark");
+    snapshot(&mut results, &mut harness(page(), Theme::Light, WIDE), "bars_paint_light_wide");
     let mut animate = Page::new().in_mode(Mode::Animate).with_tool(Tool::Move);
     animate.session.frame = 37.0;
     animate.document.select(Selection::only(Item::Object("apple".to_owned())));
-    snapshot(&mut harness(animate, Theme::Dark, NARROW), "bars_animate_dark");
+    snapshot(&mut results, &mut harness(animate, Theme::Dark, NARROW), "bars_animate_dark");
     let nothing = Page { document: page::nothing(), status: page::DROP.to_owned(), ..Page::new() };
-    snapshot(&mut harness(nothing, Theme::Dark, NARROW), "bars_empty_dark");
+    snapshot(&mut results, &mut harness(nothing, Theme::Dark, NARROW), "bars_empty_dark");
 }
 
 #[test]
 fn the_sheets_look_as_they_did() {
-    let size = (1280.0, 800.0);
-    for (shows, theme, name) in [
-        (Shows::Welcome, Theme::Dark, "welcome_dark"),
-        (Shows::Welcome, Theme::Light, "welcome_light"),
-        (Shows::Keys, Theme::Dark, "keys_dark"),
-        (Shows::Palette, Theme::Dark, "palette_dark"),
+    let mut results = SnapshotResults::new();
+    for (shows, theme, size, name) in [
+        (Shows::Welcome, Theme::Dark, (724.0, 416.0), "welcome_dark"),
+        (Shows::Welcome, Theme::Light, (724.0, 416.0), "welcome_light"),
+        (Shows::Keys, Theme::Dark, (640.0, 420.0), "keys_dark"),
+        (Shows::Palette, Theme::Dark, (520.0, 460.0), "palette_dark"),
     ] {
         let mut page = Page { shows, document: page::nothing(), ..Page::new() };
         page.choices.theme = theme;
@@ -83,14 +95,14 @@ fn the_sheets_look_as_they_did() {
         if shows == Shows::Palette {
             harness.event(egui::Event::Text("view".to_owned()));
         }
-        snapshot(&mut harness, name);
+        snapshot(&mut results, &mut harness, name);
     }
     let question = Question::SaveChanges { name: "still_life.ron".to_owned(), minutes: 12 };
     let page = Page { shows: Shows::Question(0), questions: vec![question], ..Page::new() };
-    snapshot(&mut harness(page, Theme::Dark, NARROW), "save_changes_dark");
-    let mut menu = harness(Page::new(), Theme::Dark, NARROW);
+    snapshot(&mut results, &mut harness(page, Theme::Dark, (520.0, 260.0)), "save_changes_dark");
+    let mut menu = harness(Page::new(), Theme::Dark, (520.0, 360.0));
     click(&mut menu, "File");
-    snapshot(&mut menu, "menu_file_dark");
+    snapshot(&mut results, &mut menu, "menu_file_dark");
 }
 
 #[test]
@@ -265,7 +277,8 @@ fn what_has_no_room_stands_behind_the_button() {
     click(&mut harness, "Front faces only");
     let options = &harness.state().session.options;
     assert!(options.even && !options.front_only);
-    assert!(harness.query_by_label("Steady").is_some(), "it stays open while one sets");
+    let steady = harness.query_by_role_and_label(Role::SpinButton, "Steady");
+    assert!(steady.is_some(), "it stays open while one sets");
 }
 
 #[test]

@@ -188,6 +188,8 @@ impl Editor {
             Busy::Painting if button == Button::Left => {
                 self.busy = Busy::Idle;
                 self.tool(ToolEvent::Release, view);
+                // The ring stays under the hand.
+                self.hover_again(view);
             }
             Busy::Transforming(drag) if drag.held && button == Button::Left => {
                 self.transform(TransformEvent::Keep, view);

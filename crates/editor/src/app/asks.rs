@@ -38,6 +38,7 @@ impl EditorApp {
                 let start = self.editor.document().folder().to_owned();
                 self.files.dialogs.open(ctx, FileAsk::LocateMesh, &start);
             }
+            Ask::Quit => self.quit_asking(),
             Ask::Welcome => self.sheets.welcome = true,
         }
     }

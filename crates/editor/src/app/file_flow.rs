@@ -82,6 +82,10 @@ impl EditorApp {
         self.settle_then(Next::Open(path.to_owned()));
     }
 
+    pub(super) fn quit_asking(&mut self) {
+        self.settle_then(Next::Close);
+    }
+
     fn settle_then(&mut self, next: Next) {
         if self.editor.document().is_edited() {
             self.wait_for(next);
@@ -137,13 +141,13 @@ impl EditorApp {
         }
         if self.files.asks {
             self.ask_about_changes(ctx);
-        } else if let Some(frame) = self.sheets.recapture {
-            if let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame }) {
-                if answer == ask_close::Answer::Recapture {
-                    self.editor.recapture(frame);
-                }
-                self.sheets.recapture = None;
+        } else if let Some(frame) = self.sheets.recapture
+            && let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame })
+        {
+            if answer == ask_close::Answer::Recapture {
+                self.editor.recapture(frame);
             }
+            self.sheets.recapture = None;
         }
         if let Some(answer) = self.files.dialogs.poll(ctx) {
             self.answered(answer);

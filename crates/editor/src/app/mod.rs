@@ -47,6 +47,8 @@ pub(crate) struct EditorApp {
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
     folds: Folds,
+    tell: Option<fn(&str)>,
+    told: String,
 }
 
 /// Which sheets lie over the window.
@@ -87,6 +89,8 @@ impl EditorApp {
             preferences,
             toasts: Vec::new(),
             folds: Folds::default(),
+            tell: options.tell,
+            told: String::new(),
         };
         app.keymap();
         opened.ctx.add_plugin(window::FocusRules);
@@ -216,6 +220,17 @@ impl EditorApp {
             ctx.request_repaint_after(Duration::from_millis(500));
         }
     }
+
+    /// Tells what the window shows, each time that it has come to rest on something else.
+    fn tell_rest(&mut self) {
+        let (Some(tell), Some(version)) = (self.tell, self.studio.at_rest()) else { return };
+        let sheet = if self.is_modal() { ", under a sheet" } else { "" };
+        let words = format!("at rest, version {version}: {}{sheet}", value(&self.editor));
+        if words != self.told {
+            tell(&words);
+            self.told = words;
+        }
+    }
 }
 
 impl window::App for EditorApp {
@@ -228,7 +243,8 @@ impl window::App for EditorApp {
             self.editor.focus_lost(&view);
         }
         self.folds.had_focus = focused;
-        if !self.is_modal() {
+        // An open menu has Esc to itself, and what is typed over it is meant for it.
+        if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
             }
@@ -240,6 +256,7 @@ impl window::App for EditorApp {
             frame.close();
         }
         self.lines(&ctx);
+        self.tell_rest();
     }
 
     fn title(&self) -> String {

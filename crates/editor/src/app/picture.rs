@@ -113,7 +113,7 @@ impl Studio {
                 }
                 Report::Prepared(painting, serial) => {
                     self.prepared = serial;
-                    editor.prepared(painting);
+                    editor.prepared(*painting);
                 }
                 Report::Picture(picture) => {
                     self.trouble = None;
@@ -129,6 +129,15 @@ impl Studio {
                 Report::Failed(words) => self.trouble = Some(words),
             }
         }
+    }
+
+    /// The version of the scene that is shown exactly, in all views that were asked for and with no hand on it; none while
+    /// something is still to come.
+    pub(super) fn at_rest(&self) -> Option<u64> {
+        let (version, views) = self.asked.as_ref()?;
+        let is_done =
+            |(index, view): (usize, &ViewJob)| !view.moving && self.pictures.is_exact(index, view, *version);
+        views.iter().enumerate().all(is_done).then_some(*version)
     }
 
     /// Asks for pictures of what is to be seen, where it is not what was asked for last.

@@ -1,11 +1,11 @@
-use egui::containers::menu::{MenuBar, SubMenu};
+use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{Hairs, Mode};
 
-use super::{Ask, Shown, file_name};
+use super::{Ask, Shown, file_name, row, text_width, within};
 use crate::icons;
-use crate::theme::{Tokens, type_face};
+use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::MenuRow;
 
 /// One line of a menu.
@@ -16,10 +16,11 @@ enum Line {
     Recent,
     CopyRenderCommand,
     FirstRun,
+    Quit,
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{CopyRenderCommand, Do, FirstRun, Part, Recent, Sub};
+use Line::{CopyRenderCommand, Do, FirstRun, Part, Quit, Recent, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -35,6 +36,8 @@ const MENUS: [(&str, &[Line]); 4] = [
             Part,
             Do(Action::Render),
             CopyRenderCommand,
+            Part,
+            Quit,
         ],
     ),
     (
@@ -143,11 +146,22 @@ pub(super) fn actions() -> Vec<Action> {
 
 /// File, Edit, View and Help.
 pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
-    MenuBar::new().ui(ui, |ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        for (name, lines) in MENUS {
-            ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
-        }
+    const PADDING: f32 = 10.0;
+    let wide = MENUS.iter().map(|(name, _)| text_width(ui, name, type_face::body()) + 2.0 * PADDING).sum();
+    let size = egui::vec2(wide, measure::BUTTON);
+    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    // A menu bar takes all the width that it is given.
+    within(ui, rect, row(), |ui| {
+        let style = |style: &mut egui::Style| {
+            menu_style(style);
+            style.spacing.button_padding = egui::vec2(PADDING, 4.0);
+            style.spacing.item_spacing.x = 0.0;
+        };
+        MenuBar::new().style(style).ui(ui, |ui| {
+            for (name, lines) in MENUS {
+                ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
+            }
+        });
     });
 }
 
@@ -184,6 +198,11 @@ fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>))
                     asks.extend(file.map(|file| Ask::Copy(render_command(&file.to_string_lossy()))));
                 }
             }
+            Quit => {
+                if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
+                    asks.push(Ask::Quit);
+                }
+            }
             FirstRun => {
                 if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
                     asks.push(Ask::Welcome);
@@ -200,6 +219,7 @@ fn words_of(line: Line) -> &'static str {
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
         FirstRun => "First run sheet",
+        Quit => "Quit",
         Part => "",
     }
 }

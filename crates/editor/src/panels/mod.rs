@@ -131,6 +131,8 @@ pub enum Ask {
     Open(PathBuf),
     /// Put these words on the clipboard.
     Copy(String),
+    /// Close the window; unsaved work is asked about first.
+    Quit,
     /// Show the first-run sheet.
     Welcome,
 }

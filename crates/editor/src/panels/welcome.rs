@@ -5,7 +5,7 @@ use impasto_editor_model::keymap::{Action, Keymap, Preset};
 
 use super::{row, row_from_right, within};
 use crate::icons::{self, Icon};
-use crate::theme::{Theme, Tokens, type_face};
+use crate::theme::{Theme, Tokens, measure, type_face};
 use crate::widgets::{self, Button, sheet};
 
 /// What the sheet lets one choose; it shows at once.
@@ -35,6 +35,7 @@ pub enum Left {
 }
 
 const WIDTH: f32 = 720.0;
+const HEIGHT: f32 = 412.0;
 const CARD: f32 = 148.0;
 const SIZES: [(f32, &str, &str); 4] = [
     (0.9, "90 %", "Interface size 90 %"),
@@ -47,10 +48,11 @@ const SIZES: [(f32, &str, &str); 4] = [
 pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
     sheet(ctx, "Welcome", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
+        ui.set_min_height(HEIGHT - 2.0 * measure::SHEET_PADDING - 2.0);
         let close = head(ui);
-        ui.add_space(16.0);
+        ui.add_space(18.0);
         cards(ui, &Keymap { preset: choices.keys, ..Keymap::default() });
-        ui.add_space(15.0);
+        ui.add_space(14.0);
         habits(ui, choices);
         ui.add_space(22.0);
         let line = ui.available_rect_before_wrap();
@@ -66,17 +68,21 @@ fn head(ui: &mut Ui) -> bool {
     let tokens = Tokens::of(ui);
     let top = ui.max_rect();
     ui.label(RichText::new("Paint a scene in three steps").font(type_face::sheet_title()).color(tokens.text));
+    ui.add_space(4.0);
     let words = "Strokes sit on the model, stay flat on the picture, and turn with what they lie on.";
     ui.label(RichText::new(words).font(type_face::body()).color(tokens.weak));
     let corner = Rect::from_min_size(top.right_top() + vec2(-24.0, 0.0), vec2(28.0, 28.0));
     within(ui, corner, row(), |ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
 }
 
+/// A step's head, icon and words, and its keys with what they do.
+type Step<'a> = (&'a str, Icon, &'a str, &'a [(&'a str, &'a str)]);
+
 fn cards(ui: &mut Ui, keymap: &Keymap) {
     let key = |action| keymap.shortcut_text(action).unwrap_or_default();
     let [open, paint, animate, play] =
         [Action::OpenScene, Action::TogglePaint, Action::Animate, Action::Play].map(key);
-    let steps: [(&str, Icon, &str, &[(&str, &str)]); 3] = [
+    let steps: [Step<'_>; 3] = [
         (
             "Open a mesh",
             icons::OBJECT,

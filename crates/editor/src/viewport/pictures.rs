@@ -13,13 +13,14 @@ pub struct Pictures {
 struct Shown {
     texture: TextureHandle,
     view: ViewJob,
+    serial: u64,
     exact: bool,
 }
 
 impl Pictures {
     /// Takes a picture in; only the texture of its own view changes.
     pub fn take(&mut self, ctx: &Context, picture: Picture) {
-        let Picture { index, view, image, exact, .. } = picture;
+        let Picture { index, view, serial, image, exact, .. } = picture;
         if self.shown.len() <= index {
             self.shown.resize_with(index + 1, || None);
         }
@@ -27,11 +28,11 @@ impl Pictures {
         match &mut self.shown[index] {
             Some(shown) => {
                 shown.texture.set(ImageData::Color(image), options);
-                (shown.view, shown.exact) = (view, exact);
+                (shown.view, shown.serial, shown.exact) = (view, serial, exact);
             }
             empty => {
                 let texture = ctx.load_texture(format!("view {index}"), ImageData::Color(image), options);
-                *empty = Some(Shown { texture, view, exact });
+                *empty = Some(Shown { texture, view, serial, exact });
             }
         }
     }
@@ -40,6 +41,12 @@ impl Pictures {
     pub fn of(&self, index: usize) -> Option<(TextureId, &ViewJob, bool)> {
         let shown = self.shown.get(index)?.as_ref()?;
         Some((shown.texture.id(), &shown.view, shown.exact))
+    }
+
+    /// Whether the exact picture of a view is here, of the scene with this serial.
+    pub fn is_exact(&self, index: usize, view: &ViewJob, serial: u64) -> bool {
+        let shown = self.shown.get(index).and_then(Option::as_ref);
+        shown.is_some_and(|shown| shown.exact && shown.serial == serial && shown.view.looks_like(view))
     }
 
     /// Forgets all: another document.

@@ -12,7 +12,7 @@ use winit::window::{Window, WindowId};
 use super::focus::FocusRules;
 use super::gl::WindowGl;
 use super::icon::icon;
-use super::input::one_button_event_each;
+use super::input::one_thing_each;
 use super::{App, Frame, Opened, Options, Waker, WindowError};
 
 /// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
@@ -269,7 +269,7 @@ impl<A: App> OpenWindow<A> {
         self.state.egui_input_mut().viewports.insert(ViewportId::ROOT, self.info.clone());
         let input = self.state.take_egui_input(&self.window);
         let ctx = self.state.egui_ctx().clone();
-        for pass in one_button_event_each(input) {
+        for pass in one_thing_each(input) {
             let (app, painter, last) = (&mut self.app, &mut self.painter, self.last_took);
             let output = ctx.run_ui(pass, |ui| app.ui(ui, &mut Frame { painter, last, close: &mut close }));
             self.textures.append(output.textures_delta);

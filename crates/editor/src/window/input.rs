@@ -1,18 +1,23 @@
 use egui::{Event, RawInput};
 
-/// Splits what happened since the last frame, so that no pass sees more than one press or release.
+/// Splits what happened since the last frame, so that no pass sees more than one press or release of a button, and none
+/// sees a key after what the pointer did.
 ///
-/// A slow frame gathers a whole drag. egui looks at the pointer once a pass, and would take that for nothing.
-pub(super) fn one_button_event_each(mut input: RawInput) -> Vec<RawInput> {
+/// A slow frame gathers a whole drag. egui looks at the pointer once a pass, and would take that for nothing. The page
+/// takes the keys of a pass before the pointer: `Ctrl Z` right after a drag would find the drag still under way.
+pub(super) fn one_thing_each(mut input: RawInput) -> Vec<RawInput> {
     let events = std::mem::take(&mut input.events);
     let mut parts = vec![Vec::new()];
-    let mut button_seen = false;
+    let (mut button_seen, mut pointer_seen) = (false, false);
     for event in events {
         let button = matches!(event, Event::PointerButton { .. });
-        if button && button_seen {
+        let key = matches!(event, Event::Key { pressed: true, repeat: false, .. });
+        if button && button_seen || key && pointer_seen {
             parts.push(Vec::new());
+            (button_seen, pointer_seen) = (false, false);
         }
         button_seen |= button;
+        pointer_seen |= button || matches!(event, Event::PointerMoved(_));
         if let Some(part) = parts.last_mut() {
             part.push(event);
         }
@@ -61,7 +66,7 @@ mod tests {
     fn a_drag_within_one_frame_becomes_two_passes() {
         let moved = |x| Event::PointerMoved(pos2(x, 1.0));
         let events = vec![moved(0.0), button(true), moved(5.0), moved(9.0), button(false), Event::Copy];
-        let passes = one_button_event_each(RawInput { events, ..RawInput::default() });
+        let passes = one_thing_each(RawInput { events, ..RawInput::default() });
         let events: Vec<_> = passes.into_iter().map(|pass| pass.events).collect();
         assert_eq!(
             events,
@@ -70,15 +75,47 @@ mod tests {
     }
 
     #[test]
+    fn a_key_after_the_pointer_has_a_pass_of_its_own() {
+        let moved = |x| Event::PointerMoved(pos2(x, 1.0));
+        let key = |repeat| Event::Key {
+            key: egui::Key::Z,
+            physical_key: None,
+            pressed: true,
+            repeat,
+            modifiers: Modifiers::CTRL,
+        };
+        let events = vec![
+            key(false),
+            key(false),
+            moved(0.0),
+            button(true),
+            key(true),
+            button(false),
+            key(false),
+            moved(1.0),
+        ];
+        let passes = one_thing_each(RawInput { events, ..RawInput::default() });
+        let events: Vec<_> = passes.into_iter().map(|pass| pass.events).collect();
+        assert_eq!(
+            events,
+            [
+                vec![key(false), key(false), moved(0.0), button(true), key(true)],
+                vec![button(false)],
+                vec![key(false), moved(1.0)]
+            ]
+        );
+    }
+
+    #[test]
     fn a_dropped_file_arrives_once() {
         let events = vec![button(true), button(false)];
         let dropped_files = vec![std::sync::Arc::new(Apple) as _];
-        let passes = one_button_event_each(RawInput { events, dropped_files, ..RawInput::default() });
+        let passes = one_thing_each(RawInput { events, dropped_files, ..RawInput::default() });
         assert_eq!(passes.iter().map(|pass| pass.dropped_files.len()).collect::<Vec<_>>(), [0, 1]);
     }
 
     #[test]
     fn a_quiet_frame_is_one_pass() {
-        assert_eq!(one_button_event_each(RawInput::default()).len(), 1);
+        assert_eq!(one_thing_each(RawInput::default()).len(), 1);
     }
 }

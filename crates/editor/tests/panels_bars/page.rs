@@ -98,6 +98,10 @@ impl Page {
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
+        // The harness leaves a margin; a window has none.
+        let whole = ui.ctx().content_rect();
+        let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
+        ui.set_clip_rect(whole);
         let mut asks = Vec::new();
         let shown = Shown {
             document: &self.document,

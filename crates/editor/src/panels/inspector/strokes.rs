@@ -276,7 +276,7 @@ fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
         }
         let paste = ui.add_enabled_ui(copied.is_some(), |ui| Button::new("Paste strokes").show(ui)).inner;
         if let Some(copied) = copied.filter(|_| paste.clicked()) {
-            asker.ask(Command::Regions(Regions::PasteStrokes(place.of.clone(), copied)));
+            asker.ask(Command::Regions(Regions::PasteStrokes(place.of.clone(), Box::new(copied))));
         }
     });
 }

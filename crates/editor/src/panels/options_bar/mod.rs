@@ -44,7 +44,7 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
     let whole = ui.max_rect();
     within(ui, whole, row(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
-        ui.add_space(6.0);
+        ui.add_space(14.0);
         head(ui, tool, say);
         let mut right = whole.right() - MORE;
         let mut behind = Vec::new();
@@ -65,7 +65,7 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
         hint(ui, (shown, tool), right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
         within(ui, rect, row_from_right(), |ui| {
-            ui.add_space(measure::GAP - 4.0);
+            ui.add_space(measure::GAP);
             let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
             more(ui, &behind, (&mut options, say));
         });

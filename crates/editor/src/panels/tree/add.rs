@@ -36,7 +36,7 @@ pub(super) fn menu(button: &Response, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
                 _ => format!("Region {}", region.name),
             };
             if entry(ui, icons::REGION, &words) {
-                asks.push(Ask::Do(Command::Regions(Regions::Add(region))));
+                asks.push(Ask::Do(Command::Regions(Regions::Add(Box::new(region)))));
             }
         }
     });

@@ -1,0 +1,198 @@
+//! The editor's real window on an Xvfb of its own, worked with a real mouse and real keys; what it saves is judged by the
+//! command line.
+
+use std::path::Path;
+use std::process::Command;
+
+use glam::DVec2;
+use impasto_scene::document::{Guide, GuideMode, Scene};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_tests::command::{impasto, root};
+use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
+
+/// A folder with the apple, whose strokes lie just as they are directed.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = root().join("scenes");
+    std::fs::create_dir(folder.path().join("meshes")).unwrap();
+    for name in ["apple.obj", "apple.mtl", "wall.obj", "wall.mtl"] {
+        let name = Path::new("meshes").join(name);
+        std::fs::copy(scenes.join(&name), folder.path().join(&name)).unwrap();
+    }
+    let shipped = std::fs::read_to_string(scenes.join("apple.ron")).unwrap();
+    let strokes = "    strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0),\n";
+    let exact = shipped.replacen("    regions: [\n", &format!("{strokes}    regions: [\n"), 1);
+    assert_ne!(exact, shipped);
+    std::fs::write(folder.path().join("apple.ron"), exact).unwrap();
+    folder
+}
+
+fn read(folder: &Path, file: &str) -> Scene {
+    load(&folder.join(file), &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}")).scene
+}
+
+fn guides(folder: &Path) -> Vec<Guide> {
+    let mut scene = read(folder, "apple.ron");
+    let region = scene.regions.iter_mut().find(|region| region.name == "apple").unwrap();
+    std::mem::take(&mut region.guides)
+}
+
+/// The viewport in the window: between the rail (48) and the column (280), under the two bars (40 each), over the strip (44)
+/// and the status line (24).
+const VIEWPORT: [DVec2; 2] =
+    [DVec2::new(48.0, 80.0), DVec2::new(SIZE_PX[0] as f64 - 280.0, SIZE_PX[1] as f64 - 68.0)];
+
+/// A place of the window as one of the rendered picture: pixels from its lower left corner, Y up. The shot is as wide as the
+/// viewport, and in its middle.
+fn in_picture(at: [i32; 2], size: (u32, u32)) -> DVec2 {
+    let (from_middle, size) = (
+        DVec2::new(f64::from(at[0]), f64::from(at[1])) - (VIEWPORT[0] + VIEWPORT[1]) * 0.5,
+        DVec2::new(f64::from(size.0), f64::from(size.1)),
+    );
+    let px_per_point = size.x / (VIEWPORT[1].x - VIEWPORT[0].x);
+    size * 0.5 + from_middle * DVec2::new(1.0, -1.0) * px_per_point
+}
+
+/// Place in pixels and angle in degrees of the apple's strokes, as `impasto strokes` prints them.
+fn strokes(folder: &Path, file: &str) -> Vec<(DVec2, f64)> {
+    let mut command = Command::new(impasto());
+    command.args(["strokes", file, "--frame", "0", "--format", "csv"]).current_dir(folder);
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let column = |name: &str| header.iter().position(|other| *other == name).unwrap();
+    let [region, layer, x, y, angle] = ["region", "layer", "x_px", "y_px", "angle_deg"].map(column);
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    lines
+        .filter(|line| line[region] == "apple" && ["underpainting", "body", "scumble"].contains(&line[layer]))
+        .map(|line| (DVec2::new(number(line[x]), number(line[y])), number(line[angle])))
+        .collect()
+}
+
+fn lines_apart_deg(a: f64, b: f64) -> f64 {
+    let off = (a - b).rem_euclid(180.0);
+    off.min(180.0 - off)
+}
+
+#[test]
+fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let mut editor = EditorWindow::open(&screen, "comb", folder.path(), "apple.ron");
+    assert_eq!(editor.title(), "apple.ron - Impasto");
+    editor.keep_picture("opened");
+
+    screen.hand(&["mousemove", "524", "406"]);
+    editor.keys(&["Tab"]);
+    editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
+    // The strength from 80 % to 100 %, that strokes under the hand lie just as it went.
+    editor.keys(&["shift+f"]);
+    screen.hand(&["mousemove", "580", "406", "sleep", "0.1", "mousemove", "620", "406"]);
+    editor.keys(&["Return"]);
+
+    let (from, to) = ([454, 420], [594, 360]);
+    let mut shown = editor.rest().0;
+    screen.drag(from, to);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    shown = editor.rest_after(shown);
+    editor.keep_picture("combed");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let [combed] = &guides(folder.path())[..] else { panic!("one guide") };
+    assert_eq!(combed.mode, GuideMode::Comb);
+    std::fs::copy(folder.path().join("apple.ron"), folder.path().join("combed.ron")).unwrap();
+
+    screen.hand(&["keydown", "shift"]);
+    screen.drag([470, 480], [570, 490]);
+    screen.hand(&["keyup", "shift"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    shown = editor.rest_after(shown);
+    editor.keep_picture("smoothed");
+    editor.keys(&["ctrl+z"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    shown = editor.rest_after(shown);
+    editor.keys(&["ctrl+shift+z"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    editor.rest_after(shown);
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let saved = guides(folder.path());
+    assert_eq!(
+        saved.iter().map(|guide| guide.mode).collect::<Vec<_>>(),
+        [GuideMode::Comb, GuideMode::Smooth]
+    );
+    assert_eq!(saved[0], *combed);
+    assert_eq!(editor.quit(), Some(0));
+
+    let size = read(folder.path(), "combed.ron").size;
+    let [from, to] = [from, to].map(|at| in_picture(at, size));
+    let way = to - from;
+    let dragged_deg = way.to_angle().to_degrees();
+    // Where a stroke lies along the drag (0 to 1), how far from it in pixels, and how far off its angle in degrees.
+    let seen: Vec<(f64, f64, f64)> = strokes(folder.path(), "combed.ron")
+        .into_iter()
+        .map(|(at, angle_deg)| {
+            let along = (at - from).dot(way) / way.length_squared();
+            let aside_px = (at - from).perp_dot(way.normalize()).abs();
+            (along, aside_px, lines_apart_deg(angle_deg, dragged_deg))
+        })
+        .collect();
+    let mean = |of: Vec<f64>| (of.iter().sum::<f64>() / of.len() as f64, of.len());
+    let core = seen.iter().filter(|(along, aside_px, _)| (0.15..0.85).contains(along) && *aside_px < 8.0);
+    let (core_deg, core_count) = mean(core.map(|seen| seen.2).collect());
+    let far = seen.iter().filter(|(along, aside_px, _)| (0.15..0.85).contains(along) && *aside_px > 75.0);
+    let (far_deg, far_count) = mean(far.map(|seen| seen.2).collect());
+    println!(
+        "along the drag {core_deg:.3} degrees off ({core_count}), far from it {far_deg:.1} ({far_count})"
+    );
+    assert!(core_count >= 10 && core_deg <= 1.0, "{core_deg} degrees off the drag, {core_count} strokes");
+    assert!(far_count >= 100 && far_deg > 30.0, "{far_deg} degrees far from the drag, {far_count} strokes");
+}
+
+#[test]
+fn a_name_typed_into_the_path_sheet_is_the_files() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let mut editor = EditorWindow::open(&screen, "save_as", folder.path(), "apple.ron");
+    let old = std::fs::read(folder.path().join("apple.ron")).unwrap();
+    let value = editor.rest().1;
+    editor.keys(&["ctrl+shift+s"]);
+    editor.wait_for_value(&format!("{value}, under a sheet"));
+    editor.keys(&["ctrl+a"]);
+    screen.hand(&["type", "--delay", "60", "my apple"]);
+    editor.keep_picture("sheet");
+    editor.keys(&["Return"]);
+    editor.wait_for_title("my apple.ron - Impasto");
+    assert_eq!(std::fs::read(folder.path().join("apple.ron")).unwrap(), old);
+    assert_eq!(read(folder.path(), "my apple.ron"), read(folder.path(), "apple.ron"));
+    assert_eq!(editor.quit(), Some(0));
+}
+
+#[test]
+fn a_typed_move_moves_just_so_far_and_undo_brings_it_back() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let mut editor = EditorWindow::open(&screen, "move", folder.path(), "apple.ron");
+    let before = read(folder.path(), "apple.ron");
+    screen.hand(&["mousemove", "524", "406", "sleep", "0.1", "click", "1"]);
+    let shown = editor.rest().0;
+    editor.keys(&["g", "x", "period", "5", "Return"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    let shown = editor.rest_after(shown);
+    editor.keep_picture("moved");
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    let mut moved = read(folder.path(), "apple.ron");
+    assert_eq!(moved.objects[1].keys[0].translation, [0.5, 0.0, 0.0]);
+    moved.objects[1].keys[0].translation = [0.0; 3];
+    assert_eq!(moved, before, "nothing else moved");
+    editor.keys(&["ctrl+z"]);
+    editor.wait_for_title("apple.ron (edited) - Impasto");
+    editor.rest_after(shown);
+    editor.keys(&["ctrl+s"]);
+    editor.wait_for_title("apple.ron - Impasto");
+    assert_eq!(read(folder.path(), "apple.ron"), before);
+    assert_eq!(editor.quit(), Some(0));
+}

@@ -1,0 +1,337 @@
+//! A screen that nobody sees (Xvfb) and a hand on it (xdotool), for tests of the real window.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::command::impasto;
+
+/// The longest that anything may take on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// Between two looks at what is waited for.
+const LOOK: Duration = Duration::from_millis(30);
+
+/// Width and height of a screen in pixels: the window's own size.
+pub const SIZE_PX: [usize; 2] = [1280, 800];
+
+/// Runs `look` until it gives something.
+///
+/// # Panics
+/// When it never does; the message says what was waited for.
+pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let began = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(began.elapsed() < PATIENCE, "waited {} s in vain: {what}", PATIENCE.as_secs());
+        std::thread::sleep(LOOK);
+    }
+}
+
+/// An Xvfb of its own. Dropping it ends it; so does the end of the tests, however they end.
+pub struct Screen {
+    leash: Child,
+    display: String,
+    folder: tempfile::TempDir,
+}
+
+impl Screen {
+    /// A screen; `None`, with a line that says so, where Xvfb or xdotool is missing.
+    ///
+    /// # Panics
+    /// When one of them is missing in CI (`CI` is set), or Xvfb does not start.
+    pub fn open() -> Option<Self> {
+        for program in ["Xvfb", "xdotool"] {
+            let path = std::env::var_os("PATH").unwrap_or_default();
+            if std::env::split_paths(&path).any(|folder| folder.join(program).is_file()) {
+                continue;
+            }
+            assert!(std::env::var_os("CI").is_none(), "{program} is missing; `cargo xtask test` installs it");
+            // Not by a macro: those are heard only of tests that fail.
+            let _ =
+                writeln!(std::io::stderr(), "ignored: {program} is missing; `cargo xtask test` installs it");
+            return None;
+        }
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        // It ends when the pipe to `cat` closes. Its own end closes the pipe that the display's number comes through.
+        let script = r#"trap "" INT; "$@" & exec >/dev/null; cat; kill $! 2>/dev/null; wait"#;
+        let mut leash = Command::new("sh")
+            .args([
+                "-c",
+                script,
+                "sh",
+                "Xvfb",
+                "-displayfd",
+                "1",
+                "-nolisten",
+                "tcp",
+                "-noreset",
+                "-screen",
+                "0",
+            ])
+            .arg(format!("{}x{}x24", SIZE_PX[0], SIZE_PX[1]))
+            .arg("-fbdir")
+            .arg(folder.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(std::fs::File::create(folder.path().join("words")).expect("a file for its words"))
+            .spawn()
+            .expect("a shell");
+        let mut number = String::new();
+        let out = leash.stdout.take().expect("its stdout is a pipe");
+        BufReader::new(out).read_line(&mut number).expect("a number, or nothing");
+        let screen = Self { leash, display: format!(":{}", number.trim()), folder };
+        let words = std::fs::read_to_string(screen.folder.path().join("words")).unwrap_or_default();
+        assert!(!number.trim().is_empty(), "Xvfb does not start: {words}");
+        Some(screen)
+    }
+
+    /// What is on the screen as a PNG in `editor_window/` of the target folder, for people; where it lies.
+    ///
+    /// # Panics
+    /// When Xvfb's picture is not what it says of itself.
+    pub fn keep_picture(&self, name: &str) -> PathBuf {
+        let target = impasto().ancestors().nth(2).expect("target/debug/impasto lies two folders down");
+        let folder = target.join("editor_window");
+        std::fs::create_dir_all(&folder).expect("a folder for pictures");
+        let path = folder.join(format!("{name}.png"));
+        let xwd = std::fs::read(self.folder.path().join("Xvfb_screen0")).expect("Xvfb's picture");
+        // The header of X11/XWDFile.h: words of 32 bits, most significant byte first.
+        let word = |index: usize| {
+            let bytes = xwd[4 * index..4 * index + 4].try_into().expect("four bytes");
+            u32::from_be_bytes(bytes) as usize
+        };
+        let (width, height, line, colours) = (word(4), word(5), word(12), word(19));
+        assert_eq!([width, height, word(11)], [SIZE_PX[0], SIZE_PX[1], 32]);
+        let first = word(0) + 12 * colours;
+        let rgb: Vec<u8> = (0..height)
+            .flat_map(|row| xwd[first + row * line..][..4 * width].chunks_exact(4))
+            .flat_map(|pixel| [pixel[2], pixel[1], pixel[0]])
+            .collect();
+        let file = std::fs::File::create(&path).expect("a file for the picture");
+        let mut encoder = png::Encoder::new(file, width as u32, height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        let mut writer = encoder.write_header().expect("a header");
+        writer.write_image_data(&rgb).expect("pixels");
+        path
+    }
+
+    /// Has xdotool do this; what it prints, `None` where it could not.
+    pub fn try_hand(&self, words: &[&str]) -> Option<String> {
+        let mut hand = Command::new("xdotool")
+            .args(words)
+            .env("DISPLAY", &self.display)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("xdotool starts");
+        let status = wait_or_kill(&mut hand, PATIENCE)?;
+        let mut said = String::new();
+        hand.stdout.take().expect("its stdout is a pipe").read_to_string(&mut said).expect("text");
+        status.success().then(|| said.trim_end().to_owned())
+    }
+
+    /// Has xdotool do this.
+    ///
+    /// # Panics
+    /// When it could not.
+    pub fn hand(&self, words: &[&str]) {
+        assert!(self.try_hand(words).is_some(), "xdotool {} failed", words.join(" "));
+    }
+
+    /// Drags with the left button from one place of the screen to another, in even steps.
+    ///
+    /// # Panics
+    /// When xdotool fails.
+    pub fn drag(&self, from: [i32; 2], to: [i32; 2]) {
+        const STEPS: i32 = 20;
+        let mut script = format!("mousemove {} {} sleep 0.1 mousedown 1 sleep 0.05", from[0], from[1]);
+        for step in 1..=STEPS {
+            let [x, y] = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * step / STEPS);
+            script += &format!(" mousemove {x} {y} sleep 0.03");
+        }
+        script += " mouseup 1";
+        self.hand(&script.split(' ').collect::<Vec<_>>());
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        drop(self.leash.stdin.take());
+        wait_or_kill(&mut self.leash, Duration::from_secs(10));
+    }
+}
+
+/// How a process ended; `None` where it had to be killed.
+fn wait_or_kill(process: &mut Child, most: Duration) -> Option<std::process::ExitStatus> {
+    let began = Instant::now();
+    while began.elapsed() < most {
+        if let Ok(Some(status)) = process.try_wait() {
+            return Some(status);
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let _ended_already = process.kill();
+    let _ = process.wait();
+    None
+}
+
+/// `impasto edit` with its window on a [`Screen`], at its upper left corner, with the keyboard's focus. Dropping it ends it;
+/// a test that fails leaves a picture of the screen.
+pub struct EditorWindow<'a> {
+    /// The screen that it is on.
+    pub screen: &'a Screen,
+    name: &'static str,
+    process: Child,
+    window: String,
+    words: PathBuf,
+}
+
+impl<'a> EditorWindow<'a> {
+    /// Opens a file of a folder and waits until it is painted. Preferences and everything else that the editor keeps of
+    /// its user lie in the folder too. Pictures of the screen have `name`.
+    ///
+    /// # Panics
+    /// When the window does not come.
+    pub fn open(screen: &'a Screen, name: &'static str, folder: &Path, file: &str) -> Self {
+        let words = folder.join("words");
+        let process = Command::new(impasto())
+            .args(["edit", file, "--in-app-dialogs", "--tell"])
+            .current_dir(folder)
+            .env("DISPLAY", &screen.display)
+            .env("WINIT_X11_SCALE_FACTOR", "1")
+            .env("IMPASTO_CONFIG_DIR", folder.join("config"))
+            .env("HOME", folder)
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(std::fs::File::create(&words).expect("a file for its words"))
+            .spawn()
+            .expect("impasto starts");
+        let mut editor = Self { screen, name, process, window: String::new(), words };
+        editor.window = wait_for("a window", || {
+            editor.assert_runs();
+            let found = screen.try_hand(&["search", "--onlyvisible", "--name", " - Impasto$"])?;
+            found.lines().next().map(str::to_owned)
+        });
+        // Without a window manager nobody else does it.
+        screen.hand(&[
+            "windowmove",
+            "--sync",
+            &editor.window,
+            "0",
+            "0",
+            "windowfocus",
+            "--sync",
+            &editor.window,
+        ]);
+        editor.rest_after(0);
+        editor
+    }
+
+    fn assert_runs(&mut self) {
+        if let Ok(Some(status)) = self.process.try_wait() {
+            panic!("the editor ended ({status})");
+        }
+    }
+
+    /// The lines that it wrote so far.
+    fn lines(&self) -> Vec<String> {
+        let words = std::fs::read(&self.words).unwrap_or_default();
+        String::from_utf8_lossy(&words).lines().map(str::to_owned).collect()
+    }
+
+    /// The version that it last showed at rest, and what a screen reader says of it; 0 before the first.
+    pub fn rest(&self) -> (u64, String) {
+        let of_line = |line: &String| {
+            let (version, value) = line.strip_prefix("impasto edit: at rest, version ")?.split_once(": ")?;
+            Some((version.parse().ok()?, value.to_owned()))
+        };
+        self.lines().iter().rev().find_map(of_line).unwrap_or_default()
+    }
+
+    /// Waits until it shows a later version than `version` at rest, and tells which.
+    ///
+    /// # Panics
+    /// When it never does.
+    pub fn rest_after(&mut self, version: u64) -> u64 {
+        wait_for(&format!("a picture later than of version {version}"), || {
+            self.assert_runs();
+            Some(self.rest().0).filter(|shown| *shown > version)
+        })
+    }
+
+    /// Waits until a screen reader would say this of it.
+    ///
+    /// # Panics
+    /// When it never does.
+    pub fn wait_for_value(&mut self, value: &str) {
+        wait_for(&format!("the viewport's value {value:?}"), || {
+            self.assert_runs();
+            (self.rest().1 == value).then_some(())
+        });
+    }
+
+    /// The words in its title bar.
+    pub fn title(&self) -> String {
+        self.screen.try_hand(&["getwindowname", &self.window]).unwrap_or_default()
+    }
+
+    /// Waits for these words in its title bar.
+    ///
+    /// # Panics
+    /// When they never come.
+    pub fn wait_for_title(&mut self, title: &str) {
+        wait_for(&format!("the title {title:?}"), || {
+            self.assert_runs();
+            (self.title() == title).then_some(())
+        });
+    }
+
+    /// Presses keys one after the other, by their X names: `ctrl+s`.
+    ///
+    /// # Panics
+    /// When xdotool fails.
+    pub fn keys(&self, keys: &[&str]) {
+        self.screen.hand(&[&["key", "--delay", "60"], keys].concat());
+    }
+
+    /// Keeps a picture of the screen as it is now.
+    pub fn keep_picture(&self, moment: &str) -> PathBuf {
+        self.screen.keep_picture(&format!("{}_{moment}", self.name))
+    }
+
+    /// Quits by the File menu, waits for the end, and tells the exit code.
+    ///
+    /// # Panics
+    /// When it stays.
+    pub fn quit(mut self) -> Option<i32> {
+        let mut next = Instant::now();
+        wait_for("the end, by File, Quit", || {
+            let status = self.process.try_wait().ok().flatten();
+            if status.is_none() && Instant::now() >= next {
+                // Again, should the second click have come before the menu.
+                next = Instant::now() + Duration::from_secs(10);
+                let by_menu =
+                    "key Escape mousemove 59 20 click 1 sleep 0.5 mousemove 100 302 sleep 0.2 click 1";
+                self.screen.try_hand(&by_menu.split(' ').collect::<Vec<_>>());
+            }
+            status
+        })
+        .code()
+    }
+}
+
+impl Drop for EditorWindow<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("the screen as it was: {}", self.keep_picture("failed").display());
+            eprintln!("the editor's words: {:#?}", self.lines());
+        }
+        let _ended_already = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
