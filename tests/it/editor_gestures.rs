@@ -43,6 +43,9 @@ fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     scene
 }
 
+/// Strokes so near to a drag lie in its core: at 2.5 of 45 px a brush still has 0.99 of its strength.
+const CORE_PX: f64 = 2.5;
+
 struct Bench {
     painting: Painting,
     picker: Picker,
@@ -156,9 +159,10 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
             bare.picker.bounds_in_world([0], &bare.poses).map(|[low, high]| (low + high) * 0.5).unwrap();
         let shot = motion::camera_at(bare.painting.scene(), 0.0);
         // The apple in every view, the sphere in every other.
-        for (name, view) in views(&shot, centre).into_iter().step_by(every) {
+        for (index, (name, view)) in views(&shot, centre).into_iter().enumerate().step_by(every) {
             let middle = view.project(centre).unwrap() + DVec2::new(6.0, 9.0);
-            for angle_deg in [-77.0f64, 7.0, 30.0, 137.0] {
+            let angles_deg = if index / every % 2 == 0 { [-77.0f64, 7.0] } else { [30.0, 137.0] };
+            for angle_deg in angles_deg {
                 let half = DVec2::from_angle(angle_deg.to_radians()) * 42.0;
                 let straight = |t: f64| middle + half * (2.0 * t - 1.0);
                 let arc = |t: f64| {
@@ -167,7 +171,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
                 };
                 let flatness = if angle_deg == 30.0 { 0.4 } else { 1.0 };
                 let direction = if angle_deg == 7.0 { Direction::Angle(20.0) } else { Direction::Auto };
-                for curved in [false, true].into_iter().take(if angle_deg.abs() > 29.0 { 2 } else { 1 }) {
+                for curved in [false, true].into_iter().take(if angle_deg == angles_deg[0] { 2 } else { 1 }) {
                     let drag: &dyn Fn(f64) -> DVec2 = if curved { &arc } else { &straight };
                     let events: Vec<DVec2> = (0..25).map(|event| drag(f64::from(event) / 24.0)).collect();
                     let guides = bare.drag(&view, &events);
@@ -175,7 +179,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
                     assert_eq!(guides[0].view.is_none(), name == "reference");
                     let mut combed = scene(direction.clone(), guides);
                     combed.strokes.flatness = Some(flatness);
-                    let found = errors(&Bench::new(combed, &mesh).strokes(&view.camera), drag, 1.0);
+                    let found = errors(&Bench::new(combed, &mesh).strokes(&view.camera), drag, CORE_PX);
                     assert!(found.len() >= 2, "{} strokes: {thing}, {name}", found.len());
                     let most = found.iter().copied().fold(0.0, f64::max);
                     if curved {
@@ -194,7 +198,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
     println!(
         "dragged against shown: straight at most {worst:.3} over {count} strokes, curved {worst_curved:.3}"
     );
-    assert!(count >= 300 && worst <= 0.5, "{worst} degrees over {count} strokes");
+    assert!(count >= 200 && worst <= 0.5, "{worst} degrees over {count} strokes");
     assert!(worst_curved <= 3.0, "{worst_curved} degrees");
 }
 
@@ -223,7 +227,7 @@ fn mirror_images_show_mirrored_from_the_other_side() {
         let at = ends[0].lerp(ends[1], t);
         DVec2::new(size_px().x - at.x, at.y)
     };
-    let found = errors(&Bench::new(plain, &mesh).strokes(&other), across, 1.0);
+    let found = errors(&Bench::new(plain, &mesh).strokes(&other), across, CORE_PX);
     let worst = found.iter().copied().fold(0.0, f64::max);
     println!("mirrored: at most {worst:.3} over {} strokes", found.len());
     assert!(found.len() >= 4 && worst <= 0.5, "{worst}");

@@ -103,7 +103,7 @@ fn build(document: &mut Document, wanted: &Scene) {
         build_object(document, object);
     }
     for region in &wanted.regions {
-        run(document, Command::Regions(Regions::Add(region.clone())));
+        run(document, Command::Regions(Regions::Add(Box::new(region.clone()))));
     }
 }
 

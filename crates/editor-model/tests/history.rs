@@ -35,7 +35,8 @@ fn guide(x: f64, y: f64) -> Guide {
         object: None,
         view: None,
         points: vec![point(0.0), point(0.3), point(0.7)],
-        radius: 0.1 + x.abs() * 0.01,
+        // It reaches the surface, whatever the surface.
+        radius: 0.9 + x.abs() * 0.01,
         strength: 0.8,
         falloff: Default::default(),
         mode: Default::default(),
@@ -157,7 +158,7 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         25 => Command::Directions(Directions::DeleteGuidePoint { guide: of_guide, point: 0 }),
         26 => Command::Directions(Directions::SetGuide {
             guide: of_guide,
-            settings: GuideSettings { radius: Some(x.abs() + 0.01), strength: Some(y), falloff: None },
+            settings: GuideSettings { radius: Some(x.abs() + 0.9), strength: Some(y), falloff: None },
         }),
         27 => Command::Directions(Directions::FlipGuide(of_guide.0, of_guide.1)),
         28 => Command::Directions(Directions::SetBase {
@@ -178,7 +179,10 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         )),
         32 => Command::Directions(Directions::Simplify { region, tolerance: 0.05 }),
         33 => Command::Directions(Directions::Recapture(i64::from(other % 12))),
-        34 => Command::Regions(Regions::Add(Region::new("patch", Selector::Dabs(object, vec![dab(x, y)])))),
+        34 => Command::Regions(Regions::Add(Box::new(Region::new(
+            "patch",
+            Selector::Dabs(object, vec![dab(x, y)]),
+        )))),
         35 => Command::Regions(match other % 4 {
             0 => Regions::SetSelector(region, Selector::Object(object)),
             1 => Regions::SetColor(region, Color([0.111, 0.5, 0.7])),

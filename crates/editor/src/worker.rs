@@ -66,7 +66,7 @@ pub enum Report {
     /// The driver that draws.
     Opened(ContextReport),
     /// A scene is prepared: hairs and picking may use it. With its serial.
-    Prepared(Painting, u64),
+    Prepared(Box<Painting>, u64),
     /// A picture.
     Picture(Picture),
     /// What went wrong, in words for people. The thread goes on.

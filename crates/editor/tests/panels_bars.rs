@@ -84,9 +84,9 @@ fn the_bars_look_as_they_did() {
 fn the_sheets_look_as_they_did() {
     let mut results = SnapshotResults::new();
     for (shows, theme, size, name) in [
-        (Shows::Welcome, Theme::Dark, (760.0, 440.0), "welcome_dark"),
-        (Shows::Welcome, Theme::Light, (760.0, 440.0), "welcome_light"),
-        (Shows::Keys, Theme::Dark, (1280.0, 700.0), "keys_dark"),
+        (Shows::Welcome, Theme::Dark, (724.0, 416.0), "welcome_dark"),
+        (Shows::Welcome, Theme::Light, (724.0, 416.0), "welcome_light"),
+        (Shows::Keys, Theme::Dark, (640.0, 420.0), "keys_dark"),
         (Shows::Palette, Theme::Dark, (520.0, 460.0), "palette_dark"),
     ] {
         let mut page = Page { shows, document: page::nothing(), ..Page::new() };

@@ -1,29 +1,31 @@
 //! The direction field of one body: what regions state and guides comb, joined over few samples and carried to every
 //! particle.
 
+mod samples;
+
 use std::sync::{Arc, OnceLock};
 
-use glam::{DAffine3, DMat4, DVec2, DVec3, Vec3};
+use glam::{DAffine3, DMat4, DVec2, DVec3};
 use impasto_core::ScreenMap;
 use impasto_core::angle::wrap_pi;
 use impasto_core::direction::carry::{Carried, Stencils};
 use impasto_core::direction::curvature;
-use impasto_core::direction::field::{Constraint, FieldGraph, MAX_SAMPLES};
+use impasto_core::direction::field::{Constraint, FieldGraph};
 use impasto_core::direction::guide::Influence;
 use impasto_core::direction::singularities::{self, Singularity};
 use impasto_core::direction::{Symmetry, tangent_axes};
-use impasto_core::neighbours::Points;
-use impasto_core::sampling::{self, Particle, Surface};
+use impasto_core::sampling::Particle;
 use impasto_core::screen_map::{PixelLens, facing};
 use impasto_scene::document::{Direction, GuideMode, Seam};
 use rayon::prelude::*;
 
-use crate::frame::BodySurface;
 use crate::parts::BodyParts;
 use crate::references::{BodyReferences, Views, shown_rad};
 use crate::regions::{BodyGuide, BodyRegions, RegionRule};
 use crate::smooth;
 use crate::stated::{Base, Point, Stated, symmetry};
+
+pub(crate) use samples::FieldSamples;
 
 /// Firmness, in units of one neighbour, of what is stated outright and of a guide's own line.
 pub(crate) const FIRM: f64 = 300.0;
@@ -37,15 +39,6 @@ const FAINT: f64 = 1e-6;
 
 /// A guide that is narrower than this many spacings of the samples still reaches that far for them.
 const LEAST_REACH_SPACINGS: f64 = 1.2;
-
-/// The samples of a body.
-#[derive(Debug)]
-pub(crate) struct FieldSamples {
-    pub(crate) particles: Vec<Particle>,
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    pub(crate) spacing: f64,
-}
 
 /// All that the field of a body depends on.
 #[derive(Clone)]
@@ -90,43 +83,6 @@ pub(crate) struct SamplePoint {
     base: Base,
     /// The stated direction in the axes of the normal.
     stated: DVec2,
-}
-
-impl FieldSamples {
-    pub(crate) fn new(surface: &Surface<'_>, name_hash: u32) -> Self {
-        let particles = sampling::progressive(surface, MAX_SAMPLES, name_hash);
-        Self {
-            positions: particles.iter().map(|particle| particle.position).collect(),
-            normals: particles.iter().map(|particle| particle.normal).collect(),
-            spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
-            particles,
-        }
-    }
-
-    /// The samples where they are at a share of the body's morph.
-    pub(crate) fn posed(self, surface: &BodySurface, morph: f64) -> Self {
-        if surface.is_at_rest(morph) {
-            return self;
-        }
-        let particles = surface.posed(&self.particles, morph);
-        Self {
-            positions: particles.iter().map(|particle| particle.position).collect(),
-            normals: particles.iter().map(|particle| particle.normal).collect(),
-            spacing: self.spacing,
-            particles,
-        }
-    }
-
-    fn points(&self) -> Points<'_> {
-        Points { positions: &self.positions, normals: &self.normals }
-    }
-
-    /// Which samples each of these particles listens to.
-    pub(crate) fn stencils(&self, particles: &[Particle]) -> Stencils {
-        let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
-        let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
-        Stencils::new(Points { positions: &positions, normals: &normals }, self.points(), self.spacing)
-    }
 }
 
 impl PartialEq for FieldInputs {

@@ -32,6 +32,9 @@ struct OrderedCoat {
     seats: Option<Arc<Seats>>,
 }
 
+/// Particles of one layer of paint: the bits of a rank, the hash of the object's name, the particle.
+type Run = Vec<(u64, u32, OrderEntry)>;
+
 impl PartialEq for OrderedCoat {
     fn eq(&self, other: &Self) -> bool {
         let same_regions = match (&self.seats, &other.seats) {
@@ -67,7 +70,7 @@ impl OrderInputs {
     /// All particles in painting order; equal ranks of two objects by name.
     pub(crate) fn order(&self) -> Vec<OrderEntry> {
         // Each layer is a few lists that are sorted already.
-        let mut runs: BTreeMap<(i32, LayerKind), Vec<(u64, u32, OrderEntry)>> = BTreeMap::new();
+        let mut runs: BTreeMap<(i32, LayerKind), Run> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
             for particle in (0..coat.count).rev() {
                 let layer = match &coat.seats {
@@ -80,7 +83,7 @@ impl OrderInputs {
                 runs.entry((layer, coat.kind)).or_default().push((rank.to_bits(), coat.name_hash, entry));
             }
         }
-        let mut runs: Vec<Vec<(u64, u32, OrderEntry)>> = runs.into_values().collect();
+        let mut runs: Vec<Run> = runs.into_values().collect();
         runs.par_iter_mut().for_each(|run| {
             run.sort_by_key(|&(rank, name_hash, entry)| (std::cmp::Reverse(rank), name_hash, entry.particle));
         });

@@ -36,14 +36,14 @@ pub enum StrokeChange {
     /// The pigments.
     Palette(Option<Vec<Color>>),
     /// What differs in one layer of paint.
-    PaintLayer(LayerSettings),
+    PaintLayer(Box<LayerSettings>),
 }
 
 /// Regions and their strokes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Regions {
     /// Adds a region over those that are there; its name is made unique.
-    Add(Region),
+    Add(Box<Region>),
     /// Changes what a region covers.
     SetSelector(String, Selector),
     /// Adds dabs of the region brush, or takes away what they touch.
@@ -60,14 +60,14 @@ pub enum Regions {
     /// Changes one stroke setting.
     SetStroke(StrokesOf, StrokeChange),
     /// Puts all stroke settings of one place of another's.
-    PasteStrokes(StrokesOf, StrokeSettings),
+    PasteStrokes(StrokesOf, Box<StrokeSettings>),
 }
 
 impl Regions {
     pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
         match self {
             Self::Add(region) => {
-                let mut region = region.clone();
+                let mut region = Region::clone(region);
                 let taken = scene.regions.iter().map(|region| region.name.as_str());
                 region.name = names::unique(&names::typed(&region.name)?, taken);
                 let name = region.name.clone();
@@ -95,7 +95,7 @@ impl Regions {
             }
             Self::SetStroke(of, change) => set_stroke(settings(scene, of)?, change),
             Self::PasteStrokes(of, pasted) => {
-                settings(scene, of)?.clone_from(pasted);
+                settings(scene, of)?.clone_from(&**pasted);
                 Ok(Done::new(match of {
                     StrokesOf::Scene => "Paste strokes to the scene".to_owned(),
                     StrokesOf::Region(name) => format!("Paste strokes to {name}"),
@@ -183,8 +183,8 @@ fn set_stroke(settings: &mut StrokeSettings, change: &StrokeChange) -> Result<Do
         StrokeChange::PaintLayer(layer) => {
             let known = settings.layers.iter_mut().find(|other| other.name == layer.name);
             match known {
-                Some(known) => known.clone_from(layer),
-                None => settings.layers.push(layer.clone()),
+                Some(known) => known.clone_from(&**layer),
+                None => settings.layers.push(LayerSettings::clone(layer)),
             }
             format!("Paint: {}", layer.name)
         }

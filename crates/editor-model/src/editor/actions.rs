@@ -49,7 +49,12 @@ impl Editor {
                 },
                 view,
             ),
-            Action::Compare => self.session.compare = !self.session.compare,
+            Action::Compare => {
+                self.session.compare = !self.session.compare;
+                // The pictures lie elsewhere: what was under the pointer is not any more.
+                self.cancel(view);
+                self.output = Default::default();
+            }
             Action::CycleHairs => {
                 let hairs = &mut self.session.overlays.hairs;
                 *hairs = match hairs {
@@ -63,7 +68,7 @@ impl Editor {
             Action::StepOn => self.session.frame = (self.session.frame + 1.0).ceil(),
             Action::FirstFrame => self.session.frame = self.document.scene().timeline.first as f64,
             Action::LastFrame => self.session.frame = self.document.scene().timeline.last as f64,
-            Action::PreviousKey | Action::NextKey => self.to_key(action == Action::NextKey),
+            Action::PreviousKey | Action::NextKey => self.go_to_key(action == Action::NextKey),
             _ => self.act_on_things(action, view),
         }
     }
@@ -300,7 +305,7 @@ impl Editor {
         self.looking.free(&shot).frame(bounds, view.size_px);
     }
 
-    fn to_key(&mut self, forward: bool) {
+    fn go_to_key(&mut self, forward: bool) {
         let scene = self.document.scene();
         let objects = scene.objects.iter().flat_map(|object| object.keys.iter().map(|key| key.frame));
         let frames = objects.chain(scene.camera.keys.iter().map(|key| key.frame));

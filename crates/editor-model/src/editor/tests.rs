@@ -57,7 +57,8 @@ fn key(editor: &mut Editor, key: Key) {
 /// Where the object that is seen largest shows.
 fn middle_of_the_apple(editor: &Editor) -> DVec2 {
     let scene = editor.document().scene();
-    let apple = scene.objects.iter().position(|object| object.name.contains("apple")).expect("there is an apple");
+    let apple =
+        scene.objects.iter().position(|object| object.name.contains("apple")).expect("there is an apple");
     let [low, high] = editor.picker().bounds_in_world([apple], &editor.poses()).expect("it has a surface");
     view(editor).project((low + high) * 0.5).expect("it is in the picture")
 }
@@ -145,7 +146,9 @@ fn typed_numbers_move_the_whole_motion() {
     let moved = editor.poses()[0].translation - before;
     assert!(moved.abs_diff_eq(DVec3::new(0.5, 0.0, 0.0), 1e-9), "{moved}");
     assert_eq!(editor.document().undo_count(), 1);
-    for pressed in [Key::Letter('R'), Key::Letter('Z'), Key::Sign('-'), Key::Digit(3), Key::Digit(0), Key::Escape] {
+    for pressed in
+        [Key::Letter('R'), Key::Letter('Z'), Key::Sign('-'), Key::Digit(3), Key::Digit(0), Key::Escape]
+    {
         key(&mut editor, pressed);
     }
     assert_eq!(editor.document().undo_count(), 1);

@@ -109,8 +109,10 @@ impl Brush {
         let along = if moving { self.heading.along().or(lying) } else { lying };
         output.needle = along.map(|along| Needle { at_px, along, headed: moving });
         if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
-            output.label =
-                Some(format!("{}°  trust {:.2}", shown.angle_rad.to_degrees().round() + 0.0, shown.trust));
+            // A line has no head: its angle is told from −90° to 90°.
+            let angle_deg = shown.angle_rad.to_degrees();
+            let angle_deg = (angle_deg - 180.0 * (angle_deg / 180.0).round()).round() + 0.0;
+            output.label = Some(format!("{angle_deg}°  trust {:.2}", shown.trust));
         }
         output
     }
@@ -368,7 +370,10 @@ impl Stroke {
             RegionTarget::Named(region) => Command::Regions(Regions::Paint { region: region.clone(), dabs }),
             RegionTarget::NewOn(object) => {
                 let name = format!("{object} part");
-                Command::Regions(Regions::Add(Region::new(name, Selector::Dabs(object.clone(), dabs))))
+                Command::Regions(Regions::Add(Box::new(Region::new(
+                    name,
+                    Selector::Dabs(object.clone(), dabs),
+                ))))
             }
         }
     }

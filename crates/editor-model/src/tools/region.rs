@@ -53,7 +53,7 @@ fn chosen(hit: &Hit, around: &Surroundings) -> Result<Command, Refusal> {
                 Patch::Flood(seed, sharp_deg) => Selector::Flood(object.name.clone(), seed, sharp_deg),
                 other => Selector::Several(object.name.clone(), vec![other]),
             };
-            Ok(Command::Regions(Regions::Add(Region::new(name, on))))
+            Ok(Command::Regions(Regions::Add(Box::new(Region::new(name, on)))))
         }
     }
 }

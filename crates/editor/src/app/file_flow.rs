@@ -141,13 +141,13 @@ impl EditorApp {
         }
         if self.files.asks {
             self.ask_about_changes(ctx);
-        } else if let Some(frame) = self.sheets.recapture {
-            if let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame }) {
-                if answer == ask_close::Answer::Recapture {
-                    self.editor.recapture(frame);
-                }
-                self.sheets.recapture = None;
+        } else if let Some(frame) = self.sheets.recapture
+            && let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame })
+        {
+            if answer == ask_close::Answer::Recapture {
+                self.editor.recapture(frame);
             }
+            self.sheets.recapture = None;
         }
         if let Some(answer) = self.files.dialogs.poll(ctx) {
             self.answered(answer);

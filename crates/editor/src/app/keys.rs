@@ -33,9 +33,10 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View) {
     ui.input_mut(|input| {
         let mut index = 0;
         input.events.retain(|event| {
-            let keep = !taken.contains(&index) && !(matches!(event, Event::Text(_)) && !typing);
+            // The letter of a key that was taken is no text.
+            let is_taken = taken.contains(&index) || !typing && matches!(event, Event::Text(_));
             index += 1;
-            keep
+            !is_taken
         });
     });
 }

@@ -113,7 +113,7 @@ impl Studio {
                 }
                 Report::Prepared(painting, serial) => {
                     self.prepared = serial;
-                    editor.prepared(painting);
+                    editor.prepared(*painting);
                 }
                 Report::Picture(picture) => {
                     self.trouble = None;

@@ -3,12 +3,12 @@
 use egui::{RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
 
-use super::Shown;
+use super::{Shown, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, sheet};
 
-const COLUMN: f32 = 248.0;
+const COLUMN: f32 = 256.0;
 const ROW: f32 = 20.0;
 
 /// Keys that hold in one place.
@@ -20,7 +20,7 @@ struct Group {
 /// Shows the sheet over everything. True once it closes.
 pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
     let room = ctx.content_rect().size() - vec2(48.0, 48.0);
-    let inner = room.x.min(1088.0) - 2.0 * measure::SHEET_PADDING;
+    let inner = room.x.min(1136.0) - 2.0 * measure::SHEET_PADDING;
     let columns = ((inner / COLUMN) as usize).max(1);
     sheet(ctx, "Keys", inner + 2.0 * measure::SHEET_PADDING, |ui| {
         let tokens = Tokens::of(ui);
@@ -32,18 +32,19 @@ pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
                 Preset::Maya => "like Maya",
             };
             ui.label(RichText::new(like).font(type_face::body()).color(tokens.weak));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.with_layout(row_from_right(), |ui| {
                 close = widgets::icon_button(ui, icons::CLOSE, "Close keys").clicked();
             });
         });
         ui.add_space(measure::GAP);
         let lines = lines(groups(&shown.keymap()));
-        let high = lines.len().div_ceil(columns);
+        // One more, since no column ends with a head.
+        let high = lines.len().div_ceil(columns) + 1;
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;
-        ScrollArea::vertical().max_height(most).show(ui, |ui| {
+        ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 0.0;
-                for part in lines.chunks(high.max(1)) {
+                for part in in_columns(&lines, high) {
                     ui.allocate_ui(vec2(inner / columns as f32, high as f32 * ROW), |ui| column(ui, part));
                 }
             });
@@ -71,33 +72,48 @@ fn lines(groups: Vec<Group>) -> Vec<Line> {
     lines
 }
 
+/// Columns of at most `high` lines; none ends with a head or begins with nothing.
+fn in_columns(mut lines: &[Line], high: usize) -> Vec<&[Line]> {
+    let mut columns = Vec::new();
+    loop {
+        while let [Line::Space, rest @ ..] = lines {
+            lines = rest;
+        }
+        if lines.is_empty() {
+            return columns;
+        }
+        let mut end = lines.len().min(high.max(2));
+        if matches!(lines[end - 1], Line::Head(_)) {
+            end -= 1;
+        }
+        let (column, rest) = lines.split_at(end.max(1));
+        columns.push(column);
+        lines = rest;
+    }
+}
+
 fn column(ui: &mut Ui, lines: &[Line]) {
     let tokens = Tokens::of(ui);
-    ui.vertical(|ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        for line in lines {
-            ui.allocate_ui_with_layout(
-                vec2(ui.available_width() - 16.0, ROW),
-                egui::Layout::left_to_right(egui::Align::Center),
-                |ui| {
-                    ui.set_min_size(ui.available_size());
-                    match line {
-                        Line::Head(name) => {
-                            ui.label(RichText::new(*name).font(type_face::head()).color(tokens.text));
-                        }
-                        Line::Key(name, keys) => {
-                            ui.label(RichText::new(*name).font(type_face::small()).color(tokens.weak));
-                            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                                let keys = RichText::new(keys).font(egui::FontId::monospace(11.0));
-                                ui.label(keys.color(tokens.text));
-                            });
-                        }
-                        Line::Space => (),
-                    }
-                },
-            );
+    let (rect, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
+    for (index, line) in lines.iter().enumerate() {
+        let top = rect.left_top() + vec2(0.0, index as f32 * ROW);
+        let place = egui::Rect::from_min_size(top, vec2(rect.width() - 20.0, ROW));
+        match line {
+            Line::Head(name) => within(ui, place, row(), |ui| {
+                ui.label(RichText::new(*name).font(type_face::head()).color(tokens.text));
+            }),
+            Line::Key(name, keys) => {
+                within(ui, place, row(), |ui| {
+                    ui.label(RichText::new(*name).font(type_face::small()).color(tokens.weak));
+                });
+                within(ui, place, row_from_right(), |ui| {
+                    let keys = RichText::new(keys).font(egui::FontId::monospace(11.0));
+                    ui.label(keys.color(tokens.text));
+                });
+            }
+            Line::Space => (),
         }
-    });
+    }
 }
 
 fn groups(keymap: &Keymap) -> Vec<Group> {
@@ -159,6 +175,20 @@ mod tests {
             let keymap = Keymap { preset, ..Keymap::default() };
             let shown: usize = groups(&keymap).iter().map(|group| group.rows.len()).sum();
             assert_eq!(shown, keymap.listed().count() + 3, "a scope has no group");
+        }
+    }
+
+    #[test]
+    fn no_column_ends_with_a_head_and_all_fit() {
+        for preset in [Preset::Blender, Preset::Maya] {
+            let lines = lines(groups(&Keymap { preset, ..Keymap::default() }));
+            for count in 1..=5 {
+                let columns = in_columns(&lines, lines.len().div_ceil(count) + 1);
+                assert!(columns.len() <= count, "{} of {count}", columns.len());
+                for column in columns {
+                    assert!(!matches!(column, [.., Line::Head(_)] | [Line::Space, ..]));
+                }
+            }
         }
     }
 

@@ -15,7 +15,7 @@ use crate::widgets::{self, Button, NumberField, Tip};
 /// From the strip's top to the ruler's line, points.
 const LINE: f32 = 35.0;
 /// Labels stand at least so far apart, points.
-const LABELS: f32 = 120.0;
+const LABELS: f32 = 128.0;
 /// Half the width of a key.
 const KEY: f32 = 5.5;
 /// Frames beyond this are no frames.
@@ -74,7 +74,7 @@ fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 /// From the right end.
 fn range(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
-    ui.add_space(-2.0);
+    ui.add_space(6.0);
     let keys = Button::new("Keys").name("Show keys").icon(icons::KEYS_UP).plain();
     let response = ui.add_enabled_ui(false, |ui| keys.show(ui)).inner;
     response.on_disabled_hover_text("The lanes of keys come with playback");
@@ -230,7 +230,7 @@ mod tests {
         assert_eq!(label_step(119.0 / 786.0), 20.0);
         assert_eq!(label_step(119.0 / 1388.0), 20.0);
         assert_eq!(label_step(10_000.0 / 786.0), 2000.0);
-        assert_eq!(label_step(23.0 / 2800.0), 1.0);
+        assert_eq!(label_step(23.0 / 3200.0), 1.0);
     }
 
     #[test]

@@ -104,7 +104,7 @@ fn modes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 /// From the right end.
 fn right(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
-    ui.add_space(0.0);
+    ui.add_space(measure::GAP);
     let reason = shown.why_not(Action::Render);
     let render = Button::new("Render\u{2026}").name("Render").icon(icons::RENDER);
     let response = ui.add_enabled_ui(reason.is_none(), |ui| render.show(ui)).inner;

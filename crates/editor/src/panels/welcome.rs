@@ -75,11 +75,14 @@ fn head(ui: &mut Ui) -> bool {
     within(ui, corner, row(), |ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
 }
 
+/// A step's head, icon and words, and its keys with what they do.
+type Step<'a> = (&'a str, Icon, &'a str, &'a [(&'a str, &'a str)]);
+
 fn cards(ui: &mut Ui, keymap: &Keymap) {
     let key = |action| keymap.shortcut_text(action).unwrap_or_default();
     let [open, paint, animate, play] =
         [Action::OpenScene, Action::TogglePaint, Action::Animate, Action::Play].map(key);
-    let steps: [(&str, Icon, &str, &[(&str, &str)]); 3] = [
+    let steps: [Step<'_>; 3] = [
         (
             "Open a mesh",
             icons::OBJECT,

@@ -226,10 +226,8 @@ impl<'a> NumberField<'a> {
         let cancelled = done && ui.input(|input| input.key_pressed(Key::Escape));
         if done {
             ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
-            if !cancelled {
-                if let Some(number) = number_of(&typed, self.unit) {
-                    self.set(number);
-                }
+            if let Some(number) = number_of(&typed, self.unit).filter(|_| !cancelled) {
+                self.set(number);
             }
         } else {
             memory.typed = Some(typed);

@@ -53,8 +53,17 @@ pub struct RowResponse {
 }
 
 impl TreeRow<'_> {
-    /// Draws it. The eye and the lock show under the pointer, on the selected row (the eye), and while they are shut.
+    /// Draws it. The eye and the lock show under the pointer, on the selected row, and while they are shut.
     pub fn show(&self, ui: &mut Ui) -> RowResponse {
+        self.draw(ui, true)
+    }
+
+    /// Draws it without eye and lock: what it stands for is always seen.
+    pub fn show_bare(&self, ui: &mut Ui) -> RowResponse {
+        self.draw(ui, false)
+    }
+
+    fn draw(&self, ui: &mut Ui, has_buttons: bool) -> RowResponse {
         let tokens = Tokens::of(ui);
         let size = vec2(ui.available_width(), measure::TREE_ROW);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -75,16 +84,20 @@ impl TreeRow<'_> {
 
         let mut end = rect.right() - measure::GAP;
         let mut clicks = [false; 2];
+        // Each has its own place, so that none moves from under the pointer as the other comes and goes.
+        let wanted = over || self.selected;
         let buttons = [
-            (icons::LOCKED, icons::UNLOCKED, "Lock", self.locked, over),
-            (icons::HIDDEN, icons::VISIBLE, "Hide", self.hidden, over || self.selected),
+            (icons::LOCKED, icons::UNLOCKED, "Lock", self.locked),
+            (icons::HIDDEN, icons::VISIBLE, "Hide", self.hidden),
         ];
-        for (slot, (shut, open, verb, on, wanted)) in buttons.into_iter().enumerate() {
-            if on || wanted {
-                let at = pos2(end - measure::SMALL_ICON / 2.0, middle);
+        let mut at = end;
+        for (slot, (shut, open, verb, on)) in buttons.into_iter().enumerate() {
+            let centre = pos2(at - measure::SMALL_ICON / 2.0, middle);
+            at -= measure::SMALL_ICON + measure::GAP;
+            if has_buttons && (on || wanted) {
                 let icon = if on { shut } else { open };
-                clicks[slot] = self.small_button(ui, (at, &response), (icon, weak), (verb, on));
-                end -= measure::SMALL_ICON + measure::GAP;
+                clicks[slot] = self.small_button(ui, (centre, &response), (icon, weak), (verb, on));
+                end = at;
             }
         }
         if self.keyed {

@@ -1,11 +1,12 @@
 use winit::window::Icon;
 
 const SIDE: u32 = 64;
-/// Strokes from one end to the other, as parts of the side, their width, and their colour.
-const STROKES: [([f32; 2], [f32; 2], f32, [u8; 3]); 3] = [
-    ([0.22, 0.34], [0.74, 0.24], 0.10, [240, 180, 65]),
-    ([0.24, 0.56], [0.80, 0.46], 0.11, [255, 131, 112]),
-    ([0.22, 0.78], [0.70, 0.70], 0.10, [143, 180, 255]),
+const HALF_WIDTH: f32 = 0.1;
+/// Strokes from one end to the other, as parts of the side, and their colours.
+const STROKES: [([[f32; 2]; 2], [u8; 3]); 3] = [
+    ([[0.22, 0.34], [0.74, 0.24]], [240, 180, 65]),
+    ([[0.24, 0.56], [0.80, 0.46]], [255, 131, 112]),
+    ([[0.22, 0.78], [0.70, 0.70]], [143, 180, 255]),
 ];
 const GROUND: [u8; 3] = [34, 34, 37];
 
@@ -18,8 +19,8 @@ pub(super) fn icon() -> Option<Icon> {
 fn pixel(x: u32, y: u32) -> [u8; 4] {
     let at = [(x as f32 + 0.5) / SIDE as f32, (y as f32 + 0.5) / SIDE as f32];
     let mut colour = GROUND;
-    for (from, to, half_width, paint) in STROKES {
-        let covered = coverage(distance(at, from, to) - half_width);
+    for ([from, to], paint) in STROKES {
+        let covered = coverage(distance(at, from, to) - HALF_WIDTH);
         colour = std::array::from_fn(|i| mix(colour[i], paint[i], covered));
     }
     let corner = [(at[0] - 0.5).abs().max(0.3) - 0.3, (at[1] - 0.5).abs().max(0.3) - 0.3];

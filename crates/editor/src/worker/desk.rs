@@ -33,7 +33,7 @@ struct Orders {
 #[derive(Default)]
 struct Tray {
     opened: Option<ContextReport>,
-    prepared: Option<(Painting, u64)>,
+    prepared: Option<(Box<Painting>, u64)>,
     pictures: BTreeMap<usize, Picture>,
     failures: Vec<String>,
 }

@@ -113,8 +113,7 @@ impl Studio {
                 let size_px = self.draft_size.of(views[index].size_px);
                 if !self.draw(
                     &painting,
-                    order,
-                    index,
+                    (order, index),
                     &Manner { size_px, exact: false, give_up: &|| false },
                     tell,
                 ) {
@@ -135,7 +134,7 @@ impl Studio {
         for index in exact {
             let give_up = || !quick && desk.is_stale(order);
             let manner = Manner { size_px: views[index].size_px, exact: true, give_up: &give_up };
-            if !self.draw(&painting, order, index, &manner, tell) {
+            if !self.draw(&painting, (order, index), &manner, tell) {
                 return;
             }
         }
@@ -149,7 +148,7 @@ impl Studio {
         match self.preparer.prepare(Arc::clone(&order.job.loaded)) {
             Ok(painting) => {
                 self.prepared = Some((painting.clone(), serial));
-                tell(Report::Prepared(painting.clone(), serial));
+                tell(Report::Prepared(Box::new(painting.clone()), serial));
                 Some(painting)
             }
             Err(error) => {
@@ -172,8 +171,7 @@ impl Studio {
     fn draw(
         &mut self,
         painting: &Painting,
-        order: &Order,
-        index: usize,
+        (order, index): (&Order, usize),
         manner: &Manner<'_>,
         tell: Tell<'_>,
     ) -> bool {

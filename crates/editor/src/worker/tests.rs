@@ -35,7 +35,7 @@ fn view(loaded: &LoadedScene, frame: f64) -> ViewJob {
 fn worker() -> (Worker, mpsc::Receiver<()>) {
     let (sender, woken) = mpsc::channel();
     let sender = Mutex::new(sender);
-    let wake = move || drop(sender.lock().unwrap().send(()));
+    let wake = move || sender.lock().unwrap().send(()).unwrap_or_default();
     (Worker::new(Driver::Auto, wake).unwrap(), woken)
 }
 
@@ -222,7 +222,7 @@ fn a_panic_is_told_and_the_next_job_is_drawn() {
         if calls.fetch_add(1, Ordering::Relaxed) == 0 {
             panic!("planted");
         }
-        drop(sender.lock().unwrap().send(()));
+        sender.lock().unwrap().send(()).unwrap_or_default();
     };
     let worker = (Worker::new(Driver::Auto, wake).unwrap(), woken);
     let job = || Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, 0.0)] };

@@ -185,8 +185,9 @@ fn a_drag_on_length_previews_and_is_one_entry() {
     let log = &column.log;
     assert!(log.iter().filter(|words| *words == "preview").count() >= 2, "{log:?}");
     assert_eq!(column.document.undo_count(), 1, "{log:?}");
-    // 132 points are the whole range of 156.
-    let wanted = (64.0_f64 + 40.0 * 156.0 / 132.0).round();
+    // The field's width is the whole range of 156.
+    let wide = harness.get_by_label("Length").rect().width();
+    let wanted = (64.0_f64 + 40.0 * 156.0 / f64::from(wide)).round();
     assert_eq!(column.region("apple").strokes.length_px, Some(wanted));
     assert_eq!(column.document.undo_text(), Some(format!("Length {wanted} px").as_str()));
     assert!(

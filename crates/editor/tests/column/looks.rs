@@ -1,26 +1,31 @@
 //! How the column looks.
 
+use crate::headless::Headless;
 use egui::{Vec2, vec2};
-use egui_kittest::SnapshotOptions;
+use egui_kittest::{SnapshotOptions, SnapshotResults};
 use impasto_editor::theme::Theme;
 use impasto_editor_model::command::{Command, Edit, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::session::Mode;
 use impasto_editor_model::{Item, Selection};
+use impasto_gl_render::context::Driver;
 
-use super::{Column, SIZE, harness_of, object, region, with_guides};
+use super::{Column, SIZE, build, builder, object, region, with_guides};
 
 /// Other drivers round colours differently; a control out of place or of another colour is far more than this.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }
 
-fn picture(name: &str, (column, theme): (Column, Theme), size: Vec2) {
-    let mut harness = harness_of(column, theme, size);
+fn picture(name: &str, (column, theme): (Column, Theme), size: Vec2) -> SnapshotResults {
+    let builder = builder(theme, size).renderer(Headless::open(Driver::Auto));
+    let mut harness = build(builder, column);
     harness.snapshot_options(name, &options());
+    harness.take_snapshot_results()
 }
 
 #[test]
 fn the_column_looks_as_it_did() {
+    let mut all = SnapshotResults::new();
     let of = |scene: &str, selected: Option<Item>| {
         let mut column = Column::open(scene);
         column.document.select(selected.into_iter().collect());
@@ -32,22 +37,22 @@ fn the_column_looks_as_it_did() {
     let of_strokes =
         |change| Command::Regions(Regions::SetStroke(StrokesOf::Region("apple".to_owned()), change));
     skin.apply(of_strokes(StrokeChange::Number("coverage", Some(3.0))));
-    picture("column_region_dark", (skin, Theme::Dark), SIZE);
+    all.extend(picture("column_region_dark", (skin, Theme::Dark), SIZE));
     let mut skin = of("apple.ron", None);
     with_guides(&mut skin);
     skin.document.select(Selection::only(Item::Guide("apple".to_owned(), 1)));
-    skin.tree_height = 330.0;
-    picture("column_guide_light", (skin, Theme::Light), vec2(336.0, 980.0));
+    skin.tree_height = 240.0;
+    all.extend(picture("column_guide_light", (skin, Theme::Light), vec2(336.0, 760.0)));
     let mut posed = of("still_life.ron", object("apple"));
     posed.session.mode = Mode::Animate;
     posed.session.frame = 40.0;
-    picture("column_pose_dark", (posed, Theme::Dark), vec2(280.0, 512.0));
-    picture("column_object_light", (of("still_life.ron", object("jug")), Theme::Light), SIZE);
-    picture(
+    all.extend(picture("column_pose_dark", (posed, Theme::Dark), vec2(280.0, 512.0)));
+    all.extend(picture("column_object_light", (of("still_life.ron", object("jug")), Theme::Light), SIZE));
+    all.extend(picture(
         "column_light_dark",
         (of("still_life.ron", Some(Item::Light("window".to_owned()))), Theme::Dark),
         SIZE,
-    );
-    picture("column_camera_dark", (of("still_life.ron", Some(Item::Camera)), Theme::Dark), SIZE);
-    picture("column_scene_dark", (of("still_life.ron", None), Theme::Dark), SIZE);
+    ));
+    all.extend(picture("column_camera_dark", (of("still_life.ron", Some(Item::Camera)), Theme::Dark), SIZE));
+    all.extend(picture("column_scene_dark", (of("still_life.ron", None), Theme::Dark), SIZE));
 }

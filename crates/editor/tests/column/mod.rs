@@ -6,19 +6,17 @@ mod tree;
 
 use std::path::Path;
 
+use egui::accesskit::Toggled;
 use egui::{Key, Role, Vec2, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, HarnessBuilder};
 use impasto_editor::panels::{self, Ask, Numbers, Shown};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::command::Command;
 use impasto_editor_model::keymap::{Action, Preset};
 use impasto_editor_model::{Document, Item, Session};
-use impasto_gl_render::context::Driver;
 use impasto_scene::document::{Guide, GuidePoint};
 use impasto_scene::load::LoadOptions;
-
-use crate::headless::Headless;
 
 /// The column with a document that does what it is asked.
 pub struct Column {
@@ -55,6 +53,10 @@ impl Column {
             numbers: Numbers::default(),
             recent: &[],
         };
+        // The harness has margins, the window has none.
+        let whole = ui.ctx().content_rect();
+        let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
+        ui.set_clip_rect(whole);
         let none = egui::Frame::new().fill(ui.visuals().panel_fill);
         egui::Panel::top("tree").frame(none).exact_size(self.tree_height).show_separator_line(false).show(
             ui,
@@ -97,7 +99,7 @@ impl Column {
                 self.acts.push(action);
                 "act".to_owned()
             }
-            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome => "of another panel".to_owned(),
+            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => "of another panel".to_owned(),
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()
@@ -117,13 +119,21 @@ impl Column {
 
 pub const SIZE: Vec2 = Vec2::new(280.0, 692.0);
 
+/// A harness that draws nothing: pictures need a renderer.
 pub fn harness_of(column: Column, theme: Theme, size: Vec2) -> Harness<'static, Column> {
-    let mut harness = Harness::builder()
+    build(builder(theme, size), column)
+}
+
+pub fn builder(theme: Theme, size: Vec2) -> HarnessBuilder<Column> {
+    Harness::builder()
         .with_size(size)
+        .with_theme(if theme == Theme::Dark { egui::Theme::Dark } else { egui::Theme::Light })
         .with_render_cursor(false)
         .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
-        .renderer(Headless::open(Driver::Auto))
-        .build_ui_state(|ui, column: &mut Column| column.ui(ui), column);
+}
+
+pub fn build(builder: HarnessBuilder<Column>, column: Column) -> Harness<'static, Column> {
+    let mut harness = builder.build_ui_state(|ui, column: &mut Column| column.ui(ui), column);
     harness.run();
     harness
 }
@@ -133,7 +143,16 @@ pub fn harness(scene: &str, selected: Option<Item>) -> Harness<'static, Column> 
     let mut column = Column::open(scene);
     column.document.select(selected.into_iter().collect());
     column.tree_height = 800.0;
-    harness_of(column, Theme::Dark, vec2(280.0, 2400.0))
+    let mut harness = harness_of(column, Theme::Dark, vec2(280.0, 2400.0));
+    let folded: Vec<String> = harness
+        .query_all_by_label_contains("Expand ")
+        .filter(|node| node.accesskit_node().toggled() == Some(Toggled::False))
+        .filter_map(|node| node.accesskit_node().label())
+        .collect();
+    for name in folded {
+        click(&mut harness, &name);
+    }
+    harness
 }
 
 pub fn region(name: &str) -> Option<Item> {

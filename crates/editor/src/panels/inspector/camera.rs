@@ -137,7 +137,6 @@ fn place(ui: &mut Ui, asker: &mut Asker<'_, '_>, animate: bool) {
     });
     let number = Number {
         unit: "\u{b0}",
-        range: -180.0..=180.0,
         step: (1.0, 1),
         default: Some(0.0),
         ..Number::new("Roll", "Turns the camera about its gaze.")

@@ -226,7 +226,7 @@ fn regions(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
             hidden: region.hidden,
             locked: region.locked,
         }
-        .show(ui)
+        .show_bare(ui)
         .response;
         if response.clicked() {
             asker.asks.push(Ask::Select(Selection::only(Item::Region(region.name.clone()))));

@@ -100,7 +100,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
         asker.number(ui, &Number { default, ..field.number.clone() }, values, |to| {
             let mut settings = settings.clone();
             *(field.own)(&mut settings) = to;
-            place.set(StrokeChange::PaintLayer(settings))
+            place.set(StrokeChange::PaintLayer(Box::new(settings)))
         });
     }
 }

@@ -23,7 +23,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
     let animate = asker.shown.session.mode == Mode::Animate;
     let is_keyed = object.keys.iter().any(|key| key.frame == frame);
     let title = if animate { format!("Pose at frame {frame}") } else { "Transform".to_owned() };
-    let note = if animate && is_keyed { "\u{25c6} keyed" } else { "" };
+    let note = if animate && is_keyed { "keyed" } else { "" };
     section(ui, (&title, note), true, |ui| {
         let now = motion::key_at(asker.scene(), object, frame);
         let was = motion::key_at(asker.stored(), stored, frame);

@@ -13,7 +13,7 @@ use crate::panels::tree::region_color;
 use crate::widgets::{self, Tip};
 
 /// Width of the label before three fields.
-const NARROW_LABEL: f32 = 48.0;
+const NARROW_LABEL: f32 = 54.0;
 
 /// What [`kinds`] calls each base direction.
 const BASES: [&str; 8] = ["Automatic", "Angle", "Crossing", "Along", "Around", "Up", "Toward", "Curvature"];
@@ -55,7 +55,6 @@ fn direction(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored]: [&Region;
     base(ui, asker, [region, stored]);
     let turn = Number {
         unit: "\u{b0}",
-        range: -180.0..=180.0,
         default: Some(0.0),
         ..Number::new("Turn", "Turns all directions of the region, combed ones too, counter-clockwise.")
     };
@@ -167,7 +166,7 @@ pub(super) fn vector(
     [shown, stored]: [[f64; 3]; 2],
     command: impl Fn([f64; 3]) -> Command,
 ) {
-    axes(ui, (label, NARROW_LABEL.max(label.len() as f32 * 7.0 + 8.0)), |ui, (axis, letter, name), width| {
+    axes(ui, (label, NARROW_LABEL), |ui, (axis, letter, name), width| {
         let number = Number {
             letter,
             range: ANY,

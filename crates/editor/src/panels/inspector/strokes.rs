@@ -79,7 +79,7 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     let usual = if region.is_some() { scene.strokes.layer.unwrap_or(0) } else { 0 };
     let most = f64::from(MAX_LAYER);
     let layer = Number {
-        range: -8.0..=8.0,
+        range: 0.0..=8.0,
         limits: Some(-most..=most),
         default: place.own[0].layer.map(|_| f64::from(usual)),
         ..Number::new("Layer", "Higher layers are painted over lower ones.")
@@ -276,7 +276,7 @@ fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
         }
         let paste = ui.add_enabled_ui(copied.is_some(), |ui| Button::new("Paste strokes").show(ui)).inner;
         if let Some(copied) = copied.filter(|_| paste.clicked()) {
-            asker.ask(Command::Regions(Regions::PasteStrokes(place.of.clone(), copied)));
+            asker.ask(Command::Regions(Regions::PasteStrokes(place.of.clone(), Box::new(copied))));
         }
     });
 }

@@ -65,7 +65,7 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
         hint(ui, (shown, tool), right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
         within(ui, rect, row_from_right(), |ui| {
-            ui.add_space(measure::GAP - 4.0);
+            ui.add_space(measure::GAP);
             let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
             more(ui, &behind, (&mut options, say));
         });

@@ -36,7 +36,7 @@ pub(super) fn menu(button: &Response, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
                 _ => format!("Region {}", region.name),
             };
             if entry(ui, icons::REGION, &words) {
-                asks.push(Ask::Do(Command::Regions(Regions::Add(region))));
+                asks.push(Ask::Do(Command::Regions(Regions::Add(Box::new(region)))));
             }
         }
     });
@@ -86,6 +86,17 @@ fn regions(shown: &Shown<'_>, object: &str) -> Vec<Region> {
             Region::new(material.name.clone(), on)
         }));
     }
-    wanted.retain(|region| loaded.scene.regions.iter().all(|other| other.on != region.on));
+    // A group and a material of one name are one part of the mesh, as a rule.
+    let taken = |region: &Region| {
+        loaded.scene.regions.iter().any(|other| {
+            let part = |region: &Region| match &region.on {
+                Selector::Group(_, name) | Selector::Material(_, name) => Some(name.clone()),
+                _ => None,
+            };
+            other.on.object() == Some(object)
+                && (other.on == region.on || part(other).is_some() && part(other) == part(region))
+        })
+    };
+    wanted.retain(|region| !taken(region));
     wanted
 }

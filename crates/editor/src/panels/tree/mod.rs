@@ -120,7 +120,8 @@ fn show_row(ui: &mut Ui, row: &Row, (shown, moved): (&Shown<'_>, bool), asks: &m
         hidden: row.hidden,
         locked: row.locked,
     };
-    let answer = drawn.show(ui);
+    let can_hide = matches!(row.item, Some(Item::Object(_) | Item::Region(_)));
+    let answer = if can_hide { drawn.show(ui) } else { drawn.show_bare(ui) };
     let rect = answer.response.rect;
     if drawn.selected && moved {
         ui.scroll_to_rect(rect, None);

@@ -1,0 +1,55 @@
+//! The few places of a body at which its field is solved.
+
+use glam::Vec3;
+use impasto_core::direction::carry::Stencils;
+use impasto_core::direction::field::MAX_SAMPLES;
+use impasto_core::neighbours::Points;
+use impasto_core::sampling::{self, Particle, Surface};
+
+use crate::frame::BodySurface;
+
+/// The samples of a body.
+#[derive(Debug)]
+pub(crate) struct FieldSamples {
+    pub(crate) particles: Vec<Particle>,
+    pub(super) positions: Vec<Vec3>,
+    pub(super) normals: Vec<Vec3>,
+    pub(crate) spacing: f64,
+}
+
+impl FieldSamples {
+    pub(crate) fn new(surface: &Surface<'_>, name_hash: u32) -> Self {
+        let particles = sampling::progressive(surface, MAX_SAMPLES, name_hash);
+        Self {
+            positions: particles.iter().map(|particle| particle.position).collect(),
+            normals: particles.iter().map(|particle| particle.normal).collect(),
+            spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
+            particles,
+        }
+    }
+
+    /// The samples where they are at a share of the body's morph.
+    pub(crate) fn posed(self, surface: &BodySurface, morph: f64) -> Self {
+        if surface.is_at_rest(morph) {
+            return self;
+        }
+        let particles = surface.posed(&self.particles, morph);
+        Self {
+            positions: particles.iter().map(|particle| particle.position).collect(),
+            normals: particles.iter().map(|particle| particle.normal).collect(),
+            spacing: self.spacing,
+            particles,
+        }
+    }
+
+    pub(super) fn points(&self) -> Points<'_> {
+        Points { positions: &self.positions, normals: &self.normals }
+    }
+
+    /// Which samples each of these particles listens to.
+    pub(crate) fn stencils(&self, particles: &[Particle]) -> Stencils {
+        let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
+        let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
+        Stencils::new(Points { positions: &positions, normals: &normals }, self.points(), self.spacing)
+    }
+}
