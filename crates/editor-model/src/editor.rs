@@ -260,6 +260,11 @@ impl Editor {
         !matches!(self.busy, Busy::Idle | Busy::Pressed(_))
     }
 
+    /// Whether the view is under the hand.
+    pub fn is_navigating(&self) -> bool {
+        matches!(self.busy, Busy::Navigating(..) | Busy::Shot(_))
+    }
+
     /// Takes all lines that are to be shown.
     pub fn take_said(&mut self) -> Vec<Said> {
         std::mem::take(&mut self.said)

@@ -22,8 +22,9 @@ use crate::viewport::overlay::{
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
 
-/// The map of what shows has so many cells a point.
+/// The map of what shows has so many cells a point, and so many while the view moves.
 const CELLS_PER_POINT: f64 = 0.5;
+const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
 /// What one picture's marks are made from, kept with what it was made of.
 #[derive(Default)]
@@ -50,6 +51,7 @@ struct Key {
     overlays: Overlays,
     mode: Mode,
     selected: Option<Item>,
+    moving: bool,
 }
 
 /// Marks that are made anew in every pass.
@@ -86,6 +88,7 @@ impl MarkCache {
             overlays: session.overlays,
             mode: session.mode,
             selected: editor.document().selection().active().cloned(),
+            moving: editor.is_navigating(),
         };
         let half = &mut self.halves[seen.index];
         if half.of.as_ref() == Some(&key) {
@@ -100,7 +103,8 @@ impl MarkCache {
             return;
         }
         let view = framing.view(seen.camera);
-        let map = SurfaceMap::new(&bodies(painting, seen.frame), &view, CELLS_PER_POINT);
+        let cells = if editor.is_navigating() { MOVING_CELLS_PER_POINT } else { CELLS_PER_POINT };
+        let map = SurfaceMap::new(&bodies(painting, seen.frame), &view, cells);
         let scene = painting.scene();
         let colours = region_colours(scene);
         if shows_hairs {
