@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn labels_stand_as_far_apart_as_they_need() {
-        // 120 frames on the strips of both mock-ups, then a long film and a single second.
+        // 120 frames on a narrow and a wide strip, then a long film and a single second.
         assert_eq!(label_step(119.0 / 786.0), 20.0);
         assert_eq!(label_step(119.0 / 1388.0), 20.0);
         assert_eq!(label_step(10_000.0 / 786.0), 2000.0);
