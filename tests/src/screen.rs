@@ -310,33 +310,9 @@ impl<'a> EditorWindow<'a> {
     /// When it stays.
     pub fn quit(mut self) -> Option<i32> {
         let value = self.rest().1;
-        self.screen.hand(&[
-            "mousemove",
-            "59",
-            "20",
-            "sleep",
-            "0.3",
-            "mousedown",
-            "1",
-            "sleep",
-            "0.1",
-            "mouseup",
-            "1",
-        ]);
+        self.screen.hand(&["mousemove", "59", "20", "click", "1"]);
         self.wait_for_value(&format!("{value}, under a menu"));
-        self.screen.hand(&[
-            "mousemove",
-            "100",
-            "302",
-            "sleep",
-            "0.3",
-            "mousedown",
-            "1",
-            "sleep",
-            "0.1",
-            "mouseup",
-            "1",
-        ]);
+        self.screen.hand(&["mousemove", "100", "302", "click", "1"]);
         wait_for("the end, by File, Quit", || self.process.try_wait().ok().flatten()).code()
     }
 }

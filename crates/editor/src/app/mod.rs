@@ -49,6 +49,7 @@ pub(crate) struct EditorApp {
     folds: Folds,
     tell: Option<fn(&str)>,
     told: String,
+    menu_was_open: bool,
 }
 
 /// Which sheets lie over the window.
@@ -91,6 +92,7 @@ impl EditorApp {
             folds: Folds::default(),
             tell: options.tell,
             told: String::new(),
+            menu_was_open: false,
         };
         app.keymap();
         opened.ctx.add_plugin(window::FocusRules);
@@ -223,8 +225,11 @@ impl EditorApp {
 
     /// Tells what the window shows, each time that it has come to rest on something else.
     fn tell_rest(&mut self, ctx: &Context) {
+        // In its first pass a menu is only measured: it cannot be clicked before the second.
+        let menu_is_open = egui::Popup::is_any_open(ctx);
+        let menu_is_shown = std::mem::replace(&mut self.menu_was_open, menu_is_open) && menu_is_open;
         let (Some(tell), Some(version)) = (self.tell, self.studio.at_rest()) else { return };
-        let over = match (self.is_modal(), egui::Popup::is_any_open(ctx)) {
+        let over = match (self.is_modal(), menu_is_shown) {
             (true, _) => ", under a sheet",
             (false, true) => ", under a menu",
             (false, false) => "",
