@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec2;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{FrameOptions, Painting, Preparer, Quality};
+use impasto_painting::{FrameOptions, Painting, Preparer, Quality, Recall};
 use impasto_scene::document::{Direction, Guide, Region, Scene, Selector};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
@@ -124,21 +124,31 @@ fn pictures() {
     let painting: Painting = Preparer::default().prepare(Arc::new(shipped("still_life"))).expect("the scene has its meshes");
     let camera = motion::camera_at(painting.scene(), 0.0);
     let mut renderer = Renderer::new(open(Driver::Auto, &OpenOptions::default()).expect("a driver")).expect("shaders");
-    let sizes = [[475, 325], [640, 400], [950, 650]];
+    let sizes = [[475, 325], [333, 228], [950, 650]];
     for (size_px, quality) in sizes.into_iter().flat_map(|size| [(size, Quality::Exact), (size, Quality::Draft)]) {
         let options = FrameOptions { quality, ..FrameOptions::new(size_px) };
-        let (mut seen, mut drawn, mut cpu) = (Vec::new(), Vec::new(), 0.0);
-        for turn in 0..12 {
+        let (mut seen, mut drawn, mut cpu, mut recall) = (Vec::new(), Vec::new(), 0.0, None);
+        for turn in 0..12u32 {
             let mut camera = camera.clone();
             camera.eye.x += 0.01 * f64::from(turn);
             let (start, cpu_start) = (Instant::now(), cpu_secs());
-            let frame = painting.seen_by(&camera, 0.0, &options);
-            seen.push(start.elapsed().as_secs_f64());
-            renderer.render(&frame).expect("it is drawn");
+            let mut frame = painting.bare(&camera, 0.0, &options);
+            let strokes = || {
+                let start = Instant::now();
+                let strokes = painting.strokes(&camera, 0.0, &options, recall.as_ref());
+                seen.push(start.elapsed().as_secs_f64());
+                strokes
+            };
+            renderer.render_with(&mut frame, strokes).expect("it is drawn");
+            if quality == Quality::Draft {
+                let resolved = renderer.resolved_strokes();
+                recall = Some(Recall::of(&painting, &frame, |index| resolved[index].alpha > 0.0, turn));
+            }
             drawn.push(start.elapsed().as_secs_f64());
             cpu += cpu_secs() - cpu_start;
         }
-        let frame = painting.seen_by(&camera, 0.0, &options);
+        let mut frame = painting.bare(&camera, 0.0, &options);
+        frame.lay(painting.strokes(&camera, 0.0, &options, recall.as_ref()));
         renderer.render_timed(&frame).expect("it is drawn");
         let (_, cost) = renderer.render_timed(&frame).expect("it is drawn");
         for seconds in [&mut seen, &mut drawn] {
@@ -153,7 +163,7 @@ fn pictures() {
         }
         println!();
         // To be looked at: four bytes a pixel, top row first.
-        if let Some(folder) = std::env::args().nth(2) {
+        if let Some(folder) = std::env::args().nth(3) {
             let picture = renderer.render(&frame).expect("it is drawn");
             let file = format!("{folder}/{}x{}_{quality:?}.rgba", size_px[0], size_px[1]);
             std::fs::write(file, picture.rgba8).expect("the folder is there");
@@ -165,8 +175,13 @@ fn pictures() {
     }
 }
 
-/// Runs all of it.
+/// Runs all of it, or what is named: `edits` or `pictures`.
 pub fn run() {
-    preparing();
-    pictures();
+    let named = |what: &str| std::env::args().any(|argument| argument == what);
+    if !named("pictures") {
+        preparing();
+    }
+    if !named("edits") {
+        pictures();
+    }
 }

@@ -21,7 +21,12 @@ out vec4 fitted;                 // centre in px where it lies on its body, ligh
 
 const float FREE = 1e6;
 const float MOST_FULL = 1.35;
-const float LEAST = 0.004;       // of a stroke that is painted
+// Of a stroke that is painted; of faint ones a draft shows nothing.
+#ifdef DRAFT
+const float LEAST = 0.25;
+#else
+const float LEAST = 0.004;
+#endif
 
 // Deviation of the Gaussian that colours come from, in widths of the stroke.
 const float BLUR[6] = float[6](0.33, 0.20, 0.20, 0.22, 0.30, 0.25);
@@ -142,6 +147,9 @@ void main() {
     }
     vec3 wide = kind == ACCENTS ? wide_mean(place.xy, own.y, lab) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
+#ifdef DRAFT
+    there = max(there - LEAST, 0.0) / (1.0 - LEAST);
+#endif
     resolved = vec4(linear_from_oklab(lab), there);
     fitted = vec4(place.xy + turn[0] * shift(turn, own), lab.x, 0.0);
 }

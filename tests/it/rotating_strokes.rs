@@ -33,7 +33,7 @@ fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) 
     let scene = shapes::scene(halves.into());
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(1), shapes::sheet(1)])).unwrap();
     let mut frame = painting.at(0.0, &options(size_px));
-    let source = StrokeSource { particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
+    let source = StrokeSource { place: 0, particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
     frame.background = Some([0.0; 3]);
     frame.sources = vec![source; strokes.len()];
     frame.layers = vec![LayerRun { kind: LayerKind::Body, first: 0, count: strokes.len() as u32 }];

@@ -143,7 +143,7 @@ fn test_frame() -> Frame {
         normal_in_world: [0.0, 0.0, 1.0],
         ..Stroke::default()
     };
-    let source = StrokeSource { particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
+    let source = StrokeSource { place: 0, particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
     Frame {
         size_px: [64, 64],
         px_scale: 1.0,

@@ -1,9 +1,12 @@
 //! Surfaces on the GPU, kept as long as some frame holds them.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::{Arc, Weak};
 
 use bytemuck::{Pod, Zeroable};
+use glam::{Vec3, Vec4};
+use impasto_core::shells::Side;
 use impasto_painting::frame::BodySurface;
 
 use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, VertexArray};
@@ -12,14 +15,25 @@ use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, Ver
 pub(crate) struct MeshOnGpu {
     pub(crate) array: VertexArray,
     pub(crate) parts: Vec<Part>,
-    _vertices: Buffer,
+    vertices: Buffer,
     _indices: Buffer,
+    /// Made when the first draft is drawn.
+    front: RefCell<Option<FrontFaces>>,
+    bounds: Option<(Vec3, Vec3)>,
+}
+
+/// The triangles of a mesh that may show, looked for anew in each draft.
+struct FrontFaces {
+    array: Rc<VertexArray>,
+    indices: Buffer,
 }
 
 /// Triangles of one material.
 pub(crate) struct Part {
     pub(crate) first_index: u32,
     pub(crate) index_count: u32,
+    /// The same as the mesh counts them.
+    triangles: Vec<u32>,
     pub(crate) material: usize,
     pub(crate) texture: Rc<Texture>,
 }
@@ -39,6 +53,76 @@ struct Vertex {
     /// Where a morph takes the vertex; its own position and normal without one.
     target_position: [f32; 3],
     target_normal: [f32; 3],
+}
+
+impl MeshOnGpu {
+    /// Whether an eye (as in [`MeshOnGpu::front`]) is outside the box round the mesh, by a little more than nothing.
+    pub(crate) fn is_outside(&self, eye_in_model: Vec4) -> bool {
+        let Some((low, high)) = self.bounds else { return true };
+        let margin = (high - low) * 0.05;
+        let eye = eye_in_model.truncate();
+        eye_in_model.w == 0.0 || eye.cmplt(low - margin).any() || eye.cmpgt(high + margin).any()
+    }
+
+    /// The triangles that may show to an eye (model space, w 0 where it is a far one's direction), and where those of each
+    /// part begin and how many indices they have. On a closed shell those that turn away are hidden behind the others.
+    pub(crate) fn front(
+        &self,
+        gpu: &Gpu,
+        surface: &BodySurface,
+        eye_in_model: Vec4,
+    ) -> Result<(Rc<VertexArray>, Vec<[u32; 2]>), GlError> {
+        let mesh = &surface.mesh;
+        let (eye, w) = (eye_in_model.truncate(), eye_in_model.w);
+        let shows = |triangle: u32| {
+            let [a, b, c] = mesh.corners(triangle as usize);
+            let facing = (b - a).cross(c - a).dot(eye - a * w);
+            match surface.sides[triangle as usize] {
+                Side::Front => facing > 0.0,
+                Side::Back => facing < 0.0,
+                Side::Both => true,
+            }
+        };
+        let mut indices: Vec<[u32; 3]> = Vec::with_capacity(mesh.triangles.len());
+        let mut ranges = Vec::with_capacity(self.parts.len());
+        for part in &self.parts {
+            let first = indices.len();
+            let showing = part.triangles.iter().filter(|&&triangle| shows(triangle));
+            indices.extend(showing.map(|&triangle| mesh.triangles[triangle as usize]));
+            ranges.push([first, indices.len() - first].map(|count| count as u32 * 3));
+        }
+        let mut front = self.front.borrow_mut();
+        let kept = match front.take() {
+            Some(kept) => kept,
+            None => {
+                let indices = Buffer::new(gpu, BufferUse::Streamed)?;
+                let array = VertexArray::new(gpu, &inputs(&self.vertices), Some(&indices))?;
+                FrontFaces { array: Rc::new(array), indices }
+            }
+        };
+        let kept = front.insert(kept);
+        kept.indices.upload(bytemuck::cast_slice(&indices))?;
+        Ok((Rc::clone(&kept.array), ranges))
+    }
+}
+
+/// The fields of [`Vertex`] as shader inputs.
+fn inputs(vertices: &Buffer) -> [Attribute<'_>; 5] {
+    [(3, 0), (3, 12), (2, 24), (3, 32), (3, 44)].map({
+        let mut location = 0;
+        move |(components, offset_bytes)| {
+            location += 1;
+            Attribute {
+                location: location - 1,
+                buffer: vertices,
+                components,
+                integer: false,
+                stride_bytes: size_of::<Vertex>() as i32,
+                offset_bytes,
+                per_instance: false,
+            }
+        }
+    })
 }
 
 impl MeshCache {
@@ -84,24 +168,16 @@ impl MeshCache {
             let material = material_of(run[0]);
             let first_index = parts.last().map_or(0, |part| part.first_index + part.index_count);
             let texture = self.texture(gpu, surface, material)?;
-            parts.push(Part { first_index, index_count: run.len() as u32 * 3, material, texture });
+            let triangles = run.iter().map(|&triangle| triangle as u32).collect();
+            parts.push(Part { first_index, index_count: run.len() as u32 * 3, triangles, material, texture });
         }
         let mut vertex_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         vertex_buffer.upload(bytemuck::cast_slice(&vertices))?;
         let mut index_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         index_buffer.upload(bytemuck::cast_slice(&indices))?;
-        let input = |location: u32, components: i32, offset_bytes: i32| Attribute {
-            location,
-            buffer: &vertex_buffer,
-            components,
-            integer: false,
-            stride_bytes: size_of::<Vertex>() as i32,
-            offset_bytes,
-            per_instance: false,
-        };
-        let inputs = [input(0, 3, 0), input(1, 3, 12), input(2, 2, 24), input(3, 3, 32), input(4, 3, 44)];
-        let array = VertexArray::new(gpu, &inputs, Some(&index_buffer))?;
-        Ok(MeshOnGpu { array, parts, _vertices: vertex_buffer, _indices: index_buffer })
+        let array = VertexArray::new(gpu, &inputs(&vertex_buffer), Some(&index_buffer))?;
+        let front = RefCell::new(None);
+        Ok(MeshOnGpu { array, parts, vertices: vertex_buffer, _indices: index_buffer, front, bounds: mesh.bounds() })
     }
 
     fn texture(&self, gpu: &Gpu, surface: &BodySurface, material: usize) -> Result<Rc<Texture>, GlError> {

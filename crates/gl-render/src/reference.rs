@@ -383,7 +383,17 @@ impl ReferencePass {
             view.eye_in_world.extend(1.0)
         };
         for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
-            for part in &mesh.parts {
+            // In a draft half the triangles are enough; where the eye may be inside, or the surface is no more as its mesh has
+            // it, all of them.
+            let front = match frame.quality {
+                Quality::Draft if body.morph == 0.0 => {
+                    let eye = body.world_from_model.inverse() * eye;
+                    let is_outside = mesh.is_outside(eye);
+                    is_outside.then(|| mesh.front(&self.gpu, &body.surface, eye)).transpose()?
+                }
+                _ => None,
+            };
+            for (number, part) in mesh.parts.iter().enumerate() {
                 let material = body.surface.materials.get(part.material);
                 let albedo = material.map_or([0.8; 3], |material| material.albedo);
                 let is_lit = material.is_none_or(|material| !material.unlit);
@@ -400,8 +410,11 @@ impl ReferencePass {
                     .set("body_id", (index + 1) as f32)
                     .set("gloss", material.map_or(0.0, |material| material.gloss))
                     .set("eye", eye);
-                let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
-                self.gpu.draw(bound, &mesh.array, vertices)?;
+                let (array, [first, count]) = match &front {
+                    Some((array, ranges)) => (&**array, ranges[number]),
+                    None => (&mesh.array, [part.first_index, part.index_count]),
+                };
+                self.gpu.draw(bound, array, Vertices::Indexed { first, count })?;
             }
         }
         Ok(())

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use impasto_painting::Frame;
-use impasto_painting::frame::FrameStyle;
+use impasto_painting::frame::{FrameStyle, Strokes};
 
 use crate::context::{Context, ContextReport};
-use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, Texture};
+use crate::gl::{Filter, Format, Framebuffer, GlError, Halt, Texture};
 use crate::motion::{MotionPass, MotionPixels};
-use crate::reference::{ReferencePass, ReferenceTargets, targets_of_size};
+use crate::reference::{LightSetup, ReferencePass, ReferenceTargets, targets_of_size};
 use crate::styles::{self, RotatingStrokes, Style, StyleInput};
 use crate::watch::Watch;
 
@@ -125,8 +125,32 @@ impl Renderer {
     /// # Errors
     /// When the picture is too large for the driver, memory runs out, or (in a debug context) the driver complains.
     pub fn render(&mut self, frame: &Frame) -> Result<Picture, RenderError> {
-        let picture = self.draw(frame, None)?;
-        Ok(picture.expect("nobody asked to give it up"))
+        self.check_size(frame.size_px)?;
+        let gpu = self.context.gpu().clone();
+        gpu.make_current()?;
+        let mut watch = Watch::new(&gpu, None);
+        let lights = self.draw_reference(frame, &mut watch);
+        whole(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
+    }
+
+    /// As [`Renderer::render`], of a frame that has no strokes yet: `strokes` finds them while the driver is at work on what
+    /// they lie on, and they are laid on the frame.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn render_with(
+        &mut self,
+        frame: &mut Frame,
+        strokes: impl FnOnce() -> Strokes,
+    ) -> Result<Picture, RenderError> {
+        self.check_size(frame.size_px)?;
+        let gpu = self.context.gpu().clone();
+        gpu.make_current()?;
+        let mut watch = Watch::new(&gpu, None);
+        let lights = self.draw_reference(frame, &mut watch);
+        gpu.flush();
+        frame.lay(strokes());
+        whole(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
     }
 
     /// As [`Renderer::render`], but asks after every pass, and within the long ones, whether to `stop`; then there is no
@@ -139,28 +163,32 @@ impl Renderer {
         frame: &Frame,
         stop: &mut dyn FnMut() -> bool,
     ) -> Result<Option<Picture>, RenderError> {
-        self.draw(frame, Some(stop))
-    }
-
-    fn draw(
-        &mut self,
-        frame: &Frame,
-        stop: Option<&mut dyn FnMut() -> bool>,
-    ) -> Result<Option<Picture>, RenderError> {
         self.check_size(frame.size_px)?;
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
-        let mut watch = Watch::new(&gpu, stop);
-        match self.draw_passes(frame, &gpu, &mut watch) {
-            Ok(picture) => Ok(Some(picture)),
+        let mut watch = Watch::new(&gpu, Some(stop));
+        let lights = self.draw_reference(frame, &mut watch);
+        match lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)) {
             Err(Halt::GivenUp) => Ok(None),
-            Err(Halt::Gl(error)) => Err(error.into()),
+            drawn => whole(drawn).map(Some),
         }
     }
 
-    fn draw_passes(&mut self, frame: &Frame, gpu: &Gpu, watch: &mut Watch<'_>) -> Result<Picture, Halt> {
-        let targets = targets_of_size(gpu, self.targets.take(), frame.size_px)?;
+    fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
+        let targets = targets_of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
+        self.reference.draw(frame, targets, watch)
+    }
+
+    /// Draws what lies on the reference picture, and reads the whole back.
+    fn draw_style(
+        &mut self,
+        frame: &Frame,
+        lights: &LightSetup,
+        watch: &mut Watch<'_>,
+    ) -> Result<Picture, Halt> {
+        let gpu = &self.context.gpu().clone();
+        let reference = self.targets.as_ref().expect("the reference picture was drawn before");
         let output = match self.output.take() {
             Some(output) if output.size_px() == frame.size_px => output,
             _ => {
@@ -170,12 +198,11 @@ impl Renderer {
         };
         let output = self.output.insert(output);
         self.last_style = frame.style;
-        let lights = self.reference.draw(frame, targets, watch)?;
         let style = match self.styles.entry(frame.style) {
             std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
             std::collections::hash_map::Entry::Vacant(entry) => entry.insert(styles::open(gpu, frame.style)?),
         };
-        style.draw(&StyleInput { frame, reference: targets, lights: &lights }, output, watch)?;
+        style.draw(&StyleInput { frame, reference, lights }, output, watch)?;
         let rgba8 = top_row_first(&output.read_bytes(0), frame.size_px[0] as usize * 4);
         gpu.lap("read back");
         gpu.complaints()?;
@@ -263,6 +290,14 @@ impl Renderer {
         }
         self.styles.get(&self.last_style)?.as_strokes()
     }
+}
+
+/// A picture that nobody could give up.
+fn whole(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
+    drawn.map_err(|halt| match halt {
+        Halt::Gl(error) => error.into(),
+        Halt::GivenUp => unreachable!("nobody asked to give it up"),
+    })
 }
 
 fn top_row_first<T: Copy>(values: &[T], row: usize) -> Vec<T> {

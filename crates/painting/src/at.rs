@@ -14,10 +14,12 @@ use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
-use crate::frame::{Frame, FrameBody, LayerRun, Quality, Stroke, StrokeSource};
+use crate::frame::{Frame, FrameBody, LayerRun, Quality, Stroke, StrokeSource, Strokes};
+use crate::gate::Gate;
 use crate::lights;
 use crate::order::OrderEntry;
 use crate::prepare::Painting;
+use crate::recall::Recall;
 use crate::view::PictureView;
 
 /// How to see a painting.
@@ -97,6 +99,8 @@ pub(crate) struct SeenCoat<'a> {
     pub(crate) shown: Option<Vec<u32>>,
     /// With `horn-exact`, the reference and this view.
     clip_views: Option<(ClipView, ClipView)>,
+    /// By rule; none for those that paint nothing.
+    gates: Vec<Option<Gate>>,
 }
 
 /// What all strokes of a frame share.
@@ -109,6 +113,7 @@ pub(crate) struct Look<'a> {
     pub(crate) rotation: Rotation,
     pub(crate) colors: StrokeColors,
     quality: Quality,
+    recall: Option<&'a Recall>,
     /// Differs from frame to frame.
     moment: u32,
 }
@@ -121,15 +126,20 @@ impl Painting {
 
     /// The painting at a frame of its timeline, as a camera of one's own sees it.
     pub fn seen_by(&self, camera: &CameraPose, frame: f64, options: &FrameOptions) -> Frame {
+        let mut bare = self.bare(camera, frame, options);
+        bare.lay(self.strokes(camera, frame, options, None));
+        bare
+    }
+
+    /// As [`Painting::seen_by`], without strokes: what a renderer can begin with.
+    pub fn bare(&self, camera: &CameraPose, frame: f64, options: &FrameOptions) -> Frame {
         let scene = self.scene();
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
         let morphs = motion::morphs_at(scene, frame);
-        let look = Look::new(self, (&view, frame), (&poses, &morphs), options, |_| true);
-        let (strokes, sources, layers) = look.strokes();
         Frame {
             size_px: options.size_px,
-            px_scale: look.px_scale,
+            px_scale: self.px_scale(options),
             view: view.frame_view(),
             background: (!options.transparent).then(|| lights::linear(scene.background)),
             lights: lights::resolve(scene, self.shadow_bounds),
@@ -144,15 +154,32 @@ impl Painting {
                     hidden: body.hidden,
                 })
                 .collect(),
-            strokes,
-            sources,
-            layers,
+            strokes: Vec::new(),
+            sources: Vec::new(),
+            layers: Vec::new(),
             brushes: Arc::clone(&self.brushes),
             palettes: Arc::clone(&self.palettes),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style,
             quality: options.quality,
         }
+    }
+
+    /// The strokes of [`Painting::seen_by`]; soon after another picture of about the same view, those that there were, and
+    /// some of the others.
+    pub fn strokes(
+        &self,
+        camera: &CameraPose,
+        frame: f64,
+        options: &FrameOptions,
+        recall: Option<&Recall>,
+    ) -> Strokes {
+        let look = self.look(camera, frame, options, |_| true);
+        Look { recall: recall.filter(|recall| recall.is_of(self)), ..look }.strokes()
+    }
+
+    fn px_scale(&self, options: &FrameOptions) -> f32 {
+        if options.keep_stroke_px { 1.0 } else { options.shot_height_px() / self.scene().size.1 as f32 }
     }
 
     fn see_coat<'a>(
@@ -182,11 +209,22 @@ impl Painting {
             let reference = self.references.own();
             (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
         });
-        SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views }
+        let gates = self.gates(coat, px_scale, shown.is_some());
+        SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views, gates }
     }
 }
 
-type Strokes = (Vec<Stroke>, Vec<StrokeSource>, Vec<LayerRun>);
+/// How many particles one task looks at.
+const CHUNK: usize = 64 * Recall::WORD;
+
+/// Strokes of particles that come one after the other.
+#[derive(Default)]
+struct Found {
+    strokes: Vec<Stroke>,
+    sources: Vec<StrokeSource>,
+    /// With the regions' layer and the layer of paint.
+    layers: Vec<((i32, LayerKind), LayerRun)>,
+}
 
 impl<'a> Look<'a> {
     /// Those coats of a painting that are `wanted`, in a view at a frame in which objects stand like this.
@@ -197,11 +235,7 @@ impl<'a> Look<'a> {
         options: &FrameOptions,
         wanted: impl Fn(&Coat) -> bool,
     ) -> Self {
-        let px_scale = if options.keep_stroke_px {
-            1.0
-        } else {
-            options.shot_height_px() / painting.scene().size.1 as f32
-        };
+        let px_scale = painting.px_scale(options);
         let seen = |coat: &'a Arc<Coat>| {
             painting.see_coat(coat, view, (poses[coat.object], morphs[coat.object]), px_scale)
         };
@@ -214,6 +248,7 @@ impl<'a> Look<'a> {
             rotation: options.rotation,
             colors: options.colors,
             quality: options.quality,
+            recall: None,
             moment: hash::scramble((frame * 1000.0).round() as i64 as u32),
         }
     }
@@ -224,23 +259,51 @@ impl Look<'_> {
         if self.painting.style != crate::frame::FrameStyle::RotatingStrokes {
             return Strokes::default();
         }
-        let found: Vec<(OrderEntry, Stroke, StrokeSource)> = self
-            .painting
-            .order
-            .par_iter()
-            .with_min_len(4096)
-            .filter(|entry| !self.is_left_out(**entry) && self.is_in_picture(**entry))
-            .filter_map(|&entry| self.stroke(entry).map(|(stroke, source)| (entry, stroke, source)))
-            .collect();
-        let mut layers = Vec::new();
-        let mut first = 0;
-        for run in found.chunk_by(|(a, ..), (b, ..)| self.layer(*a) == self.layer(*b)) {
-            let kind = self.seen[run[0].0.coat as usize].coat.kind;
-            layers.push(LayerRun { kind, first, count: run.len() as u32 });
-            first += run.len() as u32;
+        let order = &self.painting.order;
+        let chunk = |(number, entries): (usize, &[OrderEntry])| self.found(number * CHUNK, entries);
+        let found: Vec<Found> = order.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        let count = found.iter().map(|found| found.strokes.len()).sum();
+        let (mut strokes, mut sources) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut layers: Vec<((i32, LayerKind), LayerRun)> = Vec::new();
+        for part in found {
+            let before = strokes.len() as u32;
+            strokes.extend_from_slice(&part.strokes);
+            sources.extend_from_slice(&part.sources);
+            for (layer, run) in part.layers {
+                match layers.last_mut() {
+                    Some((last, whole)) if *last == layer => whole.count += run.count,
+                    _ => layers.push((layer, LayerRun { first: before + run.first, ..run })),
+                }
+            }
         }
-        let strokes = found.iter().map(|(_, stroke, _)| *stroke).collect();
-        (strokes, found.iter().map(|(.., source)| *source).collect(), layers)
+        Strokes { strokes, sources, layers: layers.into_iter().map(|(_, run)| run).collect() }
+    }
+
+    /// The strokes of the particles from a place of the order on.
+    fn found(&self, first: usize, entries: &[OrderEntry]) -> Found {
+        let mut found = Found::default();
+        let add = |offset: usize| {
+            let entry = entries[offset];
+            if self.is_left_out(entry) || !self.is_in_picture(entry) {
+                return;
+            }
+            let Some((stroke, source)) = self.stroke(entry, (first + offset) as u32) else { return };
+            let layer = self.layer(entry);
+            match found.layers.last_mut() {
+                Some((last, run)) if *last == layer => run.count += 1,
+                _ => {
+                    let first = found.strokes.len() as u32;
+                    found.layers.push((layer, LayerRun { kind: layer.1, first, count: 1 }));
+                }
+            }
+            found.strokes.push(stroke);
+            found.sources.push(source);
+        };
+        match self.recall {
+            Some(recall) => recall.asked(first, entries.len()).for_each(add),
+            None => (0..entries.len()).for_each(add),
+        }
+        found
     }
 
     /// The angle of a particle's stroke before its contour has a say.
@@ -277,17 +340,13 @@ impl Look<'_> {
 
     fn is_in_picture(&self, entry: OrderEntry) -> bool {
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
-        let region = self.painting.scene().regions.get(usize::from(self.region(entry)));
-        if self.painting.bodies[seen.coat.object].hidden || region.is_some_and(|region| region.hidden) {
-            return false;
-        }
-        let solved = &seen.solved;
+        let Some(gate) = &seen.gates[usize::from(self.region(entry))] else { return false };
+        let (solved, part) = (&seen.solved, seen.coat.seats.part[index] as usize);
         let depth = solved.depth[index];
-        let layer = self.painting.rules[self.region(entry) as usize].strokes.layer_of(seen.coat.kind);
         // Half a diagonal, for the largest of a lively crowd.
-        let grown = seen.growth(index, self.painting, self.px_scale);
-        let reach = (layer.length_px + layer.width_px) * self.px_scale * grown;
+        let reach = gate.reach_px * seen.growth(index, self.painting, self.px_scale);
         solved.area_px[index] > 0.0
+            && solved.area_px[index] * gate.most_per_area[part] > index as f32
             && self.is_between(depth)
             && solved.x_px[index].abs() < self.half_px[0] + reach
             && solved.y_px[index].abs() < self.half_px[1] + reach

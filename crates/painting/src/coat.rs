@@ -9,7 +9,6 @@ use impasto_core::direction::carry::Stencils;
 use impasto_core::hash;
 use impasto_core::neighbours::{Neighbours, full_list_radius};
 use impasto_core::sampling::{self, Particle, ProgressiveState, Surface};
-use impasto_core::shells::{Side, sides};
 use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
@@ -66,7 +65,6 @@ pub(crate) struct KeptObject {
 struct KeptSurface {
     body: Arc<BodySurface>,
     parts: Arc<BodyParts>,
-    sides: Arc<Vec<Side>>,
     bounds: Option<(Vec3, Vec3)>,
     extent: (DVec3, f64),
 }
@@ -143,7 +141,6 @@ impl KeptObject {
             let body = inputs.build();
             let surface = KeptSurface {
                 parts: Arc::new(BodyParts::of(&body.mesh)),
-                sides: Arc::new(sides(&body.mesh)),
                 bounds: body.bounds(),
                 extent: body.extent(),
                 body: Arc::new(body),
@@ -171,9 +168,9 @@ impl KeptObject {
 
     /// Samples the particles of every coat.
     pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
-        let KeptSurface { body, parts, sides, .. } = self.kept_surface().clone();
+        let KeptSurface { body, parts, .. } = self.kept_surface().clone();
         let surface = OnceCell::new();
-        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &sides, |_| true));
+        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
         let inputs = CountInputs::new(context, object, Arc::clone(&body));
         if self.counts.as_ref().is_none_or(|(before, _)| *before != inputs) {
             let counts = inputs.counts(surface(), &parts);
@@ -232,8 +229,8 @@ impl KeptObject {
         let name_hash = name_hash(context, object.index, LayerKind::Body);
         let key = SampleKey { surface: object.surface.clone(), name_hash, morph: object.morph };
         if self.samples.as_ref().is_none_or(|(before, _)| *before != key) {
-            let sides = Arc::clone(&self.kept_surface().sides);
-            let samples = FieldSamples::new(&Surface::with_sides(&surface.mesh, &sides, |_| true), name_hash);
+            let sampled = Surface::with_sides(&surface.mesh, &surface.sides, |_| true);
+            let samples = FieldSamples::new(&sampled, name_hash);
             self.samples = Some((key, Arc::new(samples.posed(&surface, object.morph))));
         }
         let samples = Arc::clone(&self.samples.as_ref().expect("it was just made").1);

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::{Affine2, Mat4, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::brush::Mark;
+use impasto_core::shells::Side;
 use impasto_scene::mesh_file::Texture;
 use impasto_scene::morph::MorphTarget;
 
 mod stroke;
 
 pub use impasto_scene::presets::LayerKind;
-pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource};
+pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
 
 /// One picture, ready to draw.
 #[derive(Clone, Debug)]
@@ -44,6 +45,14 @@ pub struct Frame {
     pub style: FrameStyle,
     /// How much care to take.
     pub quality: Quality,
+}
+
+impl Frame {
+    /// Puts these strokes in the place of those that it has.
+    pub fn lay(&mut self, strokes: Strokes) {
+        let Strokes { strokes, sources, layers } = strokes;
+        (self.strokes, self.sources, self.layers) = (strokes, sources, layers);
+    }
 }
 
 /// How much care a picture is drawn with.
@@ -133,6 +142,8 @@ pub struct BodySurface {
     pub name: String,
     /// The triangles.
     pub mesh: TriangleMesh,
+    /// For each triangle, the side that can be seen.
+    pub sides: Vec<Side>,
     /// Where its vertices go, for a surface that changes its shape.
     pub morph: Option<MorphTarget>,
     /// Indexed by `mesh.material_of_triangle`.

@@ -36,14 +36,14 @@ const EDGE_SWING: f32 = 0.6;
 const QUAD: f32 = 1.0 / impasto_core::brush::FILL;
 
 /// Near the limb, strokes that have faded to this are made up for by more of them.
-const LEAST_COUNTED_FADE: f32 = 0.3;
+pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
 
 /// ln(D/u) of a stroke that is there whatever the rank.
 const WHOLE: f32 = 8.0;
 
 impl Look<'_> {
     /// The stroke of a particle, unless it is absent whatever its layer is wanted for.
-    pub(crate) fn stroke(&self, entry: OrderEntry) -> Option<(Stroke, StrokeSource)> {
+    pub(crate) fn stroke(&self, entry: OrderEntry, place: u32) -> Option<(Stroke, StrokeSource)> {
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
         let (coat, solved) = (seen.coat, &seen.solved);
         let region = self.region(entry);
@@ -140,6 +140,7 @@ impl Look<'_> {
         };
         let count = coat.sampled.particles.len() as f32;
         let source = StrokeSource {
+            place,
             particle: entry.particle,
             region: u32::from(region),
             kappa: map.kappa() as f32,

@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use impasto_core::sampling::Particle;
+use impasto_core::shells::sides;
 use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{MeshFile, Texture};
@@ -77,7 +78,7 @@ impl SurfaceInputs {
             let TriangleMesh { positions, normals, .. } = placed(self.chosen(&moved), self.scale, self.up);
             MorphTarget { positions, normals }
         });
-        BodySurface { name: self.name.clone(), mesh, morph, materials }
+        BodySurface { name: self.name.clone(), sides: sides(&mesh), mesh, morph, materials }
     }
 
     /// The whole mesh, or the triangles of the object's group.

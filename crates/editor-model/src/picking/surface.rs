@@ -1,12 +1,12 @@
 //! One object's surface as rays find it: a tree of boxes over its triangles, in the object's own space.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use std::time::Duration;
 
 use glam::{DVec3, Vec3, Vec3A};
 use impasto_core::TriangleMesh;
 use impasto_core::nearest::nearest_point;
-use impasto_core::shells::{self, Side};
+use impasto_core::shells::Side;
 use impasto_painting::frame::BodySurface;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -38,7 +38,6 @@ pub(super) struct SurfaceTree {
     morph: f64,
     positions: Vec<Vec3>,
     /// Found when a back is first met: it takes as long as the tree.
-    sides: OnceLock<Vec<Side>>,
     tree: Bvh2,
     /// Least and greatest corner.
     bounds: Option<[DVec3; 2]>,
@@ -79,7 +78,7 @@ impl SurfaceTree {
         } else {
             build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut Duration::default())
         };
-        Self { surface, morph, positions, sides: OnceLock::new(), tree, bounds }
+        Self { surface, morph, positions, tree, bounds }
     }
 
     /// Whether it was built for this very surface at this share of its morph.
@@ -199,8 +198,7 @@ impl SurfaceTree {
         let sign = if looked_at(winding) {
             1.0
         } else {
-            let sides = self.sides.get_or_init(|| shells::sides(self.mesh()));
-            if sides[triangle as usize] == Side::Front { 1.0 } else { -1.0 }
+            if self.surface.sides[triangle as usize] == Side::Front { 1.0 } else { -1.0 }
         };
         let face_normal = winding * sign;
         let normals = self.mesh().triangles[triangle as usize]

@@ -245,7 +245,11 @@ impl EditorApp {
 impl window::App for EditorApp {
     fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
         let ctx = ui.ctx().clone();
-        self.studio.poll(&ctx, &mut self.editor);
+        let news = self.studio.poll(&ctx, &mut self.editor);
+        // While a hand turns the view, the window changes with the picture.
+        if !news && self.editor.is_navigating() && self.studio.is_awaited() {
+            frame.hold();
+        }
         let view = self.studio.view(&self.editor);
         let focused = ui.input(|input| input.focused);
         if self.folds.had_focus && !focused {

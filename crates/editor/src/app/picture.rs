@@ -102,10 +102,12 @@ impl Studio {
         self.layout = layout;
     }
 
-    /// Takes what the thread has to tell.
-    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) {
-        let Some(worker) = &self.worker else { return };
-        for report in worker.poll() {
+    /// Takes what the thread has to tell. Returns whether there was anything.
+    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) -> bool {
+        let Some(worker) = &self.worker else { return false };
+        let reports = worker.poll();
+        let news = !reports.is_empty();
+        for report in reports {
             match report {
                 Report::Opened(report) => {
                     let name = report.renderer.split(" (").next().unwrap_or(&report.renderer);
@@ -129,6 +131,16 @@ impl Studio {
                 Report::Failed(words) => self.trouble = Some(words),
             }
         }
+        news
+    }
+
+    /// Whether a picture of what was asked for last is still to come.
+    pub(super) fn is_awaited(&self) -> bool {
+        let shows = |(index, view): (usize, &ViewJob)| {
+            self.pictures.of(index).is_some_and(|(_, shown, _)| shown.looks_like(view))
+        };
+        let asked = self.asked.as_ref();
+        asked.is_some_and(|(_, views)| !views.iter().enumerate().all(shows)) && self.trouble.is_none()
     }
 
     /// The version of the scene that is shown exactly, in all views that were asked for and with no hand on it; none while

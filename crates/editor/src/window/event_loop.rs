@@ -13,10 +13,16 @@ use super::focus::FocusRules;
 use super::gl::WindowGl;
 use super::icon::icon;
 use super::input::one_thing_each;
-use super::{App, Frame, Opened, Options, Waker, WindowError};
+use super::{App, Asks, Frame, Opened, Options, Waker, WindowError};
 
 /// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
 const LEAST_FRAME: Duration = Duration::from_millis(8);
+
+/// What the window shows is at most this much older than what an app holds back.
+const MOST_HELD: Duration = Duration::from_millis(100);
+
+/// While an app holds back, moves of the pointer are handed to it at most this often.
+const HELD_PASS: Duration = Duration::from_millis(30);
 
 /// What reaches the loop from outside the window system.
 #[derive(Debug)]
@@ -85,7 +91,10 @@ struct OpenWindow<A> {
     textures: egui::TexturesDelta,
     title: String,
     last_start: Instant,
+    last_shown: Instant,
     last_took: Duration,
+    /// Whether the last pass was held back.
+    holds: bool,
 }
 
 impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
@@ -93,7 +102,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
         let Some(make) = self.make.take() else { return Ok(()) };
         let no_gl = |reason| WindowError::NoOpenGl { reason };
         let (window, gl) = WindowGl::open(event_loop, attributes(&self.options)).map_err(no_gl)?;
-        let painter = egui_glow::Painter::new(gl.gl().clone(), "", None, true)
+        let painter = egui_glow::Painter::new(gl.gl().clone(), "", None, false)
             .map_err(|error| WindowError::NoOpenGl { reason: error.to_string() })?;
 
         let ctx = egui::Context::default();
@@ -131,7 +140,9 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
             textures: egui::TexturesDelta::default(),
             title: String::new(),
             last_start: Instant::now(),
+            last_shown: Instant::now(),
             last_took: Duration::ZERO,
+            holds: false,
         };
         open.frame()?;
         open.window.set_visible(true);
@@ -238,7 +249,12 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
             _ => (),
         }
         if open.state.on_window_event(&open.window, &event).repaint {
-            open.window.request_redraw();
+            if open.holds && matches!(event, WindowEvent::CursorMoved { .. }) {
+                let at = open.last_start + HELD_PASS;
+                self.next = Some(self.next.map_or(at, |next| next.min(at)));
+            } else {
+                open.window.request_redraw();
+            }
         }
     }
 
@@ -263,6 +279,7 @@ impl<A: App> OpenWindow<A> {
         let broken = |reason| WindowError::Broken(format!("OpenGL: {reason}"));
         self.gl.make_current().map_err(broken)?;
         let mut close = false;
+        let mut hold = true;
         let mut shapes = Vec::new();
         let mut scale = 1.0;
         egui_winit::update_viewport_info(&mut self.info, self.state.egui_ctx(), &self.window, false);
@@ -271,7 +288,10 @@ impl<A: App> OpenWindow<A> {
         let ctx = self.state.egui_ctx().clone();
         for pass in one_thing_each(input) {
             let (app, painter, last) = (&mut self.app, &mut self.painter, self.last_took);
-            let output = ctx.run_ui(pass, |ui| app.ui(ui, &mut Frame { painter, last, close: &mut close }));
+            let mut asks = Asks::default();
+            let output = ctx.run_ui(pass, |ui| app.ui(ui, &mut Frame { painter, last, asks: &mut asks }));
+            close |= asks.close;
+            hold &= asks.hold;
             self.textures.append(output.textures_delta);
             self.state.handle_platform_output(&self.window, output.platform_output);
             for (_, viewport) in output.viewport_output {
@@ -292,8 +312,16 @@ impl<A: App> OpenWindow<A> {
             self.window.set_title(&title);
             self.title = title;
         }
+        let held = self.last_shown.elapsed();
+        if hold && held < MOST_HELD {
+            self.holds = true;
+            ctx.request_repaint_after(MOST_HELD - held);
+            return Ok(close);
+        }
+        self.holds = false;
         self.paint(&ctx.tessellate(shapes, scale), scale);
         self.gl.show().map_err(broken)?;
+        self.last_shown = Instant::now();
         self.last_took = self.last_start.elapsed();
         Ok(close)
     }

@@ -65,7 +65,14 @@ pub struct Opened {
 pub struct Frame<'a> {
     painter: &'a mut egui_glow::Painter,
     last: Duration,
-    close: &'a mut bool,
+    asks: &'a mut Asks,
+}
+
+/// What an app asked of a pass.
+#[derive(Clone, Copy, Debug, Default)]
+struct Asks {
+    close: bool,
+    hold: bool,
 }
 
 impl Frame<'_> {
@@ -81,7 +88,13 @@ impl Frame<'_> {
 
     /// Closes the window after this pass, without [`App::on_close_request`].
     pub fn close(&mut self) {
-        *self.close = true;
+        self.asks.close = true;
+    }
+
+    /// What this pass shows need not be seen: another will follow soon (a picture of the view that the hand has moved to).
+    /// The window keeps what it shows, for a few hundredths of a second at most.
+    pub fn hold(&mut self) {
+        self.asks.hold = true;
     }
 }
 

@@ -10,7 +10,7 @@ use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
-use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, StrokeColors};
+use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, Recall, StrokeColors};
 
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
@@ -58,6 +58,8 @@ struct Studio {
     /// What was last drawn of each view.
     drawn: Vec<Option<Drawn>>,
     draft_size: DraftSize,
+    /// Counts the pictures.
+    turn: u32,
     /// What the last exact picture took.
     exact_s: Option<f64>,
 }
@@ -66,6 +68,8 @@ struct Drawn {
     view: ViewJob,
     serial: u64,
     exact: bool,
+    /// Its strokes; none where the picture has no strokes.
+    recall: Option<Recall>,
 }
 
 impl Drawn {
@@ -95,6 +99,7 @@ impl Studio {
             renderer,
             drawn: Vec::new(),
             draft_size: DraftSize::default(),
+            turn: 0,
             exact_s: None,
         }
     }
@@ -178,9 +183,10 @@ impl Studio {
         let Some(renderer) = &mut self.renderer else { return false };
         let view = &order.job.views[index];
         let began = Instant::now();
-        let frame = frame_of(painting, view, manner);
+        let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.as_ref());
+        let (frame, picture) = render(renderer, (painting, view), manner, recall);
         let strokes = frame.strokes.len();
-        let picture = match render(renderer, &frame, manner) {
+        let picture = match picture {
             Ok(Some(picture)) => picture,
             Ok(None) => return false,
             Err(error) => {
@@ -194,7 +200,11 @@ impl Studio {
             self.exact_s = Some(seconds);
         }
         let serial = order.job.serial;
-        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact });
+        self.turn = self.turn.wrapping_add(1);
+        let resolved = renderer.resolved_strokes();
+        let is_there = |index: usize| resolved.get(index).is_some_and(|stroke| stroke.alpha > 0.0);
+        let recall = (strokes > 0).then(|| Recall::of(painting, &frame, is_there, self.turn));
+        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact, recall });
         let (view, exact) = (view.clone(), manner.exact);
         let image = Arc::new(picture);
         tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, seconds }));
@@ -209,10 +219,10 @@ struct Manner<'a> {
     give_up: &'a dyn Fn() -> bool,
 }
 
-/// What the renderer draws of a view.
-fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
+/// How a view is looked at.
+fn options(view: &ViewJob, manner: &Manner<'_>) -> FrameOptions {
     let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
-    let options = FrameOptions {
+    FrameOptions {
         shot_height_px: Some(view.shot_height_px * share),
         quality: if manner.exact { Quality::Exact } else { Quality::Draft },
         colors: match view.shading {
@@ -220,26 +230,32 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
             Shading::Painted | Shading::Shaded => StrokeColors::Scene,
         },
         ..FrameOptions::new(manner.size_px)
-    };
-    match view.shading {
-        // The scene stays as it was prepared: only the style differs.
-        Shading::Shaded => {
-            painting.in_style(FrameStyle::Reference).seen_by(&view.camera, view.frame, &options)
-        }
-        Shading::Painted | Shading::Trust => painting.seen_by(&view.camera, view.frame, &options),
     }
 }
 
-/// `None` where it was given up.
+/// The frame and its picture; `None` where it was given up.
 fn render(
     renderer: &mut Renderer,
-    frame: &Frame,
+    (painting, view): (&Painting, &ViewJob),
     manner: &Manner<'_>,
-) -> Result<Option<ColorImage>, RenderError> {
-    let picture = renderer.render_unless(frame, &mut || (manner.give_up)())?;
+    recall: Option<&Recall>,
+) -> (Frame, Result<Option<ColorImage>, RenderError>) {
+    let options = options(view, manner);
+    // The scene stays as it was prepared: only the style differs.
+    let shaded = (view.shading == Shading::Shaded).then(|| painting.in_style(FrameStyle::Reference));
+    let painting = shaded.as_ref().unwrap_or(painting);
+    let mut frame = painting.bare(&view.camera, view.frame, &options);
+    let strokes = |recall| painting.strokes(&view.camera, view.frame, &options, recall);
+    let picture = if manner.exact {
+        frame.lay(strokes(None));
+        renderer.render_unless(&frame, &mut || (manner.give_up)())
+    } else {
+        // A draft is never given up: whoever asks has to wait for the driver.
+        renderer.render_with(&mut frame, || strokes(recall)).map(Some)
+    };
     let image = |picture: impasto_gl_render::Picture| {
         // Pictures of the window have a ground: they are opaque.
         ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
     };
-    Ok(picture.map(image))
+    (frame, picture.map(|picture| picture.map(image)))
 }

@@ -93,6 +93,12 @@ impl Gpu {
             Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
     }
 
+    /// Lets the driver begin with what it was told so far.
+    pub(crate) fn flush(&self) {
+        // SAFETY: the context is current.
+        unsafe { self.gl().flush() };
+    }
+
     /// Waits until all is drawn.
     pub(crate) fn finish(&self) {
         // SAFETY: the context is current.

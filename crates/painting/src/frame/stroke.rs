@@ -119,6 +119,8 @@ impl Stroke {
 /// What a stroke is and how far it can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeSource {
+    /// Index of the particle in the painting order of all particles.
+    pub place: u32,
     /// Index of the particle in the progressive order of its object's layer.
     pub particle: u32,
     /// Index of the region in the scene; `regions.len()` for the implicit one.
@@ -129,6 +131,17 @@ pub struct StrokeSource {
     pub facing: f32,
     /// Rank in (0, 1): low ranks stay longest when strokes thin out.
     pub rank: f32,
+}
+
+/// All strokes of a frame.
+#[derive(Clone, Debug, Default)]
+pub struct Strokes {
+    /// In painting order.
+    pub strokes: Vec<Stroke>,
+    /// Where each comes from, parallel to `strokes`.
+    pub sources: Vec<StrokeSource>,
+    /// Runs of `strokes` that belong to one layer, in painting order.
+    pub layers: Vec<LayerRun>,
 }
 
 /// A run of strokes of one layer of paint.
