@@ -16,6 +16,7 @@ mod hostile_scenes;
 mod measure;
 mod paint;
 mod progressive_order;
+mod recall;
 mod roll_and_lateral;
 mod rotating_strokes;
 mod scenes_in_motion;

@@ -177,7 +177,14 @@ impl MeshCache {
         index_buffer.upload(bytemuck::cast_slice(&indices))?;
         let array = VertexArray::new(gpu, &inputs(&vertex_buffer), Some(&index_buffer))?;
         let front = RefCell::new(None);
-        Ok(MeshOnGpu { array, parts, vertices: vertex_buffer, _indices: index_buffer, front, bounds: mesh.bounds() })
+        Ok(MeshOnGpu {
+            array,
+            parts,
+            vertices: vertex_buffer,
+            _indices: index_buffer,
+            front,
+            bounds: mesh.bounds(),
+        })
     }
 
     fn texture(&self, gpu: &Gpu, surface: &BodySurface, material: usize) -> Result<Rc<Texture>, GlError> {

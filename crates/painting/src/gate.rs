@@ -24,7 +24,8 @@ impl Painting {
     pub(crate) fn gates(&self, coat: &Coat, px_scale: f32, by_polygon: bool) -> Vec<Option<Gate>> {
         let body = &self.bodies[coat.object];
         let regions = &self.scene().regions;
-        let most = f64::from(most_wanted(coat.kind) / LEAST_COUNTED_FADE) / f64::from(presence::ABSENT_LN).exp();
+        let most =
+            f64::from(most_wanted(coat.kind) / LEAST_COUNTED_FADE) / f64::from(presence::ABSENT_LN).exp();
         let gate = |(index, rule): (usize, &crate::regions::RegionRule)| {
             let layer = rule.strokes.layer_of(coat.kind);
             let is_hidden = body.hidden || regions.get(index).is_some_and(|region| region.hidden);

@@ -37,8 +37,12 @@ impl Recall {
             // A draft has none.
             LayerKind::Underpainting => 0,
         };
-        // Where two layers share a word, the first decides how often it is asked.
-        let mut words: Vec<u64> = order.chunks(Self::WORD).map(|entries| pattern(entries[0])).collect();
+        // Layers may share a word.
+        let word = |entries: &[OrderEntry]| match (pattern(entries[0]), pattern(entries[entries.len() - 1])) {
+            (first, last) if first == last => first,
+            _ => entries.iter().fold(0, |asked, &entry| asked | pattern(entry)),
+        };
+        let mut words: Vec<u64> = order.chunks(Self::WORD).map(word).collect();
         for (index, source) in frame.sources.iter().enumerate() {
             if is_there(index) {
                 words[source.place as usize / Self::WORD] |= 1 << (source.place as usize % Self::WORD);

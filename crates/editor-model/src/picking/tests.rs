@@ -1,7 +1,7 @@
 use glam::{DQuat, DVec2, Vec3};
 use impasto_core::TriangleMesh;
-use impasto_core::shells::sides;
 use impasto_core::hash::scramble;
+use impasto_core::shells::sides;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
@@ -17,7 +17,13 @@ fn numbers() -> impl FnMut() -> f64 {
 }
 
 fn surface(mesh: TriangleMesh) -> Arc<BodySurface> {
-    Arc::new(BodySurface { name: String::new(), sides: sides(&mesh), mesh, morph: None, materials: Vec::new() })
+    Arc::new(BodySurface {
+        name: String::new(),
+        sides: sides(&mesh),
+        mesh,
+        morph: None,
+        materials: Vec::new(),
+    })
 }
 
 fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriangleMesh {

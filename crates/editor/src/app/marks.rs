@@ -35,7 +35,7 @@ pub(super) struct MarkCache {
 #[derive(Default)]
 struct Half {
     of: Option<Key>,
-    map: Option<SurfaceMap>,
+    map: Option<(MapKey, SurfaceMap)>,
     hairs: Vec<HairMark>,
     tints: Vec<RegionTint>,
     outline: Option<Outline>,
@@ -52,6 +52,15 @@ struct Key {
     mode: Mode,
     selected: Option<Item>,
     moving: bool,
+}
+
+/// What a map of the surfaces depends on: an edit of directions leaves it as it is.
+#[derive(PartialEq)]
+struct MapKey {
+    bodies: Vec<StandingBody>,
+    camera: CameraPose,
+    framing: Framing,
+    cells_per_point: f64,
 }
 
 /// Marks that are made anew in every pass.
@@ -98,13 +107,22 @@ impl MarkCache {
             session.mode == Mode::Paint && session.overlays.hairs != Hairs::Off || session.overlays.trust;
         let active = editor.active_object();
         let outlines = session.mode != Mode::Paint && active.is_some();
+        let kept = half.map.take();
         *half = Half { of: Some(key), ..Half::default() };
         if !(shows_hairs || session.overlays.regions || outlines) {
             return;
         }
         let view = framing.view(seen.camera);
-        let cells = if editor.is_navigating() { MOVING_CELLS_PER_POINT } else { CELLS_PER_POINT };
-        let map = SurfaceMap::new(&bodies(painting, seen.frame), &view, cells);
+        let key = MapKey {
+            bodies: bodies(painting, seen.frame),
+            camera: seen.camera.clone(),
+            framing,
+            cells_per_point: if editor.is_navigating() { MOVING_CELLS_PER_POINT } else { CELLS_PER_POINT },
+        };
+        let (key, map) = kept.filter(|(before, _)| *before == key).unwrap_or_else(|| {
+            let map = SurfaceMap::new(&key.bodies, &view, key.cells_per_point);
+            (key, map)
+        });
         let scene = painting.scene();
         let colours = region_colours(scene);
         if shows_hairs {
@@ -124,7 +142,7 @@ impl MarkCache {
         if outlines && let Some(active) = active {
             half.outline = Some(Outline::new(&map, |object| object == active));
         }
-        half.map = Some(map);
+        half.map = Some((key, map));
     }
 
     /// All marks of a picture, those of the hand included where `fresh` is handed in.

@@ -47,6 +47,15 @@ pub struct StandingBody {
     pub visible: bool,
 }
 
+/// Of the very same surface, standing alike.
+impl PartialEq for StandingBody {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surface, &other.surface)
+            && (self.morph, self.world_from_model, self.visible)
+                == (other.morph, other.world_from_model, other.visible)
+    }
+}
+
 /// A corner before the division: all four are linear in space.
 #[derive(Clone, Copy)]
 struct Corner {

@@ -1,0 +1,75 @@
+//! Pictures of a moving view ask the strokes that there were before, and some of the others.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use impasto_painting::frame::LayerKind;
+use impasto_painting::{Frame, FrameOptions, Painting, Quality, Recall, prepare};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::motion;
+
+const DRAFT: FrameOptions = FrameOptions { quality: Quality::Draft, ..FrameOptions::new([320, 180]) };
+
+fn still_life() -> Painting {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/still_life.ron");
+    prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap()
+}
+
+fn seen(painting: &Painting, recall: Option<&Recall>) -> Frame {
+    let camera = motion::camera_at(painting.scene(), 0.0);
+    let mut frame = painting.bare(&camera, 0.0, &DRAFT);
+    frame.lay(painting.strokes(&camera, 0.0, &DRAFT, recall));
+    frame
+}
+
+fn places(frame: &Frame) -> BTreeSet<u32> {
+    frame.sources.iter().map(|source| source.place).collect()
+}
+
+#[test]
+fn what_there_was_is_asked_at_once_and_the_rest_within_sixteen_pictures() {
+    let painting = still_life();
+    let all = seen(&painting, None);
+    assert!(all.strokes.len() > 10_000, "{}", all.strokes.len());
+    // Every third stroke is said to have been there.
+    let there = |index: usize| index.is_multiple_of(3);
+    let mut found = BTreeSet::new();
+    for turn in 0..16 {
+        let recall = Recall::of(&painting, &all, there, turn);
+        let frame = seen(&painting, Some(&recall));
+        assert!(frame.strokes.len() < all.strokes.len() * 3 / 4, "{turn}: {}", frame.strokes.len());
+        let now = places(&frame);
+        for (index, source) in all.sources.iter().enumerate().filter(|(index, _)| there(*index)) {
+            assert!(now.contains(&source.place), "{turn}: stroke {index} was there");
+        }
+        // Those that are there are as they would be without recall, in the same order.
+        let same = all.sources.iter().zip(&all.strokes).filter(|(source, _)| now.contains(&source.place));
+        assert!(same.map(|(_, stroke)| stroke).eq(&frame.strokes), "{turn}");
+        assert_eq!(frame.layers.iter().map(|run| run.count as usize).sum::<usize>(), frame.strokes.len());
+        found.extend(now);
+    }
+    assert!(found == places(&all), "{} of {}", found.len(), all.strokes.len());
+}
+
+#[test]
+fn large_strokes_are_late_by_one_picture_at_most() {
+    let painting = still_life();
+    let all = seen(&painting, None);
+    let body = |frame: &Frame| -> BTreeSet<u32> {
+        let runs = frame.layers.iter().filter(|run| run.kind == LayerKind::Body);
+        runs.flat_map(|run| &frame.sources[run.first as usize..][..run.count as usize])
+            .map(|source| source.place)
+            .collect()
+    };
+    let asked = |turn: u32| body(&seen(&painting, Some(&Recall::of(&painting, &all, |_| false, turn))));
+    let both: BTreeSet<u32> = asked(0).union(&asked(1)).copied().collect();
+    assert!(body(&all) == both, "{} of {}", both.len(), body(&all).len());
+}
+
+#[test]
+fn another_painting_is_asked_for_all() {
+    let painting = still_life();
+    let none = Recall::of(&painting, &seen(&painting, None), |_| false, 0);
+    let again = still_life();
+    assert_eq!(seen(&again, Some(&none)).strokes, seen(&again, None).strokes);
+}
