@@ -129,6 +129,8 @@ pub struct Editor {
     pointer_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
+    /// Whether the tool knows already that the hand rests.
+    has_rested: bool,
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
@@ -152,6 +154,7 @@ impl Editor {
             pointer_px: None,
             held: Modifiers::default(),
             at_secs: 0.0,
+            has_rested: false,
             said: Vec::new(),
             requests: Vec::new(),
             version: 1,

@@ -9,7 +9,8 @@ use glam::{DVec2, DVec3};
 use headless::Headless;
 use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
-use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark, Needle, Ring};
+use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark};
+use impasto_editor_model::tools::{Needle, Ring};
 use impasto_editor::viewport::{
     Badge, Framing, Layout, Look, Marks, Now, Pictures, PointerEvent, PointerKind, ViewportEvents,
     ViewportInput, viewport,

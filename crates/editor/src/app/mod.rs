@@ -7,6 +7,7 @@
 
 mod asks;
 mod file_flow;
+mod foreseen;
 mod keys;
 mod marks;
 mod picture;
