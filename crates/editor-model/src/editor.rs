@@ -46,6 +46,10 @@ pub enum Request {
     Save,
     /// Asks for a file to write to.
     SaveAs,
+    /// Asks for a file to write a copy to.
+    SaveCopy,
+    /// Reads the document's file again; asks about unsaved work first.
+    Revert,
     /// Asks for a mesh to add.
     Import,
     /// The command search.

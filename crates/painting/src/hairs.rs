@@ -170,10 +170,7 @@ impl Painting {
                 region: usize::from(seen.coat.seats.region[index]),
                 particle: index,
                 rank: (index as f32 + 0.5) / count as f32,
-                position_px: [
-                    solved.x_px[index] + look.half_px[0],
-                    look.half_px[1] - solved.y_px[index],
-                ],
+                position_px: [solved.x_px[index] + look.half_px[0], look.half_px[1] - solved.y_px[index]],
                 angle_rad,
                 kappa,
                 depth: solved.depth[index],

@@ -86,6 +86,28 @@ impl EditorApp {
         self.settle_then(Next::Close);
     }
 
+    /// Reads the document's file again; asks where there are edits.
+    pub(super) fn revert_asking(&mut self) {
+        if self.editor.document().is_edited() {
+            self.sheets.revert = true;
+        } else {
+            self.revert();
+        }
+    }
+
+    fn revert(&mut self) {
+        let Some(file) = self.editor.document().file().map(Path::to_owned) else { return };
+        let (looking, session) = (self.editor.looking.clone(), self.editor.session.clone());
+        let selection = self.editor.document().selection().clone();
+        let before = self.editor.shown().1;
+        self.open(&file);
+        // Where it could not be read, the old one is still there.
+        if self.editor.shown().1 != before {
+            (self.editor.looking, self.editor.session) = (looking, session);
+            self.editor.select(selection);
+        }
+    }
+
     fn settle_then(&mut self, next: Next) {
         if self.editor.document().is_edited() {
             self.wait_for(next);
@@ -141,6 +163,14 @@ impl EditorApp {
         }
         if self.files.asks {
             self.ask_about_changes(ctx);
+        } else if self.sheets.revert {
+            let name = self.editor.document().name();
+            if let Some(answer) = ask_close::ask(ctx, &Question::ReadAgain { name }) {
+                self.sheets.revert = false;
+                if answer == ask_close::Answer::ReadAgain {
+                    self.revert();
+                }
+            }
         } else if let Some(frame) = self.sheets.recapture
             && let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame })
         {

@@ -10,8 +10,11 @@ use impasto_painting::{FrameOptions, SurfacePlace};
 use super::picture::Studio;
 use crate::viewport::overlay::{Comb, ForeseenStroke};
 
-/// No more than this many: beyond it the outlines hide each other.
-const MOST: usize = 120;
+/// Of no more than this many strokes those are shown that are so far apart, points: more would hide what they show.
+const MOST: usize = 600;
+const APART_PX: f64 = 11.0;
+/// As long as the strokes, but no longer than this.
+const LONGEST_PX: f32 = 28.0;
 /// They come and go in this time, seconds.
 const FADE_S: f32 = 0.15;
 
@@ -89,8 +92,14 @@ fn strokes(foreseen: &Foreseen, editor: &Editor, studio: &Studio) -> Option<Vec<
     let stroke = |hair: &impasto_painting::Hair| ForeseenStroke {
         at_px: DVec2::from(hair.position_px.map(f64::from)),
         angle_rad: hair.angle_rad,
-        length_px: length_px.clamp(6.0, 60.0),
+        length_px: length_px.clamp(6.0, LONGEST_PX),
         directed: false,
     };
-    Some(hairs.iter().filter(|hair| hair.region == region).map(stroke).collect())
+    let mut apart: Vec<ForeseenStroke> = Vec::new();
+    for stroke in hairs.iter().filter(|hair| hair.region == region).map(stroke) {
+        if apart.iter().all(|other| other.at_px.distance_squared(stroke.at_px) >= APART_PX * APART_PX) {
+            apart.push(stroke);
+        }
+    }
+    Some(apart)
 }

@@ -26,10 +26,10 @@ use impasto_scene::load::LoadOptions;
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Preferences};
-use crate::panels::{self, Ask, Numbers, Shown};
+use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
-use crate::window::{self, Opened, tab_pressed};
+use crate::window::{self, Opened, numpad_pressed, tab_pressed};
 
 use file_flow::FileFlow;
 use marks::MarkCache;
@@ -60,6 +60,7 @@ struct Sheets {
     palette: bool,
     shortcuts: bool,
     recapture: Option<i64>,
+    revert: bool,
 }
 
 /// What is folded away.
@@ -162,8 +163,8 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
-        let Sheets { welcome, palette, shortcuts, recapture } = &self.sheets;
-        *welcome || *palette || *shortcuts || recapture.is_some() || self.files.is_asking()
+        let Sheets { welcome, palette, shortcuts, recapture, revert } = &self.sheets;
+        *welcome || *palette || *shortcuts || *revert || recapture.is_some() || self.files.is_asking()
     }
 
     fn page(&mut self, ui: &mut Ui) {
@@ -185,20 +186,22 @@ impl EditorApp {
             recent: &recent,
         };
         if !self.folds.everything {
-            panels::top_bar::top_bar(ui, &shown, &mut asks);
+            area(ui, Area::TopBar, |ui| panels::top_bar::top_bar(ui, &shown, &mut asks));
             panels::status_line::status_line(ui, &shown, &mut asks);
-            panels::strip::strip(ui, &shown, &mut asks);
+            area(ui, Area::Strip, |ui| panels::strip::strip(ui, &shown, &mut asks));
             if !self.folds.column && ui.available_width() >= 900.0 {
                 panels::column(ui, &shown, &mut asks);
             }
-            panels::options_bar::options_bar(ui, &shown, &mut asks);
-            panels::rail::rail(ui, &shown, &mut asks);
+            area(ui, Area::Options, |ui| panels::options_bar::options_bar(ui, &shown, &mut asks));
+            area(ui, Area::Rail, |ui| panels::rail::rail(ui, &shown, &mut asks));
         }
         let palette_closed = self.sheets.palette && panels::palette::palette(ui.ctx(), &shown, &mut asks);
         let shortcuts_closed = self.sheets.shortcuts && panels::shortcuts::shortcuts(ui.ctx(), &shown);
         self.sheets.palette &= !palette_closed;
         self.sheets.shortcuts &= !shortcuts_closed;
-        CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.viewport(ui, &mut asks));
+        CentralPanel::default()
+            .frame(egui::Frame::NONE)
+            .show(ui, |ui| area(ui, Area::Viewport, |ui| self.viewport(ui, &mut asks)));
         let view = self.studio.view(&self.editor);
         for ask in asks {
             self.answer(ask, ui.ctx(), &view);
@@ -253,12 +256,13 @@ impl window::App for EditorApp {
             self.editor.focus_lost(&view);
         }
         self.folds.had_focus = focused;
+        let numpad = numpad_pressed(&ctx);
         // An open menu has Esc to itself, and what is typed over it is meant for it.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
             }
-            keys::hand_on(ui, &mut self.editor, &view);
+            keys::hand_on(ui, &mut self.editor, &view, numpad);
         }
         self.page(ui);
         self.requests(&ctx);

@@ -17,6 +17,11 @@ pub enum Question {
         /// The frame.
         frame: i64,
     },
+    /// The file is read again, and there are edits.
+    ReadAgain {
+        /// The document's name.
+        name: String,
+    },
     /// The file on disk is another than the one that was opened.
     ChangedOutside {
         /// The document's name.
@@ -83,6 +88,11 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
             format!("Take frame {frame} as the new reference?"),
             format!("Directions stay as they look now; they are stored against frame {frame}."),
             &[("Cancel", Answer::Cancel), ("Recapture", Answer::Recapture)],
+        ),
+        Question::ReadAgain { name } => (
+            format!("Read {name} again?"),
+            "Your edits are not in it, and they cannot be brought back.".to_owned(),
+            &[("Read it, drop my edits", Answer::ReadAgain), ("Cancel", Answer::Cancel)],
         ),
         Question::ChangedOutside { name } => (
             format!("{name} was changed by another program"),

@@ -99,6 +99,7 @@ impl Column {
                 self.acts.push(action);
                 "act".to_owned()
             }
+            Ask::Recapture(frame) => format!("ask about frame {frame}"),
             Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => "of another panel".to_owned(),
             Ask::Session(session) => {
                 self.session = *session;

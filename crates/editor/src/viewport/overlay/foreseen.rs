@@ -66,7 +66,8 @@ pub fn foreseen(sheet: &Sheet<'_>, strokes: &[ForeseenStroke], comb: &Comb, show
 mod tests {
     use super::*;
 
-    const COMB: Comb = Comb { at_px: DVec2::ZERO, radius_px: 46.0, angle_rad: 0.0, strength: 1.0, even: false };
+    const COMB: Comb =
+        Comb { at_px: DVec2::ZERO, radius_px: 46.0, angle_rad: 0.0, strength: 1.0, even: false };
 
     fn stroke(at_px: DVec2, degrees: f32, directed: bool) -> ForeseenStroke {
         ForeseenStroke { at_px, angle_rad: degrees.to_radians(), length_px: 20.0, directed }
