@@ -180,6 +180,7 @@ impl EditorApp {
             status: &status,
             numbers: Numbers {
                 strokes: self.studio.strokes(),
+                strokes_of: self.studio.strokes_of(),
                 pictures_per_second: self.studio.pictures_per_second(),
                 driver: &driver,
             },

@@ -105,6 +105,8 @@ impl Shown<'_> {
 pub struct Numbers<'a> {
     /// Strokes in the last exact picture.
     pub strokes: usize,
+    /// Of them, those of each region, by its name.
+    pub strokes_of: &'a [(String, usize)],
     /// Pictures a second, while something moves.
     pub pictures_per_second: Option<f64>,
     /// Who draws: *llvmpipe*.

@@ -180,6 +180,7 @@ impl Studio {
         let began = Instant::now();
         let frame = frame_of(painting, view, manner);
         let strokes = frame.strokes.len();
+        let strokes_of = counted(&frame, painting.scene().regions.len());
         let picture = match render(renderer, &frame, manner) {
             Ok(Some(picture)) => picture,
             Ok(None) => return false,
@@ -197,7 +198,7 @@ impl Studio {
         self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact });
         let (view, exact) = (view.clone(), manner.exact);
         let image = Arc::new(picture);
-        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, seconds }));
+        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
         true
     }
 }
@@ -228,6 +229,14 @@ fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
         }
         Shading::Painted | Shading::Trust => painting.seen_by(&view.camera, view.frame, &options),
     }
+}
+
+fn counted(frame: &Frame, regions: usize) -> Vec<usize> {
+    let mut counts = vec![0; regions + 1];
+    for source in &frame.sources {
+        counts[(source.region as usize).min(regions)] += 1;
+    }
+    counts
 }
 
 /// `None` where it was given up.

@@ -1,5 +1,6 @@
 //! The right column with a document, driven by name.
 
+mod guides;
 mod inspector;
 mod looks;
 mod tree;
@@ -27,6 +28,7 @@ pub struct Column {
     pub acts: Vec<Action>,
     pub meshes: Vec<String>,
     pub tree_height: f32,
+    pub strokes_of: Vec<(String, usize)>,
 }
 
 impl Column {
@@ -39,7 +41,8 @@ impl Column {
     pub fn of(document: Document) -> Self {
         let session = Session::default();
         let (log, acts, meshes) = (Vec::new(), Vec::new(), Vec::new());
-        Self { document, session, log, acts, meshes, tree_height: 252.0 }
+        let strokes_of = Vec::new();
+        Self { document, session, log, acts, meshes, tree_height: 252.0, strokes_of }
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
@@ -50,7 +53,7 @@ impl Column {
             painting: None,
             keys: Preset::Blender,
             status: "",
-            numbers: Numbers::default(),
+            numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             recent: &[],
         };
         // The harness has margins, the window has none.
@@ -217,6 +220,7 @@ pub fn with_guides(column: &mut Column) {
     let point = |x: f64| GuidePoint { at: [x, 0.5, 0.5], normal: [0.0, 0.0, 1.0], turn_deg: 0.0 };
     let guide = |count: usize| Guide {
         mode: Default::default(),
+        curve: count == 5,
         object: None,
         view: None,
         points: (0..count).map(|index| point(0.05 * index as f64)).collect(),

@@ -109,7 +109,12 @@ impl Page {
             painting: None,
             keys: self.keys,
             status: &self.status,
-            numbers: Numbers { strokes: 5774, pictures_per_second: Some(41.2), driver: "llvmpipe" },
+            numbers: Numbers {
+                strokes: 5774,
+                pictures_per_second: Some(41.2),
+                driver: "llvmpipe",
+                ..Numbers::default()
+            },
             recent: &self.recent,
         };
         top_bar::top_bar(ui, &shown, &mut asks);

@@ -13,6 +13,7 @@ use super::parts::{
 use super::{Asker, pose};
 use crate::icons;
 use crate::panels::Ask;
+use crate::panels::status_line::grouped;
 use crate::panels::tree::region_color;
 use crate::theme::Tokens;
 use crate::widgets::{self, Button, RowMark, Tip, TreeRow};
@@ -33,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         head_icon(ui, icon, colour);
         asker.name(ui, "Object name", &item);
         if let Some(mesh) = &mesh {
-            head_note(ui, &counted(mesh.mesh.triangles.len()));
+            head_note(ui, &format!("{} triangles", grouped(mesh.mesh.triangles.len())));
         }
         at_end(ui, |ui| asker.eye_and_lock(ui, &item, "Object", [object.hidden, object.locked]));
     });
@@ -54,19 +55,6 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     });
     let count = scenes[0].regions.iter().filter(|region| region.on.object() == Some(name)).count();
     section(ui, ("Regions", &count.to_string()), false, |ui| regions(ui, asker, name));
-}
-
-/// *550 triangles*, with commas: *12,800 triangles*.
-fn counted(triangles: usize) -> String {
-    let digits = triangles.to_string();
-    let mut words = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            words.push(',');
-        }
-        words.push(digit);
-    }
-    format!("{words} triangles")
 }
 
 /// What is said of an object whose file is not there.
