@@ -296,6 +296,11 @@ impl Editor {
         self.told(result)
     }
 
+    /// The document goes on in another folder, if nothing ties it to its own; see [`Document::live_in`].
+    pub fn live_in(&mut self, folder: &std::path::Path) -> bool {
+        self.document.live_in(folder)
+    }
+
     /// Adds a mesh by its path from the scene's folder.
     pub fn import(&mut self, mesh: &str) -> bool {
         let result = self.document.import(mesh);

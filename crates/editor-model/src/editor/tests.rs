@@ -2,10 +2,11 @@ use std::path::Path;
 
 use glam::DVec2;
 use impasto_painting::prepare;
+use impasto_scene::document::LightKind;
 use impasto_scene::load::LoadOptions;
 
 use super::*;
-use crate::command::{Edit, Regions};
+use crate::command::{Arrange, Edit, Regions};
 use crate::keymap::{Action, Button};
 use crate::session::Axes;
 
@@ -234,4 +235,24 @@ fn strokes_are_foreseen_while_the_hand_moves_and_until_it_rests() {
         event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
     }
     assert!(editor.tool_output().foreseen.is_none(), "switched off");
+}
+
+#[test]
+fn a_mesh_in_an_edited_scene_without_a_file_gives_it_a_folder_and_a_camera() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let elsewhere = std::env::temp_dir();
+    let mut editor = Editor::new(Document::empty(&elsewhere));
+    let lamp = Arrange::AddLight { kind: LightKind::Point, at: DVec3::ONE, toward: DVec3::ZERO };
+    assert!(editor.run(&Command::Arrange(lamp)));
+    let lights = editor.document().scene().lights.len();
+    let camera = editor.document().scene().camera.clone();
+    assert!(editor.live_in(&scenes.join("meshes")));
+    assert!(editor.import("apple.obj"));
+    assert_eq!(editor.document().folder(), scenes.join("meshes"));
+    assert_eq!(editor.document().suggested_file(), scenes.join("meshes/apple.ron"));
+    assert_eq!(editor.document().scene().lights.len(), lights, "what was edited before is kept");
+    assert_ne!(editor.document().scene().camera, camera, "it is seen whole");
+    assert!(!editor.live_in(&elsewhere), "the mesh is named from where it is");
+    act(&mut editor, Action::Undo);
+    assert_eq!(editor.document().scene().camera, camera);
 }

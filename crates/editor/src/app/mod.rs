@@ -9,6 +9,7 @@ mod asks;
 mod file_flow;
 mod foreseen;
 mod keys;
+mod last_seen;
 mod marks;
 mod picture;
 mod view;
@@ -25,7 +26,7 @@ use impasto_scene::load::LoadOptions;
 
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
-use crate::files::preferences::{Keys, Preferences};
+use crate::files::preferences::{Keys, Loaded, Preferences};
 use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
@@ -51,6 +52,14 @@ pub(crate) struct EditorApp {
     tell: Option<fn(&str)>,
     told: String,
     menu_was_open: bool,
+    likely_meshes: LikelyMeshes,
+}
+
+/// The meshes that are not there, and what is likely meant by them.
+#[derive(Default)]
+struct LikelyMeshes {
+    of: Vec<String>,
+    found: Vec<(String, String)>,
 }
 
 /// Which sheets lie over the window.
@@ -73,16 +82,12 @@ struct Folds {
 
 impl EditorApp {
     /// An app with what the command line named, or with an empty scene.
-    pub(crate) fn new(options: &EditOptions, opened: &Opened) -> Self {
-        let loaded = file_flow::preferences();
-        let mut preferences = loaded.preferences;
-        if let Some(driver) = options.driver {
-            preferences.driver = driver;
-        }
+    pub(crate) fn new(options: &EditOptions, loaded: Loaded, opened: &Opened) -> Self {
+        let preferences = loaded.preferences;
         let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
         let mut app = Self {
             editor: Editor::new(Document::empty(&here)),
-            studio: Studio::new(preferences.driver, opened.waker.clone()),
+            studio: Studio::new(options.driver.unwrap_or(preferences.driver), opened.waker.clone()),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             sheets: Sheets {
@@ -95,6 +100,7 @@ impl EditorApp {
             tell: options.tell,
             told: String::new(),
             menu_was_open: false,
+            likely_meshes: LikelyMeshes::default(),
         };
         app.keymap();
         opened.ctx.add_plugin(window::FocusRules);
@@ -123,6 +129,7 @@ impl EditorApp {
     fn open(&mut self, path: &Path) {
         match Document::open(path, &LoadOptions::default()) {
             Ok(document) => {
+                self.note_last_seen();
                 let scene = document.scene();
                 let regions = scene.regions.len();
                 let triangles: usize =
@@ -138,6 +145,7 @@ impl EditorApp {
                     let words = format!("{warnings} warnings: `impasto check {name}` lists them");
                     self.toast(words, None, false);
                 }
+                self.go_to_last_seen(path);
                 self.preferences.note_recent(path);
                 self.keep_preferences();
             }
@@ -172,6 +180,7 @@ impl EditorApp {
         let driver = self.studio.driver().to_owned();
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
         let mut asks: Vec<Ask> = Vec::new();
+        self.likely_meshes.follow(self.editor.document());
         let shown = Shown {
             document: self.editor.document(),
             session: &self.editor.session,
@@ -185,6 +194,7 @@ impl EditorApp {
                 driver: &driver,
             },
             recent: &recent,
+            likely_meshes: &self.likely_meshes.found,
         };
         if !self.folds.everything {
             area(ui, Area::TopBar, |ui| panels::top_bar::top_bar(ui, &shown, &mut asks));
@@ -243,6 +253,20 @@ impl EditorApp {
         if words != self.told {
             tell(&words);
             self.told = words;
+        }
+    }
+}
+
+impl LikelyMeshes {
+    /// Looks round in the folder where other meshes are missing than before.
+    fn follow(&mut self, document: &Document) {
+        let loaded = document.shown();
+        let is_missing = |mesh: &&str| !loaded.meshes.contains_key(*mesh);
+        let missing = loaded.scene.objects.iter().map(|object| object.mesh.as_str()).filter(is_missing);
+        if !missing.clone().eq(self.of.iter().map(String::as_str)) {
+            let missing: Vec<&str> = missing.collect();
+            self.found = crate::files::nearby::meshes_like(document.folder(), &missing);
+            self.of = missing.into_iter().map(str::to_owned).collect();
         }
     }
 }

@@ -13,9 +13,6 @@ pub fn column(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let is_wide = ui.ctx().content_rect().width() >= WIDE;
     let (width, tree_height) = if is_wide { (336.0, 330.0) } else { (280.0, 252.0) };
     let frame = Frame::new().fill(Tokens::of(ui).panel);
-    // The bar lies over the rows' padding, so that they reach the edge whether there is one or not.
-    let scroll = &mut ui.style_mut().spacing.scroll;
-    (scroll.floating_allocated_width, scroll.floating_width, scroll.bar_width) = (0.0, 3.0, 6.0);
     Panel::right("column").default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {
         let top = Panel::top("tree").default_size(tree_height).size_range(96.0..=640.0).resizable(true);
         top.frame(frame).show_separator_line(false).show(ui, |ui| {

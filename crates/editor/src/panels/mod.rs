@@ -53,6 +53,8 @@ pub struct Shown<'a> {
     pub numbers: Numbers<'a>,
     /// Files that were open lately, the latest first.
     pub recent: &'a [PathBuf],
+    /// For each mesh that is not there, the one of the scene's folder that is likely meant.
+    pub likely_meshes: &'a [(String, String)],
 }
 
 impl Shown<'_> {

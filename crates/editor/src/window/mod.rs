@@ -14,6 +14,7 @@ use winit::event_loop::EventLoopProxy;
 
 pub use event_loop::run;
 pub use focus::{FocusRules, tab_pressed};
+pub use gl::force_software;
 pub use numpad::numpad_pressed;
 
 use event_loop::Happening;

@@ -3,6 +3,7 @@
 mod guides;
 mod inspector;
 mod looks;
+mod missing;
 mod tree;
 
 use std::path::Path;
@@ -29,6 +30,7 @@ pub struct Column {
     pub meshes: Vec<String>,
     pub tree_height: f32,
     pub strokes_of: Vec<(String, usize)>,
+    pub likely_meshes: Vec<(String, String)>,
 }
 
 impl Column {
@@ -41,8 +43,8 @@ impl Column {
     pub fn of(document: Document) -> Self {
         let session = Session::default();
         let (log, acts, meshes) = (Vec::new(), Vec::new(), Vec::new());
-        let strokes_of = Vec::new();
-        Self { document, session, log, acts, meshes, tree_height: 252.0, strokes_of }
+        let (strokes_of, likely_meshes) = (Vec::new(), Vec::new());
+        Self { document, session, log, acts, meshes, tree_height: 252.0, strokes_of, likely_meshes }
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
@@ -55,6 +57,7 @@ impl Column {
             status: "",
             numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             recent: &[],
+            likely_meshes: &self.likely_meshes,
         };
         // The harness has margins, the window has none.
         let whole = ui.ctx().content_rect();

@@ -116,6 +116,7 @@ impl Page {
                 ..Numbers::default()
             },
             recent: &self.recent,
+            likely_meshes: &[],
         };
         top_bar::top_bar(ui, &shown, &mut asks);
         status_line::status_line(ui, &shown, &mut asks);

@@ -69,7 +69,20 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
         );
         ui.add_space(4.0);
         path_row(ui, asker, object, Look::Wrong);
-        let button = Button::new("Locate\u{2026}").name(&format!("Locate mesh of {name}")).primary().show(ui);
+        let likely = asker.shown.likely_meshes.iter().find(|(missing, _)| *missing == object.mesh);
+        if let Some((_, mesh)) = likely {
+            let words = format!("Use {}", mesh.rsplit('/').next().unwrap_or(mesh));
+            let button = Button::new(&words).name(&format!("{words} for {name}")).primary().show(ui);
+            let tip = Tip { name: &words, effect: mesh, ..Tip::default() };
+            if tip.on(button).clicked() {
+                let (object, mesh) = (name.clone(), mesh.clone());
+                asker.ask(Command::Arrange(Arrange::ReplaceMesh { object, mesh }));
+            }
+            ui.add_space(4.0);
+        }
+        let locate = format!("Locate mesh of {name}");
+        let button = Button::new("Locate\u{2026}").name(&locate);
+        let button = if likely.is_some() { button.show(ui) } else { button.primary().show(ui) };
         if button.clicked() {
             asker.asks.push(Ask::ChooseMesh(name.clone()));
         }
