@@ -150,6 +150,11 @@ impl Document {
         Ok(())
     }
 
+    /// Why a command would be refused; none where it would be carried out.
+    pub fn would_refuse(&self, command: &Command) -> Option<Refusal> {
+        self.edited(command).err()
+    }
+
     /// Shows the scene as the history has it again.
     pub fn end_preview(&mut self) {
         self.preview = None;

@@ -29,6 +29,7 @@ pub struct NumberField<'a> {
     default: Option<f64>,
     width: Option<f32>,
     error: Option<&'a str>,
+    refused: Option<&'a dyn Fn(f64) -> Option<String>>,
     tip: Tip<'a>,
 }
 
@@ -76,6 +77,7 @@ impl<'a> NumberField<'a> {
             default: None,
             width: None,
             error: None,
+            refused: None,
             tip: Tip::default(),
         }
     }
@@ -113,6 +115,11 @@ impl<'a> NumberField<'a> {
     /// What is wrong with the value: the box gets a vermilion outline, and the words stand under it.
     pub fn error(self, error: Option<&'a str>) -> Self {
         Self { error, ..self }
+    }
+
+    /// Why a number within the limits is refused nevertheless; asked while one is typed.
+    pub fn refused(self, why: &'a dyn Fn(f64) -> Option<String>) -> Self {
+        Self { refused: Some(why), ..self }
     }
 
     /// What the tooltip says; its range and default are filled in.

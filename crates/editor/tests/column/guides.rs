@@ -2,7 +2,7 @@
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{Column, click, harness, region, with_guides};
+use super::{Column, click, harness, region, type_in, with_guides};
 
 fn description(harness: &egui_kittest::Harness<'_, Column>, name: &str) -> Option<String> {
     harness.get_by_label(name).accesskit_node().description()
@@ -66,4 +66,19 @@ fn recapture_asks_first() {
     click(&mut harness, "Recapture");
     assert_eq!(harness.state().log.last().map(String::as_str), Some("ask about frame 12"));
     assert_eq!(harness.state().document.scene().reference, before);
+}
+
+#[test]
+fn a_number_that_the_scene_refuses_is_marked_where_it_is_typed() {
+    let mut harness = harness("apple.ron", region("apple"));
+    let count = harness.state().document.undo_count();
+    type_in(&mut harness, "Length", "9000");
+    assert!(harness.query_by_label_contains("at most 4096").is_some(), "the words of the scene");
+    assert_eq!(harness.state().document.undo_count(), count);
+    assert!(harness.state().log.iter().all(|ask| !ask.starts_with("refused")), "{:?}", harness.state().log);
+    harness.key_press(egui::Key::Escape);
+    harness.run();
+    type_in(&mut harness, "Length", "90");
+    assert!(harness.query_by_label_contains("at most 4096").is_none());
+    assert_eq!(harness.state().region("apple").strokes.length_px, Some(90.0));
 }

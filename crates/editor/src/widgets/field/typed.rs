@@ -18,10 +18,7 @@ impl NumberField<'_> {
         let edit_id = id.with("typed");
         let fresh = egui::text_edit::TextEditState::load(ui.ctx(), edit_id).is_none();
         let tokens = Tokens::of(ui);
-        let wrong = |field: &Self, typed: &str| {
-            number_of(typed, field.unit).is_none_or(|number| !field.limits.contains(&number))
-        };
-        let is_wrong = wrong(self, &typed);
+        let is_wrong = self.wrong_in(&typed).is_some();
         let line = Stroke::new(2.0, if is_wrong { tokens.vermilion } else { tokens.accent_text });
         ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
         let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
@@ -46,12 +43,13 @@ impl NumberField<'_> {
             state.cursor.set_char_range(Some(all));
             state.store(ui.ctx(), edit_id);
         }
-        let is_wrong = wrong(self, &typed);
-        if is_wrong {
+        let wrong = self.wrong_in(&typed);
+        let is_wrong = wrong.is_some();
+        if let Some(words) = wrong {
             ui.ctx().accesskit_node_builder(response.id, |node| {
                 node.set_invalid(egui::accesskit::Invalid::True);
             });
-            let words = egui::RichText::new(self.limits_in_words()).font(type_face::small());
+            let words = egui::RichText::new(words).font(type_face::small());
             egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id.with("limits"), frame)
                 .show(|ui| ui.label(words.color(tokens.vermilion)));
         }
@@ -89,6 +87,14 @@ impl NumberField<'_> {
             *self.value = default;
         }
         is_here
+    }
+
+    /// What is wrong with what was typed, in words.
+    fn wrong_in(&self, typed: &str) -> Option<String> {
+        match number_of(typed, self.unit).filter(|number| self.limits.contains(number)) {
+            Some(number) => self.refused.and_then(|why| why(number)),
+            None => Some(self.limits_in_words()),
+        }
     }
 
     /// What may be typed: *0 to 1*.
