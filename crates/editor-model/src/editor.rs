@@ -207,6 +207,8 @@ impl Editor {
             (0..count).map(|object| Arc::clone(painting.surface(object))).zip(morphs).collect();
         self.picker.update(&bodies);
         self.painting = Some(painting);
+        // What lies under a resting pointer is another.
+        self.has_rested = false;
     }
 
     /// The painting that was prepared last.
