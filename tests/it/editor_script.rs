@@ -119,6 +119,7 @@ fn guides() -> [(&'static str, Gesture, Guide); 2] {
         strength: 0.8,
         falloff: Default::default(),
         mode: Default::default(),
+        curve: false,
     };
     let round = |turn: f64| DVec3::new(turn.sin(), 0.2, turn.cos()).normalize() * 0.25;
     let over = |turn: f64| DVec3::new(0.1, turn.sin(), turn.cos()).normalize() * 0.19;

@@ -30,6 +30,7 @@ pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [
         .collect();
     Some(Guide {
         mode: GuideMode::Comb,
+        curve: false,
         object: None,
         view: Some(GuideView { eye: camera.eye.to_array(), target: camera.target.to_array() }),
         points: points?,

@@ -150,6 +150,11 @@ impl Document {
         Ok(())
     }
 
+    /// Why a command would be refused; none where it would be carried out.
+    pub fn would_refuse(&self, command: &Command) -> Option<Refusal> {
+        self.edited(command).err()
+    }
+
     /// Shows the scene as the history has it again.
     pub fn end_preview(&mut self) {
         self.preview = None;
@@ -296,6 +301,17 @@ impl Document {
         folder.unwrap_or(Path::new("."))
     }
 
+    /// Goes on in another folder, where nothing ties it to its own: it has no file, and names none. Whether it did.
+    pub fn live_in(&mut self, folder: &Path) -> bool {
+        let is_free = self.file.is_none() && self.files_named().next().is_none();
+        if is_free {
+            self.preview = None;
+            let path = folder.join("untitled.ron");
+            self.loaded = Arc::new(LoadedScene { path, ..(*self.loaded).clone() });
+        }
+        is_free
+    }
+
     /// A file name to begin with: the scene's own, or one after its first object.
     pub fn suggested_file(&self) -> PathBuf {
         if let Some(file) = &self.file {
@@ -350,7 +366,7 @@ impl Document {
     }
 
     /// The files that the scene names, but for those of the house.
-    fn files_named(&self) -> impl Iterator<Item = &str> {
+    pub fn files_named(&self) -> impl Iterator<Item = &str> {
         let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
         let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
         names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))

@@ -46,6 +46,10 @@ pub enum Request {
     Save,
     /// Asks for a file to write to.
     SaveAs,
+    /// Asks for a file to write a copy to.
+    SaveCopy,
+    /// Reads the document's file again; asks about unsaved work first.
+    Revert,
     /// Asks for a mesh to add.
     Import,
     /// The command search.
@@ -129,6 +133,8 @@ pub struct Editor {
     pointer_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
+    /// Whether the tool knows already that the hand rests.
+    has_rested: bool,
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
@@ -152,6 +158,7 @@ impl Editor {
             pointer_px: None,
             held: Modifiers::default(),
             at_secs: 0.0,
+            has_rested: false,
             said: Vec::new(),
             requests: Vec::new(),
             version: 1,
@@ -200,6 +207,8 @@ impl Editor {
             (0..count).map(|object| Arc::clone(painting.surface(object))).zip(morphs).collect();
         self.picker.update(&bodies);
         self.painting = Some(painting);
+        // What lies under a resting pointer is another.
+        self.has_rested = false;
     }
 
     /// The painting that was prepared last.
@@ -287,6 +296,11 @@ impl Editor {
         let result = self.document.apply_merged(command, key, at_secs);
         self.version += 1;
         self.told(result)
+    }
+
+    /// The document goes on in another folder, if nothing ties it to its own; see [`Document::live_in`].
+    pub fn live_in(&mut self, folder: &std::path::Path) -> bool {
+        self.document.live_in(folder)
     }
 
     /// Adds a mesh by its path from the scene's folder.

@@ -20,6 +20,10 @@ pub enum Action {
     Save,
     /// Asks for a file first.
     SaveAs,
+    /// Asks for another file, and stays with its own.
+    SaveCopy,
+    /// Reads the scene's file again.
+    Revert,
     /// Adds a mesh to the scene.
     ImportMesh,
     /// The sheet that renders frames.

@@ -220,6 +220,7 @@ impl SurfacePath {
             }
             guides.push(Guide {
                 mode: style.mode,
+                curve: false,
                 object: style.object.clone(),
                 view: seen.guide_view(reference, piece[piece.len() / 2].position),
                 points,

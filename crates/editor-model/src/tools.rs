@@ -33,7 +33,8 @@ mod tests;
 mod turn;
 
 pub use hand::Hand;
-pub use ring::{Needle, Ring};
+pub(crate) use heading::REST_SECS;
+pub use ring::{Foreseen, Needle, Ring};
 
 /// What tools look at, handed in with every event. `scene` is the one of the history, without any preview.
 #[derive(Clone, Copy)]
@@ -129,6 +130,8 @@ pub struct ToolOutput {
     pub rings: Vec<Ring>,
     /// The direction at the pointer.
     pub needle: Option<Needle>,
+    /// What strokes are to be foreseen of, while the hand moves before a press.
+    pub foreseen: Option<Foreseen>,
     /// The line of a curve that is being drawn, or that the pointer is on.
     pub line_px: Vec<DVec2>,
     /// Handles of that line.

@@ -40,6 +40,7 @@ fn guide(x: f64, y: f64) -> Guide {
         strength: 0.8,
         falloff: Default::default(),
         mode: Default::default(),
+        curve: false,
     }
 }
 

@@ -14,7 +14,7 @@ pub mod worker;
 
 use files::dialogs::Source;
 use files::incoming;
-use files::preferences::DriverChoice;
+use files::preferences::{self, DriverChoice, Loaded, Preferences};
 
 /// What `impasto edit` was told.
 #[derive(Clone, Debug, Default)]
@@ -55,6 +55,13 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
             }
         }
     }
+    let loaded = match preferences::config_folder() {
+        Some(folder) => preferences::load(&folder),
+        None => Loaded { preferences: Preferences::default(), note: None },
+    };
+    if options.driver.unwrap_or(loaded.preferences.driver) == DriverChoice::Software {
+        window::force_software();
+    }
     let dialogs = window::Options::default();
-    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, opened))?)
+    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, loaded, opened))?)
 }

@@ -87,6 +87,8 @@ pub struct Picture {
     pub exact: bool,
     /// How many strokes it has.
     pub strokes: usize,
+    /// How many of them each region has, by its place in the scene; the last are those of no region.
+    pub strokes_of: Vec<usize>,
     /// How long it took to draw, seconds.
     pub seconds: f64,
 }

@@ -165,7 +165,10 @@ fn every_control_of_the_bars_has_its_name_and_can_be_hit() {
     seen(&wide, &["Soft falloff", "Even falloff", "Steady", "Front faces only"]);
     let posing = harness(Page::new(), Theme::Dark, NARROW);
     seen(&posing, &["Select", "Move", "Turn", "Scale", "Add light", "Shot camera tool"]);
-    seen(&posing, &["World axes", "Local axes", "View axes", "Snap"]);
+    seen(&posing, &["World axes", "Local axes", "View axes"]);
+    assert!(posing.query_by_label("Snap").is_none(), "picking things snaps nothing");
+    let moving = harness(Page::new().with_tool(Tool::Move), Theme::Dark, NARROW);
+    seen(&moving, &["World axes", "Local axes", "View axes", "Snap"]);
 }
 
 #[test]
@@ -173,6 +176,8 @@ fn menus_ask_for_commands_and_show_their_keys() {
     let mut harness = paint();
     for (menu, row, action) in [
         ("File", "Save as", Action::SaveAs),
+        ("File", "Save a copy", Action::SaveCopy),
+        ("File", "Read again", Action::Revert),
         ("Edit", "Show all", Action::ShowAll),
         ("View", "Look through the shot camera", Action::LookThrough),
         ("Help", "Shortcuts", Action::Shortcuts),

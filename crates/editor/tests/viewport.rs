@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use headless::Headless;
 use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
-use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark, Needle, Ring};
+use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark};
 use impasto_editor::viewport::{
     Badge, Framing, Layout, Look, Marks, Now, Pictures, PointerEvent, PointerKind, ViewportEvents,
     ViewportInput, viewport,
@@ -17,6 +17,7 @@ use impasto_editor::viewport::{
 use impasto_editor_model::Session;
 use impasto_editor_model::keymap::{Action, Button};
 use impasto_editor_model::session::{Overlays, Shading};
+use impasto_editor_model::tools::{Needle, Ring};
 use impasto_gl_render::context::Driver;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;

@@ -201,8 +201,8 @@ fn a_number_can_be_typed() {
 }
 
 #[test]
-fn typing_ends_without_a_change_on_escape_and_on_nonsense() {
-    for (typed, end) in [("80", Key::Escape), ("four", Key::Enter)] {
+fn what_is_no_number_or_beyond_the_limits_is_marked_and_not_taken() {
+    for (typed, mended) in [("four", Key::Escape), ("1000", Key::Escape), ("80", Key::Escape)] {
         let mut harness = harness(Theme::Dark);
         harness.run();
         harness.get_by_label("Length").focus();
@@ -211,11 +211,41 @@ fn typing_ends_without_a_change_on_escape_and_on_nonsense() {
         harness.run();
         harness.event(egui::Event::Text(typed.to_owned()));
         harness.run();
-        harness.key_press(end);
+        let is_wrong = typed != "80";
+        assert_eq!(harness.query_by_label_contains("100px").is_some(), is_wrong, "{typed}");
+        if is_wrong {
+            harness.key_press(Key::Enter);
+            harness.run();
+            assert!(harness.query_by_role(Role::TextInput).is_some(), "{typed}: gone without a word");
+        }
+        harness.key_press(mended);
         harness.run();
         assert_eq!(harness.state().length_px, 34.0, "{typed}");
         assert!(harness.query_by_role(Role::TextInput).is_none(), "{typed}: still typing");
     }
+}
+
+#[test]
+fn a_click_types_and_a_double_click_brings_the_default_back() {
+    let mut harness = harness(Theme::Dark);
+    harness.run();
+    harness.state_mut().coverage = 5.0;
+    // The clock of a test goes in large steps.
+    harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
+    harness.run();
+    let middle = harness.get_by_label("Coverage").rect().center();
+    let click = |harness: &mut Harness<'_, _>| {
+        harness.drag_at(middle);
+        harness.step();
+        harness.drop_at(middle);
+        harness.step();
+        harness.step();
+    };
+    click(&mut harness);
+    assert!(harness.query_by_role(Role::TextInput).is_some(), "it is typed");
+    click(&mut harness);
+    assert!(harness.query_by_role(Role::TextInput).is_none());
+    assert_eq!(harness.state().coverage, 2.5, "the default of the page");
 }
 
 #[test]

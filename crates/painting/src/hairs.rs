@@ -140,6 +140,45 @@ impl Painting {
         let index = nearest.filter(|&index| look.is_between(seen.solved.depth[index]))?;
         Some(look.direction(seen, index))
     }
+
+    /// The strokes of an object's body layer round a place, as a camera sees them: those that face likewise, are within the
+    /// place's radius and not behind the eye. At most `most`, the first ones of the progressive order.
+    pub fn hairs_near(
+        &self,
+        place: &SurfacePlace,
+        (camera, frame): (&CameraPose, f64),
+        options: &FrameOptions,
+        most: usize,
+    ) -> Vec<Hair> {
+        let wanted = |coat: &crate::coat::Coat| coat.kind == LayerKind::Body && coat.object == place.object;
+        let look = self.look(camera, frame, options, wanted);
+        let Some(seen) = look.seen.first() else { return Vec::new() };
+        let (solved, baked) = (&seen.solved, &seen.baked);
+        let is_near = |index: &usize| {
+            let apart_sq = baked.position_of(*index).distance_squared(place.position);
+            apart_sq < place.radius * place.radius
+                && baked.normal_of(*index).dot(place.normal) > LIKEWISE
+                && solved.area_px[*index] > 0.0
+                && look.is_between(solved.depth[*index])
+        };
+        let count = solved.area_px.len();
+        let hair = |index: usize| {
+            let ShownDirection { angle_rad, kappa } = look.direction(seen, index);
+            let jacobian = seen.map.jacobian(baked.position_of(index));
+            Hair {
+                object: place.object,
+                region: usize::from(seen.coat.seats.region[index]),
+                particle: index,
+                rank: (index as f32 + 0.5) / count as f32,
+                position_px: [solved.x_px[index] + look.half_px[0], look.half_px[1] - solved.y_px[index]],
+                angle_rad,
+                kappa,
+                depth: solved.depth[index],
+                facing: facing(jacobian, baked.normal_of(index)) as f32,
+            }
+        };
+        (0..count).filter(is_near).map(hair).filter(|hair| hair.facing > 0.0).take(most).collect()
+    }
 }
 
 impl Look<'_> {

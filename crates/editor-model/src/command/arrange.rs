@@ -1,5 +1,6 @@
 //! Things and their places.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -220,6 +221,10 @@ impl Arrange {
 fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) -> Result<Done, Refusal> {
     if mesh.trim().is_empty() {
         return Err(Refusal::new("That file has no name"));
+    }
+    // The first thing of a scene whose camera nobody has moved is seen whole.
+    if scene.objects.is_empty() && scene.camera == new_scene::empty().camera {
+        scene.camera = new_scene::for_mesh(Path::new(mesh), file).camera;
     }
     let name = new_scene::add_mesh(scene, (mesh, file), &before.meshes);
     let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);

@@ -8,6 +8,7 @@ use impasto_scene::motion;
 use super::{Done, finite, unlocked_object, unlocked_region};
 use crate::euler::tidy;
 use crate::names;
+use crate::path::simplify;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 
@@ -297,39 +298,12 @@ fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     let guides = std::mem::take(&mut region.guides);
     for (index, guide) in guides.iter().enumerate() {
         if !guides[index + 1..].iter().any(|later| covers(later, guide)) {
-            let points = thinned(&guide.points, tolerance);
+            let points = simplify::guide_within(&guide.points, tolerance);
             region.guides.push(Guide { points, ..guide.clone() });
         }
     }
     let after = region.guides.len();
     Ok(Done::new(format!("Simplify {before} guides to {after}")))
-}
-
-/// Ramer, Douglas and Peucker: what lies within `tolerance` of the line goes.
-pub(crate) fn thinned(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePoint> {
-    let at = |index: usize| glam::DVec3::from(points[index].at);
-    let mut keep = vec![false; points.len()];
-    let mut open = vec![(0, points.len().saturating_sub(1))];
-    while let Some((first, last)) = open.pop() {
-        if points.is_empty() {
-            break;
-        }
-        (keep[first], keep[last]) = (true, true);
-        let line = at(last) - at(first);
-        let farthest = (first + 1..last)
-            .map(|index| {
-                let share =
-                    ((at(index) - at(first)).dot(line) / line.length_squared().max(1e-300)).clamp(0.0, 1.0);
-                (index, at(index).distance(at(first) + line * share))
-            })
-            .max_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((index, apart)) = farthest
-            && apart > tolerance
-        {
-            open.extend([(first, index), (index, last)]);
-        }
-    }
-    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
 }
 
 /// The old reference stays with what was stated against it, so that all directions stay as they are.

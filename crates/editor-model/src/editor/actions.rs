@@ -24,6 +24,11 @@ impl Editor {
             Action::OpenScene => self.requests.push(Request::Open),
             Action::Save => self.requests.push(Request::Save),
             Action::SaveAs => self.requests.push(Request::SaveAs),
+            Action::SaveCopy => self.requests.push(Request::SaveCopy),
+            Action::Revert if self.document.file().is_none() => {
+                self.refuse(&Refusal::new("This scene has no file yet"));
+            }
+            Action::Revert => self.requests.push(Request::Revert),
             Action::ImportMesh => self.requests.push(Request::Import),
             Action::Palette => self.requests.push(Request::Palette),
             Action::Shortcuts => self.requests.push(Request::Shortcuts),

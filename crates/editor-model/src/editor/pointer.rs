@@ -10,7 +10,7 @@ use crate::keymap::{Button, Modifiers, Navigation};
 use crate::picking::View;
 use crate::selection::{Item, Selection};
 use crate::session::{Mode, Tool};
-use crate::tools::{Surroundings, ToolEvent, ToolOutput};
+use crate::tools::{REST_SECS, Surroundings, ToolEvent, ToolOutput};
 use crate::transform::{Operation, Snap, TransformEvent};
 
 /// A drag of an object begins after this many pixels.
@@ -55,6 +55,7 @@ impl Editor {
         }
         let before_px = self.pointer_px.unwrap_or(event.at_px);
         (self.held, self.at_secs) = (event.held, event.at_secs);
+        self.has_rested = false;
         self.pointer_px = (event.kind != PointerKind::Leave).then_some(event.at_px);
         match event.kind {
             PointerKind::Move => self.moved(event, event.at_px - before_px, view),
@@ -66,6 +67,20 @@ impl Editor {
                     self.output = ToolOutput { status: self.output.status.clone(), ..ToolOutput::default() };
                 }
             }
+        }
+    }
+
+    /// Time passed and nothing moved: what waits for a rest of the hand shows, what only a moving hand has goes. `at_secs` is
+    /// on the clock of the pointer's events.
+    pub fn rested(&mut self, at_secs: f64, view: &View) {
+        let waits = matches!(self.busy, Busy::Idle)
+            && self.session.mode == Mode::Paint
+            && self.pointer_px.is_some()
+            && !self.hand.is_busy();
+        if waits && self.at_secs + REST_SECS <= at_secs && !self.has_rested {
+            self.at_secs = at_secs;
+            self.hover_again(view);
+            self.has_rested = true;
         }
     }
 

@@ -2,10 +2,11 @@ use std::path::Path;
 
 use glam::DVec2;
 use impasto_painting::prepare;
+use impasto_scene::document::LightKind;
 use impasto_scene::load::LoadOptions;
 
 use super::*;
-use crate::command::{Edit, Regions};
+use crate::command::{Arrange, Edit, Regions};
 use crate::keymap::{Action, Button};
 use crate::session::Axes;
 
@@ -184,4 +185,74 @@ fn a_refused_command_says_why_once() {
     let said = editor.take_said();
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(said[0].words.contains("nobody"));
+}
+
+#[test]
+fn strokes_are_foreseen_while_the_hand_moves_and_until_it_rests() {
+    let mut editor = with_apple();
+    act(&mut editor, Action::Paint);
+    let at = middle_of_the_apple(&editor);
+    event(&mut editor, PointerKind::Move, at, HERE);
+    assert!(editor.tool_output().foreseen.is_none(), "it has not moved yet");
+    for step in 1..=4 {
+        event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
+    }
+    let foreseen = editor.tool_output().foreseen.expect("it moves over the apple");
+    assert_eq!(foreseen.along, DVec2::X);
+    assert!((foreseen.at_px - at - DVec2::new(20.0, 0.0)).length() < 1e-6, "{foreseen:?}");
+
+    // What lies in the ring is what the whole picture has there.
+    let painting = editor.painting().expect("it is prepared");
+    let options = impasto_painting::FrameOptions::new([960, 540]);
+    let camera = editor.camera();
+    let place = impasto_painting::SurfacePlace {
+        object: foreseen.object,
+        position: foreseen.position_in_model,
+        normal: foreseen.normal_in_model,
+        radius: foreseen.radius,
+    };
+    let near = painting.hairs_near(&place, (&camera, 0.0), &options, 40);
+    assert_eq!(near.len(), 40);
+    let is_near = |hair: &impasto_painting::Hair| near.iter().any(|near| near.particle == hair.particle);
+    let of_object = |hair: &impasto_painting::Hair| hair.object == foreseen.object && is_near(hair);
+    let all = painting.hairs_where(&camera, 0.0, &options, (1.0, &of_object));
+    assert!(all.len() > 30, "{}", all.len());
+    for hair in &all {
+        assert!(near.contains(hair), "{hair:?}");
+        let off_px = DVec2::from(hair.position_px.map(f64::from)).distance(foreseen.at_px);
+        assert!(off_px < editor.session.options.radius_px * 1.05, "{off_px}");
+    }
+
+    let view = view(&editor);
+    editor.rested(editor.at_secs + 0.2, &view);
+    assert!(editor.tool_output().foreseen.is_some() && editor.tool_output().label.is_none());
+    editor.rested(editor.at_secs + 0.5, &view);
+    assert!(editor.tool_output().foreseen.is_none());
+    assert!(editor.tool_output().label.as_ref().is_some_and(|label| label.contains("trust")));
+
+    editor.session.options.foresee = false;
+    for step in 1..=4 {
+        event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
+    }
+    assert!(editor.tool_output().foreseen.is_none(), "switched off");
+}
+
+#[test]
+fn a_mesh_in_an_edited_scene_without_a_file_gives_it_a_folder_and_a_camera() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let elsewhere = std::env::temp_dir();
+    let mut editor = Editor::new(Document::empty(&elsewhere));
+    let lamp = Arrange::AddLight { kind: LightKind::Point, at: DVec3::ONE, toward: DVec3::ZERO };
+    assert!(editor.run(&Command::Arrange(lamp)));
+    let lights = editor.document().scene().lights.len();
+    let camera = editor.document().scene().camera.clone();
+    assert!(editor.live_in(&scenes.join("meshes")));
+    assert!(editor.import("apple.obj"));
+    assert_eq!(editor.document().folder(), scenes.join("meshes"));
+    assert_eq!(editor.document().suggested_file(), scenes.join("meshes/apple.ron"));
+    assert_eq!(editor.document().scene().lights.len(), lights, "what was edited before is kept");
+    assert_ne!(editor.document().scene().camera, camera, "it is seen whole");
+    assert!(!editor.live_in(&elsewhere), "the mesh is named from where it is");
+    act(&mut editor, Action::Undo);
+    assert_eq!(editor.document().scene().camera, camera);
 }

@@ -84,6 +84,8 @@ pub(super) const BINDINGS: &[Binding] = &[
     both(Action::OpenScene, "Open", EVERYWHERE, &[ctrl(Key::Letter('O'))]),
     both(Action::Save, "Save", EVERYWHERE, &[ctrl(Key::Letter('S'))]),
     both(Action::SaveAs, "Save as", EVERYWHERE, &[ctrl_shift(Key::Letter('S'))]),
+    both(Action::SaveCopy, "Save a copy", EVERYWHERE, &[]),
+    both(Action::Revert, "Read again", EVERYWHERE, &[]),
     both(Action::ImportMesh, "Import a mesh", EVERYWHERE, &[ctrl(Key::Letter('I'))]),
     both(Action::Render, "Render", EVERYWHERE, &[plain(Key::Function(12))]),
     each(

@@ -268,7 +268,9 @@ fn menus_write_keys_as_people_do() {
         for keymap in keymaps() {
             let text = keymap.shortcut_text(action);
             let digit = matches!(action, Action::Arrange | Action::Paint | Action::Animate);
-            assert!(text.is_some() || digit, "{action:?}");
+            // These stand in the menu and in the command search only.
+            let rare = matches!(action, Action::SaveCopy | Action::Revert);
+            assert_eq!(text.is_none(), rare || digit && text.is_none(), "{action:?}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The fewest points that keep a path within a distance (Ramer 1972; Douglas and Peucker 1973).
 
 use glam::DVec3;
+use impasto_scene::document::GuidePoint;
 
 use super::PathPoint;
 
@@ -10,18 +11,30 @@ const END_STEPS: usize = 3;
 /// Those points of a path that keep it within `tolerance` (model units); both ends stay.
 pub(crate) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
     let Some(last) = path.len().checked_sub(1) else { return Vec::new() };
-    let mut keep = vec![false; path.len()];
-    let mut ends = vec![0, last];
-    if last > 4 * END_STEPS {
-        ends = vec![0, END_STEPS, last - END_STEPS, last];
-    }
-    for &end in &ends {
+    let ends = if last > 4 * END_STEPS { vec![0, END_STEPS, last - END_STEPS, last] } else { vec![0, last] };
+    let places: Vec<DVec3> = path.iter().map(|point| point.position).collect();
+    let keep = needed(&places, &ends, tolerance);
+    path.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
+}
+
+/// Those points of a guide that keep it within `tolerance` (model units); both ends stay.
+pub(crate) fn guide_within(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePoint> {
+    let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
+    let places: Vec<DVec3> = points.iter().map(|point| DVec3::from(point.at)).collect();
+    let keep = needed(&places, &[0, last], tolerance);
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
+}
+
+/// Which places are needed between those of `ends`, which stay.
+fn needed(places: &[DVec3], ends: &[usize], tolerance: f64) -> Vec<bool> {
+    let mut keep = vec![false; places.len()];
+    for &end in ends {
         keep[end] = true;
     }
     let mut spans: Vec<(usize, usize)> = ends.windows(2).map(|pair| (pair[0], pair[1])).collect();
     while let Some((from, to)) = spans.pop() {
         let farthest = (from + 1..to)
-            .map(|index| (off(path[index].position, path[from].position, path[to].position), index))
+            .map(|index| (off(places[index], places[from], places[to]), index))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((distance, index)) = farthest
             && distance > tolerance
@@ -30,7 +43,7 @@ pub(crate) fn within(path: &[PathPoint], tolerance: f64) -> Vec<PathPoint> {
             spans.extend([(from, index), (index, to)]);
         }
     }
-    path.iter().zip(keep).filter_map(|(point, keep)| keep.then_some(*point)).collect()
+    keep
 }
 
 /// From a point to a piece of a line.

@@ -4,7 +4,7 @@ use glam::DVec2;
 use impasto_scene::document::{Dab, Falloff, Guide, GuideMode, Region, Selector};
 
 use super::heading::Heading;
-use super::ring::{Needle, Ring, radius_in_model};
+use super::ring::{Foreseen, Needle, Ring, radius_in_model};
 use super::{NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, erase, smear, waiting_words};
 use crate::command::{Command, Directions, Gesture, RegionTarget, Regions};
 use crate::keymap::{Action, Modifiers};
@@ -18,6 +18,8 @@ use crate::session::{RegionDoes, Tool};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
+    /// From the first quick movement until the hand rests.
+    foresees: bool,
     stroke: Option<Stroke>,
 }
 
@@ -56,6 +58,7 @@ impl Brush {
             ToolEvent::Hover { at_px, at_secs } => self.aim(tool, (at_px, at_secs), around),
             ToolEvent::Press { at_px, at_secs, held } => {
                 self.heading.forget();
+                self.foresees = false;
                 self.heading.follow(at_px, at_secs);
                 self.press(tool, at_px, held, around)
             }
@@ -107,6 +110,8 @@ impl Brush {
         let moving = self.heading.is_moving(at_secs);
         let lying = shown.map(|shown| DVec2::from_angle(-shown.angle_rad));
         let along = if moving { self.heading.along().or(lying) } else { lying };
+        self.foresees = moving || self.foresees && !self.heading.rests(at_secs);
+        output.foreseen = self.foreseen(tool, &hit, around);
         output.needle = along.map(|along| Needle { at_px, along, headed: moving });
         if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
             // A line has no head: its angle is told from −90° to 90°.
@@ -115,6 +120,26 @@ impl Brush {
             output.label = Some(format!("{angle_deg}°  trust {:.2}", shown.trust));
         }
         output
+    }
+
+    /// The comb that a press would begin, where one could.
+    fn foreseen(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<Foreseen> {
+        let options = around.options;
+        let wanted = tool == Tool::Comb && options.foresee && self.foresees;
+        if !wanted || options.front_only && !hit.front {
+            return None;
+        }
+        let on = around.paintable(Some(hit)).ok()?;
+        let along = self.heading.along()?;
+        Some(Foreseen {
+            object: on.object,
+            region: on.region,
+            position_in_model: hit.position_in_model,
+            normal_in_model: hit.normal_in_model,
+            radius: radius_in_model(hit, options.radius_px, around),
+            at_px: around.view.project(around.world(hit.object, hit.position_in_model))?,
+            along: if options.against { -along } else { along },
+        })
     }
 
     fn press(&mut self, tool: Tool, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {

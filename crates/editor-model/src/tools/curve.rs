@@ -299,6 +299,7 @@ impl Drawing {
         let [seen, reference] = around.views(self.on.object, self.on.region);
         let own = Guide {
             mode: GuideMode::Comb,
+            curve: true,
             object: self.on.object_name.clone(),
             view: seen.guide_view(&reference, curve[curve.len() / 2].position),
             points: kept.iter().map(|point| point.guide_point()).collect(),

@@ -9,7 +9,7 @@ const BACK_PX: f64 = 12.0;
 /// Strokes are foreseen while the hand has moved `BACK_PX` in this time.
 const RECENT_SECS: f64 = 0.15;
 /// A hand that has been still so long rests.
-const REST_SECS: f64 = 0.4;
+pub(crate) const REST_SECS: f64 = 0.4;
 
 /// The last movement of a pointer.
 #[derive(Clone, Debug, Default)]

@@ -34,6 +34,25 @@ pub struct Needle {
     pub headed: bool,
 }
 
+/// A comb that a press would begin here: strokes under it are shown as it would lay them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foreseen {
+    /// Index of the object under the ring.
+    pub object: usize,
+    /// Index of the region that the comb would stay inside of; none where it would make one.
+    pub region: Option<usize>,
+    /// The hit, in the object's own space.
+    pub position_in_model: DVec3,
+    /// Unit.
+    pub normal_in_model: DVec3,
+    /// Radius of the ring, model units.
+    pub radius: f64,
+    /// The hit in the viewport.
+    pub at_px: DVec2,
+    /// The way that strokes would follow: unit, Y down.
+    pub along: DVec2,
+}
+
 impl Ring {
     /// Off every surface.
     pub(super) fn hollow(at_px: DVec2, radius_px: f64) -> Self {

@@ -38,6 +38,7 @@ impl EditorApp {
                 let start = self.editor.document().folder().to_owned();
                 self.files.dialogs.open(ctx, FileAsk::LocateMesh, &start);
             }
+            Ask::Recapture(frame) => self.sheets.recapture = Some(frame),
             Ask::Quit => self.quit_asking(),
             Ask::Welcome => self.sheets.welcome = true,
         }
@@ -54,6 +55,11 @@ impl EditorApp {
                     let start = self.editor.document().suggested_file();
                     self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
                 }
+                Request::SaveCopy => {
+                    let start = self.editor.document().suggested_file();
+                    self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
+                }
+                Request::Revert => self.revert_asking(),
                 Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),
                 Request::Palette => self.sheets.palette = true,
                 Request::Shortcuts => self.sheets.shortcuts = true,
@@ -61,7 +67,7 @@ impl EditorApp {
                 Request::Add => panels::open_add_menu(ctx),
                 Request::ToggleColumn => self.folds.column = !self.folds.column,
                 Request::MaximiseViewport => self.folds.everything = !self.folds.everything,
-                Request::NextArea => {}
+                Request::NextArea => panels::next_area(ctx),
                 Request::Recapture(frame) => self.sheets.recapture = Some(frame),
             }
         }

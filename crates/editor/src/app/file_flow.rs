@@ -6,14 +6,15 @@ use std::time::Instant;
 use egui::{Context, Ui};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Arrange, Command, Regions, StrokeChange, StrokesOf};
-use impasto_editor_model::document::Document;
+use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::keymap::Preset;
 use impasto_scene::document::BrushMix;
 
 use super::EditorApp;
+use crate::files::beside::Copies;
 use crate::files::dialogs::{Answer, Ask, FileDialogs};
 use crate::files::incoming::{self, Present, Step, adopt_mesh, adopt_picture};
-use crate::files::preferences::{self, Keys, Loaded, Preferences};
+use crate::files::preferences::{self, Keys, Preferences};
 use crate::panels::ask_close::{self, Question};
 use crate::panels::welcome::{self, Choices, Left};
 use crate::theme;
@@ -37,24 +38,41 @@ pub(super) struct FileFlow {
     pub(super) mesh_of: Option<String>,
     /// Since when there are edits.
     edited_since: Option<Instant>,
+    /// A scene that waits to be saved into another folder, with the files that would go with it.
+    along: Option<Along>,
     closes: bool,
+}
+
+struct Along {
+    target: PathBuf,
+    to: SaveTo,
+    copies: Copies,
+}
+
+/// What a file is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SaveTo {
+    /// The document's own from then on.
+    Own,
+    /// A copy.
+    Copy,
 }
 
 impl FileFlow {
     pub(super) fn new(dialogs: FileDialogs) -> Self {
-        Self { dialogs, waiting: None, asks: false, mesh_of: None, edited_since: None, closes: false }
+        Self {
+            dialogs,
+            waiting: None,
+            asks: false,
+            mesh_of: None,
+            edited_since: None,
+            along: None,
+            closes: false,
+        }
     }
 
     pub(super) fn is_asking(&self) -> bool {
-        self.asks || self.dialogs.is_open()
-    }
-}
-
-/// The preferences of this user.
-pub(super) fn preferences() -> Loaded {
-    match preferences::config_folder() {
-        Some(folder) => preferences::load(&folder),
-        None => Loaded { preferences: Preferences::default(), note: None },
+        self.asks || self.along.is_some() || self.dialogs.is_open()
     }
 }
 
@@ -68,6 +86,7 @@ impl EditorApp {
     /// Whether the window may close now; else a question shows.
     pub(super) fn may_close(&mut self) -> bool {
         if !self.editor.document().is_edited() {
+            self.note_last_seen();
             return true;
         }
         self.wait_for(Next::Close);
@@ -86,6 +105,28 @@ impl EditorApp {
         self.settle_then(Next::Close);
     }
 
+    /// Reads the document's file again; asks where there are edits.
+    pub(super) fn revert_asking(&mut self) {
+        if self.editor.document().is_edited() {
+            self.sheets.revert = true;
+        } else {
+            self.revert();
+        }
+    }
+
+    fn revert(&mut self) {
+        let Some(file) = self.editor.document().file().map(Path::to_owned) else { return };
+        let (looking, session) = (self.editor.looking.clone(), self.editor.session.clone());
+        let selection = self.editor.document().selection().clone();
+        let before = self.editor.shown().1;
+        self.open(&file);
+        // Where it could not be read, the old one is still there.
+        if self.editor.shown().1 != before {
+            (self.editor.looking, self.editor.session) = (looking, session);
+            self.editor.select(selection);
+        }
+    }
+
     fn settle_then(&mut self, next: Next) {
         if self.editor.document().is_edited() {
             self.wait_for(next);
@@ -101,8 +142,12 @@ impl EditorApp {
 
     fn go_on(&mut self, next: Next) {
         match next {
-            Next::Close => self.files.closes = true,
+            Next::Close => {
+                self.note_last_seen();
+                self.files.closes = true;
+            }
             Next::New => {
+                self.note_last_seen();
                 let folder = self.editor.document().folder().to_owned();
                 self.editor.open(Document::empty(&folder));
                 self.keymap();
@@ -118,9 +163,13 @@ impl EditorApp {
             Ok(()) => {
                 if let Some(file) = self.editor.document().file().map(Path::to_owned) {
                     self.preferences.note_recent(&file);
-                    self.keep_preferences();
+                    self.note_last_seen();
                 }
                 true
+            }
+            Err(SaveError::FilesElsewhere { target, .. }) => {
+                self.take_along(target, SaveTo::Own);
+                false
             }
             Err(error) => {
                 self.toast(error.to_string(), None, true);
@@ -141,6 +190,16 @@ impl EditorApp {
         }
         if self.files.asks {
             self.ask_about_changes(ctx);
+        } else if self.files.along.is_some() {
+            self.ask_to_take_along(ctx);
+        } else if self.sheets.revert {
+            let name = self.editor.document().name();
+            if let Some(answer) = ask_close::ask(ctx, &Question::ReadAgain { name }) {
+                self.sheets.revert = false;
+                if answer == ask_close::Answer::ReadAgain {
+                    self.revert();
+                }
+            }
         } else if let Some(frame) = self.sheets.recapture
             && let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame })
         {
@@ -197,17 +256,66 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
-            Ask::SaveCopy => match self.editor.document().save_copy(&path) {
-                Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
-                Err(error) => self.toast(error.to_string(), None, true),
-            },
+            Ask::SaveCopy => self.save_copy(&path),
             Ask::LocateMesh => self.replace_mesh(&path),
         }
     }
 
+    fn save_copy(&mut self, path: &Path) {
+        match self.editor.document().save_copy(path) {
+            Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
+            Err(SaveError::FilesElsewhere { target, .. }) => self.take_along(target, SaveTo::Copy),
+            Err(error) => self.toast(error.to_string(), None, true),
+        }
+    }
+
+    /// Asks whether the scene's files are to be copied to where it is to be saved.
+    fn take_along(&mut self, target: PathBuf, to: SaveTo) {
+        let document = self.editor.document();
+        let folder = target.parent().unwrap_or(Path::new("."));
+        match Copies::between(document.folder(), folder, document.files_named()) {
+            Ok(copies) => self.files.along = Some(Along { target, to, copies }),
+            Err(error) => {
+                self.files.waiting = None;
+                self.toast(error.to_string(), None, true);
+            }
+        }
+    }
+
+    fn ask_to_take_along(&mut self, ctx: &Context) {
+        let Some(Along { target, copies, .. }) = &self.files.along else { return };
+        let folder = target.parent().unwrap_or(Path::new("."));
+        let question = Question::TakeAlong { count: copies.count(), folder: folder.display().to_string() };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        let Some(Along { target, to, copies }) = self.files.along.take() else { return };
+        if answer != ask_close::Answer::Copy {
+            self.files.waiting = None;
+            return;
+        }
+        if let Err(error) = copies.carry_out(target.parent().unwrap_or(Path::new("."))) {
+            self.files.waiting = None;
+            return self.toast(error.to_string(), None, true);
+        }
+        match to {
+            SaveTo::Own => {
+                if self.save(Some(&target))
+                    && let Some(next) = self.files.waiting.take()
+                {
+                    self.go_on(next);
+                }
+            }
+            SaveTo::Copy => self.save_copy(&target),
+        }
+    }
+
     fn import(&mut self, path: &Path) {
-        if self.editor.document().scene().objects.is_empty() {
+        let document = self.editor.document();
+        if Present::of(document) == Present::Nothing {
             return self.open(path);
+        }
+        // What has no folder of its own yet has the mesh's.
+        if let Some(folder) = std::path::absolute(path).ok().as_deref().and_then(Path::parent) {
+            self.editor.live_in(folder);
         }
         let folder = self.editor.document().folder().to_owned();
         match adopt_mesh(path, &folder) {

@@ -5,11 +5,14 @@ use impasto_editor_model::editor::Editor;
 use impasto_editor_model::keymap::{Key, Modifiers};
 use impasto_editor_model::picking::View;
 
-/// Hands the keys of this pass to the editor; what it takes does not reach the panels.
-pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View) {
+/// Hands the keys of this pass to the editor, those of the number pad first; what it takes does not reach the panels.
+pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec<(Key, Modifiers)>) {
     let typing = ui.ctx().text_edit_focused();
     // A control that was reached by Tab has Space, Enter and the arrows to itself.
     let walking = !typing && ui.memory(|memory| memory.focused().is_some());
+    for (key, held) in numpad {
+        editor.key(key, held, (typing, view));
+    }
     let events = ui.input(|input| input.events.clone());
     let mut taken = Vec::new();
     for (index, event) in events.iter().enumerate() {

@@ -10,14 +10,16 @@ use impasto_editor_model::editor::Editor;
 use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::picking::View;
 use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
+use impasto_editor_model::tools::{Needle, Ring};
 use impasto_painting::Painting;
 use impasto_scene::document::{Guide, LightKind, Scene};
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::new_scene::REGION_COLORS;
 
+use super::foreseen::ForeseenStrokes;
 use super::picture::Studio;
 use crate::viewport::overlay::{
-    CurvePart, GuideCurve, HairMark, Needle, Outline, RegionTint, Ring, Sight, SingularPoint, StandIn,
+    CurvePart, GuideCurve, HairMark, Outline, RegionTint, Sight, SingularPoint, StandIn,
 };
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
@@ -30,6 +32,7 @@ const MOVING_CELLS_PER_POINT: f64 = 0.2;
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],
+    pub(super) foreseen: ForeseenStrokes,
 }
 
 #[derive(Default)]
@@ -163,6 +166,7 @@ impl MarkCache {
             tag: fresh.tag.as_deref(),
             guides: &fresh.guides,
             stand_ins: &fresh.stand_ins,
+            foreseen: self.foreseen.shown(),
             gizmo: fresh.gizmo.as_ref().map(|gizmo| (gizmo, None)),
             hides_pointer: fresh.hides_pointer,
             ..marks
@@ -182,21 +186,7 @@ impl MarkCache {
 pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     let output = editor.tool_output();
     let is_painting = editor.session.mode == Mode::Paint;
-    let rings: Vec<Ring> = if is_painting {
-        output
-            .rings
-            .iter()
-            .map(|ring| Ring {
-                points_px: ring.points_px.clone(),
-                half_px: ring.half_px.clone(),
-                at_px: ring.at_px,
-                hollow: ring.hollow,
-                mirrored: ring.mirrored,
-            })
-            .collect()
-    } else {
-        Vec::new()
-    };
+    let rings = if is_painting { output.rings.clone() } else { Vec::new() };
     let needle = output.needle.filter(|_| is_painting);
     let has_ring = !rings.is_empty();
     let poses = editor.poses();
@@ -220,11 +210,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     }
     Fresh {
         rings,
-        needle: needle.map(|needle| Needle {
-            at_px: needle.at_px,
-            along: needle.along,
-            headed: needle.headed,
-        }),
+        needle,
         tag: output.label.clone().filter(|_| is_painting),
         guides,
         gizmo: editor.gizmo(view),

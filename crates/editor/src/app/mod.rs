@@ -7,7 +7,9 @@
 
 mod asks;
 mod file_flow;
+mod foreseen;
 mod keys;
+mod last_seen;
 mod marks;
 mod picture;
 mod view;
@@ -24,11 +26,11 @@ use impasto_scene::load::LoadOptions;
 
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
-use crate::files::preferences::{Keys, Preferences};
-use crate::panels::{self, Ask, Numbers, Shown};
+use crate::files::preferences::{Keys, Loaded, Preferences};
+use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
-use crate::window::{self, Opened, tab_pressed};
+use crate::window::{self, Opened, numpad_pressed, tab_pressed};
 
 use file_flow::FileFlow;
 use marks::MarkCache;
@@ -50,6 +52,14 @@ pub(crate) struct EditorApp {
     tell: Option<fn(&str)>,
     told: String,
     menu_was_open: bool,
+    likely_meshes: LikelyMeshes,
+}
+
+/// The meshes that are not there, and what is likely meant by them.
+#[derive(Default)]
+struct LikelyMeshes {
+    of: Vec<String>,
+    found: Vec<(String, String)>,
 }
 
 /// Which sheets lie over the window.
@@ -59,6 +69,7 @@ struct Sheets {
     palette: bool,
     shortcuts: bool,
     recapture: Option<i64>,
+    revert: bool,
 }
 
 /// What is folded away.
@@ -71,16 +82,12 @@ struct Folds {
 
 impl EditorApp {
     /// An app with what the command line named, or with an empty scene.
-    pub(crate) fn new(options: &EditOptions, opened: &Opened) -> Self {
-        let loaded = file_flow::preferences();
-        let mut preferences = loaded.preferences;
-        if let Some(driver) = options.driver {
-            preferences.driver = driver;
-        }
+    pub(crate) fn new(options: &EditOptions, loaded: Loaded, opened: &Opened) -> Self {
+        let preferences = loaded.preferences;
         let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
         let mut app = Self {
             editor: Editor::new(Document::empty(&here)),
-            studio: Studio::new(preferences.driver, opened.waker.clone()),
+            studio: Studio::new(options.driver.unwrap_or(preferences.driver), opened.waker.clone()),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             sheets: Sheets {
@@ -93,6 +100,7 @@ impl EditorApp {
             tell: options.tell,
             told: String::new(),
             menu_was_open: false,
+            likely_meshes: LikelyMeshes::default(),
         };
         app.keymap();
         opened.ctx.add_plugin(window::FocusRules);
@@ -121,6 +129,7 @@ impl EditorApp {
     fn open(&mut self, path: &Path) {
         match Document::open(path, &LoadOptions::default()) {
             Ok(document) => {
+                self.note_last_seen();
                 let scene = document.scene();
                 let regions = scene.regions.len();
                 let triangles: usize =
@@ -136,6 +145,7 @@ impl EditorApp {
                     let words = format!("{warnings} warnings: `impasto check {name}` lists them");
                     self.toast(words, None, false);
                 }
+                self.go_to_last_seen(path);
                 self.preferences.note_recent(path);
                 self.keep_preferences();
             }
@@ -161,8 +171,8 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
-        let Sheets { welcome, palette, shortcuts, recapture } = &self.sheets;
-        *welcome || *palette || *shortcuts || recapture.is_some() || self.files.is_asking()
+        let Sheets { welcome, palette, shortcuts, recapture, revert } = &self.sheets;
+        *welcome || *palette || *shortcuts || *revert || recapture.is_some() || self.files.is_asking()
     }
 
     fn page(&mut self, ui: &mut Ui) {
@@ -170,6 +180,7 @@ impl EditorApp {
         let driver = self.studio.driver().to_owned();
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
         let mut asks: Vec<Ask> = Vec::new();
+        self.likely_meshes.follow(self.editor.document());
         let shown = Shown {
             document: self.editor.document(),
             session: &self.editor.session,
@@ -178,26 +189,30 @@ impl EditorApp {
             status: &status,
             numbers: Numbers {
                 strokes: self.studio.strokes(),
+                strokes_of: self.studio.strokes_of(),
                 pictures_per_second: self.studio.pictures_per_second(),
                 driver: &driver,
             },
             recent: &recent,
+            likely_meshes: &self.likely_meshes.found,
         };
         if !self.folds.everything {
-            panels::top_bar::top_bar(ui, &shown, &mut asks);
+            area(ui, Area::TopBar, |ui| panels::top_bar::top_bar(ui, &shown, &mut asks));
             panels::status_line::status_line(ui, &shown, &mut asks);
-            panels::strip::strip(ui, &shown, &mut asks);
+            area(ui, Area::Strip, |ui| panels::strip::strip(ui, &shown, &mut asks));
             if !self.folds.column && ui.available_width() >= 900.0 {
                 panels::column(ui, &shown, &mut asks);
             }
-            panels::options_bar::options_bar(ui, &shown, &mut asks);
-            panels::rail::rail(ui, &shown, &mut asks);
+            area(ui, Area::Options, |ui| panels::options_bar::options_bar(ui, &shown, &mut asks));
+            area(ui, Area::Rail, |ui| panels::rail::rail(ui, &shown, &mut asks));
         }
         let palette_closed = self.sheets.palette && panels::palette::palette(ui.ctx(), &shown, &mut asks);
         let shortcuts_closed = self.sheets.shortcuts && panels::shortcuts::shortcuts(ui.ctx(), &shown);
         self.sheets.palette &= !palette_closed;
         self.sheets.shortcuts &= !shortcuts_closed;
-        CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| self.viewport(ui, &mut asks));
+        CentralPanel::default()
+            .frame(egui::Frame::NONE)
+            .show(ui, |ui| area(ui, Area::Viewport, |ui| self.viewport(ui, &mut asks)));
         let view = self.studio.view(&self.editor);
         for ask in asks {
             self.answer(ask, ui.ctx(), &view);
@@ -242,6 +257,20 @@ impl EditorApp {
     }
 }
 
+impl LikelyMeshes {
+    /// Looks round in the folder where other meshes are missing than before.
+    fn follow(&mut self, document: &Document) {
+        let loaded = document.shown();
+        let is_missing = |mesh: &&str| !loaded.meshes.contains_key(*mesh);
+        let missing = loaded.scene.objects.iter().map(|object| object.mesh.as_str()).filter(is_missing);
+        if !missing.clone().eq(self.of.iter().map(String::as_str)) {
+            let missing: Vec<&str> = missing.collect();
+            self.found = crate::files::nearby::meshes_like(document.folder(), &missing);
+            self.of = missing.into_iter().map(str::to_owned).collect();
+        }
+    }
+}
+
 impl window::App for EditorApp {
     fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
         let ctx = ui.ctx().clone();
@@ -256,12 +285,13 @@ impl window::App for EditorApp {
             self.editor.focus_lost(&view);
         }
         self.folds.had_focus = focused;
+        let numpad = numpad_pressed(&ctx);
         // An open menu has Esc to itself, and what is typed over it is meant for it.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
             }
-            keys::hand_on(ui, &mut self.editor, &view);
+            keys::hand_on(ui, &mut self.editor, &view, numpad);
         }
         self.page(ui);
         self.requests(&ctx);

@@ -28,6 +28,7 @@ pub(super) struct Studio {
     prepared: u64,
     layout: Layout,
     strokes: usize,
+    strokes_of: Vec<(String, usize)>,
     came: VecDeque<Instant>,
 }
 
@@ -55,6 +56,7 @@ impl Studio {
                 1.0,
             ),
             strokes: 0,
+            strokes_of: Vec::new(),
             came: VecDeque::new(),
         }
     }
@@ -71,6 +73,11 @@ impl Studio {
 
     pub(super) fn strokes(&self) -> usize {
         self.strokes
+    }
+
+    /// Strokes of each region in the last exact picture, by name.
+    pub(super) fn strokes_of(&self) -> &[(String, usize)] {
+        &self.strokes_of
     }
 
     /// Whether the painting is that of what is shown.
@@ -125,6 +132,11 @@ impl Studio {
                     }
                     if picture.exact {
                         self.strokes = picture.strokes;
+                        let painting = editor.painting().filter(|_| self.prepared == picture.serial);
+                        if let Some(painting) = painting {
+                            let names = painting.scene().regions.iter().map(|region| region.name.clone());
+                            self.strokes_of = names.zip(picture.strokes_of.iter().copied()).collect();
+                        }
                     }
                     self.pictures.take(ctx, picture);
                 }

@@ -43,6 +43,8 @@ impl EditorApp {
             self.marks.refresh(&self.editor, &self.studio, second);
         }
         let view = self.studio.view(&self.editor);
+        self.editor.rested(ui.input(|input| input.time), &view);
+        self.marks.foreseen.follow(ui.ctx(), &self.editor, &self.studio);
         let fresh = marks::fresh(&self.editor, &view, ui);
         let poses = self.editor.poses();
         let visible = |object: usize| !self.editor.document().shown().scene.objects[object].hidden;

@@ -17,6 +17,18 @@ pub enum Question {
         /// The frame.
         frame: i64,
     },
+    /// A scene is saved into another folder, where the files that it names are not.
+    TakeAlong {
+        /// How many they are.
+        count: usize,
+        /// The folder.
+        folder: String,
+    },
+    /// The file is read again, and there are edits.
+    ReadAgain {
+        /// The document's name.
+        name: String,
+    },
     /// The file on disk is another than the one that was opened.
     ChangedOutside {
         /// The document's name.
@@ -51,6 +63,8 @@ pub enum Answer {
     Recapture,
     /// Read the file again and drop the edits.
     ReadAgain,
+    /// Copy the files, then save.
+    Copy,
     /// Save under another name.
     SaveAs,
     /// Leave everything as it is.
@@ -83,6 +97,16 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
             format!("Take frame {frame} as the new reference?"),
             format!("Directions stay as they look now; they are stored against frame {frame}."),
             &[("Cancel", Answer::Cancel), ("Recapture", Answer::Recapture)],
+        ),
+        Question::TakeAlong { count, folder } => (
+            format!("Copy {} to {folder}?", counted(*count, "file")),
+            "The scene would not find its meshes and pictures from there. Nothing that is there is written over.".to_owned(),
+            &[("Cancel", Answer::Cancel), ("Copy and save", Answer::Copy)],
+        ),
+        Question::ReadAgain { name } => (
+            format!("Read {name} again?"),
+            "Your edits are not in it, and they cannot be brought back.".to_owned(),
+            &[("Read it, drop my edits", Answer::ReadAgain), ("Cancel", Answer::Cancel)],
         ),
         Question::ChangedOutside { name } => (
             format!("{name} was changed by another program"),

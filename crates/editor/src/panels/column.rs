@@ -2,7 +2,7 @@
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
-use super::{Ask, Shown, inspector, tree};
+use super::{Area, Ask, Shown, area, inspector, tree};
 use crate::theme::Tokens;
 
 /// A window at least so wide has a wider column.
@@ -15,7 +15,11 @@ pub fn column(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let frame = Frame::new().fill(Tokens::of(ui).panel);
     Panel::right("column").default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {
         let top = Panel::top("tree").default_size(tree_height).size_range(96.0..=640.0).resizable(true);
-        top.frame(frame).show_separator_line(false).show(ui, |ui| tree(ui, shown, asks));
-        CentralPanel::default().frame(frame).show(ui, |ui| inspector(ui, shown, asks));
+        top.frame(frame).show_separator_line(false).show(ui, |ui| {
+            area(ui, Area::Tree, |ui| tree(ui, shown, asks));
+        });
+        CentralPanel::default().frame(frame).show(ui, |ui| {
+            area(ui, Area::Inspector, |ui| inspector(ui, shown, asks));
+        });
     });
 }

@@ -33,6 +33,8 @@ const MENUS: [(&str, &[Line]); 4] = [
             Part,
             Do(Action::Save),
             Do(Action::SaveAs),
+            Do(Action::SaveCopy),
+            Do(Action::Revert),
             Part,
             Do(Action::Render),
             CopyRenderCommand,

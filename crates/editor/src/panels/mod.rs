@@ -3,6 +3,7 @@
 //! The bars take their own strip off the `Ui` that they are handed, so their order is the window's: top bar, status line, strip,
 //! right column, options bar, rail; what is left is the viewport.
 
+mod areas;
 pub mod ask_close;
 pub mod empty;
 mod menus;
@@ -29,6 +30,7 @@ use impasto_editor_model::keymap::{Action, Keymap, Preset};
 use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
 
+pub use areas::{Area, area, next_area};
 pub use column::column;
 pub use column_state::{open_add_menu, rename};
 pub use inspector::inspector;
@@ -51,6 +53,8 @@ pub struct Shown<'a> {
     pub numbers: Numbers<'a>,
     /// Files that were open lately, the latest first.
     pub recent: &'a [PathBuf],
+    /// For each mesh that is not there, the one of the scene's folder that is likely meant.
+    pub likely_meshes: &'a [(String, String)],
 }
 
 impl Shown<'_> {
@@ -69,6 +73,7 @@ impl Shown<'_> {
         let selected = self.document.selection().active().is_some();
         match action {
             Action::Render => Some("The render sheet comes with playback"),
+            Action::Revert if self.document.file().is_none() => Some("This scene has no file yet"),
             Action::Undo if self.document.undo_text().is_none() => Some("There is nothing to take back"),
             Action::Redo if self.document.redo_text().is_none() => Some("Nothing was taken back"),
             Action::Delete
@@ -102,6 +107,8 @@ impl Shown<'_> {
 pub struct Numbers<'a> {
     /// Strokes in the last exact picture.
     pub strokes: usize,
+    /// Of them, those of each region, by its name.
+    pub strokes_of: &'a [(String, usize)],
     /// Pictures a second, while something moves.
     pub pictures_per_second: Option<f64>,
     /// Who draws: *llvmpipe*.
@@ -131,6 +138,8 @@ pub enum Ask {
     Open(PathBuf),
     /// Put these words on the clipboard.
     Copy(String),
+    /// Ask whether this frame becomes the reference.
+    Recapture(i64),
     /// Close the window; unsaved work is asked about first.
     Quit,
     /// Show the first-run sheet.

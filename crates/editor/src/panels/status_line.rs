@@ -69,7 +69,7 @@ fn numbers(numbers: &Numbers<'_>) -> Vec<String> {
 }
 
 /// *5,774*.
-fn grouped(count: usize) -> String {
+pub(super) fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {

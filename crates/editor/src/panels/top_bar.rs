@@ -116,7 +116,7 @@ fn right(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         search_field(ui, &keys)
     } else {
         let effect = "Finds any command by its name.";
-        let response = widgets::icon_button(ui, icons::SEARCH, Action::Palette.name());
+        let response = widgets::field_button(ui, icons::SEARCH, Action::Palette.name());
         Tip { name: Action::Palette.name(), key: &keys, effect, range: "" }.on(response)
     };
     if found.clicked() {

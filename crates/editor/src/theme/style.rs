@@ -53,7 +53,13 @@ fn style(theme: Theme) -> Style {
     spacing.icon_width = 16.0;
     spacing.icon_spacing = measure::GAP;
     spacing.tooltip_width = 260.0;
-    spacing.scroll = egui::style::ScrollStyle::thin();
+    // The bar lies over the padding of the rows, so that they reach the edge whether there is one or not.
+    spacing.scroll = egui::style::ScrollStyle {
+        floating_allocated_width: 0.0,
+        floating_width: 3.0,
+        bar_width: 6.0,
+        ..egui::style::ScrollStyle::thin()
+    };
 
     style.interaction.tooltip_delay = 0.5;
     style.interaction.selectable_labels = false;

@@ -1,11 +1,10 @@
 //! Everything that is drawn over one picture, in its order.
 
 use impasto_editor_model::gizmo::Gizmo;
+use impasto_editor_model::tools::{Needle, Ring};
 use impasto_editor_model::transform::Constraint;
 
-use super::overlay::{
-    self, Comb, ForeseenStroke, GuideCurve, HairMark, MotionPath, Needle, Outline, RegionTint, Ring,
-};
+use super::overlay::{self, Comb, ForeseenStroke, GuideCurve, HairMark, MotionPath, Outline, RegionTint};
 use super::overlay::{Sheet, Sight, SingularPoint, StandIn};
 
 /// What is drawn over one picture. Empty by default.

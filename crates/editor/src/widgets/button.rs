@@ -117,14 +117,22 @@ pub fn primary_button(ui: &mut Ui, words: &str) -> Response {
 
 /// A square button of one icon, 28 points; it fills when the pointer is over it.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
-    let response = square(ui, icon, None);
+    let response = square(ui, icon, (None, Color32::TRANSPARENT));
+    draw::named(&response, Role::Button, name);
+    response
+}
+
+/// As [`icon_button`], on the ground of a field: it stands for one.
+pub fn field_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
+    let ground = Tokens::of(ui).field;
+    let response = square(ui, icon, (None, ground));
     draw::named(&response, Role::Button, name);
     response
 }
 
 /// A square button of one icon that stays on or off.
 pub fn icon_toggle(ui: &mut Ui, icon: Icon, name: &str, on: &mut bool) -> Response {
-    let mut response = square(ui, icon, Some(*on));
+    let mut response = square(ui, icon, (Some(*on), Color32::TRANSPARENT));
     if response.clicked() {
         *on = !*on;
         response.mark_changed();
@@ -133,12 +141,12 @@ pub fn icon_toggle(ui: &mut Ui, icon: Icon, name: &str, on: &mut bool) -> Respon
     response
 }
 
-fn square(ui: &mut Ui, icon: Icon, on: Option<bool>) -> Response {
+fn square(ui: &mut Ui, icon: Icon, (on, ground): (Option<bool>, Color32)) -> Response {
     let tokens = Tokens::of(ui);
     let side = if on.is_some() { 26.0 } else { measure::BUTTON };
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let (rest, colour) =
-        if on == Some(true) { (tokens.sel, tokens.accent_text) } else { (Color32::TRANSPARENT, tokens.text) };
+        if on == Some(true) { (tokens.sel, tokens.accent_text) } else { (ground, tokens.text) };
     let fill = if on == Some(true) { rest } else { draw::fill(tokens, &response, rest) };
     ui.painter().rect_filled(rect, draw::corner(), fill);
     draw::icon(ui.painter(), rect.center(), (icon, measure::ICON), colour);

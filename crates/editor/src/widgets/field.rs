@@ -3,15 +3,19 @@ use std::ops::RangeInclusive;
 use egui::accesskit::{Action, ActionData};
 use egui::{
     Align2, CornerRadius, CursorIcon, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
-    UiBuilder, WidgetInfo, pos2, vec2,
+    WidgetInfo, pos2, vec2,
 };
 
+mod typed;
+
+use self::typed::number_of;
 use super::{Tip, draw};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 
 /// A number: a box whose filled part is its place in the range. Drag it, scroll over it, press the arrows on it, or type
-/// after a double click or `Enter`.
+/// after a click or `Enter`; a double click brings its default back. What is typed beyond its limits, or is no number, is
+/// marked where it stands and not taken.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
@@ -25,6 +29,7 @@ pub struct NumberField<'a> {
     default: Option<f64>,
     width: Option<f32>,
     error: Option<&'a str>,
+    refused: Option<&'a dyn Fn(f64) -> Option<String>>,
     tip: Tip<'a>,
 }
 
@@ -41,7 +46,7 @@ pub struct FieldResponse {
     pub ended: bool,
     /// It was one step of the wheel, of an arrow key or of a screen reader.
     pub stepped: bool,
-    /// It was the reset icon.
+    /// It was the reset icon, or a double click.
     pub reset: bool,
 }
 
@@ -72,6 +77,7 @@ impl<'a> NumberField<'a> {
             default: None,
             width: None,
             error: None,
+            refused: None,
             tip: Tip::default(),
         }
     }
@@ -111,6 +117,11 @@ impl<'a> NumberField<'a> {
         Self { error, ..self }
     }
 
+    /// Why a number within the limits is refused nevertheless; asked while one is typed.
+    pub fn refused(self, why: &'a dyn Fn(f64) -> Option<String>) -> Self {
+        Self { refused: Some(why), ..self }
+    }
+
     /// What the tooltip says; its range and default are filled in.
     pub fn tip(self, key: &'a str, effect: &'a str) -> Self {
         let tip = Tip { name: self.name, key, effect, range: "" };
@@ -128,7 +139,11 @@ impl<'a> NumberField<'a> {
         let (mut began, mut ended, mut was_step) = (false, false, false);
 
         let mut editor = None;
-        if memory.typed.is_some() {
+        let mut reset = false;
+        if memory.typed.is_some() && self.is_double_clicked(ui, (id, frame)) {
+            memory.typed = None;
+            reset = true;
+        } else if memory.typed.is_some() {
             let (done, cancelled) = self.type_in(ui, (id, frame), &mut memory, &mut editor);
             began |= done && !cancelled;
             ended |= done && !cancelled;
@@ -145,12 +160,12 @@ impl<'a> NumberField<'a> {
             began |= drag_began;
             ended |= drag_ended;
             let enter = response.has_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            if response.double_clicked() || enter {
+            if response.clicked() || enter {
                 memory.typed = Some(self.shown());
                 memory.dragged = None;
             }
         }
-        let reset = self.reset(ui, row);
+        reset |= self.reset(ui, row);
         began |= reset;
         ended |= reset;
         if editor.is_none() {
@@ -185,55 +200,6 @@ impl<'a> NumberField<'a> {
             draw::words_within(ui, at, (error, type_face::small()), (tokens.vermilion, room));
         }
         (row, frame)
-    }
-
-    fn type_in(
-        &mut self,
-        ui: &mut Ui,
-        (id, frame): (egui::Id, Rect),
-        memory: &mut Memory,
-        editor: &mut Option<Response>,
-    ) -> (bool, bool) {
-        let mut typed = memory.typed.take().unwrap_or_default();
-        let edit_id = id.with("typed");
-        let fresh = egui::text_edit::TextEditState::load(ui.ctx(), edit_id).is_none();
-        let tokens = Tokens::of(ui);
-        let line = Stroke::new(2.0, tokens.accent_text);
-        ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
-        let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
-        let output = egui::TextEdit::singleline(&mut typed)
-            .id(edit_id)
-            .frame(egui::Frame::NONE)
-            .margin(egui::Margin::symmetric(8, 4))
-            .desired_width(frame.width() - 16.0)
-            .font(type_face::number())
-            .show(&mut inside);
-        let response = output.response.response;
-        let name = self.name;
-        response
-            .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
-        if fresh {
-            response.request_focus();
-            let mut state = output.state;
-            let all = egui::text::CCursorRange::two(
-                egui::text::CCursor::default(),
-                egui::text::CCursor::new(egui::text::CharIndex(typed.chars().count())),
-            );
-            state.cursor.set_char_range(Some(all));
-            state.store(ui.ctx(), edit_id);
-        }
-        let done = response.lost_focus() && !fresh;
-        let cancelled = done && ui.input(|input| input.key_pressed(Key::Escape));
-        if done {
-            ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
-            if let Some(number) = number_of(&typed, self.unit).filter(|_| !cancelled) {
-                self.set(number);
-            }
-        } else {
-            memory.typed = Some(typed);
-        }
-        *editor = Some(response);
-        (done, cancelled)
     }
 
     fn step_by_keys(&self, ui: &Ui, response: &Response) -> f64 {
@@ -419,28 +385,5 @@ impl<'a> NumberField<'a> {
     fn text_of(&self, value: f64) -> String {
         let text = format!("{value:.*}", self.decimals);
         text.strip_prefix('-').map_or(text.clone(), |rest| format!("\u{2212}{rest}"))
-    }
-}
-
-/// The number in what was typed, with a comma or a point, and with or without the unit.
-fn number_of(typed: &str, unit: &str) -> Option<f64> {
-    let text = typed.trim();
-    let text = text.strip_suffix(unit).unwrap_or(text).trim();
-    let text = text.replace('\u{2212}', "-").replace(',', ".");
-    text.parse().ok().filter(|number: &f64| number.is_finite())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn typed_numbers_are_read_the_way_people_write_them() {
-        assert_eq!(number_of(" 34 px", "px"), Some(34.0));
-        assert_eq!(number_of("\u{2212}2,5\u{b0}", "\u{b0}"), Some(-2.5));
-        assert_eq!(number_of("", "px"), None);
-        assert_eq!(number_of("NaN", ""), None);
-        assert_eq!(number_of("inf", ""), None);
-        assert_eq!(number_of("four", ""), None);
     }
 }

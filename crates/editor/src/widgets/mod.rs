@@ -24,7 +24,7 @@ mod tree_row;
 
 pub use axis_ball::{AxisBall, BallResponse};
 pub use brush_thumbnail::brush_thumbnail;
-pub use button::{Button, icon_button, icon_toggle, primary_button};
+pub use button::{Button, field_button, icon_button, icon_toggle, primary_button};
 pub use check::{checkbox, radio, radio_named};
 pub use chip::{chip, chip_divider};
 pub use color_square::color_square;

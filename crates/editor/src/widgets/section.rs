@@ -29,5 +29,8 @@ pub fn section(ui: &mut Ui, name: &str, note: &str, open: &mut bool) -> Response
     draw::words(painter, end, Align2::RIGHT_CENTER, (note, type_face::small()), weak);
     draw::focus_ring(ui, &response, rect.shrink(3.0), 2.0);
     draw::named_state(&response, Role::DisclosureTriangle, name, *open);
+    if !note.is_empty() {
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(note));
+    }
     response
 }

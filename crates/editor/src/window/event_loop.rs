@@ -3,6 +3,7 @@ use std::time::{Duration, Instant};
 
 use egui::{ViewportId, ViewportInfo};
 use egui_winit::accesskit_winit;
+use impasto_editor_model::keymap::{Key, Modifiers};
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
 use winit::event::{StartCause, WindowEvent};
@@ -13,6 +14,7 @@ use super::focus::FocusRules;
 use super::gl::WindowGl;
 use super::icon::icon;
 use super::input::one_thing_each;
+use super::numpad::{keep_numpad, numpad_key};
 use super::{App, Asks, Frame, Opened, Options, Waker, WindowError};
 
 /// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
@@ -89,6 +91,9 @@ struct OpenWindow<A> {
     window: Window,
     info: ViewportInfo,
     textures: egui::TexturesDelta,
+    /// Keys of the number pad that the next pass is handed.
+    numpad: Vec<(Key, Modifiers)>,
+    held: Modifiers,
     title: String,
     last_start: Instant,
     last_shown: Instant,
@@ -138,6 +143,8 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
             window,
             info: ViewportInfo::default(),
             textures: egui::TexturesDelta::default(),
+            numpad: Vec::new(),
+            held: Modifiers::default(),
             title: String::new(),
             last_start: Instant::now(),
             last_shown: Instant::now(),
@@ -246,6 +253,18 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
                 open.window.request_redraw();
                 return;
             }
+            WindowEvent::ModifiersChanged(held) => {
+                let held = held.state();
+                open.held =
+                    Modifiers { ctrl: held.control_key(), shift: held.shift_key(), alt: held.alt_key() };
+            }
+            WindowEvent::KeyboardInput { event, .. } if !open.state.egui_ctx().text_edit_focused() => {
+                if let Some(key) = numpad_key(event) {
+                    open.numpad.push((key, open.held));
+                    open.window.request_redraw();
+                    return;
+                }
+            }
             _ => (),
         }
         if open.state.on_window_event(&open.window, &event).repaint {
@@ -286,6 +305,7 @@ impl<A: App> OpenWindow<A> {
         self.state.egui_input_mut().viewports.insert(ViewportId::ROOT, self.info.clone());
         let input = self.state.take_egui_input(&self.window);
         let ctx = self.state.egui_ctx().clone();
+        keep_numpad(&ctx, std::mem::take(&mut self.numpad));
         for pass in one_thing_each(input) {
             let (app, painter, last) = (&mut self.app, &mut self.painter, self.last_took);
             let mut asks = Asks::default();

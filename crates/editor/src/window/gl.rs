@@ -22,6 +22,17 @@ use winit::event_loop::ActiveEventLoop;
 use winit::raw_window_handle::HasWindowHandle as _;
 use winit::window::{Window, WindowAttributes};
 
+/// Has Mesa draw the window in software, whatever the machine has; what the user has set himself stays. Must be called before
+/// anything else of the window, on the main thread, while it is the only one.
+pub fn force_software() {
+    for (name, value) in [("LIBGL_ALWAYS_SOFTWARE", "1"), ("__GLX_VENDOR_LIBRARY_NAME", "mesa")] {
+        if std::env::var_os(name).is_none() {
+            // SAFETY: no other thread runs yet that could read the environment meanwhile.
+            unsafe { std::env::set_var(name, value) };
+        }
+    }
+}
+
 /// A window's OpenGL context and what it draws on. Dropped before the window.
 pub(super) struct WindowGl {
     surface: Surface<WindowSurface>,

@@ -5,6 +5,7 @@ mod focus;
 mod gl;
 mod icon;
 mod input;
+mod numpad;
 
 use std::time::Duration;
 
@@ -13,6 +14,8 @@ use winit::event_loop::EventLoopProxy;
 
 pub use event_loop::run;
 pub use focus::{FocusRules, tab_pressed};
+pub use gl::force_software;
+pub use numpad::numpad_pressed;
 
 use event_loop::Happening;
 

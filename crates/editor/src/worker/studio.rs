@@ -186,6 +186,7 @@ impl Studio {
         let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.as_ref());
         let (frame, picture) = render(renderer, (painting, view), manner, recall);
         let strokes = frame.strokes.len();
+        let strokes_of = counted(&frame, painting.scene().regions.len());
         let picture = match picture {
             Ok(Some(picture)) => picture,
             Ok(None) => return false,
@@ -207,7 +208,7 @@ impl Studio {
         self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact, recall });
         let (view, exact) = (view.clone(), manner.exact);
         let image = Arc::new(picture);
-        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, seconds }));
+        tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
         true
     }
 }
@@ -231,6 +232,14 @@ fn options(view: &ViewJob, manner: &Manner<'_>) -> FrameOptions {
         },
         ..FrameOptions::new(manner.size_px)
     }
+}
+
+fn counted(frame: &Frame, regions: usize) -> Vec<usize> {
+    let mut counts = vec![0; regions + 1];
+    for source in &frame.sources {
+        counts[(source.region as usize).min(regions)] += 1;
+    }
+    counts
 }
 
 /// The frame and its picture; `None` where it was given up.

@@ -1,7 +1,9 @@
 //! The right column with a document, driven by name.
 
+mod guides;
 mod inspector;
 mod looks;
+mod missing;
 mod tree;
 
 use std::path::Path;
@@ -27,6 +29,8 @@ pub struct Column {
     pub acts: Vec<Action>,
     pub meshes: Vec<String>,
     pub tree_height: f32,
+    pub strokes_of: Vec<(String, usize)>,
+    pub likely_meshes: Vec<(String, String)>,
 }
 
 impl Column {
@@ -39,7 +43,8 @@ impl Column {
     pub fn of(document: Document) -> Self {
         let session = Session::default();
         let (log, acts, meshes) = (Vec::new(), Vec::new(), Vec::new());
-        Self { document, session, log, acts, meshes, tree_height: 252.0 }
+        let (strokes_of, likely_meshes) = (Vec::new(), Vec::new());
+        Self { document, session, log, acts, meshes, tree_height: 252.0, strokes_of, likely_meshes }
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
@@ -50,8 +55,9 @@ impl Column {
             painting: None,
             keys: Preset::Blender,
             status: "",
-            numbers: Numbers::default(),
+            numbers: Numbers { strokes_of: &self.strokes_of, ..Numbers::default() },
             recent: &[],
+            likely_meshes: &self.likely_meshes,
         };
         // The harness has margins, the window has none.
         let whole = ui.ctx().content_rect();
@@ -99,6 +105,7 @@ impl Column {
                 self.acts.push(action);
                 "act".to_owned()
             }
+            Ask::Recapture(frame) => format!("ask about frame {frame}"),
             Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => "of another panel".to_owned(),
             Ask::Session(session) => {
                 self.session = *session;
@@ -216,6 +223,7 @@ pub fn with_guides(column: &mut Column) {
     let point = |x: f64| GuidePoint { at: [x, 0.5, 0.5], normal: [0.0, 0.0, 1.0], turn_deg: 0.0 };
     let guide = |count: usize| Guide {
         mode: Default::default(),
+        curve: count == 5,
         object: None,
         view: None,
         points: (0..count).map(|index| point(0.05 * index as f64)).collect(),

@@ -109,8 +109,14 @@ impl Page {
             painting: None,
             keys: self.keys,
             status: &self.status,
-            numbers: Numbers { strokes: 5774, pictures_per_second: Some(41.2), driver: "llvmpipe" },
+            numbers: Numbers {
+                strokes: 5774,
+                pictures_per_second: Some(41.2),
+                driver: "llvmpipe",
+                ..Numbers::default()
+            },
             recent: &self.recent,
+            likely_meshes: &[],
         };
         top_bar::top_bar(ui, &shown, &mut asks);
         status_line::status_line(ui, &shown, &mut asks);

@@ -169,6 +169,9 @@ pub struct Guide {
     /// What it does with the strokes that it reaches.
     #[serde(default)]
     pub mode: GuideMode,
+    /// Set point by point, as one curve. Strokes follow it alike; lists of guides say so.
+    #[serde(default)]
+    pub curve: bool,
     /// The object, where the region covers more than one.
     #[serde(default)]
     pub object: Option<String>,

@@ -90,6 +90,7 @@ fn seam(seam: Seam) -> Value {
 fn guide(guide: &Guide) -> Value {
     Fields::new()
         .unless(guide.mode == GuideMode::default(), "mode", || word(guide.mode))
+        .unless(!guide.curve, "curve", || Value::Word("true".to_owned()))
         .maybe("object", guide.object.as_deref().map(text))
         .maybe("view", guide.view.as_ref().map(view))
         .with("points", Value::List(guide.points.iter().map(point).collect()))

@@ -210,10 +210,11 @@ fn any_guide() -> impl Strategy<Value = Guide> {
     });
     let falloff = prop_oneof![Just(Falloff::Smooth), Just(Falloff::Linear), Just(Falloff::Flat)];
     let mode = prop_oneof![Just(GuideMode::Comb), Just(GuideMode::Smooth)];
-    let head = (mode, proptest::option::of(name()), proptest::option::of(view));
+    let head = (mode, any::<bool>(), proptest::option::of(name()), proptest::option::of(view));
     (head, prop::collection::vec(point, 0..4), number(), number(), falloff).prop_map(
-        |((mode, object, view), points, radius, strength, falloff)| Guide {
+        |((mode, curve, object, view), points, radius, strength, falloff)| Guide {
             mode,
+            curve,
             object,
             view,
             points,

@@ -1,6 +1,6 @@
 //! A region's guides: what was combed and drawn, the last one over the others.
 
-use egui::{Align2, Color32, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, DragAndDrop, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 use impasto_editor_model::command::{Command, Directions, Edit, GuideSettings};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::{Falloff, Guide, GuideMode, Region};
@@ -25,15 +25,42 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
         if region.guides.is_empty() {
             note(ui, "No guides. Comb over the region, or draw a curve (V).");
         }
+        let mut placed = Vec::new();
         for (index, guide) in region.guides.iter().enumerate() {
-            guide_row(ui, asker, (&region.name, index, guide), active == Some(index));
+            let rect = guide_row(ui, asker, (&region.name, index, guide), active == Some(index));
+            placed.push(rect);
             if active == Some(index)
                 && let Some(stored) = stored.guides.get(index)
             {
                 settings(ui, asker, (&region.name, index), [guide, stored]);
             }
         }
+        reorder(ui, asker, &region.name, &placed);
     });
+}
+
+/// Shows where a dragged guide would go, and asks for it when it is let go.
+fn reorder(ui: &Ui, asker: &mut Asker<'_, '_>, region: &str, placed: &[Rect]) {
+    let Some(item) = DragAndDrop::payload::<Item>(ui.ctx()) else { return };
+    let Item::Guide(of, from) = &*item else { return };
+    let at = ui.input(|input| input.pointer.latest_pos()).filter(|at| ui.clip_rect().contains(*at));
+    let Some(at) = at.filter(|_| of == region) else { return };
+    let Some(last) = placed.len().checked_sub(1) else { return };
+    let near = placed[0].top() - measure::HIT..=placed[last].bottom() + measure::HIT;
+    if !near.contains(&at.y) || !placed[0].x_range().contains(at.x) {
+        return;
+    }
+    let before = placed.iter().position(|rect| at.y < rect.center().y).unwrap_or(placed.len());
+    let to = if *from < before { before - 1 } else { before };
+    if to == *from {
+        return;
+    }
+    let line_y = placed.get(before).map_or(placed[last].bottom(), |rect| rect.top());
+    ui.painter().hline(placed[0].x_range(), line_y, (2.0, Tokens::of(ui).accent_text));
+    if ui.input(|input| input.pointer.any_released()) {
+        DragAndDrop::clear_payload(ui.ctx());
+        asker.ask(Command::Edit(Edit::Reorder((*item).clone(), to)));
+    }
 }
 
 fn guide_row(
@@ -41,10 +68,10 @@ fn guide_row(
     asker: &mut Asker<'_, '_>,
     (region, index, guide): (&str, usize, &Guide),
     selected: bool,
-) {
+) -> Rect {
     let tokens = Tokens::of(ui);
     let (mut rect, response) =
-        ui.allocate_exact_size(vec2(ui.available_width(), measure::HIT), Sense::click());
+        ui.allocate_exact_size(vec2(ui.available_width(), measure::HIT), Sense::click_and_drag());
     rect = rect.expand2(vec2(12.0, 0.0));
     let fill = match (selected, response.hovered()) {
         (true, _) => tokens.sel,
@@ -54,6 +81,7 @@ fn guide_row(
     let painter = ui.painter();
     painter.rect_filled(rect, 0.0, fill);
     let (icon, kind) = match guide.mode {
+        GuideMode::Comb if guide.curve => (icons::GUIDE, "curve"),
         GuideMode::Comb => (icons::COMB, "comb"),
         GuideMode::Smooth => (icons::SMOOTH, "smooth"),
     };
@@ -66,7 +94,7 @@ fn guide_row(
     let end = painter.text(at, Align2::LEFT_CENTER, &name, type_face::body(), tokens.text);
     let at = pos2(end.right() + 8.0, rect.center().y);
     let words = format!("{kind}, {} points", guide.points.len());
-    painter.text(at, Align2::LEFT_CENTER, words, type_face::small(), weak);
+    painter.text(at, Align2::LEFT_CENTER, &words, type_face::small(), weak);
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);
         painter.rect_stroke(rect.shrink(2.0), 2.0, ring, egui::StrokeKind::Inside);
@@ -79,6 +107,9 @@ fn guide_row(
             if selected { Item::Region(region.to_owned()) } else { Item::Guide(region.to_owned(), index) };
         asker.asks.push(Ask::Select(Selection::only(item)));
     }
+    response.dnd_set_drag_payload(Item::Guide(region.to_owned(), index));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(words));
+    rect
 }
 
 fn settings(

@@ -68,11 +68,15 @@ impl Asker<'_, '_> {
         command: impl Fn(Option<f64>) -> Command,
     ) {
         let mut value = shown;
+        let document = self.shown.document;
+        let refused =
+            |value: f64| document.would_refuse(&command(Some(value))).map(|refusal| refusal.to_string());
         let mut field = NumberField::new(number.name, &mut value, number.range.clone())
             .unit(number.unit)
             .letter(number.letter)
             .step(number.step.0, number.step.1)
             .limits(number.limits.clone().unwrap_or(number.range.clone()))
+            .refused(&refused)
             .tip("", number.effect);
         if let Some(default) = number.default {
             field = field.default_value(default);

@@ -13,6 +13,7 @@ use super::parts::{
 use super::{Asker, pose};
 use crate::icons;
 use crate::panels::Ask;
+use crate::panels::status_line::grouped;
 use crate::panels::tree::region_color;
 use crate::theme::Tokens;
 use crate::widgets::{self, Button, RowMark, Tip, TreeRow};
@@ -33,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         head_icon(ui, icon, colour);
         asker.name(ui, "Object name", &item);
         if let Some(mesh) = &mesh {
-            head_note(ui, &counted(mesh.mesh.triangles.len()));
+            head_note(ui, &format!("{} triangles", grouped(mesh.mesh.triangles.len())));
         }
         at_end(ui, |ui| asker.eye_and_lock(ui, &item, "Object", [object.hidden, object.locked]));
     });
@@ -56,19 +57,6 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     section(ui, ("Regions", &count.to_string()), false, |ui| regions(ui, asker, name));
 }
 
-/// *550 triangles*, with commas: *12,800 triangles*.
-fn counted(triangles: usize) -> String {
-    let digits = triangles.to_string();
-    let mut words = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            words.push(',');
-        }
-        words.push(digit);
-    }
-    format!("{words} triangles")
-}
-
 /// What is said of an object whose file is not there.
 fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
     body(ui, |ui| {
@@ -81,7 +69,20 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
         );
         ui.add_space(4.0);
         path_row(ui, asker, object, Look::Wrong);
-        let button = Button::new("Locate\u{2026}").name(&format!("Locate mesh of {name}")).primary().show(ui);
+        let likely = asker.shown.likely_meshes.iter().find(|(missing, _)| *missing == object.mesh);
+        if let Some((_, mesh)) = likely {
+            let words = format!("Use {}", mesh.rsplit('/').next().unwrap_or(mesh));
+            let button = Button::new(&words).name(&format!("{words} for {name}")).primary().show(ui);
+            let tip = Tip { name: &words, effect: mesh, ..Tip::default() };
+            if tip.on(button).clicked() {
+                let (object, mesh) = (name.clone(), mesh.clone());
+                asker.ask(Command::Arrange(Arrange::ReplaceMesh { object, mesh }));
+            }
+            ui.add_space(4.0);
+        }
+        let locate = format!("Locate mesh of {name}");
+        let button = Button::new("Locate\u{2026}").name(&locate);
+        let button = if likely.is_some() { button.show(ui) } else { button.primary().show(ui) };
         if button.clicked() {
             asker.asks.push(Ask::ChooseMesh(name.clone()));
         }

@@ -1,13 +1,14 @@
 //! The scene: size and time, style, backdrop, strokes for everything, reference.
 
 use egui::Ui;
-use impasto_editor_model::command::{Command, Directions, SceneEdit, Time};
+use impasto_editor_model::command::{Command, SceneEdit, Time};
 use impasto_scene::document::{Canvas, CanvasFollows, Reference, RotatingStrokes, Solver, Style};
 use impasto_scene::limits::{MAX_SIDE_PX, MAX_STRENGTH};
 
 use super::number::Number;
 use super::parts::{body, head, note, pick, row, section, seen};
 use super::{Asker, strokes};
+use crate::panels::Ask;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
 
@@ -174,7 +175,7 @@ fn reference(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
             ..Tip::default()
         };
         if tip.on(button).clicked() {
-            asker.ask(Command::Directions(Directions::Recapture(frame)));
+            asker.asks.push(Ask::Recapture(frame));
         }
     });
 }

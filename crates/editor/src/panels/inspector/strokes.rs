@@ -14,6 +14,7 @@ use super::parts::{note, pick, reset, row, section};
 use super::{Asker, paint_layers};
 use crate::panels::brush_thumbnails::thumbnail;
 use crate::panels::column_state::ColumnState;
+use crate::panels::status_line::grouped;
 use crate::widgets::{self, Button, Tip};
 
 /// The stroke settings of one place, as they are shown and as they are stored.
@@ -63,7 +64,9 @@ impl<'a> Place<'a> {
 }
 
 pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
-    section(ui, ("Strokes", ""), true, |ui| contents(ui, asker, Some(region)));
+    let strokes = asker.shown.numbers.strokes_of.iter().find(|(name, _)| name == region);
+    let note = strokes.map_or_else(String::new, |(_, count)| format!("{} shown", grouped(*count)));
+    section(ui, ("Strokes", &note), true, |ui| contents(ui, asker, Some(region)));
 }
 
 /// Brush, numbers and layer.

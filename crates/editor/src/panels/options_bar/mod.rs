@@ -157,6 +157,12 @@ fn hint(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), right: f32, say: Say) {
             (say("at frame").to_owned(), false),
             (format!("{}", shown.session.frame), true),
         ],
+        (Tool::Select, _) => [
+            (say(face(tool).effect).to_owned(), false),
+            Default::default(),
+            Default::default(),
+            Default::default(),
+        ],
         _ => return,
     };
     let wide: f32 = pieces.iter().map(|(words, _)| text_width(ui, words, type_face::small()) + 4.0).sum();

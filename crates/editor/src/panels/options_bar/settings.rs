@@ -179,7 +179,8 @@ fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -
 pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
     let mut settings = Vec::new();
     match tool {
-        Tool::Select | Tool::Move | Tool::Scale => settings.extend([axes(), snap(false)]),
+        Tool::Select => settings.push(axes()),
+        Tool::Move | Tool::Scale => settings.extend([axes(), snap(false)]),
         Tool::Turn => settings.extend([axes(), snap(true)]),
         Tool::AddLight => settings.push(apart(at(
             Place::Always,

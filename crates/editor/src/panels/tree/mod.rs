@@ -73,7 +73,7 @@ fn head(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.label(RichText::new("Scene").font(type_face::head()));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.add_space(-2.0);
+            ui.add_space(6.0);
             let button = widgets::icon_button(ui, icons::ADD, "Add to scene");
             let tip = Tip { name: "Add", effect: "A mesh, a light or a region.", ..Tip::default() };
             add::menu(&tip.on(button), shown, asks);

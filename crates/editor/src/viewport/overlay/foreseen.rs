@@ -23,7 +23,7 @@ impl ForeseenStroke {
         if near <= 0.0 {
             return None;
         }
-        let share = (near * near) as f32 * comb.strength;
+        let share = if comb.even { 1.0 } else { (near * near) as f32 } * comb.strength;
         // Directions without a head are blended at twice their angle, where both ways are one.
         let fold = if self.directed { 1.0 } else { 2.0 };
         let unit = |angle_rad: f32| glam::Vec2::from_angle(angle_rad * fold);
@@ -43,6 +43,8 @@ pub struct Comb {
     pub angle_rad: f32,
     /// Share that follows at the dot, 0..=1.
     pub strength: f32,
+    /// Whether all within the ring follow alike; else less and less towards its rim.
+    pub even: bool,
 }
 
 /// Draws the strokes inside the ring as a comb would lay them. `shown` fades them, 0..=1.
@@ -64,7 +66,8 @@ pub fn foreseen(sheet: &Sheet<'_>, strokes: &[ForeseenStroke], comb: &Comb, show
 mod tests {
     use super::*;
 
-    const COMB: Comb = Comb { at_px: DVec2::ZERO, radius_px: 46.0, angle_rad: 0.0, strength: 1.0 };
+    const COMB: Comb =
+        Comb { at_px: DVec2::ZERO, radius_px: 46.0, angle_rad: 0.0, strength: 1.0, even: false };
 
     fn stroke(at_px: DVec2, degrees: f32, directed: bool) -> ForeseenStroke {
         ForeseenStroke { at_px, angle_rad: degrees.to_radians(), length_px: 20.0, directed }
@@ -76,6 +79,12 @@ mod tests {
         assert!(at(0.0).unwrap().abs() < 1e-4);
         assert!((at(45.999).unwrap() - 60.0).abs() < 1e-3);
         assert_eq!(at(46.0), None);
+    }
+
+    #[test]
+    fn an_even_comb_turns_the_rim_as_much_as_the_dot() {
+        let even = Comb { even: true, ..COMB };
+        assert!(stroke(DVec2::new(45.9, 0.0), 60.0, true).combed_rad(&even).unwrap().abs() < 1e-4);
     }
 
     #[test]

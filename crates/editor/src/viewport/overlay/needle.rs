@@ -1,5 +1,6 @@
 use egui::{Color32, Stroke, pos2, vec2};
 use glam::DVec2;
+use impasto_editor_model::tools::Needle;
 
 use super::Sheet;
 use super::ink::{self, Ink};
@@ -8,17 +9,6 @@ use crate::theme::type_face;
 /// How far a needle with a head reaches behind the dot and before it, in radii of the ring.
 const HEADED: [f32; 2] = [0.5, 1.5];
 const HEADLESS: [f32; 2] = [1.0, 1.0];
-
-/// The direction under the dot, or the one that the hand states.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Needle {
-    /// The dot.
-    pub at_px: DVec2,
-    /// Unit, Y down.
-    pub along: DVec2,
-    /// Whether it has a head: the hand moves, or strokes have a beginning.
-    pub headed: bool,
-}
 
 /// Draws the needle of a ring of this radius.
 pub fn needle(sheet: &Sheet<'_>, needle: &Needle, radius_px: f64) {

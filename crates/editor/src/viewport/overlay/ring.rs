@@ -1,23 +1,9 @@
 use egui::{Color32, Pos2};
 use glam::DVec2;
+use impasto_editor_model::tools::Ring;
 
 use super::Sheet;
 use super::ink::{self, Ink};
-
-/// A brush as it lies on the surface, points from the upper left corner of the picture.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ring {
-    /// The circle of its radius in the tangent plane, closed: an ellipse where the surface is seen at an angle.
-    pub points_px: Vec<DVec2>,
-    /// The circle at half strength, closed; empty where the ring is hollow.
-    pub half_px: Vec<DVec2>,
-    /// The hit.
-    pub at_px: DVec2,
-    /// Off the surface, or without a surface to mirror to.
-    pub hollow: bool,
-    /// Whether it is a mirror image, drawn fainter.
-    pub mirrored: bool,
-}
 
 /// Draws a ring: white over black; off the surface a grey one.
 pub fn ring(sheet: &Sheet<'_>, ring: &Ring) {

@@ -1,0 +1,105 @@
+//! Strokes under the ring as a comb would lay them, while the hand moves before a press.
+
+use egui::Context;
+use glam::DVec2;
+use impasto_editor_model::editor::Editor;
+use impasto_editor_model::stroke_fields::field_values;
+use impasto_editor_model::tools::Foreseen;
+use impasto_painting::{FrameOptions, SurfacePlace};
+
+use super::picture::Studio;
+use crate::viewport::overlay::{Comb, ForeseenStroke};
+
+/// Of no more than this many strokes those are shown that are so far apart, points: more would hide what they show.
+const MOST: usize = 600;
+const APART_PX: f64 = 11.0;
+/// As long as the strokes, but no longer than this.
+const LONGEST_PX: f32 = 28.0;
+/// They come and go in this time, seconds.
+const FADE_S: f32 = 0.15;
+
+/// The strokes that were foreseen last, and how much of them still shows.
+#[derive(Default)]
+pub(super) struct ForeseenStrokes {
+    of: Option<(Foreseen, u64)>,
+    strokes: Vec<ForeseenStroke>,
+    comb: Option<Comb>,
+    share: f32,
+}
+
+impl ForeseenStrokes {
+    /// Follows the hand.
+    pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, studio: &Studio) {
+        let held = editor.held();
+        let wanted = editor.tool_output().foreseen.filter(|_| !held.shift && !held.alt);
+        let id = egui::Id::unique("foreseen strokes");
+        if editor.is_moving() {
+            // The stroke itself is seen from now on.
+            *self = Self::default();
+            ctx.animate_bool_with_time(id, false, 0.0);
+            return;
+        }
+        self.share = ctx.animate_bool_with_time(id, wanted.is_some(), FADE_S);
+        let Some(foreseen) = wanted else { return };
+        let options = &editor.session.options;
+        let along = if held.ctrl { -foreseen.along } else { foreseen.along };
+        self.comb = Some(Comb {
+            at_px: foreseen.at_px,
+            radius_px: options.radius_px,
+            angle_rad: (along * DVec2::new(1.0, -1.0)).to_angle() as f32,
+            strength: options.strength as f32,
+            even: options.even,
+        });
+        let of = Some((foreseen, studio.prepared()));
+        if self.of != of {
+            self.strokes = strokes(&foreseen, editor, studio).unwrap_or_default();
+            self.of = of;
+        }
+    }
+
+    /// What the viewport draws.
+    pub(super) fn shown(&self) -> Option<(&[ForeseenStroke], Comb, f32)> {
+        self.comb.filter(|_| self.share > 0.0).map(|comb| (&self.strokes[..], comb, self.share))
+    }
+}
+
+/// The strokes in the ring that a comb would turn: those of the region under it.
+fn strokes(foreseen: &Foreseen, editor: &Editor, studio: &Studio) -> Option<Vec<ForeseenStroke>> {
+    let painting = editor.painting()?;
+    let scene = painting.scene();
+    scene.objects.get(foreseen.object)?;
+    let framing = studio.layout().framings().first()?;
+    let camera = framing.widened(&editor.camera());
+    let size_px = framing.viewport().size();
+    let shot_height_px = framing.shot().height();
+    let options = FrameOptions {
+        shot_height_px: Some(shot_height_px),
+        ..FrameOptions::new([size_px.x, size_px.y].map(|side| side.ceil().max(1.0) as u32))
+    };
+    let place = SurfacePlace {
+        object: foreseen.object,
+        position: foreseen.position_in_model,
+        normal: foreseen.normal_in_model,
+        radius: foreseen.radius,
+    };
+    let region = foreseen.region.unwrap_or(scene.regions.len());
+    let of_scene = foreseen.region.filter(|region| *region < scene.regions.len());
+    let length_px = field_values(scene, of_scene)
+        .iter()
+        .find(|value| value.field.name == "length_px")
+        .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
+    let hairs = painting.hairs_near(&place, (&camera, editor.session.frame), &options, MOST);
+    let stroke = |hair: &impasto_painting::Hair| ForeseenStroke {
+        at_px: DVec2::from(hair.position_px.map(f64::from)),
+        angle_rad: hair.angle_rad,
+        length_px: length_px.clamp(6.0, LONGEST_PX),
+        directed: false,
+    };
+    let mut apart: Vec<ForeseenStroke> = Vec::new();
+    for stroke in hairs.iter().filter(|hair| hair.region == region).map(stroke) {
+        if apart.iter().all(|other| other.at_px.distance_squared(stroke.at_px) >= APART_PX * APART_PX) {
+            apart.push(stroke);
+        }
+    }
+    Some(apart)
+}

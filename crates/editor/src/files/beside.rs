@@ -1,0 +1,196 @@
+//! Taking a scene's files along when it is saved into another folder.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use impasto_scene::assets::{self, AssetFolders, AssetRequest};
+use impasto_scene::{obj, texture};
+
+use super::incoming::Kind;
+
+/// What is to be copied: the files of a scene under the names that they have from its folder.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Copies {
+    files: BTreeMap<PathBuf, PathBuf>,
+}
+
+/// Why files were not copied. What was there is untouched, and what was copied before is gone again.
+#[derive(Debug, thiserror::Error)]
+pub enum CopyError {
+    /// Another file has the name of one of them.
+    #[error("{} has another {}: choose another folder", folder.display(), name.display())]
+    InTheWay {
+        /// The name from the scene's folder.
+        name: PathBuf,
+        /// The folder that was chosen.
+        folder: PathBuf,
+    },
+    /// It could not be read or written.
+    #[error("{} could not be copied: {source}", name.display())]
+    Failed {
+        /// The name from the scene's folder.
+        name: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+impl Copies {
+    /// The files that a scene in `from` names, and those that its meshes name in turn, as far as they lie in that folder and
+    /// are not in `to` already.
+    ///
+    /// # Errors
+    /// Where `to` has another file of such a name.
+    pub fn between<'a>(
+        from: &Path,
+        to: &Path,
+        names: impl Iterator<Item = &'a str>,
+    ) -> Result<Self, CopyError> {
+        let root = std::fs::canonicalize(from).unwrap_or_else(|_| from.to_owned());
+        let beside = root.join("scene.ron");
+        let mut files = BTreeMap::new();
+        for name in names {
+            let request = AssetRequest { beside: &beside, root: &root, name, max_bytes: u64::MAX };
+            let Ok(file) = AssetFolders::default().find(&request) else { continue };
+            if Kind::of(&file) == Some(Kind::Mesh) {
+                let named = obj::companions(&file, &root).unwrap_or_default();
+                for companion in named {
+                    if let Ok(within) = companion.strip_prefix(&root) {
+                        files.insert(within.to_owned(), companion.clone());
+                    }
+                }
+            }
+            files.insert(PathBuf::from(name), file);
+        }
+        let mut copies = Self::default();
+        for (name, file) in files {
+            let target = to.join(&name);
+            if std::fs::symlink_metadata(&target).is_err() {
+                copies.files.insert(name, file);
+            } else if !is_same(&file, &target) {
+                return Err(CopyError::InTheWay { name, folder: to.to_owned() });
+            }
+        }
+        Ok(copies)
+    }
+
+    /// How many files there are.
+    pub fn count(&self) -> usize {
+        self.files.len()
+    }
+
+    /// Copies them into the folder. Nothing is written over.
+    ///
+    /// # Errors
+    /// The first file that could not be copied; those before it are taken away again.
+    pub fn carry_out(&self, to: &Path) -> Result<(), CopyError> {
+        let mut written = Vec::new();
+        for (name, file) in &self.files {
+            let target = to.join(name);
+            if let Err(source) = copy(file, &target) {
+                for path in written {
+                    // It was just written: where it cannot be taken away, it does no harm.
+                    let _left = std::fs::remove_file(path);
+                }
+                return Err(CopyError::Failed { name: name.clone(), source });
+            }
+            written.push(target);
+        }
+        Ok(())
+    }
+}
+
+fn limit(file: &Path) -> u64 {
+    match file.extension().map(|ending| ending.to_ascii_lowercase()) {
+        Some(ending) if ending == "obj" => obj::MAX_FILE_BYTES,
+        Some(ending) if ending == "mtl" => obj::MAX_MTL_BYTES,
+        _ => texture::MAX_FILE_BYTES,
+    }
+}
+
+fn bytes(file: &Path) -> io::Result<Vec<u8>> {
+    assets::read_regular_file(file, limit(file)).map_err(|error| io::Error::other(error.to_string()))
+}
+
+fn is_same(a: &Path, b: &Path) -> bool {
+    matches!((bytes(a), bytes(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Under a name of its own first, so that no half of a file is ever seen; a file that came there in between stays.
+fn copy(file: &Path, target: &Path) -> io::Result<()> {
+    let folder = target.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder)?;
+    let mut coming = tempfile::Builder::new().prefix(".coming-").tempfile_in(folder)?;
+    io::Write::write_all(&mut coming, &bytes(file)?)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        std::fs::set_permissions(coming.path(), std::fs::Permissions::from_mode(0o644))?;
+    }
+    coming.persist_noclobber(target).map(drop).map_err(|error| error.error)
+}
+
+#[cfg(test)]
+mod tests {
+    use impasto_editor_model::Document;
+    use impasto_scene::load::LoadOptions;
+
+    use super::*;
+
+    const OBJ: &str = "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const SCENE: &str = r#"(version: 1, size: (64, 36),
+        camera: (lens: Perspective(fov_y_deg: 35), keys: [(frame: 0, eye: (0, 0, 4), target: (0, 0, 0))]),
+        objects: [(name: "a", mesh: "meshes/a.obj")], regions: [])"#;
+
+    fn scene() -> (tempfile::TempDir, Document) {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("meshes")).unwrap();
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        write("meshes/a.obj", OBJ);
+        write("meshes/a.mtl", "newmtl m\nKd 1 0 0\n");
+        write("meshes/other.obj", OBJ);
+        write("s.ron", SCENE);
+        let document = Document::open(&folder.path().join("s.ron"), &LoadOptions::default()).unwrap();
+        (folder, document)
+    }
+
+    fn between(document: &Document, to: &Path) -> Result<Copies, CopyError> {
+        Copies::between(document.folder(), to, document.files_named())
+    }
+
+    #[test]
+    fn a_scene_is_whole_in_another_folder() {
+        let (_folder, mut document) = scene();
+        let to = tempfile::tempdir().unwrap();
+        let target = to.path().join("t.ron");
+        assert!(document.save_as(&target).is_err(), "its mesh is not there");
+        let copies = between(&document, to.path()).unwrap();
+        assert_eq!(copies.count(), 2, "the mesh and its materials, and nothing else: {copies:?}");
+        copies.carry_out(to.path()).unwrap();
+        document.save_as(&target).unwrap();
+        assert!(!to.path().join("meshes/other.obj").exists());
+        let there = Document::open(&target, &LoadOptions::default()).unwrap();
+        assert_eq!(there.loaded().meshes["meshes/a.obj"].materials.len(), 1);
+        assert_eq!(between(&document, to.path()).unwrap().count(), 0, "they are there already");
+    }
+
+    #[test]
+    fn nothing_is_written_over() {
+        let (_folder, document) = scene();
+        let to = tempfile::tempdir().unwrap();
+        std::fs::create_dir(to.path().join("meshes")).unwrap();
+        let others = to.path().join("meshes/a.mtl");
+        std::fs::write(&others, "newmtl other\n").unwrap();
+        let words = between(&document, to.path()).unwrap_err().to_string();
+        assert!(words.contains("a.mtl") && words.contains("choose another folder"), "{words}");
+
+        // It came after the question.
+        std::fs::remove_file(&others).unwrap();
+        let copies = between(&document, to.path()).unwrap();
+        std::fs::write(to.path().join("meshes/a.obj"), "mine").unwrap();
+        assert!(copies.carry_out(to.path()).is_err());
+        assert_eq!(std::fs::read_to_string(to.path().join("meshes/a.obj")).unwrap(), "mine");
+        assert!(!others.exists(), "what was copied before is gone again");
+    }
+}

@@ -1,0 +1,134 @@
+//! A number as it is typed: what is none, or lies beyond the limits, is marked and not taken.
+
+use egui::{Key, Rect, Response, Role, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo};
+
+use super::{Memory, NumberField};
+use crate::theme::{Tokens, type_face};
+use crate::widgets::draw;
+
+impl NumberField<'_> {
+    pub(super) fn type_in(
+        &mut self,
+        ui: &mut Ui,
+        (id, frame): (egui::Id, Rect),
+        memory: &mut Memory,
+        editor: &mut Option<Response>,
+    ) -> (bool, bool) {
+        let mut typed = memory.typed.take().unwrap_or_default();
+        let edit_id = id.with("typed");
+        let fresh = egui::text_edit::TextEditState::load(ui.ctx(), edit_id).is_none();
+        let tokens = Tokens::of(ui);
+        let is_wrong = self.wrong_in(&typed).is_some();
+        let line = Stroke::new(2.0, if is_wrong { tokens.vermilion } else { tokens.accent_text });
+        ui.painter().rect(frame, draw::corner(), tokens.field, line, StrokeKind::Inside);
+        let mut inside = ui.new_child(UiBuilder::new().max_rect(frame));
+        let output = egui::TextEdit::singleline(&mut typed)
+            .id(edit_id)
+            .frame(egui::Frame::NONE)
+            .margin(egui::Margin::symmetric(8, 4))
+            .desired_width(frame.width() - 16.0)
+            .font(type_face::number())
+            .show(&mut inside);
+        let response = output.response.response;
+        let name = self.name;
+        response
+            .widget_info(|| WidgetInfo { label: Some(name.to_owned()), ..WidgetInfo::new(Role::TextInput) });
+        if fresh {
+            response.request_focus();
+            let mut state = output.state;
+            let all = egui::text::CCursorRange::two(
+                egui::text::CCursor::default(),
+                egui::text::CCursor::new(egui::text::CharIndex(typed.chars().count())),
+            );
+            state.cursor.set_char_range(Some(all));
+            state.store(ui.ctx(), edit_id);
+        }
+        let wrong = self.wrong_in(&typed);
+        let is_wrong = wrong.is_some();
+        if let Some(words) = wrong {
+            ui.ctx().accesskit_node_builder(response.id, |node| {
+                node.set_invalid(egui::accesskit::Invalid::True);
+            });
+            let words = egui::RichText::new(words).font(type_face::small());
+            egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id.with("limits"), frame)
+                .show(|ui| ui.label(words.color(tokens.vermilion)));
+        }
+        let mut done = response.lost_focus() && !fresh;
+        let cancelled = done && ui.input(|input| input.key_pressed(Key::Escape));
+        if done && is_wrong && ui.input(|input| input.key_pressed(Key::Enter)) {
+            // It stays as it was typed, to be mended.
+            response.request_focus();
+            done = false;
+        }
+        if done {
+            ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
+            if let Some(number) = number_of(&typed, self.unit).filter(|_| !cancelled && !is_wrong) {
+                self.set(number);
+            }
+        } else {
+            memory.typed = Some(typed);
+        }
+        *editor = Some(response);
+        (done, cancelled)
+    }
+
+    /// The second click of a double click lands in the text that the first one opened.
+    pub(super) fn is_double_clicked(&mut self, ui: &Ui, (id, frame): (egui::Id, Rect)) -> bool {
+        let Some(default) = self.default else { return false };
+        let is_here = ui.input(|input| {
+            let pointer = &input.pointer;
+            pointer.button_double_clicked(egui::PointerButton::Primary)
+                && pointer.interact_pos().is_some_and(|at| frame.contains(at))
+        });
+        if is_here {
+            let edit_id = id.with("typed");
+            ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
+            ui.memory_mut(|memory| memory.surrender_focus(edit_id));
+            *self.value = default;
+        }
+        is_here
+    }
+
+    /// What is wrong with what was typed, in words.
+    fn wrong_in(&self, typed: &str) -> Option<String> {
+        match number_of(typed, self.unit).filter(|number| self.limits.contains(number)) {
+            Some(number) => self.refused.and_then(|why| why(number)),
+            None => Some(self.limits_in_words()),
+        }
+    }
+
+    /// What may be typed: *0 to 1*.
+    fn limits_in_words(&self) -> String {
+        let (least, most) = (*self.limits.start(), *self.limits.end());
+        let unit = self.unit;
+        match (least.is_finite(), most.is_finite()) {
+            (true, true) => format!("{} to {}{unit}", self.text_of(least), self.text_of(most)),
+            (true, false) => format!("{}{unit} or more", self.text_of(least)),
+            (false, true) => format!("{}{unit} or less", self.text_of(most)),
+            (false, false) => "Any number".to_owned(),
+        }
+    }
+}
+
+/// The number in what was typed, with a comma or a point, and with or without the unit.
+pub(super) fn number_of(typed: &str, unit: &str) -> Option<f64> {
+    let text = typed.trim();
+    let text = text.strip_suffix(unit).unwrap_or(text).trim();
+    let text = text.replace('\u{2212}', "-").replace(',', ".");
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn typed_numbers_are_read_the_way_people_write_them() {
+        assert_eq!(number_of(" 34 px", "px"), Some(34.0));
+        assert_eq!(number_of("\u{2212}2,5\u{b0}", "\u{b0}"), Some(-2.5));
+        assert_eq!(number_of("", "px"), None);
+        assert_eq!(number_of("NaN", ""), None);
+        assert_eq!(number_of("inf", ""), None);
+        assert_eq!(number_of("four", ""), None);
+    }
+}

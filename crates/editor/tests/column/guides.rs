@@ -1,0 +1,84 @@
+//! The list of guides, and what else a region's inspector tells.
+
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::{Column, click, harness, region, type_in, with_guides};
+
+fn description(harness: &egui_kittest::Harness<'_, Column>, name: &str) -> Option<String> {
+    harness.get_by_label(name).accesskit_node().description()
+}
+
+#[test]
+fn a_curve_is_told_from_a_comb_and_a_drag_changes_the_order() {
+    let mut harness = harness("apple.ron", region("apple"));
+    with_guides(harness.state_mut());
+    harness.run();
+    if harness.query_by_label("Guide g1").is_none() {
+        click(&mut harness, "Guides");
+    }
+    assert_eq!(description(&harness, "Guide g1").as_deref(), Some("comb, 9 points"));
+    assert_eq!(description(&harness, "Guide g2").as_deref(), Some("curve, 5 points"));
+
+    let [first, second] = ["Guide g1", "Guide g2"].map(|name| harness.get_by_label(name).rect().center());
+    let down = egui::vec2(0.0, 6.0);
+    harness.drag_at(first);
+    harness.run();
+    for at in [first + down, second, second + down] {
+        harness.hover_at(at);
+        harness.run();
+    }
+    harness.drop_at(second + down);
+    harness.run();
+    assert_eq!(description(&harness, "Guide g1").as_deref(), Some("curve, 5 points"));
+    let guides = &harness.state().region("apple").guides;
+    assert_eq!(guides.iter().map(|guide| guide.points.len()).collect::<Vec<_>>(), [5, 9]);
+    assert!(guides[0].curve && !guides[1].curve);
+
+    // A drag to where it is already leaves nothing to undo.
+    let count = harness.state().document.undo_count();
+    harness.drag_at(first);
+    harness.run();
+    harness.hover_at(first + down);
+    harness.run();
+    harness.drop_at(first + down);
+    harness.run();
+    assert_eq!(harness.state().document.undo_count(), count);
+}
+
+#[test]
+fn a_region_tells_how_many_strokes_show() {
+    let mut harness = harness("apple.ron", region("apple"));
+    assert_eq!(description(&harness, "Strokes"), None, "before the first picture");
+    harness.state_mut().strokes_of = vec![("apple stem".to_owned(), 12), ("apple".to_owned(), 1312)];
+    harness.run();
+    assert_eq!(description(&harness, "Strokes").as_deref(), Some("1,312 shown"));
+}
+
+#[test]
+fn recapture_asks_first() {
+    let mut harness = harness("apple.ron", None);
+    harness.state_mut().session.frame = 12.0;
+    harness.run();
+    if harness.query_by_label("Recapture").is_none() {
+        click(&mut harness, "Reference");
+    }
+    let before = harness.state().document.scene().reference.clone();
+    click(&mut harness, "Recapture");
+    assert_eq!(harness.state().log.last().map(String::as_str), Some("ask about frame 12"));
+    assert_eq!(harness.state().document.scene().reference, before);
+}
+
+#[test]
+fn a_number_that_the_scene_refuses_is_marked_where_it_is_typed() {
+    let mut harness = harness("apple.ron", region("apple"));
+    let count = harness.state().document.undo_count();
+    type_in(&mut harness, "Length", "9000");
+    assert!(harness.query_by_label_contains("at most 4096").is_some(), "the words of the scene");
+    assert_eq!(harness.state().document.undo_count(), count);
+    assert!(harness.state().log.iter().all(|ask| !ask.starts_with("refused")), "{:?}", harness.state().log);
+    harness.key_press(egui::Key::Escape);
+    harness.run();
+    type_in(&mut harness, "Length", "90");
+    assert!(harness.query_by_label_contains("at most 4096").is_none());
+    assert_eq!(harness.state().region("apple").strokes.length_px, Some(90.0));
+}
