@@ -261,7 +261,7 @@ impl Editor {
             _ => return None,
         };
         let is_shown =
-            self.session.mode != Mode::Paint && !self.is_navigating() && !self.time.playback().is_playing();
+            self.session.mode != Mode::Paint && !self.is_navigating() && !self.time.playback.is_playing();
         let object = self.active_object().filter(|_| is_shown)?;
         let pose = *self.poses().get(object)?;
         Some(Gizmo::new(operation, self.session.options.axes, pose, view))
@@ -295,6 +295,9 @@ impl Editor {
 
     /// Carries a command out and says what is to be said.
     pub fn run(&mut self, command: &Command) -> bool {
+        if let Some(posed) = self.take_loose(command) {
+            return self.keep(&posed);
+        }
         self.pose_loosely(command).unwrap_or_else(|| self.keep(command))
     }
 

@@ -31,8 +31,10 @@ pub enum TimelineEvent {
 /// Everything about time that is no part of the document: playback, selected keys, poses that are not keyed.
 #[derive(Debug, Default)]
 pub struct TimeHand {
-    pub(crate) playback: Playback,
-    pub(crate) keys: KeysHand,
+    /// Playback.
+    pub playback: Playback,
+    /// Selected keys, and what is done to them.
+    pub keys: KeysHand,
     /// Whether a hand scrubs, and whether playing goes on after it.
     pub(crate) scrubbing: Option<bool>,
     pub(crate) loose: Option<LoosePoses>,
@@ -74,16 +76,6 @@ impl LoosePoses {
 }
 
 impl TimeHand {
-    /// Playback.
-    pub fn playback(&self) -> &Playback {
-        &self.playback
-    }
-
-    /// Selected keys, and what is done to them.
-    pub fn keys(&self) -> &KeysHand {
-        &self.keys
-    }
-
     /// Whether a thing stands in a pose that is not keyed.
     pub fn is_loose(&self, name: &str) -> bool {
         self.loose.as_ref().is_some_and(|loose| loose.poses.iter().any(|(other, _)| other == name))

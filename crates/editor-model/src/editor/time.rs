@@ -33,6 +33,11 @@ impl Editor {
         self.time.playback.tick(course, now_secs);
     }
 
+    /// Where the clock stood when it was told last.
+    pub fn now_secs(&self) -> f64 {
+        self.at_secs
+    }
+
     /// What would be played now.
     pub fn course(&self) -> Course {
         let timeline = &self.document.scene().timeline;
@@ -185,6 +190,18 @@ impl Editor {
                 Some(false)
             }
         }
+    }
+
+    /// What keys a pose that is not keyed yet, where a command keys just that thing.
+    pub(super) fn take_loose(&mut self, command: &Command) -> Option<Command> {
+        let Command::Time(Time::SetKey(of, at_frame)) = command else { return None };
+        let loose = self.time.loose.as_mut().filter(|loose| loose.frame == *at_frame)?;
+        let index = loose.poses.iter().position(|(name, _)| name == of.name())?;
+        let (_, posed) = loose.poses.remove(index);
+        if loose.poses.is_empty() {
+            self.time.loose = None;
+        }
+        Some(posed)
     }
 
     /// Poses that are not keyed show again, after something else was shown or done.

@@ -80,6 +80,11 @@ impl MarkCache {
         let Some(painting) = editor.painting() else { return };
         let Some(&framing) = studio.layout().framings().get(seen.index) else { return };
         let session = &editor.session;
+        if editor.time().playback.is_playing() {
+            // What plays is looked at, and has the time to itself.
+            self.halves[seen.index] = Half::default();
+            return;
+        }
         let key = Key {
             prepared: studio.prepared(),
             camera: seen.camera.clone(),

@@ -173,6 +173,7 @@ impl EditorApp {
         let shown = Shown {
             document: self.editor.document(),
             session: &self.editor.session,
+            time: self.editor.time(),
             painting: self.editor.painting(),
             keys: self.editor.keymap.preset,
             status: &status,
@@ -210,16 +211,35 @@ impl EditorApp {
         }
         self.toasts.retain(|(_, since, _)| since.elapsed() < TOAST);
         let shown: Vec<Toast> = self.toasts.iter().map(|(toast, ..)| toast.clone()).collect();
-        let clear = if self.folds.everything { 12.0 } else { 44.0 + 24.0 };
+        let clear = if self.folds.everything {
+            12.0
+        } else {
+            let wide = ctx.content_rect().width();
+            panels::timeline::height(&self.editor.session, wide) + theme::measure::STATUS_LINE
+        };
         if let Some(clicked) = toasts(ctx, &shown, clear) {
             let (_, _, offers) = self.toasts.remove(clicked);
-            if offers == Some(Offer::Undo) {
-                let view = self.studio.view(&self.editor);
-                self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
+            match offers {
+                Some(Offer::Undo) => {
+                    let view = self.studio.view(&self.editor);
+                    self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
+                }
+                Some(Offer::PoseAgain) => self.editor.pose_again(),
+                None => {}
             }
         }
         if !self.toasts.is_empty() {
             ctx.request_repaint_after(Duration::from_millis(500));
+        }
+    }
+
+    /// Tells which frame of what is played came up, and where the clock stood.
+    fn tell_played(&self) {
+        let playback = &self.editor.time().playback;
+        let clock = playback.clock_frame(self.editor.now_secs());
+        if let (Some(tell), Some(clock)) = (self.tell, clock) {
+            let (frame, dropped) = (self.editor.session.frame, playback.dropped());
+            tell(&format!("playing: frame {frame}, clock {clock:.3}, dropped {dropped}"));
         }
     }
 
@@ -245,7 +265,10 @@ impl EditorApp {
 impl window::App for EditorApp {
     fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
         let ctx = ui.ctx().clone();
-        self.studio.poll(&ctx, &mut self.editor);
+        self.editor.tick(ui.input(|input| input.time));
+        if self.studio.poll(&ctx, &mut self.editor) {
+            self.tell_played();
+        }
         let view = self.studio.view(&self.editor);
         let focused = ui.input(|input| input.focused);
         if self.folds.had_focus && !focused {
@@ -257,9 +280,14 @@ impl window::App for EditorApp {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
             }
+            keys::wheel(ui, &mut self.editor);
             keys::hand_on(ui, &mut self.editor, &view);
         }
         self.page(ui);
+        let now = ui.input(|input| input.time);
+        if let Some(wait) = self.editor.time().playback.wait_secs(now) {
+            ctx.request_repaint_after(Duration::from_secs_f64(wait.min(1.0)));
+        }
         self.requests(&ctx);
         if self.file_sheets(&ctx, ui) {
             frame.close();

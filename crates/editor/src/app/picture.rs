@@ -102,9 +102,10 @@ impl Studio {
         self.layout = layout;
     }
 
-    /// Takes what the thread has to tell.
-    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) {
-        let Some(worker) = &self.worker else { return };
+    /// Takes what the thread has to tell. Returns whether a picture is the next of what is played.
+    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) -> bool {
+        let mut is_next = false;
+        let Some(worker) = &self.worker else { return false };
         for report in worker.poll() {
             match report {
                 Report::Opened(report) => {
@@ -124,11 +125,15 @@ impl Studio {
                     if picture.exact {
                         self.strokes = picture.strokes;
                     }
+                    if picture.index + 1 == self.layout.framings().len() {
+                        is_next |= editor.shown_frame(picture.view.frame);
+                    }
                     self.pictures.take(ctx, picture);
                 }
                 Report::Failed(words) => self.trouble = Some(words),
             }
         }
+        is_next
     }
 
     /// The version of the scene that is shown exactly, in all views that were asked for and with no hand on it; none while
@@ -148,7 +153,8 @@ impl Studio {
             return;
         }
         let shading = editor.session.shading;
-        let now = (editor.camera(), editor.session.frame);
+        let frame = editor.frame_to_draw();
+        let now = (editor.camera_at(frame), frame);
         let seen = if editor.session.compare {
             vec![motion::referred_to(&loaded.scene, &loaded.scene.reference), now]
         } else {
@@ -165,7 +171,7 @@ impl Studio {
                 size_px: framing.size_px(),
                 shot_height_px: framing.shot_height_px(),
                 shading,
-                moving: editor.is_moving(),
+                moving: editor.is_moving() || editor.time().playback.is_playing(),
             })
             .collect();
         let job = (version, views);

@@ -25,8 +25,13 @@ pub struct NumberField<'a> {
     default: Option<f64>,
     width: Option<f32>,
     error: Option<&'a str>,
+    reads: Option<Read<'a>>,
+    warns: bool,
     tip: Tip<'a>,
 }
+
+/// Reads a number from what was typed.
+type Read<'a> = &'a dyn Fn(&str) -> Option<f64>;
 
 /// What the user did to a [`NumberField`]. What lies between `began` and `ended` is one step to undo.
 #[derive(Clone, Debug)]
@@ -72,6 +77,8 @@ impl<'a> NumberField<'a> {
             default: None,
             width: None,
             error: None,
+            reads: None,
+            warns: false,
             tip: Tip::default(),
         }
     }
@@ -109,6 +116,16 @@ impl<'a> NumberField<'a> {
     /// What is wrong with the value: the box gets a vermilion outline, and the words stand under it.
     pub fn error(self, error: Option<&'a str>) -> Self {
         Self { error, ..self }
+    }
+
+    /// Reads what is typed in its own way: more units than one.
+    pub fn reading(self, reads: &'a dyn Fn(&str) -> Option<f64>) -> Self {
+        Self { reads: Some(reads), ..self }
+    }
+
+    /// The number stands in ochre: it is not kept as it is.
+    pub fn warn(self, warns: bool) -> Self {
+        Self { warns, ..self }
     }
 
     /// What the tooltip says; its range and default are filled in.
@@ -226,7 +243,7 @@ impl<'a> NumberField<'a> {
         let cancelled = done && ui.input(|input| input.key_pressed(Key::Escape));
         if done {
             ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
-            if let Some(number) = number_of(&typed, self.unit).filter(|_| !cancelled) {
+            if let Some(number) = self.read(&typed).filter(|_| !cancelled) {
                 self.set(number);
             }
         } else {
@@ -277,7 +294,7 @@ impl<'a> NumberField<'a> {
         match told {
             Some(ActionData::NumericValue(value)) => self.set(value),
             Some(ActionData::Value(text)) => {
-                if let Some(number) = number_of(&text, self.unit) {
+                if let Some(number) = self.read(&text) {
                     self.set(number);
                 }
             }
@@ -359,12 +376,13 @@ impl<'a> NumberField<'a> {
             Stroke::NONE
         };
         painter.rect_stroke(frame, draw::corner(), line, StrokeKind::Inside);
+        let colour = if self.warns { tokens.ochre } else { tokens.text };
         let mut at = frame.left_center() + vec2(8.0, 0.0);
         if !self.letter.is_empty() {
             draw::words(painter, at, Align2::LEFT_CENTER, (self.letter, type_face::small()), tokens.weak);
             at.x += 11.0;
         }
-        draw::words(painter, at, Align2::LEFT_CENTER, (&self.shown(), type_face::number()), tokens.text);
+        draw::words(painter, at, Align2::LEFT_CENTER, (&self.shown(), type_face::number()), colour);
         let end = frame.right_center() - vec2(8.0, 0.0);
         draw::words(painter, end, Align2::RIGHT_CENTER, (self.unit, type_face::small()), tokens.weak);
         draw::focus_ring(ui, response, frame, measure::CORNER);
@@ -404,6 +422,11 @@ impl<'a> NumberField<'a> {
             range = format!("{range}, default {}", self.text_of(default));
         }
         Tip { range: range.trim_start_matches(", "), ..self.tip }.on(response)
+    }
+
+    fn read(&self, typed: &str) -> Option<f64> {
+        let number = self.reads.map_or_else(|| number_of(typed, self.unit), |read| read(typed));
+        number.filter(|number| number.is_finite())
     }
 
     fn set(&mut self, value: f64) {

@@ -44,7 +44,9 @@ impl Column {
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let mut asks = Vec::new();
+        let time = Default::default();
         let shown = Shown {
+            time: &time,
             document: &self.document,
             session: &self.session,
             painting: None,

@@ -150,21 +150,21 @@ fn space_plays_whole_frames_and_any_edit_ends_it() {
     let shown = play_on(&mut editor, 0.0, 0.3);
     assert_eq!(shown, [117.0, 118.0, 119.0, 0.0, 1.0, 2.0, 3.0]);
     assert!(editor.run(&Command::Time(Time::SetFps(12.0))));
-    assert!(!editor.time().playback().is_playing());
+    assert!(!editor.time().playback.is_playing());
     key(&mut editor, Key::Space);
-    assert!(editor.time().playback().is_playing());
+    assert!(editor.time().playback.is_playing());
     key(&mut editor, Key::Space);
-    assert!(!editor.time().playback().is_playing());
+    assert!(!editor.time().playback.is_playing());
     // A step is a hand on the playhead.
     key(&mut editor, Key::Space);
     act(&mut editor, Action::StepOn);
     editor.tick(1.0);
-    assert!(!editor.time().playback().is_playing());
+    assert!(!editor.time().playback.is_playing());
     editor.session.pacing = Pacing::EveryFrame;
     key(&mut editor, Key::Space);
     assert!(editor.status().starts_with("Playing 0\u{2013}119, every frame, "), "{}", editor.status());
     act(&mut editor, Action::Undo);
-    assert!(!editor.time().playback().is_playing());
+    assert!(!editor.time().playback.is_playing());
 }
 
 #[test]
@@ -177,10 +177,10 @@ fn a_scrub_pauses_and_what_played_plays_on_from_there() {
         }
         editor.timeline(TimelineEvent::Scrub(40.0));
         editor.tick(1.0);
-        assert!(!editor.time().playback().is_playing());
+        assert!(!editor.time().playback.is_playing());
         editor.timeline(TimelineEvent::Scrub(50.0));
         editor.timeline(TimelineEvent::EndScrub);
-        assert_eq!((editor.time().playback().is_playing(), editor.session.frame), (plays, 50.0));
+        assert_eq!((editor.time().playback.is_playing(), editor.session.frame), (plays, 50.0));
     }
     assert_eq!(play_on(&mut editor, 1.0, 0.1), [51.0, 52.0]);
 }
@@ -206,7 +206,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     drag_key(&mut editor, (of(), 60.0), 73.0);
     assert_eq!(frames(editor.document().scene()), [0.0, 73.0]);
     assert_eq!(editor.document().undo_text(), Some("Move 1 key"));
-    assert_eq!(editor.time().keys().selected(), [(of(), 73.0)], "it stays selected where it went");
+    assert_eq!(editor.time().keys.selected(), [(of(), 73.0)], "it stays selected where it went");
     // Shift D, a move, a press.
     let view = view(&editor);
     assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, (false, &view)));
@@ -228,7 +228,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     key(&mut editor, Key::Delete);
     assert_eq!(frames(editor.document().scene()), [0.0, 73.0]);
     assert_eq!(editor.document().scene().objects.len(), 2, "the key is deleted, not the apple");
-    assert_eq!(editor.time().keys().selected(), []);
+    assert_eq!(editor.time().keys.selected(), []);
     // With nothing selected they step.
     key(&mut editor, Key::Right);
     assert_eq!(editor.session.frame, 61.0);
@@ -243,7 +243,7 @@ fn keys_of_what_is_locked_stay_and_stay_selected() {
     drag_key(&mut editor, (KeyOf::Object(name.clone()), 60.0), 73.0);
     assert_eq!(frames(editor.document().scene()), [0.0, 60.0]);
     assert_eq!(words(&mut editor), [format!("{name} is locked")]);
-    assert_eq!(editor.time().keys().selected(), [(KeyOf::Object(name), 60.0)]);
+    assert_eq!(editor.time().keys.selected(), [(KeyOf::Object(name), 60.0)]);
 }
 
 #[test]
