@@ -15,9 +15,11 @@ use impasto_scene::document::{Guide, LightKind, Scene};
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::new_scene::REGION_COLORS;
 
+use super::motion_marks;
 use super::picture::Studio;
 use crate::viewport::overlay::{
-    CurvePart, GuideCurve, HairMark, Needle, Outline, RegionTint, Ring, Sight, SingularPoint, StandIn,
+    CurvePart, GuideCurve, HairMark, MotionPath, Needle, Outline, RegionTint, Ring, Sight, SingularPoint,
+    StandIn,
 };
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
@@ -39,6 +41,8 @@ struct Half {
     hairs: Vec<HairMark>,
     tints: Vec<RegionTint>,
     outline: Option<Outline>,
+    ghosts: Vec<Outline>,
+    path: Option<MotionPath>,
 }
 
 /// What the kept marks depend on.
@@ -128,6 +132,10 @@ impl MarkCache {
         }
         if outlines && let Some(active) = active {
             half.outline = Some(Outline::new(&map, |object| object == active));
+            if session.mode == Mode::Animate && !editor.is_navigating() {
+                half.path = motion_marks::path(scene, active);
+                half.ghosts = motion_marks::ghosts(painting, seen, &framing, active);
+            }
         }
         half.map = Some(map);
     }
@@ -139,6 +147,8 @@ impl MarkCache {
             grid: editor.session.overlays.grid,
             regions: &half.tints,
             selected: half.outline.as_ref(),
+            ghosts: &half.ghosts,
+            path: half.path.as_ref(),
             hairs: &half.hairs,
             ..Marks::default()
         };
@@ -222,7 +232,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     }
 }
 
-fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
+pub(super) fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
     let scene = painting.scene();
     let poses = motion::poses_at(scene, frame);
     let morphs = motion::morphs_at(scene, frame);

@@ -9,6 +9,7 @@ mod asks;
 mod file_flow;
 mod keys;
 mod marks;
+mod motion_marks;
 mod picture;
 mod view;
 

@@ -10,7 +10,7 @@ use impasto_gl_render::context::Driver;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::files::preferences::DriverChoice;
-use crate::viewport::{Layout, Pictures};
+use crate::viewport::{Framing, Layout, Pictures};
 use crate::window::Waker;
 use crate::worker::{Job, Report, ViewJob, Worker};
 
@@ -152,35 +152,39 @@ impl Studio {
             self.forget();
             return;
         }
-        let shading = editor.session.shading;
-        let frame = editor.frame_to_draw();
-        let now = (editor.camera_at(frame), frame);
-        let seen = if editor.session.compare {
-            vec![motion::referred_to(&loaded.scene, &loaded.scene.reference), now]
-        } else {
-            vec![now]
-        };
-        let views: Vec<ViewJob> = self
-            .layout
-            .framings()
-            .iter()
-            .zip(seen)
-            .map(|(framing, (camera, frame))| ViewJob {
-                camera: framing.widened(&camera),
-                frame,
-                size_px: framing.size_px(),
-                shot_height_px: framing.shot_height_px(),
-                shading,
-                moving: editor.is_moving() || editor.time().playback.is_playing(),
-            })
-            .collect();
+        let views = self.views(editor, editor.frame_to_draw());
         let job = (version, views);
         if self.asked.as_ref() == Some(&job) {
             return;
         }
         if let Some(worker) = &self.worker {
-            worker.show(Job { loaded: std::sync::Arc::clone(loaded), serial: version, views: job.1.clone() });
+            let loaded = std::sync::Arc::clone(loaded);
+            let ahead = editor.time().playback.upcoming().map(|next| self.views(editor, next));
+            let views = job.1.clone();
+            worker.play(Job { loaded, serial: version, views }, ahead.unwrap_or_default());
         }
         self.asked = Some(job);
+    }
+
+    /// What is to be seen at a frame.
+    fn views(&self, editor: &Editor, frame: f64) -> Vec<ViewJob> {
+        let scene = &editor.shown().0.scene;
+        let shading = editor.session.shading;
+        let now = (editor.camera_at(frame), frame);
+        let seen = if editor.session.compare {
+            vec![motion::referred_to(scene, &scene.reference), now]
+        } else {
+            vec![now]
+        };
+        let moving = editor.is_moving() || editor.time().playback.is_playing();
+        let view = |(framing, (camera, frame)): (&Framing, (CameraPose, f64))| ViewJob {
+            camera: framing.widened(&camera),
+            frame,
+            size_px: framing.size_px(),
+            shot_height_px: framing.shot_height_px(),
+            shading,
+            moving,
+        };
+        self.layout.framings().iter().zip(seen).map(view).collect()
     }
 }

@@ -12,6 +12,7 @@ use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
 use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, StrokeColors};
 
+use super::ahead::Ahead;
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
 use super::{Picture, Report, ViewJob};
@@ -60,6 +61,8 @@ struct Studio {
     draft_size: DraftSize,
     /// What the last exact picture took.
     exact_s: Option<f64>,
+    /// The next frame of a film.
+    ahead: Ahead,
 }
 
 struct Drawn {
@@ -96,6 +99,7 @@ impl Studio {
             drawn: Vec::new(),
             draft_size: DraftSize::default(),
             exact_s: None,
+            ahead: Ahead::default(),
         }
     }
 
@@ -176,9 +180,14 @@ impl Studio {
         tell: Tell<'_>,
     ) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
-        let view = &order.job.views[index];
+        let (view, serial) = (&order.job.views[index], order.job.serial);
         let began = Instant::now();
-        let frame = frame_of(painting, view, manner);
+        let next = order.ahead.get(index);
+        let ahead = self.ahead.take(serial, (view, next), manner);
+        let (view, frame) = ahead.unwrap_or_else(|| (view.clone(), frame_of(painting, view, manner)));
+        if let Some(next) = next {
+            self.ahead.begin((painting, serial), next, manner);
+        }
         let strokes = frame.strokes.len();
         let picture = match render(renderer, &frame, manner) {
             Ok(Some(picture)) => picture,
@@ -193,9 +202,8 @@ impl Studio {
         if manner.exact {
             self.exact_s = Some(seconds);
         }
-        let serial = order.job.serial;
-        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact });
-        let (view, exact) = (view.clone(), manner.exact);
+        let exact = manner.exact;
+        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact });
         let image = Arc::new(picture);
         tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, seconds }));
         true
@@ -203,14 +211,14 @@ impl Studio {
 }
 
 /// How a view is drawn.
-struct Manner<'a> {
-    size_px: [u32; 2],
-    exact: bool,
-    give_up: &'a dyn Fn() -> bool,
+pub(super) struct Manner<'a> {
+    pub(super) size_px: [u32; 2],
+    pub(super) exact: bool,
+    pub(super) give_up: &'a dyn Fn() -> bool,
 }
 
 /// What the renderer draws of a view.
-fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
+pub(super) fn frame_of(painting: &Painting, view: &ViewJob, manner: &Manner<'_>) -> Frame {
     let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
     let options = FrameOptions {
         shot_height_px: Some(view.shot_height_px * share),

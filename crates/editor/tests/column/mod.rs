@@ -101,7 +101,9 @@ impl Column {
                 self.acts.push(action);
                 "act".to_owned()
             }
-            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => "of another panel".to_owned(),
+            Ask::Timeline(_) | Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => {
+                "of another panel".to_owned()
+            }
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()

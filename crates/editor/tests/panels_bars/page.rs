@@ -52,6 +52,11 @@ pub fn nothing() -> Document {
     Document::empty(&scenes())
 }
 
+/// An apple before a wall.
+pub fn apple() -> Document {
+    Document::open(&scenes().join("apple.ron"), &Default::default()).expect("the apple opens")
+}
+
 /// A document whose name has no room.
 pub fn with_a_long_name() -> Document {
     let folder = tempfile::tempdir().expect("a folder");

@@ -74,7 +74,9 @@ pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, (shown, asks): (&Shown<'_>, &
                     tell(KeysEvent::Release);
                 }
             }
-            Event::PointerButton { pos, button: PointerButton::Secondary, pressed: true, .. } if over(pos) => {
+            Event::PointerButton { pos, button: PointerButton::Secondary, pressed: true, .. }
+                if over(pos) =>
+            {
                 if memory.down || follows {
                     memory.down = false;
                     tell(KeysEvent::Cancel);

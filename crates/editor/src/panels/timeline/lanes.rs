@@ -1,6 +1,8 @@
 //! The lanes: names at the left, keys and the ways between them at the right.
 
-use egui::{Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2};
+use egui::{
+    Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
+};
 use impasto_editor_model::command::KeyOf;
 use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent, ease_name};
 use impasto_editor_model::{Item, Selection};
@@ -53,11 +55,8 @@ pub(super) fn name(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_
     let at = pos2(rect.left() + 20.0, rect.center().y);
     let font = type_face::icon(measure::SMALL_ICON);
     ui.painter().text(at, Align2::CENTER_CENTER, icon.glyph(), font, tokens.weak);
-    let mut job = egui::text::LayoutJob::simple_singleline(
-        lane.of.name().to_owned(),
-        type_face::body(),
-        tokens.text,
-    );
+    let mut job =
+        egui::text::LayoutJob::simple_singleline(lane.of.name().to_owned(), type_face::body(), tokens.text);
     job.wrap = egui::text::TextWrapping::truncate_at_width((rect.width() - 72.0).max(20.0));
     let galley = ui.painter().layout_job(job);
     let at = pos2(rect.left() + 36.0, rect.center().y - galley.size().y / 2.0);

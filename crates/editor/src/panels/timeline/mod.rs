@@ -85,12 +85,23 @@ fn rows_of(
 ) -> f32 {
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::vertical().id_salt("lanes").auto_shrink(false);
+    // Whatever is selected anew is brought into view.
+    let active = shown.document.selection().active().cloned();
+    let id = ui.scope_id().with("selected lane");
+    let is_new = ui.data_mut(|data| {
+        let before = data.get_temp::<Option<impasto_editor_model::Item>>(id).flatten();
+        data.insert_temp(id, active.clone());
+        before != active
+    });
     let shown_rows = area.show(ui, |ui| {
         let size = vec2(ui.available_width(), lanes.len() as f32 * height);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         for (index, lane) in lanes.iter().enumerate() {
             let top = rect.top() + index as f32 * height;
             let rect = Rect::from_x_y_ranges(rect.x_range(), top..=top + height);
+            if is_new && active.as_ref() == Some(&lanes::item(&lane.of)) {
+                ui.scroll_to_rect(rect, None);
+            }
             if !ui.is_rect_visible(rect) {
                 continue;
             }

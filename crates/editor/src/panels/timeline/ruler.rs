@@ -118,10 +118,8 @@ pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &Shown<'_>) {
     painter.vline(now, rect.top() + 16.0..=rect.bottom(), (2.0, tokens.accent_text));
     let words = format!("{frame}");
     let galley = painter.layout_no_wrap(words, type_face::ruler(), tokens.on_accent);
-    let flag = Rect::from_center_size(
-        pos2(now, rect.top() + 9.0),
-        vec2((galley.size().x + 14.0).max(33.0), 17.0),
-    );
+    let flag =
+        Rect::from_center_size(pos2(now, rect.top() + 9.0), vec2((galley.size().x + 14.0).max(33.0), 17.0));
     painter.rect_filled(flag, 3.0, tokens.accent);
     painter.galley(flag.center() - galley.size() / 2.0, galley, tokens.on_accent);
 }
