@@ -15,7 +15,11 @@ use impasto_editor_model::{Command, Item, Selection};
 use impasto_scene::document::{Ease, ObjectKey};
 
 use super::page::{self, Page};
-use super::{NARROW, WIDE, acts, click, harness, snapshot};
+use super::{acts, click, harness, snapshot};
+
+/// As high as the rail needs over the lanes.
+const NARROW: (f32, f32) = (1280.0, 620.0);
+const WIDE: (f32, f32) = (1920.0, 620.0);
 
 fn apple(frame: f64) -> KeyAt {
     (KeyOf::Object("apple".to_owned()), frame)

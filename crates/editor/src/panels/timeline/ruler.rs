@@ -32,7 +32,7 @@ pub(super) fn across(scene: &Scene, rect: Rect) -> Across {
 pub(super) fn ground(ui: &Ui, rect: Rect, (across, scene): (Across, &Scene)) {
     let tokens = Tokens::of(ui);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| across.x(frame as f64));
-    ui.painter().rect_filled(rect, 0.0, tokens.field);
+    ui.painter().rect_filled(rect, 0.0, tokens.app);
     let lit = Rect::from_x_y_ranges(first..=last.max(first + 1.0), rect.y_range());
     ui.painter().rect_filled(lit.intersect(rect), 0.0, tokens.panel);
 }
