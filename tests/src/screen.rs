@@ -253,6 +253,12 @@ impl<'a> EditorWindow<'a> {
         self.lines().iter().rev().find_map(of_line).unwrap_or_default()
     }
 
+    /// What it told of this kind so far, in order: the rest of each line that begins with `impasto edit: ` and these words.
+    pub fn told(&self, kind: &str) -> Vec<String> {
+        let begin = format!("impasto edit: {kind}");
+        self.lines().iter().filter_map(|line| line.strip_prefix(&begin)).map(str::to_owned).collect()
+    }
+
     /// Waits until it shows a later version than `version` at rest, and tells which.
     ///
     /// # Panics

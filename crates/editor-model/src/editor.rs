@@ -12,6 +12,7 @@ mod painted;
 mod pointer;
 #[cfg(test)]
 mod tests;
+mod time;
 
 use std::sync::Arc;
 
@@ -30,6 +31,7 @@ use crate::picking::{Picker, View};
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 use crate::session::{Mode, Session, Tool};
+use crate::timeline::{KeysEvent, TimeHand};
 use crate::tools::{Hand, ToolOutput};
 use crate::transform::{Operation, Transforming};
 
@@ -86,6 +88,8 @@ pub struct Said {
 pub enum Offer {
     /// Takes the last entry back.
     Undo,
+    /// Takes up the pose that was left without a key.
+    PoseAgain,
 }
 
 /// A transform of objects under way.
@@ -107,6 +111,8 @@ enum Busy {
     Navigating(Navigation, DVec3),
     /// It moves the shot's camera by the shot camera tool.
     Shot(CameraPose),
+    /// It moves the view, and with it the shot's camera at this frame.
+    ShotView(Navigation, DVec3, CameraPose),
     /// A tool of Paint has the pointer.
     Painting,
     /// It pressed on an object; farther than a few pixels it drags it.
@@ -128,6 +134,7 @@ pub struct Editor {
     picker: Picker,
     hand: Hand,
     output: ToolOutput,
+    time: TimeHand,
     busy: Busy,
     /// Where the pointer is, when it is over the viewport.
     pointer_px: Option<DVec2>,
@@ -154,6 +161,7 @@ impl Editor {
             picker: Picker::default(),
             hand: Hand::default(),
             output: ToolOutput::default(),
+            time: TimeHand::default(),
             busy: Busy::Idle,
             pointer_px: None,
             held: Modifiers::default(),
@@ -223,10 +231,19 @@ impl Editor {
 
     /// The shot's camera at the frame that is shown.
     pub fn shot(&self) -> CameraPose {
+        self.shot_at(self.session.frame)
+    }
+
+    fn shot_at(&self, frame: f64) -> CameraPose {
         match &self.busy {
-            Busy::Shot(pose) => pose.clone(),
-            _ => motion::camera_at(&self.document.shown().scene, self.session.frame),
+            Busy::Shot(pose) | Busy::ShotView(_, _, pose) => pose.clone(),
+            _ => motion::camera_at(&self.document.shown().scene, frame),
         }
+    }
+
+    /// The camera that the viewport looks through at another frame.
+    pub fn camera_at(&self, frame: f64) -> CameraPose {
+        self.looking.pose(&self.shot_at(frame)).clone()
     }
 
     /// The camera that the viewport looks through.
@@ -252,7 +269,8 @@ impl Editor {
             Tool::Scale => Operation::Scale,
             _ => return None,
         };
-        let is_shown = self.session.mode != Mode::Paint && !matches!(self.busy, Busy::Navigating(..));
+        let is_shown =
+            self.session.mode != Mode::Paint && !self.is_navigating() && !self.time.playback.is_playing();
         let object = self.active_object().filter(|_| is_shown)?;
         let pose = *self.poses().get(object)?;
         Some(Gizmo::new(operation, self.session.options.axes, pose, view))
@@ -271,7 +289,7 @@ impl Editor {
 
     /// Whether the view is under the hand.
     pub fn is_navigating(&self) -> bool {
-        matches!(self.busy, Busy::Navigating(..) | Busy::Shot(_))
+        matches!(self.busy, Busy::Navigating(..) | Busy::Shot(_) | Busy::ShotView(..))
     }
 
     /// Takes all lines that are to be shown.
@@ -286,15 +304,37 @@ impl Editor {
 
     /// Carries a command out and says what is to be said.
     pub fn run(&mut self, command: &Command) -> bool {
+        if let Some(posed) = self.take_loose(command) {
+            return self.keep(&posed);
+        }
+        self.pose_loosely(command).unwrap_or_else(|| self.keep(command))
+    }
+
+    /// As [`Editor::run`], and never without an entry of the history.
+    fn keep(&mut self, command: &Command) -> bool {
         let result = self.document.apply(command);
-        self.version += 1;
+        self.edited();
         self.told(result)
+    }
+
+    /// The document may be another one: nothing plays on, and what is gone is not selected.
+    fn edited(&mut self) {
+        self.version += 1;
+        self.time.playback.stop();
+        self.time.put_back = None;
+        self.time.keys.retain(&crate::timeline::lanes(self.document.scene()));
+        if self.time.loose.is_some() {
+            self.show_loose();
+        }
     }
 
     /// As [`Editor::run`]; steps of one key within a second are one entry.
     pub fn run_merged(&mut self, command: &Command, key: &str, at_secs: f64) -> bool {
+        if let Some(posed) = self.pose_loosely(command) {
+            return posed;
+        }
         let result = self.document.apply_merged(command, key, at_secs);
-        self.version += 1;
+        self.edited();
         self.told(result)
     }
 
@@ -306,13 +346,21 @@ impl Editor {
     /// Adds a mesh by its path from the scene's folder.
     pub fn import(&mut self, mesh: &str) -> bool {
         let result = self.document.import(mesh);
-        self.version += 1;
+        self.edited();
         self.told(result)
     }
 
     /// Shows the document as a command would leave it.
     pub fn preview(&mut self, command: &Command) {
-        match self.document.preview(command) {
+        self.time.playback.stop();
+        let result = match &self.time.loose {
+            Some(loose) => {
+                let both = vec![loose.command(), command.clone()];
+                self.document.preview(&Command::Several(String::new(), both))
+            }
+            None => self.document.preview(command),
+        };
+        match result {
             Ok(()) => self.version += 1,
             Err(refusal) => self.refuse(&refusal),
         }
@@ -320,12 +368,13 @@ impl Editor {
 
     /// Shows the document as it is.
     pub fn end_preview(&mut self) {
-        self.document.end_preview();
+        self.show_loose();
         self.version += 1;
     }
 
     /// Selects.
     pub fn select(&mut self, selection: Selection) {
+        self.time.keys.take(KeysEvent::Blur, &[]);
         self.document.select(selection);
     }
 
@@ -366,6 +415,7 @@ impl Editor {
             (Busy::Transforming(_), _) => Scope::Transform,
             (Busy::Painting, _) => Scope::Drawing,
             (_, Mode::Paint) if self.hand.is_busy() => Scope::Drawing,
+            _ if self.time.keys.has_focus() => Scope::Lane,
             (_, Mode::Arrange) => Scope::Arrange,
             (_, Mode::Paint) => Scope::Paint,
             (_, Mode::Animate) => Scope::Animate,
@@ -395,6 +445,9 @@ impl Editor {
     pub fn status(&self) -> String {
         if let Busy::Transforming(drag) = &self.busy {
             return drag.machine.status();
+        }
+        if let Some(words) = self.time_status() {
+            return words;
         }
         if self.document.scene().objects.is_empty() {
             return "Drop an OBJ or a scene anywhere in the window".to_owned();

@@ -19,10 +19,12 @@ pub mod keymap;
 mod names;
 pub mod path;
 pub mod picking;
+pub mod playback;
 mod refusal;
 pub mod selection;
 pub mod session;
 pub mod stroke_fields;
+pub mod timeline;
 pub mod tools;
 pub mod transform;
 

@@ -2,6 +2,8 @@
 
 use impasto_scene::document::LightKind;
 
+use crate::playback::Pacing;
+
 /// What the left drag means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mode {
@@ -206,6 +208,14 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Playing begins again at the end of the range.
     pub looped: bool,
+    /// What playing keeps: the clock, or every frame.
+    pub pacing: Pacing,
+    /// In Animate a pose is keyed as it is made.
+    pub auto_key: bool,
+    /// In Animate, moving the view through the shot camera moves the camera.
+    pub lock_to_view: bool,
+    /// Lanes of keys: in Animate, and in the other modes.
+    pub lanes: [bool; 2],
 }
 
 impl Default for Session {
@@ -222,6 +232,10 @@ impl Default for Session {
             frame: 0.0,
             frame_before_paint: None,
             looped: true,
+            pacing: Pacing::default(),
+            auto_key: true,
+            lock_to_view: false,
+            lanes: [true, false],
         }
     }
 }
@@ -255,6 +269,16 @@ impl Session {
     /// The tool of the mode.
     pub fn tool(&self) -> Tool {
         if self.mode == Mode::Paint { self.paint_tool } else { self.object_tool }
+    }
+
+    /// Whether the timeline shows the lanes of keys.
+    pub fn shows_lanes(&self) -> bool {
+        self.lanes[usize::from(self.mode != Mode::Animate)]
+    }
+
+    /// Opens the lanes of keys, or folds them to a strip; Animate remembers its own.
+    pub fn show_lanes(&mut self, shown: bool) {
+        self.lanes[usize::from(self.mode != Mode::Animate)] = shown;
     }
 
     /// Takes a tool up; one of another mode changes the mode's tool, not the mode.

@@ -218,6 +218,7 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
                 frame,
             ),
             2 => Time::MoveKeys(vec![(key_of, frame)], f64::from(which % 5)),
+            3 if other % 2 == 0 => Time::CopyKeys(vec![(key_of, frame)], f64::from(which % 5) - 2.0),
             3 => Time::DeleteKeys(vec![(key_of, frame)]),
             _ => Time::SetEase(vec![(key_of, frame)], Ease::Step),
         }),

@@ -15,6 +15,7 @@ use impasto_painting::Painting;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::CameraPose;
 
+mod ahead;
 mod desk;
 mod draft;
 mod studio;
@@ -116,7 +117,12 @@ impl Worker {
     /// Shows this from now on. A job that was not begun is dropped; of the one that is being worked on, the exact pictures are
     /// given up.
     pub fn show(&self, job: Job) {
-        self.desk.put(job);
+        self.desk.put(job, Vec::new());
+    }
+
+    /// As [`Worker::show`], of a film that plays: `ahead` are the same views as they will likely be asked for next.
+    pub fn play(&self, job: Job, ahead: Vec<ViewJob>) {
+        self.desk.put(job, ahead);
     }
 
     /// Everything that has come since the last call; of several pictures of one view, the newest.

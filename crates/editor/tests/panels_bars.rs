@@ -3,6 +3,8 @@
 mod headless;
 #[path = "panels_bars/page.rs"]
 mod page;
+#[path = "panels_bars/timeline.rs"]
+mod timeline;
 
 use egui::accesskit::Role;
 use egui::{Key, vec2};
@@ -200,7 +202,7 @@ fn what_cannot_be_done_is_not_asked_for() {
         assert!(harness.get_by_label(name).accesskit_node().is_disabled(), "{name}: nothing is selected");
     }
     click(&mut harness, "Duplicate");
-    for name in ["Render", "Undo", "Redo", "Show keys"] {
+    for name in ["Render", "Undo", "Redo"] {
         let node = harness.get_by_label(name);
         assert!(node.accesskit_node().is_disabled(), "{name}");
         node.click();

@@ -5,6 +5,7 @@ use impasto_scene::motion::{self, CameraPose};
 
 use super::{Done, finite, object_mut, unlocked_object};
 use crate::refusal::Refusal;
+use crate::timeline::ease_name;
 
 /// Whose keys.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -34,6 +35,8 @@ pub enum Time {
     PoseAtFrame(Pose, f64),
     /// Moves keys by frames; one that lands on another takes its place.
     MoveKeys(Vec<(KeyOf, f64)>, f64),
+    /// Doubles keys, so many frames on; a double that lands on another key takes its place.
+    CopyKeys(Vec<(KeyOf, f64)>, f64),
     /// Takes keys out. A camera keeps its last one.
     DeleteKeys(Vec<(KeyOf, f64)>),
     /// How values leave keys.
@@ -66,6 +69,14 @@ impl Time {
                 }
                 Ok(Done::new(format!("Move {}", counted(keys))))
             }
+            Self::CopyKeys(keys, by) => {
+                finite(*by)?;
+                let before = scene.clone();
+                for (of, frame) in keys {
+                    copy_key(scene, &before, (of, *frame), frame + by)?;
+                }
+                Ok(Done::new(format!("Copy {}", counted(keys))))
+            }
             Self::DeleteKeys(keys) => {
                 for (of, frame) in keys {
                     delete_key(scene, of, *frame)?;
@@ -91,12 +102,7 @@ impl Time {
                         }
                     }
                 }
-                let word = match ease {
-                    Ease::Step => "hold",
-                    Ease::Linear => "linear",
-                    Ease::Smooth => "smooth",
-                };
-                Ok(Done::new(format!("Ease: {word}")))
+                Ok(Done::new(format!("Ease: {}", ease_name(*ease))))
             }
             Self::SetRange(first, last) => {
                 (scene.timeline.first, scene.timeline.last) = (*first, *last);
@@ -200,6 +206,29 @@ fn move_key(scene: &mut Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Ref
             let key = ObjectKey { frame: to, ..keys.remove(index) };
             keys.retain(|other| other.frame != to);
             keys.insert(keys.partition_point(|other| other.frame < to), key);
+        }
+    }
+    Ok(())
+}
+
+/// Copies a key of the scene as it was before.
+fn copy_key(scene: &mut Scene, before: &Scene, (of, from): (&KeyOf, f64), to: f64) -> Result<(), Refusal> {
+    match of {
+        KeyOf::Camera => {
+            let Some(key) = before.camera.keys.iter().find(|key| key.frame == from) else { return Ok(()) };
+            let keys = &mut scene.camera.keys;
+            keys.retain(|other| other.frame != to);
+            let at = keys.partition_point(|other| other.frame < to);
+            keys.insert(at, CameraKey { frame: to, ..key.clone() });
+        }
+        KeyOf::Object(name) => {
+            let keys = &mut unlocked_object(scene, name)?.keys;
+            let object = before.objects.iter().find(|object| object.name == *name);
+            let key = object.and_then(|object| object.keys.iter().find(|key| key.frame == from));
+            let Some(key) = key else { return Ok(()) };
+            keys.retain(|other| other.frame != to);
+            let at = keys.partition_point(|other| other.frame < to);
+            keys.insert(at, ObjectKey { frame: to, ..key.clone() });
         }
     }
     Ok(())

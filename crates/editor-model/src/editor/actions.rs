@@ -4,19 +4,20 @@ use impasto_scene::motion;
 
 use super::{Busy, Editor, Request, reference_frame};
 use crate::camera_rig::{AxisView, Looking};
-use crate::command::{Arrange, Command, Directions, Edit, KeyOf, Time};
+use crate::command::{Arrange, Command, Directions, Edit};
 use crate::keymap::Action;
 use crate::picking::View;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 use crate::session::{Hairs, Mode, Tool};
+use crate::timeline::keyed_frames;
 use crate::tools::ToolEvent;
 use crate::transform::{Operation, TransformEvent};
 
 impl Editor {
     /// Does what an action says.
     pub fn act(&mut self, action: Action, view: &View) {
-        if self.act_on_the_hand(action, view) {
+        if self.act_on_keys(action) || self.act_on_the_hand(action, view) {
             return;
         }
         match action {
@@ -124,21 +125,11 @@ impl Editor {
                     self.looking = Looking::Shot;
                 }
             }
-            Action::SetKey => {
-                let keyed = self.document.selection().items().iter().filter_map(|item| match item {
-                    Item::Object(name) => Some(KeyOf::Object(name.clone())),
-                    Item::Camera => Some(KeyOf::Camera),
-                    _ => None,
-                });
-                let keyed: Vec<KeyOf> = keyed.collect();
-                for of in keyed {
-                    self.run(&Command::Time(Time::SetKey(of, self.session.frame)));
-                }
-            }
+            Action::SetKey => self.set_key(),
             Action::Render => self.refuse(&Refusal::new(
                 "Rendering from here comes with playback; File, Copy render command does it in a terminal",
             )),
-            Action::Play => self.refuse(&Refusal::new("Playback comes with the timeline's lanes")),
+            Action::Play => self.play_or_stop(),
             _ => {}
         }
     }
@@ -249,7 +240,7 @@ impl Editor {
             return self.refuse(&Refusal::new("Finish or cancel the gesture first"));
         }
         let step = if action == Action::Undo { self.document.undo() } else { self.document.redo() };
-        self.version += 1;
+        self.edited();
         match step {
             Some(step) => {
                 let done = if action == Action::Undo { "Undid" } else { "Did again" };
@@ -311,14 +302,12 @@ impl Editor {
     }
 
     fn go_to_key(&mut self, forward: bool) {
-        let scene = self.document.scene();
-        let objects = scene.objects.iter().flat_map(|object| object.keys.iter().map(|key| key.frame));
-        let frames = objects.chain(scene.camera.keys.iter().map(|key| key.frame));
+        let frames = keyed_frames(self.document.scene());
         let now = self.session.frame;
         let next = if forward {
-            frames.filter(|&frame| frame > now).min_by(f64::total_cmp)
+            frames.into_iter().find(|&frame| frame > now)
         } else {
-            frames.filter(|&frame| frame < now).max_by(f64::total_cmp)
+            frames.into_iter().rfind(|&frame| frame < now)
         };
         self.session.frame = next.unwrap_or(now);
     }

@@ -83,7 +83,9 @@ impl Editor {
     /// The command that a transform comes to: in Arrange the whole motion moves, in Animate the pose at this frame.
     fn transform_command(&self, delta: TransformDelta) -> Option<Command> {
         let Busy::Transforming(drag) = &self.busy else { return None };
-        let scene = self.document.scene();
+        // A pose that is not keyed is what the hand sees.
+        let loose = self.time.loose_scene().map(|loaded| &loaded.scene);
+        let scene = loose.unwrap_or(self.document.scene());
         let frame = self.session.frame;
         let poses = motion::poses_at(scene, frame);
         let active = drag.objects.last()?;

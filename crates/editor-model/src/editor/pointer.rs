@@ -5,11 +5,13 @@ use impasto_scene::document::LightKind;
 
 use super::painted::Seen;
 use super::{Busy, Editor};
-use crate::command::{Arrange, Command};
+use crate::camera_rig::{FreeView, Looking};
+use crate::command::{Arrange, Command, Pose, Time};
 use crate::keymap::{Button, Modifiers, Navigation};
 use crate::picking::View;
 use crate::selection::{Item, Selection};
 use crate::session::{Mode, Tool};
+use crate::timeline::KeysEvent;
 use crate::tools::{REST_SECS, Surroundings, ToolEvent, ToolOutput};
 use crate::transform::{Operation, Snap, TransformEvent};
 
@@ -94,15 +96,16 @@ impl Editor {
             Busy::Navigating(way, about) => {
                 let (way, about) = (*way, *about);
                 let shot = self.shot();
-                let free = self.looking.free(&shot);
-                match way {
-                    Navigation::Orbit => free.orbit(delta_px, about),
-                    Navigation::Pan => free.pan(delta_px, about, view.size_px),
-                    Navigation::Zoom => free.zoom(-delta_px.y / ZOOM_PX_PER_STEP, about),
-                }
+                navigate(self.looking.free(&shot), (way, about), delta_px, view);
+            }
+            Busy::ShotView(..) if delta_px == DVec2::ZERO => {}
+            Busy::ShotView(way, about, pose) => {
+                let mut free = FreeView::new(pose.clone());
+                navigate(&mut free, (*way, *about), delta_px, view);
+                *pose = free.pose().clone();
             }
             Busy::Shot(pose) => {
-                let mut free = crate::camera_rig::FreeView::new(pose.clone());
+                let mut free = FreeView::new(pose.clone());
                 free.orbit(delta_px, pose.target);
                 *pose = free.pose().clone();
             }
@@ -133,6 +136,7 @@ impl Editor {
     }
 
     fn pressed(&mut self, button: Button, event: &PointerEvent, view: &View) {
+        self.time.keys.take(KeysEvent::Blur, &[]);
         match (&self.busy, button) {
             (Busy::Transforming(_), Button::Left) => return self.transform(TransformEvent::Keep, view),
             (Busy::Idle, _) => {}
@@ -144,7 +148,10 @@ impl Editor {
         }
         if let Some(way) = self.keymap.navigation(button, event.held) {
             let about = self.about(event.at_px, view);
-            self.busy = Busy::Navigating(way, about);
+            self.busy = match self.keys_the_shot() {
+                true => Busy::ShotView(way, about, self.shot()),
+                false => Busy::Navigating(way, about),
+            };
             return;
         }
         if button != Button::Left {
@@ -200,6 +207,14 @@ impl Editor {
                 let frame = self.session.frame;
                 self.run(&Command::Arrange(Arrange::SetCamera { frame, pose }));
             }
+            Busy::ShotView(_, _, pose) => {
+                let pose = pose.clone();
+                self.busy = Busy::Idle;
+                if pose != self.shot() {
+                    let frame = self.session.frame;
+                    self.run(&Command::Time(Time::PoseAtFrame(Pose::Camera(pose), frame)));
+                }
+            }
             Busy::Painting if button == Button::Left => {
                 self.busy = Busy::Idle;
                 self.tool(ToolEvent::Release, view);
@@ -216,7 +231,20 @@ impl Editor {
     fn zoom(&mut self, steps: f64, at_px: DVec2, view: &View) {
         let toward = self.about(at_px, view);
         let shot = self.shot();
+        if self.keys_the_shot() {
+            let mut free = FreeView::new(shot);
+            free.zoom(steps, toward);
+            let pose = Pose::Camera(free.pose().clone());
+            let (command, now) = (Command::Time(Time::PoseAtFrame(pose, self.session.frame)), self.at_secs);
+            self.run_merged(&command, "zoom the shot", now);
+            return;
+        }
         self.looking.free(&shot).zoom(steps, toward);
+    }
+
+    /// Whether moving the view keys the shot's camera.
+    fn keys_the_shot(&self) -> bool {
+        self.session.mode == Mode::Animate && self.session.lock_to_view && self.looking == Looking::Shot
     }
 
     /// The point that the view turns about: what lies under the pointer, else what is selected, else the target's depth.
@@ -281,7 +309,7 @@ impl Editor {
                     self.tool(ToolEvent::Cancel, view);
                 }
             }
-            Busy::Navigating(..) | Busy::Shot(_) | Busy::Pressed(_) => {}
+            Busy::Navigating(..) | Busy::Shot(_) | Busy::ShotView(..) | Busy::Pressed(_) => {}
         }
     }
 
@@ -297,5 +325,13 @@ impl Editor {
     /// With what held the last event came.
     pub fn held(&self) -> Modifiers {
         self.held
+    }
+}
+
+fn navigate(free: &mut FreeView, (way, about): (Navigation, glam::DVec3), delta_px: DVec2, view: &View) {
+    match way {
+        Navigation::Orbit => free.orbit(delta_px, about),
+        Navigation::Pan => free.pan(delta_px, about, view.size_px),
+        Navigation::Zoom => free.zoom(-delta_px.y / ZOOM_PX_PER_STEP, about),
     }
 }

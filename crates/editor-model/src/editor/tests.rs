@@ -10,6 +10,8 @@ use crate::command::{Arrange, Edit, Regions};
 use crate::keymap::{Action, Button};
 use crate::session::Axes;
 
+mod time;
+
 const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);
 
 /// An editor with the paper's apple, prepared.

@@ -31,6 +31,7 @@ impl EditorApp {
                     self.editor.session = *session;
                 }
             }
+            Ask::Timeline(event) => self.editor.timeline(event),
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
             Ask::ChooseMesh(object) => {

@@ -1,9 +1,10 @@
 //! From egui's keys to the editor's.
 
-use egui::{Event, Key as EguiKey, Ui};
+use egui::{Event, Key as EguiKey, MouseWheelUnit, Ui};
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::keymap::{Key, Modifiers};
 use impasto_editor_model::picking::View;
+use impasto_editor_model::timeline::TimelineEvent;
 
 /// Hands the keys of this pass to the editor, those of the number pad first; what it takes does not reach the panels.
 pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec<(Key, Modifiers)>) {
@@ -42,6 +43,38 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
             !is_taken
         });
     });
+}
+
+/// With Alt, the wheel goes from frame to frame, wherever the pointer is.
+pub(super) fn wheel(ui: &mut Ui, editor: &mut Editor) {
+    if !ui.input(|input| input.modifiers.alt) {
+        return;
+    }
+    let mut steps = 0.0;
+    ui.input_mut(|input| {
+        input.events.retain(|event| {
+            let Event::MouseWheel { unit, delta, .. } = event else { return true };
+            let turned = if delta.y == 0.0 { delta.x } else { delta.y };
+            steps -= match unit {
+                MouseWheelUnit::Point => turned / 50.0,
+                MouseWheelUnit::Line | MouseWheelUnit::Page => turned,
+            };
+            false
+        });
+        input.smooth_scroll_delta = egui::Vec2::ZERO;
+    });
+    let id = egui::Id::unique("frames by the wheel");
+    let whole = ui.data_mut(|data| {
+        let turned = data.get_temp_mut_or_default::<f32>(id);
+        *turned += steps;
+        let whole = turned.trunc();
+        *turned -= whole;
+        whole
+    });
+    if whole != 0.0 {
+        let frame = editor.session.frame.round() + f64::from(whole);
+        editor.timeline(TimelineEvent::GoTo(frame));
+    }
 }
 
 fn key_of(key: EguiKey) -> Option<Key> {

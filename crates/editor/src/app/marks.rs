@@ -17,9 +17,10 @@ use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::new_scene::REGION_COLORS;
 
 use super::foreseen::ForeseenStrokes;
+use super::motion_marks;
 use super::picture::Studio;
 use crate::viewport::overlay::{
-    CurvePart, GuideCurve, HairMark, Outline, RegionTint, Sight, SingularPoint, StandIn,
+    CurvePart, GuideCurve, HairMark, MotionPath, Outline, RegionTint, Sight, SingularPoint, StandIn,
 };
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
@@ -42,6 +43,8 @@ struct Half {
     hairs: Vec<HairMark>,
     tints: Vec<RegionTint>,
     outline: Option<Outline>,
+    ghosts: Vec<Outline>,
+    path: Option<MotionPath>,
 }
 
 /// What the kept marks depend on.
@@ -92,6 +95,11 @@ impl MarkCache {
         let Some(painting) = editor.painting() else { return };
         let Some(&framing) = studio.layout().framings().get(seen.index) else { return };
         let session = &editor.session;
+        if editor.time().playback.is_playing() {
+            // What plays is looked at, and has the time to itself.
+            self.halves[seen.index] = Half::default();
+            return;
+        }
         let key = Key {
             prepared: studio.prepared(),
             camera: seen.camera.clone(),
@@ -144,6 +152,10 @@ impl MarkCache {
         }
         if outlines && let Some(active) = active {
             half.outline = Some(Outline::new(&map, |object| object == active));
+            if session.mode == Mode::Animate && !editor.is_navigating() {
+                half.path = motion_marks::path(scene, active);
+                half.ghosts = motion_marks::ghosts(painting, seen, &framing, active);
+            }
         }
         half.map = Some((key, map));
     }
@@ -155,6 +167,8 @@ impl MarkCache {
             grid: editor.session.overlays.grid,
             regions: &half.tints,
             selected: half.outline.as_ref(),
+            ghosts: &half.ghosts,
+            path: half.path.as_ref(),
             hairs: &half.hairs,
             ..Marks::default()
         };
@@ -221,7 +235,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     }
 }
 
-fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
+pub(super) fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
     let scene = painting.scene();
     let poses = motion::poses_at(scene, frame);
     let morphs = motion::morphs_at(scene, frame);

@@ -11,6 +11,7 @@ mod foreseen;
 mod keys;
 mod last_seen;
 mod marks;
+mod motion_marks;
 mod picture;
 mod view;
 
@@ -34,7 +35,7 @@ use crate::window::{self, Opened, numpad_pressed, tab_pressed};
 
 use file_flow::FileFlow;
 use marks::MarkCache;
-use picture::Studio;
+use picture::{News, Studio};
 
 /// A line at the bottom stays so long; what was refused, too.
 const TOAST: Duration = Duration::from_secs(4);
@@ -184,6 +185,7 @@ impl EditorApp {
         let shown = Shown {
             document: self.editor.document(),
             session: &self.editor.session,
+            time: self.editor.time(),
             painting: self.editor.painting(),
             keys: self.editor.keymap.preset,
             status: &status,
@@ -225,16 +227,35 @@ impl EditorApp {
         }
         self.toasts.retain(|(_, since, _)| since.elapsed() < TOAST);
         let shown: Vec<Toast> = self.toasts.iter().map(|(toast, ..)| toast.clone()).collect();
-        let clear = if self.folds.everything { 12.0 } else { 44.0 + 24.0 };
+        let clear = if self.folds.everything {
+            12.0
+        } else {
+            let wide = ctx.content_rect().width();
+            panels::timeline::height(&self.editor.session, wide) + theme::measure::STATUS_LINE
+        };
         if let Some(clicked) = toasts(ctx, &shown, clear) {
             let (_, _, offers) = self.toasts.remove(clicked);
-            if offers == Some(Offer::Undo) {
-                let view = self.studio.view(&self.editor);
-                self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
+            match offers {
+                Some(Offer::Undo) => {
+                    let view = self.studio.view(&self.editor);
+                    self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
+                }
+                Some(Offer::PoseAgain) => self.editor.pose_again(),
+                None => {}
             }
         }
         if !self.toasts.is_empty() {
             ctx.request_repaint_after(Duration::from_millis(500));
+        }
+    }
+
+    /// Tells which frame of what is played came up, and where the clock stood.
+    fn tell_played(&self) {
+        let playback = &self.editor.time().playback;
+        let clock = playback.clock_frame(self.editor.now_secs());
+        if let (Some(tell), Some(clock)) = (self.tell, clock) {
+            let (frame, dropped) = (self.editor.session.frame, playback.dropped());
+            tell(&format!("playing: frame {frame}, clock {clock:.3}, dropped {dropped}"));
         }
     }
 
@@ -274,9 +295,13 @@ impl LikelyMeshes {
 impl window::App for EditorApp {
     fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
         let ctx = ui.ctx().clone();
+        self.editor.tick(ui.input(|input| input.time));
         let news = self.studio.poll(&ctx, &mut self.editor);
+        if news == Some(News::NextOfFilm) {
+            self.tell_played();
+        }
         // While a hand turns the view, the window changes with the picture.
-        if !news && self.editor.is_navigating() && self.studio.is_awaited() {
+        if news.is_none() && self.editor.is_navigating() && self.studio.is_awaited() {
             frame.hold();
         }
         let view = self.studio.view(&self.editor);
@@ -291,9 +316,14 @@ impl window::App for EditorApp {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
             }
+            keys::wheel(ui, &mut self.editor);
             keys::hand_on(ui, &mut self.editor, &view, numpad);
         }
         self.page(ui);
+        let now = ui.input(|input| input.time);
+        if let Some(wait) = self.editor.time().playback.wait_secs(now) {
+            ctx.request_repaint_after(Duration::from_secs_f64(wait.min(1.0)));
+        }
         self.requests(&ctx);
         if self.file_sheets(&ctx, ui) {
             frame.close();

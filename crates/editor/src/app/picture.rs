@@ -10,12 +10,21 @@ use impasto_gl_render::context::Driver;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::files::preferences::DriverChoice;
-use crate::viewport::{Layout, Pictures};
+use crate::viewport::{Framing, Layout, Pictures};
 use crate::window::Waker;
 use crate::worker::{Job, Report, ViewJob, Worker};
 
 /// Pictures of the last second tell how many come a second.
 const SPAN_S: f64 = 1.0;
+
+/// What the thread had to tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum News {
+    /// Anything.
+    Any,
+    /// The picture that is the next of what is played.
+    NextOfFilm,
+}
 
 /// The thread, what it was asked for last, and what it has sent.
 pub(super) struct Studio {
@@ -109,12 +118,12 @@ impl Studio {
         self.layout = layout;
     }
 
-    /// Takes what the thread has to tell. Returns whether there was anything.
-    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) -> bool {
-        let Some(worker) = &self.worker else { return false };
-        let reports = worker.poll();
-        let news = !reports.is_empty();
-        for report in reports {
+    /// Takes what the thread has to tell.
+    pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) -> Option<News> {
+        let mut news = None;
+        let worker = self.worker.as_ref()?;
+        for report in worker.poll() {
+            news = news.max(Some(News::Any));
             match report {
                 Report::Opened(report) => {
                     let name = report.renderer.split(" (").next().unwrap_or(&report.renderer);
@@ -136,6 +145,11 @@ impl Studio {
                         if let Some(painting) = painting {
                             let names = painting.scene().regions.iter().map(|region| region.name.clone());
                             self.strokes_of = names.zip(picture.strokes_of.iter().copied()).collect();
+                        }
+                    }
+                    if picture.index + 1 == self.layout.framings().len() {
+                        if editor.shown_frame(picture.view.frame) {
+                            news = Some(News::NextOfFilm);
                         }
                     }
                     self.pictures.take(ctx, picture);
@@ -171,34 +185,39 @@ impl Studio {
             self.forget();
             return;
         }
-        let shading = editor.session.shading;
-        let now = (editor.camera(), editor.session.frame);
-        let seen = if editor.session.compare {
-            vec![motion::referred_to(&loaded.scene, &loaded.scene.reference), now]
-        } else {
-            vec![now]
-        };
-        let views: Vec<ViewJob> = self
-            .layout
-            .framings()
-            .iter()
-            .zip(seen)
-            .map(|(framing, (camera, frame))| ViewJob {
-                camera: framing.widened(&camera),
-                frame,
-                size_px: framing.size_px(),
-                shot_height_px: framing.shot_height_px(),
-                shading,
-                moving: editor.is_moving(),
-            })
-            .collect();
+        let views = self.views(editor, editor.frame_to_draw());
         let job = (version, views);
         if self.asked.as_ref() == Some(&job) {
             return;
         }
         if let Some(worker) = &self.worker {
-            worker.show(Job { loaded: std::sync::Arc::clone(loaded), serial: version, views: job.1.clone() });
+            let loaded = std::sync::Arc::clone(loaded);
+            let ahead = editor.time().playback.upcoming().map(|next| self.views(editor, next));
+            let views = job.1.clone();
+            worker.play(Job { loaded, serial: version, views }, ahead.unwrap_or_default());
         }
         self.asked = Some(job);
+    }
+
+    /// What is to be seen at a frame.
+    fn views(&self, editor: &Editor, frame: f64) -> Vec<ViewJob> {
+        let scene = &editor.shown().0.scene;
+        let shading = editor.session.shading;
+        let now = (editor.camera_at(frame), frame);
+        let seen = if editor.session.compare {
+            vec![motion::referred_to(scene, &scene.reference), now]
+        } else {
+            vec![now]
+        };
+        let moving = editor.is_moving() || editor.time().playback.is_playing();
+        let view = |(framing, (camera, frame)): (&Framing, (CameraPose, f64))| ViewJob {
+            camera: framing.widened(&camera),
+            frame,
+            size_px: framing.size_px(),
+            shot_height_px: framing.shot_height_px(),
+            shading,
+            moving,
+        };
+        self.layout.framings().iter().zip(seen).map(view).collect()
     }
 }

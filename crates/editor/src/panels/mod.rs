@@ -13,6 +13,7 @@ pub mod rail;
 pub mod shortcuts;
 pub mod status_line;
 pub mod strip;
+pub mod timeline;
 mod tool_names;
 pub mod top_bar;
 pub mod welcome;
@@ -27,6 +28,7 @@ mod tree;
 
 use impasto_editor_model::command::Command;
 use impasto_editor_model::keymap::{Action, Keymap, Preset};
+use impasto_editor_model::timeline::{TimeHand, TimelineEvent};
 use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
 
@@ -43,6 +45,8 @@ pub struct Shown<'a> {
     pub document: &'a Document,
     /// Mode, tools, view.
     pub session: &'a Session,
+    /// Playback and selected keys.
+    pub time: &'a TimeHand,
     /// The painting as it was prepared last, perhaps of an earlier version; none before the first.
     pub painting: Option<&'a Painting>,
     /// Whose habits the keys follow.
@@ -134,6 +138,8 @@ pub enum Ask {
     Act(Action),
     /// Mode, tools, overlays and frame as they are in this session.
     Session(Box<Session>),
+    /// Do this on the timeline.
+    Timeline(TimelineEvent),
     /// Open this file.
     Open(PathBuf),
     /// Put these words on the clipboard.

@@ -30,8 +30,13 @@ pub struct NumberField<'a> {
     width: Option<f32>,
     error: Option<&'a str>,
     refused: Option<&'a dyn Fn(f64) -> Option<String>>,
+    reads: Option<Read<'a>>,
+    warns: bool,
     tip: Tip<'a>,
 }
+
+/// Reads a number from what was typed.
+type Read<'a> = &'a dyn Fn(&str) -> Option<f64>;
 
 /// What the user did to a [`NumberField`]. What lies between `began` and `ended` is one step to undo.
 #[derive(Clone, Debug)]
@@ -78,6 +83,8 @@ impl<'a> NumberField<'a> {
             width: None,
             error: None,
             refused: None,
+            reads: None,
+            warns: false,
             tip: Tip::default(),
         }
     }
@@ -120,6 +127,16 @@ impl<'a> NumberField<'a> {
     /// Why a number within the limits is refused nevertheless; asked while one is typed.
     pub fn refused(self, why: &'a dyn Fn(f64) -> Option<String>) -> Self {
         Self { refused: Some(why), ..self }
+    }
+
+    /// Reads what is typed in its own way: more units than one.
+    pub fn reading(self, reads: &'a dyn Fn(&str) -> Option<f64>) -> Self {
+        Self { reads: Some(reads), ..self }
+    }
+
+    /// The number stands in ochre: it is not kept as it is.
+    pub fn warn(self, warns: bool) -> Self {
+        Self { warns, ..self }
     }
 
     /// What the tooltip says; its range and default are filled in.
@@ -243,7 +260,7 @@ impl<'a> NumberField<'a> {
         match told {
             Some(ActionData::NumericValue(value)) => self.set(value),
             Some(ActionData::Value(text)) => {
-                if let Some(number) = number_of(&text, self.unit) {
+                if let Some(number) = self.read(&text) {
                     self.set(number);
                 }
             }
@@ -325,12 +342,13 @@ impl<'a> NumberField<'a> {
             Stroke::NONE
         };
         painter.rect_stroke(frame, draw::corner(), line, StrokeKind::Inside);
+        let colour = if self.warns { tokens.ochre } else { tokens.text };
         let mut at = frame.left_center() + vec2(8.0, 0.0);
         if !self.letter.is_empty() {
             draw::words(painter, at, Align2::LEFT_CENTER, (self.letter, type_face::small()), tokens.weak);
             at.x += 11.0;
         }
-        draw::words(painter, at, Align2::LEFT_CENTER, (&self.shown(), type_face::number()), tokens.text);
+        draw::words(painter, at, Align2::LEFT_CENTER, (&self.shown(), type_face::number()), colour);
         let end = frame.right_center() - vec2(8.0, 0.0);
         draw::words(painter, end, Align2::RIGHT_CENTER, (self.unit, type_face::small()), tokens.weak);
         draw::focus_ring(ui, response, frame, measure::CORNER);
@@ -370,6 +388,11 @@ impl<'a> NumberField<'a> {
             range = format!("{range}, default {}", self.text_of(default));
         }
         Tip { range: range.trim_start_matches(", "), ..self.tip }.on(response)
+    }
+
+    fn read(&self, typed: &str) -> Option<f64> {
+        let number = self.reads.map_or_else(|| number_of(typed, self.unit), |read| read(typed));
+        number.filter(|number| number.is_finite())
     }
 
     fn set(&mut self, value: f64) {

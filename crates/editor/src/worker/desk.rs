@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use impasto_gl_render::context::ContextReport;
 use impasto_painting::Painting;
 
-use super::{Job, Picture, Report};
+use super::{Job, Picture, Report, ViewJob};
 
 /// Words that nobody has read yet are kept up to this many.
 const MOST_FAILURES: usize = 8;
@@ -42,17 +42,19 @@ struct Tray {
 pub(super) struct Order {
     pub(super) job: Job,
     pub(super) came: Instant,
+    /// The views that will likely be asked for next, while a film plays.
+    pub(super) ahead: Vec<ViewJob>,
     ticket: u64,
 }
 
 impl Desk {
-    pub(super) fn put(&self, job: Job) {
+    pub(super) fn put(&self, job: Job, ahead: Vec<ViewJob>) {
         let mut orders = lock(&self.orders);
         if orders.closed {
             return;
         }
         let ticket = self.newest.load(Ordering::Relaxed) + 1;
-        orders.job = Some(Order { job, came: Instant::now(), ticket });
+        orders.job = Some(Order { job, came: Instant::now(), ahead, ticket });
         self.newest.store(ticket, Ordering::Release);
         self.changed.notify_all();
     }

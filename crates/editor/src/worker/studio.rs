@@ -1,6 +1,7 @@
 //! The thread's own: what it keeps from job to job, and how it works one off.
 
 use std::any::Any;
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,6 +13,7 @@ use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
 use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, Recall, StrokeColors};
 
+use super::ahead::Ahead;
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
 use super::{Picture, Report, ViewJob};
@@ -62,6 +64,8 @@ struct Studio {
     turn: u32,
     /// What the last exact picture took.
     exact_s: Option<f64>,
+    /// The next frame of a film.
+    ahead: Ahead,
 }
 
 struct Drawn {
@@ -69,7 +73,7 @@ struct Drawn {
     serial: u64,
     exact: bool,
     /// Its strokes; none where the picture has no strokes.
-    recall: Option<Recall>,
+    recall: Option<Arc<Recall>>,
 }
 
 impl Drawn {
@@ -101,6 +105,7 @@ impl Studio {
             draft_size: DraftSize::default(),
             turn: 0,
             exact_s: None,
+            ahead: Ahead::default(),
         }
     }
 
@@ -181,10 +186,17 @@ impl Studio {
         tell: Tell<'_>,
     ) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
-        let view = &order.job.views[index];
+        let (view, serial) = (&order.job.views[index], order.job.serial);
         let began = Instant::now();
-        let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.as_ref());
-        let (frame, picture) = render(renderer, (painting, view), manner, recall);
+        let next = order.ahead.get(index);
+        let ahead = self.ahead.take(serial, (view, next), manner);
+        let (view, frame) = ahead.map_or_else(|| (view.clone(), None), |(view, frame)| (view, Some(frame)));
+        let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.clone());
+        if let Some(next) = next {
+            self.ahead.begin((painting, serial), next, (manner, recall.clone()));
+        }
+        let recall = recall.as_deref();
+        let (frame, picture) = render(renderer, (painting, &view, frame), manner, recall);
         let strokes = frame.strokes.len();
         let strokes_of = counted(&frame, painting.scene().regions.len());
         let picture = match picture {
@@ -200,13 +212,12 @@ impl Studio {
         if manner.exact {
             self.exact_s = Some(seconds);
         }
-        let serial = order.job.serial;
         self.turn = self.turn.wrapping_add(1);
         let resolved = renderer.resolved_strokes();
         let is_there = |index: usize| resolved.get(index).is_some_and(|stroke| stroke.alpha > 0.0);
-        let recall = (strokes > 0).then(|| Recall::of(painting, &frame, is_there, self.turn));
-        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact: manner.exact, recall });
-        let (view, exact) = (view.clone(), manner.exact);
+        let recall = (strokes > 0).then(|| Arc::new(Recall::of(painting, &frame, is_there, self.turn)));
+        let exact = manner.exact;
+        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact, recall });
         let image = Arc::new(picture);
         tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
         true
@@ -214,10 +225,10 @@ impl Studio {
 }
 
 /// How a view is drawn.
-struct Manner<'a> {
-    size_px: [u32; 2],
-    exact: bool,
-    give_up: &'a dyn Fn() -> bool,
+pub(super) struct Manner<'a> {
+    pub(super) size_px: [u32; 2],
+    pub(super) exact: bool,
+    pub(super) give_up: &'a dyn Fn() -> bool,
 }
 
 /// How a view is looked at.
@@ -242,25 +253,54 @@ fn counted(frame: &Frame, regions: usize) -> Vec<usize> {
     counts
 }
 
-/// The frame and its picture; `None` where it was given up.
+/// What the renderer draws of a view.
+pub(super) fn frame_of(
+    painting: &Painting,
+    view: &ViewJob,
+    manner: &Manner<'_>,
+    recall: Option<&Recall>,
+) -> Frame {
+    let painting = styled(painting, view.shading);
+    let options = options(view, manner);
+    let mut frame = painting.bare(&view.camera, view.frame, &options);
+    let recall = recall.filter(|_| !manner.exact);
+    frame.lay(painting.strokes(&view.camera, view.frame, &options, recall));
+    frame
+}
+
+/// The scene stays as it was prepared: only the style differs.
+fn styled(painting: &Painting, shading: Shading) -> Cow<'_, Painting> {
+    match shading {
+        Shading::Shaded => Cow::Owned(painting.in_style(FrameStyle::Reference)),
+        Shading::Painted | Shading::Trust => Cow::Borrowed(painting),
+    }
+}
+
+/// The frame, perhaps computed before, and its picture; `None` where it was given up.
 fn render(
     renderer: &mut Renderer,
-    (painting, view): (&Painting, &ViewJob),
+    (painting, view, computed): (&Painting, &ViewJob, Option<Frame>),
     manner: &Manner<'_>,
     recall: Option<&Recall>,
 ) -> (Frame, Result<Option<ColorImage>, RenderError>) {
-    let options = options(view, manner);
-    // The scene stays as it was prepared: only the style differs.
-    let shaded = (view.shading == Shading::Shaded).then(|| painting.in_style(FrameStyle::Reference));
-    let painting = shaded.as_ref().unwrap_or(painting);
-    let mut frame = painting.bare(&view.camera, view.frame, &options);
-    let strokes = |recall| painting.strokes(&view.camera, view.frame, &options, recall);
-    let picture = if manner.exact {
-        frame.lay(strokes(None));
-        renderer.render_unless(&frame, &mut || (manner.give_up)())
-    } else {
-        // A draft is never given up: whoever asks has to wait for the driver.
-        renderer.render_with(&mut frame, || strokes(recall)).map(Some)
+    let (frame, picture) = match computed {
+        None if !manner.exact => {
+            // A draft is never given up: whoever asks has to wait for the driver.
+            let (painting, options) = (styled(painting, view.shading), options(view, manner));
+            let mut frame = painting.bare(&view.camera, view.frame, &options);
+            let strokes = || painting.strokes(&view.camera, view.frame, &options, recall);
+            let picture = renderer.render_with(&mut frame, strokes).map(Some);
+            (frame, picture)
+        }
+        computed => {
+            let frame = computed.unwrap_or_else(|| frame_of(painting, view, manner, None));
+            let picture = if manner.exact {
+                renderer.render_unless(&frame, &mut || (manner.give_up)())
+            } else {
+                renderer.render(&frame).map(Some)
+            };
+            (frame, picture)
+        }
     };
     let image = |picture: impasto_gl_render::Picture| {
         // Pictures of the window have a ground: they are opaque.

@@ -80,11 +80,11 @@ fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
     let loaded = scene();
     let desk = Desk::default();
     let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: Vec::new() };
-    desk.put(job(1));
+    desk.put(job(1), Vec::new());
     let first = desk.take().unwrap();
     assert!(desk.rests(&first, Duration::ZERO));
-    desk.put(job(2));
-    desk.put(job(3));
+    desk.put(job(2), Vec::new());
+    desk.put(job(3), Vec::new());
     assert!(desk.is_stale(&first));
     let began = Instant::now();
     assert!(!desk.rests(&first, Duration::from_secs(20)));
@@ -98,11 +98,11 @@ fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
 fn a_later_job_ends_the_rest_of_the_one_before() {
     let loaded = scene();
     let desk = Desk::default();
-    desk.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() });
+    desk.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Vec::new());
     let order = desk.take().unwrap();
     std::thread::scope(|scope| {
         let waiting = scope.spawn(|| desk.rests(&order, Duration::from_secs(30)));
-        desk.put(Job { loaded, serial: 2, views: Vec::new() });
+        desk.put(Job { loaded, serial: 2, views: Vec::new() }, Vec::new());
         assert!(!waiting.join().unwrap());
     });
 }
@@ -173,6 +173,23 @@ fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
     worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, last_frame)] });
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.exact), "the draft stands there already");
+}
+
+#[test]
+fn a_film_comes_frame_by_frame_with_the_next_computed_ahead() {
+    let loaded = scene();
+    let worker = worker();
+    for frame in 0..12 {
+        let views =
+            [frame, frame + 1].map(|frame| ViewJob { moving: true, ..view(&loaded, f64::from(frame)) });
+        let [now, next] = views;
+        worker.0.play(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![now.clone()] }, vec![next]);
+        let told = until(
+            &worker,
+            |report| matches!(report, Report::Picture(picture) if picture.view.frame == now.frame),
+        );
+        assert!(pictures(&told).iter().all(|picture| picture.view == now), "frame {frame}");
+    }
 }
 
 #[test]

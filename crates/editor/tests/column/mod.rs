@@ -49,7 +49,9 @@ impl Column {
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let mut asks = Vec::new();
+        let time = Default::default();
         let shown = Shown {
+            time: &time,
             document: &self.document,
             session: &self.session,
             painting: None,
@@ -106,7 +108,9 @@ impl Column {
                 "act".to_owned()
             }
             Ask::Recapture(frame) => format!("ask about frame {frame}"),
-            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => "of another panel".to_owned(),
+            Ask::Timeline(_) | Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => {
+                "of another panel".to_owned()
+            }
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()

@@ -10,6 +10,7 @@ use impasto_editor::theme::{Theme, Tokens};
 use impasto_editor_model::command::SceneEdit;
 use impasto_editor_model::keymap::Preset;
 use impasto_editor_model::session::{Mode, Tool};
+use impasto_editor_model::timeline::{TimeHand, TimelineEvent, lanes};
 use impasto_editor_model::{Command, Document, Session};
 
 pub const COMBING: &str = "[Drag] comb  [Shift] smooth  [Ctrl] against  [F] radius  [Middle] orbit";
@@ -29,6 +30,7 @@ pub enum Shows {
 pub struct Page {
     pub document: Document,
     pub session: Session,
+    pub time: TimeHand,
     pub keys: Preset,
     pub status: String,
     pub recent: Vec<PathBuf>,
@@ -50,6 +52,11 @@ pub fn nothing() -> Document {
     Document::empty(&scenes())
 }
 
+/// An apple before a wall.
+pub fn apple() -> Document {
+    Document::open(&scenes().join("apple.ron"), &Default::default()).expect("the apple opens")
+}
+
 /// A document whose name has no room.
 pub fn with_a_long_name() -> Document {
     let folder = tempfile::tempdir().expect("a folder");
@@ -65,6 +72,7 @@ impl Page {
         Self {
             document: Document::open(&scene, &Default::default()).expect("the still life opens"),
             session: Session::default(),
+            time: TimeHand::default(),
             keys: Preset::Blender,
             status: COMBING.to_owned(),
             recent: vec![scene, PathBuf::from("/pictures/pears.ron")],
@@ -104,6 +112,7 @@ impl Page {
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
         let shown = Shown {
+            time: &self.time,
             document: &self.document,
             session: &self.session,
             painting: None,
@@ -146,6 +155,15 @@ impl Page {
         for ask in asks {
             match ask {
                 Ask::Session(session) => self.session = *session,
+                Ask::Timeline(TimelineEvent::Scrub(frame) | TimelineEvent::GoTo(frame)) => {
+                    self.session.frame = frame;
+                }
+                Ask::Timeline(TimelineEvent::EndScrub) => {}
+                Ask::Timeline(TimelineEvent::Keys(event)) => {
+                    let lanes = lanes(self.document.scene());
+                    let command = self.time.keys.take(event, &lanes);
+                    self.asked.extend(command.map(Ask::Do));
+                }
                 other => self.asked.push(other),
             }
         }

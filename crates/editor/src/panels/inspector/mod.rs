@@ -54,9 +54,10 @@ impl<'a> Asker<'a, '_> {
         &self.shown.document.shown().scene
     }
 
-    /// The scene as the history has it.
+    /// The scene as the history has it, with poses that are not keyed.
     fn stored(&self) -> &'a Scene {
-        self.shown.document.scene()
+        let loose = self.shown.time.loose_scene().map(|loaded| &loaded.scene);
+        loose.unwrap_or(self.shown.document.scene())
     }
 
     fn ask(&mut self, command: Command) {

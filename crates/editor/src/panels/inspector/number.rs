@@ -30,6 +30,8 @@ pub(super) struct Number<'a> {
     pub(super) default: Option<f64>,
     /// The box alone, this wide.
     pub(super) unlabelled: Option<f32>,
+    /// In ochre: it is not kept.
+    pub(super) warns: bool,
 }
 
 /// Any number.
@@ -48,6 +50,7 @@ impl<'a> Number<'a> {
             step: (1.0, 0),
             default: None,
             unlabelled: None,
+            warns: false,
         }
     }
 
@@ -75,6 +78,7 @@ impl Asker<'_, '_> {
             .unit(number.unit)
             .letter(number.letter)
             .step(number.step.0, number.step.1)
+            .warn(number.warns)
             .limits(number.limits.clone().unwrap_or(number.range.clone()))
             .refused(&refused)
             .tip("", number.effect);

@@ -23,7 +23,12 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
     let animate = asker.shown.session.mode == Mode::Animate;
     let is_keyed = object.keys.iter().any(|key| key.frame == frame);
     let title = if animate { format!("Pose at frame {frame}") } else { "Transform".to_owned() };
-    let note = if animate && is_keyed { "keyed" } else { "" };
+    let warns = animate && asker.shown.time.is_loose(&stored.name);
+    let note = match (warns, animate && is_keyed) {
+        (true, _) => "not keyed, I keeps it",
+        (_, true) => "keyed",
+        _ => "",
+    };
     section(ui, (&title, note), true, |ui| {
         let now = motion::key_at(asker.scene(), object, frame);
         let was = motion::key_at(asker.stored(), stored, frame);
@@ -48,6 +53,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
                     unit: if turns { "\u{b0}" } else { "" },
                     step: if turns { (1.0, 1) } else { (0.01, decimals(now[axis])) },
                     unlabelled: Some(width),
+                    warns,
                     ..Number::new(&name, effect_of(animate))
                 };
                 asker.number(ui, &number, [now[axis], was[axis]], |to| set(of_axis(axis), to.unwrap_or(0.0)));
@@ -60,13 +66,14 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
                 limits: Some(KEY_SCALE),
                 step: (0.01, 3),
                 unlabelled: Some(ui.available_width()),
+                warns,
                 ..Number::new("Uniform scale", effect_of(animate))
             };
             asker.number(ui, &number, [now.scale, was.scale], |to| set(PoseField::Scale, to.unwrap_or(1.0)));
         });
     });
     if animate {
-        let key = stored.keys.iter().find(|key| key.frame == frame);
+        let key = stored.keys.iter().find(|key| key.frame == frame && !warns);
         of_key(ui, asker, KeyOf::Object(stored.name.clone()), key.map(|key| key.ease));
     }
 }

@@ -49,7 +49,9 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String
     ctx.enable_accesskit();
     theme::apply(&ctx, Theme::Dark, 1.0);
     let document = Document::empty(std::path::Path::new("."));
+    let time = Default::default();
     let shown = Shown {
+        time: &time,
         document: &document,
         session,
         painting: None,

@@ -62,7 +62,7 @@ impl NumberField<'_> {
         }
         if done {
             ui.data_mut(|data| data.remove::<egui::text_edit::TextEditState>(edit_id));
-            if let Some(number) = number_of(&typed, self.unit).filter(|_| !cancelled && !is_wrong) {
+            if let Some(number) = self.read(&typed).filter(|_| !cancelled && !is_wrong) {
                 self.set(number);
             }
         } else {
@@ -91,7 +91,7 @@ impl NumberField<'_> {
 
     /// What is wrong with what was typed, in words.
     fn wrong_in(&self, typed: &str) -> Option<String> {
-        match number_of(typed, self.unit).filter(|number| self.limits.contains(number)) {
+        match self.read(typed).filter(|number| self.limits.contains(number)) {
             Some(number) => self.refused.and_then(|why| why(number)),
             None => Some(self.limits_in_words()),
         }

@@ -1,0 +1,137 @@
+use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
+
+use super::super::lanes;
+use super::*;
+
+fn scene() -> Scene {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
+    let loaded = impasto_scene::load::load(&path, &Default::default()).expect("a shipped scene");
+    let mut scene = loaded.scene;
+    let camera = |frame| CameraKey { frame, ..scene.camera.keys[0].clone() };
+    scene.camera.keys = vec![camera(0.0), camera(119.0)];
+    scene.objects.truncate(1);
+    scene.objects[0].name = "apple".to_owned();
+    let key = |frame, ease| ObjectKey { ease, ..ObjectKey::at(frame) };
+    scene.objects[0].keys = vec![key(0.0, Ease::Smooth), key(60.0, Ease::Linear), key(96.0, Ease::Step)];
+    scene
+}
+
+fn apple(frame: f64) -> KeyAt {
+    (KeyOf::Object("apple".to_owned()), frame)
+}
+
+/// Four points a frame, lanes of 32 points.
+fn at(frame: f64, lane: usize) -> Place {
+    Place { x_px: frame * 4.0, y_px: lane as f64 * 32.0 + 16.0, frame, lane }
+}
+
+fn press(key: Option<KeyAt>, at: Place) -> KeysEvent {
+    KeysEvent::Press { at, key, adds: false }
+}
+
+fn time(command: Option<Command>) -> Option<Time> {
+    command.map(|command| match command {
+        Command::Time(time) => time,
+        other => panic!("{other:?}"),
+    })
+}
+
+#[test]
+fn a_drag_of_three_points_snaps_to_frames_and_is_one_command() {
+    let lanes = lanes(&scene());
+    let mut hand = KeysHand::default();
+    assert_eq!(hand.take(press(Some(apple(60.0)), at(60.2, 1)), &lanes), None);
+    assert_eq!(hand.selected(), [apple(60.0)]);
+    hand.take(KeysEvent::Move(at(60.7, 1)), &lanes);
+    assert_eq!(hand.dragged(), None, "two points are a trembling hand");
+    for to in [65.0, 70.0, 72.8] {
+        assert_eq!(hand.take(KeysEvent::Move(at(to, 1)), &lanes), None, "nothing is done before the release");
+    }
+    assert_eq!(hand.dragged(), Some(Dragged { by: 13.0, copies: false }));
+    let moved = time(hand.take(KeysEvent::Release, &lanes));
+    assert_eq!(moved, Some(Time::MoveKeys(vec![apple(60.0)], 13.0)));
+    assert_eq!(hand.dragged(), None);
+    assert_eq!(hand.take(KeysEvent::Release, &lanes), None);
+}
+
+#[test]
+fn what_a_drag_would_replace_is_told_before_and_escape_leaves_no_trace() {
+    let lanes = lanes(&scene());
+    let mut hand = KeysHand::default();
+    hand.take(press(Some(apple(60.0)), at(60.0, 1)), &lanes);
+    hand.take(KeysEvent::Move(at(95.0, 1)), &lanes);
+    assert_eq!(hand.replaces(&lanes), []);
+    hand.take(KeysEvent::Move(at(96.0, 1)), &lanes);
+    assert_eq!(hand.replaces(&lanes), [apple(96.0)]);
+    hand.take(KeysEvent::Cancel, &lanes);
+    assert_eq!((hand.dragged(), hand.selected()), (None, &[apple(60.0)][..]));
+    assert_eq!(hand.take(KeysEvent::Release, &lanes), None);
+    // A key that goes along makes room for the one behind it; of copies, the keys themselves stay.
+    hand.take(KeysEvent::Press { at: at(96.0, 1), key: Some(apple(96.0)), adds: true }, &lanes);
+    hand.take(KeysEvent::Move(at(132.0, 1)), &lanes);
+    assert_eq!(hand.dragged().map(|dragged| dragged.by), Some(36.0));
+    assert_eq!(hand.replaces(&lanes), []);
+    hand.take(KeysEvent::Copy, &lanes);
+    assert_eq!(hand.replaces(&lanes), [apple(96.0)]);
+    let copied = time(hand.take(KeysEvent::Release, &lanes));
+    assert_eq!(copied, Some(Time::CopyKeys(vec![apple(60.0), apple(96.0)], 36.0)));
+}
+
+#[test]
+fn copies_follow_the_pointer_until_a_press() {
+    let lanes = lanes(&scene());
+    let mut hand = KeysHand::default();
+    assert_eq!(hand.take(KeysEvent::Copy, &lanes), None);
+    assert!(!hand.follows(), "nothing is selected");
+    hand.take(KeysEvent::Select(apple(0.0)), &lanes);
+    hand.take(KeysEvent::Copy, &lanes);
+    hand.take(KeysEvent::Move(at(50.0, 1)), &lanes);
+    hand.take(KeysEvent::Move(at(60.0, 1)), &lanes);
+    assert!(hand.follows());
+    let copied = time(hand.take(press(Some(apple(0.0)), at(60.0, 1)), &lanes));
+    assert_eq!(copied, Some(Time::CopyKeys(vec![apple(0.0)], 10.0)));
+    assert_eq!(hand.take(KeysEvent::Release, &lanes), None, "the button of that press goes up");
+}
+
+#[test]
+fn a_box_selects_across_lanes_and_a_click_beside_keys_does_what_it_says() {
+    let lanes = lanes(&scene());
+    let mut hand = KeysHand::default();
+    hand.take(press(None, at(110.0, 1)), &lanes);
+    hand.take(KeysEvent::Move(at(125.0, 0)), &lanes);
+    assert_eq!(hand.selected(), [(KeyOf::Camera, 119.0)]);
+    hand.take(KeysEvent::Move(at(50.0, 1)), &lanes);
+    assert_eq!(hand.selected(), [apple(60.0), apple(96.0)]);
+    assert!(hand.boxed().is_some());
+    assert_eq!(hand.take(KeysEvent::Release, &lanes), None);
+    assert_eq!(hand.selected().len(), 2);
+    // Between two keys a click changes the way from one to the other, and selects nothing else.
+    let eased = |hand: &mut KeysHand, frame| {
+        hand.take(press(None, at(frame, 1)), &lanes);
+        time(hand.take(KeysEvent::Release, &lanes))
+    };
+    assert_eq!(eased(&mut hand, 30.0), Some(Time::SetEase(vec![apple(0.0)], Ease::Linear)));
+    assert_eq!(eased(&mut hand, 80.0), Some(Time::SetEase(vec![apple(60.0)], Ease::Step)));
+    assert_eq!(hand.selected().len(), 2);
+    // Behind the last there is no way to change: nothing is selected.
+    assert_eq!(eased(&mut hand, 110.0), None);
+    assert_eq!(hand.selected(), []);
+    assert!(!hand.has_focus());
+}
+
+#[test]
+fn keys_stay_within_the_frames_that_there_are() {
+    let lanes = lanes(&scene());
+    let mut hand = KeysHand::default();
+    hand.take(KeysEvent::SelectAll, &lanes);
+    assert_eq!(hand.selected().len(), 5);
+    hand.take(press(Some(apple(0.0)), at(0.0, 1)), &lanes);
+    hand.take(KeysEvent::Move(at(4e12, 1)), &lanes);
+    assert_eq!(hand.dragged().map(|dragged| dragged.by), Some(MAX_FRAME - 119.0));
+    hand.take(KeysEvent::Move(at(-4e12, 1)), &lanes);
+    assert_eq!(hand.dragged().map(|dragged| dragged.by), Some(-MAX_FRAME));
+    hand.take(KeysEvent::Cancel, &lanes);
+    let fewer = lanes[..1].to_vec();
+    hand.retain(&fewer);
+    assert_eq!(hand.selected().len(), 2, "the apple is gone");
+}

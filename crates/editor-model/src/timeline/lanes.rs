@@ -1,0 +1,84 @@
+//! Lanes: whose keys lie where.
+
+use impasto_scene::document::{Ease, Scene};
+
+use crate::command::KeyOf;
+
+/// A key: whose it is, and its frame.
+pub type KeyAt = (KeyOf, f64);
+
+/// A key in its lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneKey {
+    /// Its frame.
+    pub frame: f64,
+    /// How values leave it.
+    pub ease: Ease,
+}
+
+/// The keys of one thing, in the order of frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lane {
+    /// Whose.
+    pub of: KeyOf,
+    /// They cannot be changed.
+    pub locked: bool,
+    /// The keys.
+    pub keys: Vec<LaneKey>,
+}
+
+impl Lane {
+    /// Whether there is a key at a frame.
+    pub fn has(&self, frame: f64) -> bool {
+        self.keys.iter().any(|key| key.frame == frame)
+    }
+
+    /// The key whose ease holds at a place between two keys.
+    pub fn left_of(&self, frame: f64) -> Option<LaneKey> {
+        let right = self.keys.partition_point(|key| key.frame <= frame);
+        (right > 0 && right < self.keys.len()).then(|| self.keys[right - 1])
+    }
+}
+
+/// A lane for the camera and one for each object, in the order of the file.
+pub fn lanes(scene: &Scene) -> Vec<Lane> {
+    let keys = &scene.camera.keys;
+    let camera = Lane {
+        of: KeyOf::Camera,
+        locked: false,
+        keys: keys.iter().map(|key| LaneKey { frame: key.frame, ease: key.ease }).collect(),
+    };
+    let objects = scene.objects.iter().map(|object| Lane {
+        of: KeyOf::Object(object.name.clone()),
+        locked: object.locked,
+        keys: object.keys.iter().map(|key| LaneKey { frame: key.frame, ease: key.ease }).collect(),
+    });
+    std::iter::once(camera).chain(objects).collect()
+}
+
+/// The frames at which anything has a key, in order, each once.
+pub fn keyed_frames(scene: &Scene) -> Vec<f64> {
+    let mut frames: Vec<f64> =
+        lanes(scene).iter().flat_map(|lane| lane.keys.iter().map(|key| key.frame)).collect();
+    frames.sort_by(f64::total_cmp);
+    frames.dedup();
+    frames
+}
+
+/// The ease that a click brings after this one.
+pub fn next_ease(ease: Ease) -> Ease {
+    match ease {
+        Ease::Smooth => Ease::Linear,
+        Ease::Linear => Ease::Step,
+        Ease::Step => Ease::Smooth,
+    }
+}
+
+/// What people call it.
+pub fn ease_name(ease: Ease) -> &'static str {
+    match ease {
+        Ease::Smooth => "smooth",
+        Ease::Linear => "linear",
+        Ease::Step => "hold",
+    }
+}

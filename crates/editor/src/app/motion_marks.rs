@@ -1,0 +1,74 @@
+//! What Animate shows of a motion: the way of the selected object with its keys, and where it stands at those beside this frame.
+
+use glam::DVec3;
+use impasto_painting::Painting;
+use impasto_scene::document::Scene;
+use impasto_scene::motion;
+
+use super::marks::bodies;
+use crate::viewport::Framing;
+use crate::viewport::overlay::{MotionPath, Outline};
+use crate::viewport::surface_map::SurfaceMap;
+
+use super::marks::Seen;
+
+/// A way has no more dots than this.
+const MOST_PLACES: f64 = 400.0;
+/// Ghosts are looked at coarsely: cells a point.
+const CELLS_PER_POINT: f64 = 0.3;
+
+/// Where an object goes from its first key to its last; none where it stands still.
+pub(super) fn path(scene: &Scene, object: usize) -> Option<MotionPath> {
+    let keys = &scene.objects.get(object)?.keys;
+    let (first, last) = (keys.first()?.frame, keys.last()?.frame);
+    let place = |frame: f64| motion::poses_at(scene, frame)[object].translation;
+    let step = ((last - first) / MOST_PLACES).max(1.0);
+    let count = ((last - first) / step).floor() as usize;
+    let places = (0..=count).map(|index| first + index as f64 * step).chain([last]);
+    let places: Vec<DVec3> = places.map(place).collect();
+    let moves = places.iter().any(|at| at.distance_squared(places[0]) > 1e-12);
+    let keys = keys.iter().map(|key| (key.frame, place(key.frame))).collect();
+    moves.then_some(MotionPath { places, keys })
+}
+
+/// The object's outlines at the keys before and after a frame, with the camera where it is now.
+pub(super) fn ghosts(painting: &Painting, seen: &Seen<'_>, framing: &Framing, object: usize) -> Vec<Outline> {
+    let Some(keys) = painting.scene().objects.get(object).map(|object| &object.keys) else {
+        return Vec::new();
+    };
+    let frames = keys.iter().map(|key| key.frame);
+    let before = frames.clone().rfind(|frame| *frame < seen.frame);
+    let after = frames.clone().find(|frame| *frame > seen.frame);
+    let view = framing.view(seen.camera);
+    let ghost = |frame: f64| {
+        let mut bodies = bodies(painting, frame);
+        for (index, body) in bodies.iter_mut().enumerate() {
+            body.visible &= index == object;
+        }
+        Outline::new(&SurfaceMap::new(&bodies, &view, CELLS_PER_POINT), |other| other == object)
+    };
+    before.into_iter().chain(after).map(ghost).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use impasto_scene::document::ObjectKey;
+
+    use super::*;
+
+    #[test]
+    fn a_way_goes_from_key_to_key_and_what_stands_still_has_none() {
+        let path_of = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
+        let mut scene = impasto_scene::load::load(&path_of, &Default::default()).expect("it opens").scene;
+        assert_eq!(path(&scene, 1), None);
+        let key = |frame, x| ObjectKey { translation: [x, 0.0, 0.0], ..ObjectKey::at(frame) };
+        scene.objects[1].keys = vec![key(0.0, -1.0), key(60.0, 1.0)];
+        let way = path(&scene, 1).expect("it moves");
+        assert_eq!(way.keys, [(0.0, DVec3::NEG_X), (60.0, DVec3::X)]);
+        assert_eq!((way.places.first(), way.places.last()), (Some(&DVec3::NEG_X), Some(&DVec3::X)));
+        assert_eq!(way.places.len(), 62, "one a frame, and the end");
+        scene.objects[1].keys[1].frame = 1e9;
+        assert!(path(&scene, 1).is_some_and(|way| way.places.len() <= 402), "a long film has no more");
+        assert_eq!(path(&scene, 9), None);
+    }
+}

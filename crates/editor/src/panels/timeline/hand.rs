@@ -1,0 +1,137 @@
+//! The pointer over the lanes: every press and release counts, however many come in one pass.
+
+use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
+use impasto_editor_model::command::{Command, Time};
+use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, Place, TimelineEvent, ease_name};
+use impasto_scene::document::Ease;
+
+use super::across::Across;
+use crate::panels::{Ask, Shown};
+use crate::theme::measure;
+use crate::widgets::MenuRow;
+
+/// The lanes as they lie in the window.
+#[derive(Clone, Copy)]
+pub(super) struct Lying<'a> {
+    /// What is seen of them.
+    pub(super) area: Rect,
+    /// Top of the first lane.
+    pub(super) top: f32,
+    /// Height of one.
+    pub(super) lane: f32,
+    /// Frames.
+    pub(super) across: Across,
+    /// The lanes.
+    pub(super) lanes: &'a [Lane],
+}
+
+impl Lying<'_> {
+    fn place(&self, at: Pos2) -> Place {
+        let y = at.y - self.top;
+        // Above the first lane there is the first.
+        let lane = (y / self.lane).floor().max(0.0) as usize;
+        Place { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
+    }
+
+    /// The key under the pointer: the nearest of its lane.
+    fn key(&self, at: Pos2) -> Option<KeyAt> {
+        let lane = self.lanes.get(self.place(at).lane)?;
+        let distance = |frame: f64| (self.across.x(frame) - at.x).abs();
+        let near = lane.keys.iter().map(|key| key.frame);
+        let nearest = near.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
+        (distance(nearest) <= measure::HIT / 2.0).then(|| (lane.of.clone(), nearest))
+    }
+}
+
+/// What the pointer remembers between passes.
+#[derive(Clone, Debug, Default)]
+struct Memory {
+    down: bool,
+    /// What a menu is open for: keys, whether they were hit, and the place.
+    menu: Option<(Vec<KeyAt>, bool, Pos2)>,
+}
+
+/// Hands the pointer's events on.
+pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+    let id = ui.scope_id().with("lanes hand");
+    let layer = ui.layer_id();
+    let ctx = ui.ctx().clone();
+    let over = |at| lying.area.contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
+    let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
+    let mut tell = |event| asks.push(Ask::Timeline(TimelineEvent::Keys(event)));
+    let follows = shown.time.keys.follows();
+    for event in ui.input(|input| input.events.clone()) {
+        match event {
+            Event::PointerMoved(at) if memory.down || follows && over(at) => {
+                tell(KeysEvent::Move(lying.place(at)));
+            }
+            Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers } => {
+                if pressed && over(pos) {
+                    memory.down = true;
+                    let adds = modifiers.shift || modifiers.command;
+                    tell(KeysEvent::Press { at: lying.place(pos), key: lying.key(pos), adds });
+                } else if !pressed && std::mem::take(&mut memory.down) {
+                    tell(KeysEvent::Release);
+                }
+            }
+            Event::PointerButton { pos, button: PointerButton::Secondary, pressed: true, .. }
+                if over(pos) =>
+            {
+                if memory.down || follows {
+                    memory.down = false;
+                    tell(KeysEvent::Cancel);
+                    continue;
+                }
+                let keys = match lying.key(pos) {
+                    Some(key) if shown.time.keys.contains(&key.0, key.1) => {
+                        Some((shown.time.keys.selected().to_vec(), true))
+                    }
+                    Some(key) => Some((vec![key], true)),
+                    None => between(lying, pos).map(|key| (vec![key], false)),
+                };
+                memory.menu = keys.map(|(keys, hit)| (keys, hit, pos));
+                if memory.menu.is_some() {
+                    Popup::open_id(&ctx, id);
+                }
+            }
+            Event::WindowFocused(false) if memory.down || follows => {
+                memory.down = false;
+                tell(KeysEvent::Cancel);
+            }
+            _ => {}
+        }
+    }
+    if let Some((keys, hit, at)) = &memory.menu {
+        menu(ui, (id, *at), (keys, *hit), asks);
+    }
+    ui.data_mut(|data| data.insert_temp(id, memory));
+}
+
+/// The key that a place between two keys belongs to.
+fn between(lying: &Lying<'_>, at: Pos2) -> Option<KeyAt> {
+    let place = lying.place(at);
+    let lane = lying.lanes.get(place.lane)?;
+    Some((lane.of.clone(), lane.left_of(place.frame)?.frame))
+}
+
+/// Eases, and for keys their end.
+fn menu(ui: &Ui, (id, at): (Id, Pos2), (keys, hit): (&[KeyAt], bool), asks: &mut Vec<Ask>) {
+    let anchor = PopupAnchor::Position(at);
+    let popup = Popup::new(id, ui.ctx().clone(), anchor, ui.layer_id());
+    popup.kind(egui::PopupKind::Menu).open_memory(None).width(150.0).show(|ui| {
+        for ease in [Ease::Smooth, Ease::Linear, Ease::Step] {
+            let words = format!("Ease {}", ease_name(ease));
+            if (MenuRow { words: &words, ..MenuRow::default() }).show(ui).clicked() {
+                asks.push(Ask::Do(Command::Time(Time::SetEase(keys.to_vec(), ease))));
+                ui.close();
+            }
+        }
+        if hit {
+            let words = if keys.len() == 1 { "Delete key" } else { "Delete keys" };
+            if (MenuRow { words, keys: "Delete", ..MenuRow::default() }).show(ui).clicked() {
+                asks.push(Ask::Do(Command::Time(Time::DeleteKeys(keys.to_vec()))));
+                ui.close();
+            }
+        }
+    });
+}

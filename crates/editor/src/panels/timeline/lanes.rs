@@ -1,0 +1,186 @@
+//! The lanes: names at the left, keys and the ways between them at the right.
+
+use egui::{
+    Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
+};
+use impasto_editor_model::command::KeyOf;
+use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent, ease_name};
+use impasto_editor_model::{Item, Selection};
+use impasto_scene::document::Ease;
+
+use super::across::{Across, KEY, diamond, filled};
+use crate::icons;
+use crate::panels::{Ask, Shown, text_width};
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{self, Tip};
+
+/// How far the way between two keys swings, points.
+const SWING: f32 = 3.0;
+
+/// Where a lane is drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Row {
+    /// The whole row.
+    pub(super) rect: Rect,
+    /// Where its name ends.
+    pub(super) names: f32,
+    /// Frames.
+    pub(super) across: Across,
+}
+
+/// The thing whose keys they are.
+pub(super) fn item(of: &KeyOf) -> Item {
+    match of {
+        KeyOf::Camera => Item::Camera,
+        KeyOf::Object(name) => Item::Object(name.clone()),
+    }
+}
+
+/// What stands before the keys: a click selects; the camera can be locked to the view.
+pub(super) fn name(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+    let mut rect = row.rect;
+    rect.max.x = row.names;
+    let item = item(&lane.of);
+    let tokens = Tokens::of(ui);
+    let response = ui.interact(rect, ui.scope_id().with(("lane", lane.of.name())), Sense::click());
+    let label = format!("Select {}", lane.of.name());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    if response.clicked() {
+        asks.push(Ask::Select(Selection::only(item.clone())));
+    }
+    if response.hovered() && !shown.document.selection().contains(&item) {
+        ui.painter().rect_filled(rect, 0.0, tokens.hov);
+    }
+    let icon = if lane.of == KeyOf::Camera { icons::CAMERA } else { icons::OBJECT };
+    let at = pos2(rect.left() + 20.0, rect.center().y);
+    let font = type_face::icon(measure::SMALL_ICON);
+    ui.painter().text(at, Align2::CENTER_CENTER, icon.glyph(), font, tokens.weak);
+    let mut job =
+        egui::text::LayoutJob::simple_singleline(lane.of.name().to_owned(), type_face::body(), tokens.text);
+    job.wrap = egui::text::TextWrapping::truncate_at_width((rect.width() - 72.0).max(20.0));
+    let galley = ui.painter().layout_job(job);
+    let at = pos2(rect.left() + 36.0, rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(at, galley, tokens.text);
+    if response.has_focus() {
+        let ring = Stroke::new(2.0, tokens.accent_text);
+        ui.painter().rect_stroke(rect.shrink(2.0), measure::CORNER, ring, egui::StrokeKind::Inside);
+    }
+    let end = Rect::from_center_size(pos2(rect.right() - 18.0, rect.center().y), vec2(26.0, 26.0));
+    if lane.of == KeyOf::Camera {
+        let mut locked = shown.session.lock_to_view;
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(end));
+        let icon = if locked { icons::LOCKED } else { icons::UNLOCKED };
+        let response = widgets::icon_toggle(&mut ui, icon, "Lock to view", &mut locked);
+        let effect = "In Animate, moving the view through the shot camera keys the shot.";
+        let tip = Tip { name: "Lock to view", key: "", effect, range: "" };
+        if tip.on(response).changed() {
+            asks.push(shown.session_with(|session| session.lock_to_view = locked));
+        }
+    } else if lane.locked {
+        let font = type_face::icon(measure::SMALL_ICON);
+        ui.painter().text(end.center(), Align2::CENTER_CENTER, icons::LOCKED.glyph(), font, tokens.weak);
+    }
+}
+
+/// The keys of a lane, the ways between them, and what a drag would do.
+pub(super) fn keys(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+    let mut rect = row.rect;
+    rect.min.x = row.names;
+    let label = format!("{} keys", lane.of.name());
+    let list = ui.interact(rect, ui.scope_id().with(("keys", lane.of.name())), Sense::hover());
+    list.widget_info(|| WidgetInfo::labeled(Role::List, true, &label));
+    let tokens = Tokens::of(ui);
+    let middle = rect.center().y;
+    if lane.keys.is_empty() {
+        let at = pos2(row.across.left + 8.0, middle);
+        let words = "no keys, press I";
+        ui.painter().text(at, Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
+    }
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    for pair in lane.keys.windows(2) {
+        let [from, to] = [0, 1].map(|index| row.across.x(pair[index].frame));
+        if to - from > 2.0 * KEY + 4.0 {
+            painter.line(way([from + KEY + 2.0, to - KEY - 2.0], middle, pair[0].ease), (1.3, tokens.out));
+        }
+    }
+    let hand = &shown.time.keys;
+    let dragged = hand.dragged().filter(|dragged| dragged.by != 0.0);
+    let replaced: Vec<f64> = hand
+        .replaces(std::slice::from_ref(lane))
+        .into_iter()
+        .filter(|(of, _)| *of == lane.of)
+        .map(|(_, frame)| frame)
+        .collect();
+    for key in &lane.keys {
+        let at = pos2(row.across.x(key.frame), middle);
+        let is_selected = hand.contains(&lane.of, key.frame);
+        let leaves = is_selected && dragged.is_some_and(|dragged| !dragged.copies);
+        let is_replaced = replaced.contains(&key.frame);
+        let fade = if leaves || is_replaced { 0.35 } else { 1.0 };
+        mark(&painter, at, key.ease, tokens.key.gamma_multiply(fade));
+        if is_selected && dragged.is_none() {
+            painter.add(Shape::closed_line(diamond(at, 10.0), Stroke::new(1.5, tokens.text)));
+        }
+        if let Some(dragged) = dragged.filter(|_| is_selected) {
+            let to = pos2(row.across.x(key.frame + dragged.by), middle);
+            mark(&painter, to, key.ease, tokens.key);
+            painter.add(Shape::closed_line(diamond(to, 10.0), Stroke::new(1.5, tokens.text)));
+        }
+        node(ui, (lane, key, at), &list, (is_selected, asks));
+    }
+    for frame in replaced {
+        let at = pos2(row.across.x(frame) + 14.0, middle);
+        let words = format!("replaces {frame}");
+        let wide = text_width(ui, &words, type_face::small());
+        let ground = Rect::from_min_size(at - vec2(4.0, 9.0), vec2(wide + 8.0, 18.0));
+        painter.rect_filled(ground, 3.0, tokens.panel);
+        painter.text(at, Align2::LEFT_CENTER, words, type_face::small(), tokens.vermilion);
+    }
+}
+
+/// What a screen reader finds of a key, and what a click of its does.
+fn node(
+    ui: &mut Ui,
+    (lane, key, at): (&Lane, &LaneKey, Pos2),
+    list: &egui::Response,
+    (selected, asks): (bool, &mut Vec<Ask>),
+) {
+    let hit = Rect::from_center_size(at, vec2(measure::HIT, measure::HIT));
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(hit).accessibility_parent(list.id));
+    let response = ui.interact(hit, list.id.with(key.frame.to_bits()), Sense::hover());
+    let label = format!("key at frame {}, {}", key.frame, ease_name(key.ease));
+    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, &label));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.add_action(accesskit::Action::Click));
+    if ui.input(|input| input.has_accesskit_action_request(response.id, accesskit::Action::Click)) {
+        let key = (lane.of.clone(), key.frame);
+        asks.push(Ask::Timeline(TimelineEvent::Keys(KeysEvent::Select(key))));
+    }
+    let _ = &mut ui;
+}
+
+fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
+    match ease {
+        Ease::Smooth => drop(painter.add(filled(diamond(at, KEY + 1.5), colour))),
+        Ease::Linear => drop(painter.circle_filled(at, KEY, colour)),
+        Ease::Step => {
+            let rect = Rect::from_center_size(at, vec2(2.0 * KEY - 1.0, 2.0 * KEY - 1.0));
+            painter.rect_filled(rect, 0.0, colour);
+        }
+    }
+}
+
+/// The way from one key to the next.
+fn way([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
+    let (low, high) = (middle + SWING, middle - SWING);
+    match ease {
+        Ease::Step => vec![pos2(from, low), pos2(to, low), pos2(to, high)],
+        Ease::Linear => vec![pos2(from, low), pos2(to, high)],
+        Ease::Smooth => (0..=24_u8)
+            .map(|step| {
+                let part = f32::from(step) / 24.0;
+                let share = part * part * (3.0 - 2.0 * part);
+                pos2(from + (to - from) * part, low + (high - low) * share)
+            })
+            .collect(),
+    }
+}

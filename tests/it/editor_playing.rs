@@ -1,0 +1,161 @@
+//! A film in the editor: the frame that the clock asks for is shown, what is not is counted, and every frame is what the
+//! renderer makes of it.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec2;
+use impasto_editor_model::Editor;
+use impasto_editor_model::document::Document;
+use impasto_editor_model::keymap::Action;
+use impasto_editor_model::picking::View;
+use impasto_editor_model::playback::Pacing;
+use impasto_editor_model::timeline::TimelineEvent;
+use impasto_painting::{FrameOptions, prepare};
+use impasto_scene::load::LoadOptions;
+use impasto_tests::command::root;
+use impasto_tests::screen::{EditorWindow, Screen, wait_for};
+
+/// Frames of the film.
+const FRAMES: f64 = 120.0;
+/// Frames a second.
+const FPS: f64 = 24.0;
+
+/// A folder with a film of 120 frames: the apple alone, of few particles, rolls while the camera goes by.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = root().join("scenes");
+    std::fs::create_dir(folder.path().join("meshes")).unwrap();
+    for name in ["apple.obj", "apple.mtl"] {
+        let name = Path::new("meshes").join(name);
+        std::fs::copy(scenes.join(&name), folder.path().join(&name)).unwrap();
+    }
+    let shipped = std::fs::read_to_string(scenes.join("apple.ron")).unwrap();
+    let alone: String = shipped.split_inclusive('\n').filter(|line| !line.contains("\"wall\"")).collect();
+    let key = "keys: [(frame: 0, translation: (0, 0, 0), rotation_deg: (0, -25, 0))]";
+    let rolls = "keys: [(frame: 0, rotation_deg: (0, -25, 0)), (frame: 119, rotation_deg: (0, -25, -180))]";
+    assert!(alone.contains(key) && alone.contains("last: 90") && alone.contains("particles: 45658"));
+    let film = alone.replacen(key, rolls, 1).replacen("last: 90", "last: 119", 1).replacen(
+        "particles: 45658",
+        "particles: 1500",
+        1,
+    );
+    std::fs::write(folder.path().join("film.ron"), film).unwrap();
+    folder
+}
+
+/// A frame that came up, where the clock stood (in frames), and what had been dropped by then.
+#[derive(Clone, Copy, Debug)]
+struct CameUp {
+    frame: f64,
+    clock: f64,
+    dropped: f64,
+}
+
+fn came_up(editor: &EditorWindow<'_>) -> Vec<CameUp> {
+    let number = |text: Option<&str>| text.unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap();
+    let line = |line: String| {
+        let mut parts = line.split(", ");
+        let [frame, clock, dropped] = [(); 3].map(|()| number(parts.next()));
+        CameUp { frame, clock, dropped }
+    };
+    editor.told("playing: ").into_iter().map(line).collect()
+}
+
+/// From the first to the second on a film that begins again.
+fn onward(from: f64, to: f64) -> f64 {
+    (to - from).rem_euclid(FRAMES)
+}
+
+#[test]
+fn a_film_keeps_to_the_clock_and_counts_what_it_drops() {
+    let Some(screen) = Screen::open() else { return };
+    let folder = folder();
+    let mut editor = EditorWindow::open(&screen, "playing", folder.path(), "film.ron");
+    editor.keys(&["space"]);
+    wait_for("more than a round of the film", || {
+        let shown = came_up(&editor);
+        (shown.len() > 60 && shown.windows(2).any(|pair| pair[1].clock < pair[0].clock)).then_some(())
+    });
+    editor.keep_picture("midst");
+    editor.keys(&["space"]);
+    let last = wait_for("the frame that it stopped at, exactly drawn", || {
+        let frame = came_up(&editor).last()?.frame;
+        let value = format!("Arrange, select, shot camera, frame {frame}");
+        editor.rest().1.starts_with(&value).then_some(frame)
+    });
+    assert!((0.0..FRAMES).contains(&last) && last.fract() == 0.0);
+
+    let shown = came_up(&editor);
+    let (mut before, mut dropped) = (0.0, 0.0);
+    for now in &shown {
+        dropped += onward(before, now.frame) - 1.0;
+        assert_eq!(now.dropped, dropped, "{now:?}");
+        before = now.frame;
+    }
+    // How far the clock was from the time that each frame is for, milliseconds. At first it learns how long drawing takes.
+    let off = |now: &CameUp| {
+        let late = onward(now.frame, now.clock);
+        let off = if late > FRAMES / 2.0 { FRAMES - late } else { (late - 1.0).max(0.0) };
+        off * 1000.0 / FPS
+    };
+    let mut off_ms: Vec<f64> = shown.iter().skip(20).map(off).collect();
+    off_ms.sort_by(f64::total_cmp);
+    let [median, most] = [0.5, 0.9].map(|share| off_ms[(off_ms.len() as f64 * share) as usize]);
+    println!(
+        "{} frames shown, {dropped} dropped; off the clock by {median:.1} ms in the middle, 9 of 10 by {most:.1} ms",
+        shown.len()
+    );
+    assert!(median <= 50.0, "{median} ms off the clock in the middle");
+    assert_eq!(editor.quit(), Some(0));
+}
+
+#[test]
+fn what_is_played_scrubbed_to_and_rendered_is_the_same_to_the_bit() {
+    let folder = folder();
+    let path = folder.path().join("film.ron");
+    let document = Document::open(&path, &LoadOptions::default()).unwrap();
+    let painting = prepare(Arc::clone(document.loaded())).unwrap();
+    // What `impasto render` prepares: the file, read anew.
+    let rendered =
+        prepare(Arc::clone(Document::open(&path, &LoadOptions::default()).unwrap().loaded())).unwrap();
+    let options = FrameOptions::new([320, 180]);
+    let mut editor = Editor::new(document);
+    editor.prepared(painting.clone());
+    for pacing in [Pacing::RealTime, Pacing::EveryFrame] {
+        editor.session.pacing = pacing;
+        editor.session.frame = 110.0;
+        let view = View { camera: editor.camera(), size_px: DVec2::new(320.0, 180.0) };
+        editor.tick(0.0);
+        editor.act(Action::Play, &view);
+        let mut asked = Vec::new();
+        for step in 1..=200 {
+            editor.tick(f64::from(step) * 0.0137);
+            let frame = editor.frame_to_draw();
+            if editor.shown_frame(frame) {
+                asked.push(frame);
+            }
+        }
+        assert!(asked.len() > 50, "{pacing:?}: {}", asked.len());
+        assert!(asked.iter().all(|frame| frame.fract() == 0.0 && (0.0..FRAMES).contains(frame)), "{asked:?}");
+        assert!(asked.contains(&0.0) && asked.contains(&119.0), "it went over the seam");
+        for &frame in asked.iter().step_by(9) {
+            let strokes = |painting: &impasto_painting::Painting, camera, frame| {
+                let frame = painting.seen_by(camera, frame, &options);
+                assert!(frame.strokes.len() > 300);
+                format!("{:?}", (frame.strokes, frame.view))
+            };
+            let played = strokes(&painting, &editor.camera_at(frame), frame);
+            editor.timeline(TimelineEvent::Scrub(frame));
+            let scrubbed = strokes(&painting, &editor.camera(), editor.session.frame);
+            let there = rendered.at(frame, &options);
+            assert!(played == scrubbed, "{pacing:?}: frame {frame} by a scrub");
+            assert!(
+                played == format!("{:?}", (there.strokes, there.view)),
+                "{pacing:?}: frame {frame} rendered"
+            );
+        }
+        editor.timeline(TimelineEvent::EndScrub);
+        editor.act(Action::Play, &view);
+    }
+}
