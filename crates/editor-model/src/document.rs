@@ -306,6 +306,13 @@ impl Document {
         file.map_or_else(|| "Untitled".to_owned(), |name| name.to_string_lossy().into_owned())
     }
 
+    /// A file name to begin with for a copy: *still_life_copy.ron*.
+    pub fn suggested_copy(&self) -> PathBuf {
+        let own = self.suggested_file();
+        let stem = own.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        own.with_file_name(format!("{stem}_copy.ron"))
+    }
+
     /// The folder that the scene's files are named from.
     pub fn folder(&self) -> &Path {
         let folder = self.loaded.path.parent().filter(|folder| !folder.as_os_str().is_empty());

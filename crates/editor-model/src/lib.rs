@@ -27,6 +27,7 @@ pub mod stamp;
 pub mod stroke_fields;
 pub mod tools;
 pub mod transform;
+pub mod watch;
 
 pub use command::Command;
 pub use document::Document;

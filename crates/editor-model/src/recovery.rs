@@ -103,8 +103,8 @@ impl Recovery {
 
     /// The copies that sessions left behind, the newest first. Takes away what they left besides, and all but the newest
     /// [`MAX_COPIES`].
-    pub fn offers(&self) -> Vec<Offer> {
-        let Ok(entries) = fs::read_dir(&self.folder) else { return Vec::new() };
+    pub fn offers(folder: &Path) -> Vec<Offer> {
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
         let files: Vec<PathBuf> =
             entries.take(MAX_ENTRIES).filter_map(|entry| Some(entry.ok()?.path())).collect();
         let has_ending =
@@ -124,7 +124,7 @@ impl Recovery {
         }
         for file in files.iter().filter(|file| has_ending(file, LOCK) || has_ending(file, PART)) {
             let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-            let session = self.folder.join(stem.split('~').next().unwrap_or_default());
+            let session = folder.join(stem.split('~').next().unwrap_or_default());
             let lock = File::open(session.with_extension(LOCK));
             let is_dead = lock.map_or(true, |lock| lock.try_lock().is_ok());
             if is_dead && !session.with_extension(COPY).exists() {

@@ -68,12 +68,21 @@ impl Document {
         Ok(file)
     }
 
-    /// Whether the document's file holds other bytes than were read or written last.
+    /// As [`Document::save`], in the place of what somebody else wrote since.
+    ///
+    /// # Errors
+    /// As [`Document::save_as`], and where there is no file yet.
+    pub fn save_over(&mut self) -> Result<PathBuf, SaveError> {
+        let file = self.file.clone().ok_or(SaveError::Unnamed)?;
+        self.save_as(&file)?;
+        Ok(file)
+    }
+
+    /// Whether the document's file holds other bytes than were read or written last. One that is gone is nothing that could
+    /// be lost.
     pub fn is_changed_outside(&self) -> bool {
-        self.file.as_ref().is_some_and(|file| {
-            // A file that is gone is nothing that could be lost.
-            Stamp::is_other(self.stamp.as_ref(), file) && file.exists()
-        })
+        let is_other = |file: &PathBuf| Stamp::is_other(self.stamp.as_ref(), file) && file.exists();
+        self.file.as_ref().is_some_and(is_other)
     }
 
     /// Writes the scene to a file, which is its own from then on. The history stays.

@@ -166,8 +166,7 @@ impl Document {
         self.select(before.clone());
         self.history.push(words.clone(), change, [before, self.selection.clone()]);
         self.history.mark_sources(sources);
-        let note = (self.loss_count() == 0).then(|| "No problems left. Saving is on again.".to_owned());
-        Ok(Step { text: words, note })
+        Ok(Step { text: words, note: None })
     }
 
     /// Moves the points of a guide onto the surface that they belong to.

@@ -47,7 +47,7 @@ fn a_copy_that_was_left_behind_is_offered_and_comes_back_edited_and_unsaved() {
     let folder = tempfile::tempdir().expect("a folder");
     crashed(folder.path(), "1-1", 1000);
     let here = Recovery::open(folder.path(), "2-1").expect("opens");
-    let offers = here.offers();
+    let offers = Recovery::offers(folder.path());
     let [offer] = &offers[..] else { panic!("{offers:?}") };
     let copy = &offer.copy;
     assert_eq!((copy.name().as_str(), copy.at_unix_secs, copy.changes), ("still_life.ron", 1000, 1));
@@ -71,20 +71,19 @@ fn the_copy_of_a_living_session_is_not_offered_and_one_copy_not_twice() {
     let alive = Recovery::open(folder.path(), "1-1").expect("opens");
     alive.keep(&edited(1).work(1)).expect("kept");
     crashed(folder.path(), "2-2", 5);
-    let [first, second] = ["3-3", "4-4"].map(|name| Recovery::open(folder.path(), name).expect("opens"));
-    let offers = first.offers();
+    let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);
-    assert!(second.offers().is_empty(), "another window holds it");
+    assert!(Recovery::offers(folder.path()).is_empty(), "another window holds it");
     // Later: it is offered again.
     drop(offers);
-    let offers = second.offers();
+    let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);
     for offer in offers {
         offer.discard().expect("gone");
     }
-    assert!(first.offers().is_empty());
+    assert!(Recovery::offers(folder.path()).is_empty());
     drop(alive);
-    assert_eq!(first.offers().len(), 1);
+    assert_eq!(Recovery::offers(folder.path()).len(), 1);
 }
 
 #[test]
@@ -97,8 +96,8 @@ fn only_so_many_copies_are_kept_and_what_a_session_left_besides_goes() {
         fs::write(folder.path().join(litter), "").expect("written");
     }
     fs::write(folder.path().join("notes.txt"), "not ours").expect("written");
-    let here = Recovery::open(folder.path(), "here-1").expect("opens");
-    let offers = here.offers();
+    let _here = Recovery::open(folder.path(), "here-1").expect("opens");
+    let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), MAX_COPIES);
     assert_eq!(offers[0].copy.at_unix_secs, (MAX_COPIES + 2) as u64, "the newest first");
     drop(offers);
@@ -114,14 +113,14 @@ fn a_copy_that_is_not_whole_is_not_offered() {
     crashed(folder.path(), "1-1", 1);
     let file = folder.path().join("1-1.ron");
     let whole = fs::read(&file).expect("read");
-    let here = Recovery::open(folder.path(), "2-1").expect("opens");
+    let _here = Recovery::open(folder.path(), "2-1").expect("opens");
     for length in [0, 10, whole.len() / 2, whole.len() - 2] {
         fs::write(&file, &whole[..length]).expect("written");
-        assert!(here.offers().is_empty(), "{length} bytes of {}", whole.len());
+        assert!(Recovery::offers(folder.path()).is_empty(), "{length} bytes of {}", whole.len());
         assert!(file.exists());
     }
     fs::write(&file, &whole).expect("written");
-    assert_eq!(here.offers().len(), 1);
+    assert_eq!(Recovery::offers(folder.path()).len(), 1);
 }
 
 #[test]
@@ -136,7 +135,7 @@ fn a_scene_that_is_untitled_or_another_since_is_told_apart() {
     document.apply(&Command::Scene(SceneEdit::SetSeed(4))).expect("done");
     Recovery::open(folder.path(), "2-1").expect("opens").keep(&document.work(1)).expect("kept");
     fs::write(&own, "(version: 1)").expect("written");
-    let offers = Recovery::open(folder.path(), "3-1").expect("opens").offers();
+    let offers = Recovery::offers(folder.path());
     let [untitled, other] = &offers[..] else { panic!("{offers:?}") };
     assert_eq!((untitled.copy.name().as_str(), untitled.copy.file.as_deref()), ("Untitled", None));
     assert!(!untitled.copy.is_of_another_file() && other.copy.is_of_another_file());
@@ -156,7 +155,7 @@ fn the_thread_keeps_the_last_and_leaves_nothing_that_is_forgotten() {
     }
     drop(keeper);
     let here = Recovery::open(folder.path(), "2-1").expect("opens");
-    let offers = here.offers();
+    let offers = Recovery::offers(folder.path());
     assert_eq!(offers.iter().map(|offer| offer.copy.at_unix_secs).collect::<Vec<_>>(), [30]);
     let keeper = Keeper::new(here).expect("a thread");
     for offer in offers {

@@ -31,6 +31,11 @@ impl EditorApp {
                     self.editor.session = *session;
                 }
             }
+            Ask::Mend(mend) => drop(self.editor.mend(&mend)),
+            Ask::SaveCopy => {
+                let start = self.editor.document().suggested_copy();
+                self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
+            }
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
             Ask::ChooseMesh(object) => {

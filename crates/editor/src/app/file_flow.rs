@@ -6,7 +6,7 @@ use std::time::Instant;
 use egui::{Context, Ui};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Arrange, Command, Regions, StrokeChange, StrokesOf};
-use impasto_editor_model::document::Document;
+use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::keymap::Preset;
 use impasto_scene::document::BrushMix;
 
@@ -105,6 +105,7 @@ impl EditorApp {
             Next::New => {
                 let folder = self.editor.document().folder().to_owned();
                 self.editor.open(Document::empty(&folder));
+                self.sheets.problems = false;
                 self.keymap();
                 self.studio.forget();
             }
@@ -114,7 +115,13 @@ impl EditorApp {
 
     /// Saves to a file, or to the document's own. Whether that went well.
     pub(super) fn save(&mut self, target: Option<&Path>) -> bool {
-        match self.editor.save(target) {
+        let saved = self.editor.save(target);
+        self.saved(saved)
+    }
+
+    /// What follows a save.
+    pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
+        match saved {
             Ok(()) => {
                 if let Some(file) = self.editor.document().file().map(Path::to_owned) {
                     self.preferences.note_recent(&file);
@@ -123,7 +130,9 @@ impl EditorApp {
                 true
             }
             Err(error) => {
-                self.toast(error.to_string(), None, true);
+                // What was to go on waits for a save that goes well.
+                self.files.waiting = None;
+                self.ask_about_saving(error);
                 false
             }
         }
@@ -141,6 +150,8 @@ impl EditorApp {
         }
         if self.files.asks {
             self.ask_about_changes(ctx);
+        } else if self.safe.is_asking() {
+            self.ask_about_safety(ctx);
         } else if let Some(frame) = self.sheets.recapture
             && let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame })
         {
@@ -197,6 +208,8 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
+            // With losses the copy is gone on with: the file that was read stays what it is.
+            Ask::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             Ask::SaveCopy => match self.editor.document().save_copy(&path) {
                 Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
                 Err(error) => self.toast(error.to_string(), None, true),

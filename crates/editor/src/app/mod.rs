@@ -10,6 +10,7 @@ mod file_flow;
 mod keys;
 mod marks;
 mod picture;
+mod safe_keeping;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -33,6 +34,7 @@ use crate::window::{self, Opened, tab_pressed};
 use file_flow::FileFlow;
 use marks::MarkCache;
 use picture::Studio;
+use safe_keeping::SafeKeeping;
 
 /// A line at the bottom stays so long; what was refused, too.
 const TOAST: Duration = Duration::from_secs(4);
@@ -43,6 +45,7 @@ pub(crate) struct EditorApp {
     studio: Studio,
     marks: MarkCache,
     files: FileFlow,
+    safe: SafeKeeping,
     preferences: Preferences,
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
@@ -59,6 +62,7 @@ struct Sheets {
     palette: bool,
     shortcuts: bool,
     recapture: Option<i64>,
+    problems: bool,
 }
 
 /// What is folded away.
@@ -83,6 +87,7 @@ impl EditorApp {
             studio: Studio::new(preferences.driver, opened.waker.clone()),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
+            safe: SafeKeeping::new(),
             sheets: Sheets {
                 welcome: preferences.show_welcome && options.path.is_none(),
                 ..Sheets::default()
@@ -102,6 +107,8 @@ impl EditorApp {
         }
         if let Some(path) = &options.path {
             app.open(path);
+        } else {
+            app.offer_copies(None);
         }
         app
     }
@@ -119,7 +126,7 @@ impl EditorApp {
     }
 
     fn open(&mut self, path: &Path) {
-        match Document::open(path, &LoadOptions::default()) {
+        match Document::open_with_problems(path, &LoadOptions::default()) {
             Ok(document) => {
                 let scene = document.scene();
                 let regions = scene.regions.len();
@@ -127,17 +134,20 @@ impl EditorApp {
                     document.loaded().meshes.values().map(|file| file.mesh.triangles.len()).sum();
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
                 let warnings = document.loaded().warnings.len();
+                let losses = document.loss_count();
                 self.editor.open(document);
                 self.keymap();
                 self.studio.forget();
                 self.sheets.welcome = false;
+                self.sheets.problems = losses > 0;
                 self.toast(format!("{name}: {triangles} triangles, {regions} regions"), None, false);
-                if warnings > 0 {
+                if warnings > 0 && losses == 0 {
                     let words = format!("{warnings} warnings: `impasto check {name}` lists them");
                     self.toast(words, None, false);
                 }
                 self.preferences.note_recent(path);
                 self.keep_preferences();
+                self.offer_copies(Some(path));
             }
             Err(report) => {
                 for problem in report.0.iter().filter(|problem| problem.severity.is_fatal()).take(3) {
@@ -161,8 +171,9 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
-        let Sheets { welcome, palette, shortcuts, recapture } = &self.sheets;
-        *welcome || *palette || *shortcuts || recapture.is_some() || self.files.is_asking()
+        let Sheets { welcome, palette, shortcuts, recapture, problems: _ } = &self.sheets;
+        let asks = self.files.is_asking() || self.safe.is_asking();
+        *welcome || *palette || *shortcuts || recapture.is_some() || asks
     }
 
     fn page(&mut self, ui: &mut Ui) {
@@ -187,6 +198,7 @@ impl EditorApp {
             panels::top_bar::top_bar(ui, &shown, &mut asks);
             panels::status_line::status_line(ui, &shown, &mut asks);
             panels::strip::strip(ui, &shown, &mut asks);
+            self.sheets.problems &= self.sheets.problems && panels::problems::problems(ui, &shown, &mut asks);
             if !self.folds.column && ui.available_width() >= 900.0 {
                 panels::column(ui, &shown, &mut asks);
             }
@@ -251,6 +263,9 @@ impl window::App for EditorApp {
         if self.folds.had_focus && !focused {
             self.editor.focus_lost(&view);
         }
+        if focused && !self.folds.had_focus {
+            self.safe.look_now();
+        }
         self.folds.had_focus = focused;
         // An open menu has Esc to itself, and what is typed over it is meant for it.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
@@ -262,8 +277,10 @@ impl window::App for EditorApp {
         self.page(ui);
         self.requests(&ctx);
         if self.file_sheets(&ctx, ui) {
+            self.safe.give_up();
             frame.close();
         }
+        self.keep_safe(&ctx);
         self.lines(&ctx);
         self.tell_rest(&ctx);
     }
