@@ -53,6 +53,11 @@ pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
                 at += length + 2;
                 continue;
             }
+            // What stands before the scene: `#![enable(…)]`.
+            b'#' if open.is_empty() => {
+                at += text[at..].find(']').map_or(1, |length| length + 1);
+                continue;
+            }
             byte @ (b'(' | b'[' | b'{') => {
                 if let Some(outer) = open.last()
                     && outer.byte == b'('

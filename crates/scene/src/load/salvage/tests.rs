@@ -175,7 +175,7 @@ fn what_is_no_scene_is_refused_whole() {
 fn every_beginning_of_a_scene_opens_or_is_refused_in_words() {
     let folder = Folder::new();
     let object = "    (name: \"a\", mesh: \"meshes/apple.obj\", keys: [(frame: 0, translation: (0, 2, 0))]),\n    (name: \"ü\", mesh: \"meshes/leaf.obj\"), /* b */";
-    let whole = scene(object, "  regions: [(name: \"r\", on: Group(\"a\", \"side\"), strokes: (length_px: 4))], // end");
+    let whole = "#![enable(implicit_some)]\n".to_owned() + &scene(object, "  regions: [(name: \"r\", on: Group(\"a\", \"side\"), strokes: (length_px: 4))], // end");
     assert!(folder.read(&whole).losses.is_empty());
     let mut opened = 0;
     for end in (0..whole.len() - 3).filter(|&end| whole.is_char_boundary(end)) {
