@@ -12,8 +12,8 @@ use std::sync::Arc;
 use impasto_scene::document::{Region, Scene};
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::problem::Report;
 use impasto_scene::new_scene;
+use impasto_scene::problem::Report;
 
 use crate::change::SceneChange;
 use crate::command::{Arrange, Command, Done};

@@ -71,8 +71,7 @@ impl Recovery {
     /// What the system said; the copy before is untouched.
     pub fn keep(&self, work: &Work) -> io::Result<()> {
         let prefix = format!("{}~", self.name);
-        let mut file =
-            tempfile::Builder::new().prefix(&prefix).suffix(".part").tempfile_in(&self.folder)?;
+        let mut file = tempfile::Builder::new().prefix(&prefix).suffix(".part").tempfile_in(&self.folder)?;
         file.write_all(work.to_text().as_bytes())?;
         file.as_file().sync_all()?;
         file.persist(self.file()).map_err(|error| error.error)?;

@@ -29,9 +29,7 @@ impl Stamp {
         let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
         match (before, metadata) {
             (None, None) => false,
-            (Some(before), Some(now)) => {
-                (before.bytes, before.modified) != (now.len(), now.modified().ok())
-            }
+            (Some(before), Some(now)) => (before.bytes, before.modified) != (now.len(), now.modified().ok()),
             _ => true,
         }
     }

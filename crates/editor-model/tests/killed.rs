@@ -8,9 +8,9 @@ use std::path::Path;
 use std::process::{Command as Process, Stdio};
 use std::time::Duration;
 
+use impasto_editor_model::Document;
 use impasto_editor_model::command::{Command, SceneEdit};
 use impasto_editor_model::recovery::Recovery;
-use impasto_editor_model::Document;
 use impasto_scene::load::LoadOptions;
 
 const FOLDER: &str = "IMPASTO_TEST_KILLED_IN";
@@ -78,7 +78,10 @@ fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
         assert!(kept > 0, "run {run}: it never painted: {told:?}");
         let on_disk = Document::open(&scene, &LoadOptions::default());
         let on_disk = on_disk.unwrap_or_else(|report| panic!("run {run}: {report}")).scene().seed;
-        assert!(on_disk >= saved && on_disk <= kept, "run {run}: {on_disk} on disk, {saved} saved, {kept} kept");
+        assert!(
+            on_disk >= saved && on_disk <= kept,
+            "run {run}: {on_disk} on disk, {saved} saved, {kept} kept"
+        );
         let offers = Recovery::offers(&place);
         assert!(offers.len() <= 1, "run {run}: {offers:?}");
         let mut newest = on_disk;
@@ -94,7 +97,10 @@ fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
         assert!((kept..=kept + 1).contains(&newest), "run {run}: {newest} is the newest of {kept}");
         seen = seen.max(newest);
     }
-    assert!(offered > 20 && seen > 100, "{offered} offers, {seen} edits: it was killed too soon to show anything");
+    assert!(
+        offered > 20 && seen > 100,
+        "{offered} offers, {seen} edits: it was killed too soon to show anything"
+    );
     // Of the sessions nothing stays once one has looked again; of a save that was cut off, what it was writing, beside the scene.
     assert!(Recovery::offers(&place).is_empty());
     let left = std::fs::read_dir(&place).expect("there").count();

@@ -398,7 +398,12 @@ fn questions_are_answered_by_their_verbs_and_keys() {
             Answer::KeepWorking,
         ),
         (
-            Question::Recovered { name: scene(), age: "5 minutes ago".to_owned(), changes: 9, of_another: true },
+            Question::Recovered {
+                name: scene(),
+                age: "5 minutes ago".to_owned(),
+                changes: 9,
+                of_another: true,
+            },
             "Discard",
             Answer::Discard,
             Answer::OpenCopy,

@@ -38,6 +38,7 @@ struct Page {
     chosen: Vec<String>,
     copies: usize,
     is_open: bool,
+    has_bars: bool,
     _folder: tempfile::TempDir,
 }
 
@@ -53,7 +54,7 @@ impl Page {
         std::fs::write(&path, TEXT).expect("written");
         let document = Document::open_with_problems(&path, &Default::default()).expect("opens");
         let editor = Editor::new(document);
-        Self { editor, path, chosen: Vec::new(), copies: 0, is_open: true, _folder: folder }
+        Self { editor, path, chosen: Vec::new(), copies: 0, is_open: true, has_bars: true, _folder: folder }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui) {
@@ -71,8 +72,10 @@ impl Page {
             numbers: Numbers::default(),
             recent: &[],
         };
-        top_bar::top_bar(ui, &shown, &mut asks);
-        status_line::status_line(ui, &shown, &mut asks);
+        if self.has_bars {
+            top_bar::top_bar(ui, &shown, &mut asks);
+            status_line::status_line(ui, &shown, &mut asks);
+        }
         self.is_open &= self.is_open && problems::problems(ui, &shown, &mut asks);
         CentralPanel::default().frame(egui::Frame::new().fill(Tokens::of(ui).app)).show(ui, |_| {});
         for ask in asks {
@@ -88,7 +91,7 @@ impl Page {
 
 fn harness() -> Harness<'static, Page> {
     let mut harness = Harness::builder()
-        .with_size(vec2(1280.0, 340.0))
+        .with_size(vec2(1000.0, 300.0))
         .with_theme(egui::Theme::Dark)
         .with_render_cursor(false)
         .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
@@ -113,10 +116,13 @@ fn document_value(harness: &Harness<'_, Page>) -> String {
 #[test]
 fn the_panel_looks_as_it_did() {
     let mut harness = harness();
+    harness.state_mut().has_bars = false;
+    harness.set_size(vec2(880.0, 240.0));
+    harness.run();
     // The whole words stand in a tooltip; the picture is of the list.
     harness.get_by_label_contains("line 6 column 30").click();
     harness.run();
-    harness.hover_at(egui::pos2(640.0, 70.0));
+    harness.hover_at(egui::pos2(600.0, 4.0));
     harness.run();
     harness.snapshot_options("problems_dark", &SnapshotOptions::new().threshold(0.6));
 }

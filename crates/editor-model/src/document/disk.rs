@@ -44,7 +44,9 @@ pub enum SaveError {
         target: PathBuf,
     },
     /// Not all of the file could be read, and saving over it would lose the rest.
-    #[error("this scene has {count} problems left; saving over it would lose what could not be read (line {line}): save a copy")]
+    #[error(
+        "this scene has {count} problems left; saving over it would lose what could not be read (line {line}): save a copy"
+    )]
     Problems {
         /// How many are left.
         count: usize,

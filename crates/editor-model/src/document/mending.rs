@@ -176,8 +176,9 @@ impl Document {
     pub fn snap_guide(&mut self, region: &str, guide: usize) -> Result<Step, Refusal> {
         let scene = self.scene();
         let of = scene.regions.iter().find(|other| other.name == region);
-        let (region_of, found) =
-            of.and_then(|of| Some((of, of.guides.get(guide)?))).ok_or_else(|| Refusal::unknown("region", region))?;
+        let (region_of, found) = of
+            .and_then(|of| Some((of, of.guides.get(guide)?)))
+            .ok_or_else(|| Refusal::unknown("region", region))?;
         let name = found.object.as_deref().or(region_of.on.object());
         let object = scene.objects.iter().find(|object| Some(object.name.as_str()) == name);
         let surface = object.and_then(|object| Some((object, self.loaded.meshes.get(&object.mesh)?)));
@@ -186,7 +187,9 @@ impl Document {
         let group = object.group.as_ref().and_then(|name| file.groups.iter().position(|known| known == name));
         let mesh = &file.mesh;
         let of_object = |triangle: &usize| {
-            group.is_none_or(|group| mesh.group_of_triangle.get(*triangle).is_some_and(|&own| own as usize == group))
+            group.is_none_or(|group| {
+                mesh.group_of_triangle.get(*triangle).is_some_and(|&own| own as usize == group)
+            })
         };
         let snapped = |point: &GuidePoint| {
             let at = DVec3::from(point.at);
@@ -195,7 +198,8 @@ impl Document {
                 (nearest_point(at, corners), corners)
             });
             let squared = |place: &DVec3| (*place - at).length_squared();
-            let (place, [a, b, c]) = places.min_by(|left, right| squared(&left.0).total_cmp(&squared(&right.0)))?;
+            let (place, [a, b, c]) =
+                places.min_by(|left, right| squared(&left.0).total_cmp(&squared(&right.0)))?;
             let normal = (b - a).cross(c - a).try_normalize();
             let normal = normal.map_or(point.normal, |normal| normal.to_array());
             Some(GuidePoint { at: place.to_array(), normal, ..point.clone() })

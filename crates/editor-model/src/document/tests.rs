@@ -178,7 +178,10 @@ fn a_copy_of_a_scene_with_losses_never_takes_the_place_of_its_file() {
     let mut document = folder.open();
     document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
     let place = tempfile::tempdir().expect("a folder");
-    crate::recovery::Recovery::open(place.path(), "1-1").expect("opens").keep(&document.work(1)).expect("kept");
+    crate::recovery::Recovery::open(place.path(), "1-1")
+        .expect("opens")
+        .keep(&document.work(1))
+        .expect("kept");
     let offers = crate::recovery::Recovery::offers(place.path());
     let mut back = Document::recovered(&offers[0].copy, &LoadOptions::default()).expect("opens");
     assert_eq!(back.scene().size, (640, 480));

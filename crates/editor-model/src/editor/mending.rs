@@ -51,7 +51,9 @@ impl Editor {
     /// to be asked.
     pub fn take_in(&mut self, news: News) -> bool {
         let name = self.document.name();
-        let kept = |error: String| Refusal::new(format!("{name} changed on disk; what was read last stays: {error}"));
+        let kept = |error: String| {
+            Refusal::new(format!("{name} changed on disk; what was read last stays: {error}"))
+        };
         let result = match news {
             News::Scene if self.document.is_edited() => return false,
             // What is being mended by another hand shows what is left to mend.

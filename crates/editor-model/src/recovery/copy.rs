@@ -178,8 +178,14 @@ mod tests {
         };
         let now = UNIX_EPOCH + Duration::from_secs(1_000_000);
         let age = |ago: u64| copy(1_000_000 - ago).age(now);
-        assert_eq!([0, 59, 60, 119, 120].map(age), ["just now", "just now", "1 minute ago", "1 minute ago", "2 minutes ago"]);
-        assert_eq!([3600, 7200, 86_400, 200_000].map(age), ["1 hour ago", "2 hours ago", "1 day ago", "2 days ago"]);
+        assert_eq!(
+            [0, 59, 60, 119, 120].map(age),
+            ["just now", "just now", "1 minute ago", "1 minute ago", "2 minutes ago"]
+        );
+        assert_eq!(
+            [3600, 7200, 86_400, 200_000].map(age),
+            ["1 hour ago", "2 hours ago", "1 day ago", "2 days ago"]
+        );
         // A clock that was set back.
         assert_eq!(copy(2_000_000).age(now), "just now");
     }

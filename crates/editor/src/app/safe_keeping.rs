@@ -232,7 +232,11 @@ impl EditorApp {
                 self.studio.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = self.editor.document().loss_count() > 0;
-                self.toast(format!("{} as it was being painted; it is not saved", offer.copy.name()), None, false);
+                self.toast(
+                    format!("{} as it was being painted; it is not saved", offer.copy.name()),
+                    None,
+                    false,
+                );
                 self.safe.offers.clear();
                 if let Some(keeper) = &self.safe.keeper {
                     keeper.take_over(offer);

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Align2, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2,
-    vec2,
+    Align2, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
 };
 use impasto_editor_model::document::{Repair, Row, Source};
 use impasto_editor_model::editor::Mend;
@@ -73,7 +73,8 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
             within(ui, rect, row(), |ui| fix_all(ui, has_certain, asks));
         }
         ui.painter().vline(split, head_rect.bottom()..=whole.bottom(), (1.0, tokens.div));
-        let source_rect = part(egui::Rangef::new(split + 1.0, whole.right()), head_rect.bottom() + 1.0, whole.bottom());
+        let source_rect =
+            part(egui::Rangef::new(split + 1.0, whole.right()), head_rect.bottom() + 1.0, whole.bottom());
         let place = rows[memory.selected].problem.place;
         within(ui, source_rect, egui::Layout::top_down(egui::Align::Min), |ui| {
             source(ui, (shown, place), &mut memory, asks);
@@ -126,16 +127,22 @@ fn fix_all(ui: &mut Ui, count: usize, asks: &mut Vec<Ask>) {
 
 fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
-    ScrollArea::vertical().id_salt("problems").auto_shrink(false).show_rows(ui, ROW, rows.len(), |ui, range| {
-        for index in range {
-            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
-            line(ui, (rect, &response), (&rows[index], memory.selected == index), asks);
-            if response.clicked() {
-                memory.selected = index;
-                memory.go_to = rows[index].problem.place.map(|place| place.line);
+    ScrollArea::vertical().id_salt("problems").auto_shrink(false).show_rows(
+        ui,
+        ROW,
+        rows.len(),
+        |ui, range| {
+            for index in range {
+                let (rect, response) =
+                    ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+                line(ui, (rect, &response), (&rows[index], memory.selected == index), asks);
+                if response.clicked() {
+                    memory.selected = index;
+                    memory.go_to = rows[index].problem.place.map(|place| place.line);
+                }
             }
-        }
-    });
+        },
+    );
 }
 
 /// One problem: its place, its words, what mends it.
@@ -163,10 +170,18 @@ fn line(
     let font = type_face::icon(measure::ICON);
     ui.painter().text(pos2(rect.left() + 21.0, middle), Align2::CENTER_CENTER, icon.glyph(), font, colour);
     let (place, spoken) = match problem.place {
-        Some(Place { line, column }) => (format!("{line}:{column}"), format!("line {line} column {column}, ")),
+        Some(Place { line, column }) => {
+            (format!("{line}:{column}"), format!("line {line} column {column}, "))
+        }
         None => (String::new(), String::new()),
     };
-    ui.painter().text(pos2(rect.left() + 40.0, middle), Align2::LEFT_CENTER, place, type_face::number(), tokens.weak);
+    ui.painter().text(
+        pos2(rect.left() + 40.0, middle),
+        Align2::LEFT_CENTER,
+        place,
+        type_face::number(),
+        tokens.weak,
+    );
     let name = format!("{spoken}{kind}, {}", problem.message);
     response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &name));
     let words_left = rect.left() + 94.0;
@@ -190,7 +205,13 @@ fn line(
     };
     let wide = (right - words_left).max(40.0);
     for (words, font, colour, y) in [
-        (sentence(&problem.message), type_face::body(), tokens.text, middle - 9.0),
+        // Where it was looked for stands in the tooltip.
+        (
+            sentence(problem.message.split(" (tried ").next().unwrap_or_default()),
+            type_face::body(),
+            tokens.text,
+            middle - 9.0,
+        ),
         (second, type_face::small(), tokens.weak, middle + 9.0),
     ] {
         let mut job = LayoutJob::simple_singleline(words, font, colour);
@@ -233,7 +254,12 @@ fn sentence(words: &str) -> String {
 }
 
 /// The text with its lines numbered and the one with the problem marked.
-fn source(ui: &mut Ui, (shown, place): (&Shown<'_>, Option<Place>), memory: &mut Memory, asks: &mut Vec<Ask>) {
+fn source(
+    ui: &mut Ui,
+    (shown, place): (&Shown<'_>, Option<Place>),
+    memory: &mut Memory,
+    asks: &mut Vec<Ask>,
+) {
     let tokens = Tokens::of(ui);
     ui.painter().rect_filled(ui.max_rect(), 0.0, tokens.field);
     let Some(source) = shown.document.source() else {

@@ -99,7 +99,9 @@ impl Column {
                 self.acts.push(action);
                 "act".to_owned()
             }
-            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit | Ask::Mend(_) | Ask::SaveCopy => "of another panel".to_owned(),
+            Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit | Ask::Mend(_) | Ask::SaveCopy => {
+                "of another panel".to_owned()
+            }
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()

@@ -9,14 +9,16 @@
 //! What is given passed the same checks as any scene. The file is only read.
 
 mod cut;
-mod fix;
 mod files;
+mod fix;
 #[cfg(test)]
 mod tests;
 
 use std::path::Path;
 
-use super::parse::{self, blank_out, blank_range, enclosing_path, enclosing_struct_path, explain, field_before};
+use super::parse::{
+    self, blank_out, blank_range, enclosing_path, enclosing_struct_path, explain, field_before,
+};
 use super::source::{self, error_in};
 use super::{LoadOptions, Told};
 use crate::check::{self, Finding};
@@ -79,13 +81,8 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
     if text.len() as u64 > limits::MAX_SCENE_BYTES {
         return Err(Report(vec![source::too_long(path)]));
     }
-    let mut reading = Reading {
-        path,
-        left: text.to_owned(),
-        losses: Vec::new(),
-        blanked: Vec::new(),
-        unlisted: 0,
-    };
+    let mut reading =
+        Reading { path, left: text.to_owned(), losses: Vec::new(), blanked: Vec::new(), unlisted: 0 };
     let mut held = Held::new(path, options);
     let most_passes = (MOST_PARSED_BYTES / text.len().max(1)).clamp(2, MOST_PASSES);
     for _ in 0..most_passes {
@@ -196,8 +193,11 @@ impl Reading<'_> {
     /// Ends the text before what cannot be read.
     fn cut(&mut self, refused: crate::locate::Refused) -> Result<(), Report> {
         let cut = cut::before(&self.left, refused.offset.min(self.left.len()));
-        let place = |offset| Some(crate::locate::place_in(&self.left, &crate::locate::line_starts(&self.left), offset));
-        let problem = error_in(self.path, place(refused.offset), refused.message.clone(), refused.mend.clone());
+        let place = |offset| {
+            Some(crate::locate::place_in(&self.left, &crate::locate::line_starts(&self.left), offset))
+        };
+        let problem =
+            error_in(self.path, place(refused.offset), refused.message.clone(), refused.mend.clone());
         let Some(cut) = cut.filter(|_| !refused.is_limit) else {
             let severity = if refused.is_limit { Severity::Limit } else { Severity::Error };
             return Err(Report(vec![Problem { severity, ..problem }]));
@@ -342,7 +342,12 @@ impl Reading<'_> {
         let problems: Vec<Problem> =
             self.losses.iter().map(|loss| loss.problem.clone()).chain(more).collect();
         if problems.is_empty() {
-            return Report(vec![error_in(self.path, None, "nothing of the scene can be read", "mend it by hand")]);
+            return Report(vec![error_in(
+                self.path,
+                None,
+                "nothing of the scene can be read",
+                "mend it by hand",
+            )]);
         }
         Report(problems)
     }
@@ -356,7 +361,9 @@ fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops:
         let outer = located.through_some(node);
         match (&outer.inside, step) {
             (Inside::Fields(fields), Step::Field(name)) => {
-                let Some(field) = fields.iter().find(|field| located.text_of(&field.key) == name) else { break };
+                let Some(field) = fields.iter().find(|field| located.text_of(&field.key) == name) else {
+                    break;
+                };
                 range = Some(field.key.start as usize..field.value.end as usize);
                 node = &field.value;
             }

@@ -132,8 +132,8 @@ fn behind_text(bytes: &[u8], quote: usize) -> Option<usize> {
         match byte {
             b'\\' if !is_raw => at += 2,
             b'"' => {
-                let closes = !is_raw
-                    || bytes[at + 1..].iter().take_while(|&&byte| byte == b'#').count() >= hashes;
+                let closes =
+                    !is_raw || bytes[at + 1..].iter().take_while(|&&byte| byte == b'#').count() >= hashes;
                 at += 1;
                 if closes {
                     return Some(at + if is_raw { hashes } else { 0 });

@@ -91,23 +91,26 @@ impl<'a> Held<'a> {
                 Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
             }
         }
-        let texture_of = |object: &'_ Object| object.material.as_ref().and_then(|material| material.texture.clone());
+        let texture_of =
+            |object: &'_ Object| object.material.as_ref().and_then(|material| material.texture.clone());
         let textures: Vec<Option<String>> = scene.objects.iter().map(texture_of).collect();
         for (index, name) in textures.iter().enumerate() {
             let Some(name) = name else { continue };
             let field_path = format!("objects[{index}].material.texture");
-            let read = self.textures.entry(name.clone()).or_insert_with(|| {
-                read_texture(path, name, folders).map(super::super::shared)
-            });
+            let read = self
+                .textures
+                .entry(name.clone())
+                .or_insert_with(|| read_texture(path, name, folders).map(super::super::shared));
             match read.clone() {
                 Ok((texture, _)) => drop(found.textures.insert(name.clone(), texture)),
                 Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
             }
         }
         for (name, field_path) in check::brush_pictures(scene).into_iter().take(limits::MAX_BRUSH_PICTURES) {
-            let read = self.brushes.entry(name.to_owned()).or_insert_with(|| {
-                read_brush(path, name, folders).map(super::super::shared)
-            });
+            let read = self
+                .brushes
+                .entry(name.to_owned())
+                .or_insert_with(|| read_brush(path, name, folders).map(super::super::shared));
             match read.clone() {
                 Ok((brush, _)) => drop(found.brushes.insert(name.to_owned(), brush)),
                 Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
@@ -116,7 +119,12 @@ impl<'a> Held<'a> {
         found
     }
 
-    fn refuse(&mut self, found: &mut Found, problem: Problem, (name, field_path, located): (&str, &str, &Located)) {
+    fn refuse(
+        &mut self,
+        found: &mut Found,
+        problem: Problem,
+        (name, field_path, located): (&str, &str, &Located),
+    ) {
         let fix = self.nearby_fix(name, &[field_path.to_owned()], located);
         found.refused.push((self.at(problem, field_path, located), field_path.to_owned(), fix));
     }
@@ -217,7 +225,9 @@ fn stand_in(scene: &Scene, name: &str) -> MeshFile {
         .collect();
     let mut groups = BTreeSet::new();
     let mut materials = BTreeSet::new();
-    groups.extend(scene.objects.iter().filter(|object| object.mesh == name).filter_map(|object| object.group.clone()));
+    groups.extend(
+        scene.objects.iter().filter(|object| object.mesh == name).filter_map(|object| object.group.clone()),
+    );
     for region in &scene.regions {
         if !region.on.object().is_some_and(|object| users.contains(object)) {
             continue;
@@ -247,7 +257,8 @@ fn box_mesh(groups: u32, materials: u32) -> impasto_core::TriangleMesh {
     let mut mesh = impasto_core::TriangleMesh::default();
     for (axis, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0), (2, 1.0), (2, -1.0)] {
         let normal = Vec3::from_array(std::array::from_fn(|index| if index == axis { side } else { 0.0 }));
-        let across = Vec3::from_array(std::array::from_fn(|index| f32::from(u8::from(index == (axis + 1) % 3))));
+        let across =
+            Vec3::from_array(std::array::from_fn(|index| f32::from(u8::from(index == (axis + 1) % 3))));
         let up = normal.cross(across);
         let first = mesh.positions.len() as u32;
         for (right, top) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {

@@ -53,8 +53,7 @@ pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> O
 
 /// The fields among which one stands.
 fn holder_of<'a>(root: &'a Node, field: &Field) -> Option<&'a [Field]> {
-    let holds =
-        |node: &Node| (node.start..node.end).contains(&field.key.start);
+    let holds = |node: &Node| (node.start..node.end).contains(&field.key.start);
     let mut node = root;
     loop {
         match &node.inside {

@@ -24,7 +24,8 @@ impl Folder {
 
     fn read(&self, text: &str) -> Salvaged {
         fs::write(self.path(), text).expect("written");
-        let salvaged = salvage(&self.path(), &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
+        let salvaged =
+            salvage(&self.path(), &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
         assert_eq!(fs::read_to_string(self.path()).expect("there"), text, "the file was touched");
         salvaged
     }
@@ -146,7 +147,12 @@ fn a_value_that_makes_no_sense_goes_with_the_least_that_holds_it() {
     assert!(salvaged.loaded.scene.lights.is_empty());
     let said = said(&salvaged);
     assert_eq!(said.len(), 6, "{said:#?}");
-    assert!(said.iter().any(|line| line.contains("`7` does not fit") && line.ends_with("The object is left out until then.")), "{said:#?}");
+    assert!(
+        said.iter()
+            .any(|line| line.contains("`7` does not fit")
+                && line.ends_with("The object is left out until then.")),
+        "{said:#?}"
+    );
 }
 
 #[test]
@@ -175,7 +181,11 @@ fn what_is_no_scene_is_refused_whole() {
 fn every_beginning_of_a_scene_opens_or_is_refused_in_words() {
     let folder = Folder::new();
     let object = "    (name: \"a\", mesh: \"meshes/apple.obj\", keys: [(frame: 0, translation: (0, 2, 0))]),\n    (name: \"ü\", mesh: \"meshes/leaf.obj\"), /* b */";
-    let whole = "#![enable(implicit_some)]\n".to_owned() + &scene(object, "  regions: [(name: \"r\", on: Group(\"a\", \"side\"), strokes: (length_px: 4))], // end");
+    let whole = "#![enable(implicit_some)]\n".to_owned()
+        + &scene(
+            object,
+            "  regions: [(name: \"r\", on: Group(\"a\", \"side\"), strokes: (length_px: 4))], // end",
+        );
     assert!(folder.read(&whole).losses.is_empty());
     let mut opened = 0;
     for end in (0..whole.len() - 3).filter(|&end| whole.is_char_boundary(end)) {
