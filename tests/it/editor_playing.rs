@@ -71,7 +71,7 @@ fn onward(from: f64, to: f64) -> f64 {
 fn a_film_keeps_to_the_clock_and_counts_what_it_drops() {
     let Some(screen) = Screen::open() else { return };
     let folder = folder();
-    let mut editor = EditorWindow::open(&screen, "playing", folder.path(), "film.ron");
+    let editor = EditorWindow::open(&screen, "playing", folder.path(), "film.ron");
     editor.keys(&["space"]);
     wait_for("more than a round of the film", || {
         let shown = came_up(&editor);
@@ -145,7 +145,8 @@ fn what_is_played_scrubbed_to_and_rendered_is_the_same_to_the_bit() {
                 assert!(frame.strokes.len() > 300);
                 format!("{:?}", (frame.strokes, frame.view))
             };
-            let played = strokes(&painting, &editor.camera_at(frame), frame);
+            let camera = editor.camera_at(frame);
+            let played = strokes(&painting, &camera, frame);
             editor.timeline(TimelineEvent::Scrub(frame));
             let scrubbed = strokes(&painting, &editor.camera(), editor.session.frame);
             let there = rendered.at(frame, &options);

@@ -3,7 +3,7 @@
 use impasto_scene::document::{Guide, Object, Region, Scene};
 
 /// The difference between two scenes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SceneChange {
     parts: Vec<Part>,
 }

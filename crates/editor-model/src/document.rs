@@ -1,19 +1,30 @@
 //! The document that is edited: a scene with its files, its history, and where it is saved.
 
+mod disk;
+mod mending;
+mod opening;
+#[cfg(test)]
+mod tests;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use impasto_scene::document::{Region, Scene};
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::new_scene;
 use impasto_scene::problem::Report;
-use impasto_scene::{new_scene, save};
 
 use crate::change::SceneChange;
 use crate::command::{Arrange, Command, Done};
 use crate::history::History;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
+use crate::stamp::Stamp;
+
+pub use disk::SaveError;
+pub use mending::{Repair, Row};
+pub use opening::Source;
 
 /// A document that is edited.
 #[derive(Debug)]
@@ -25,6 +36,11 @@ pub struct Document {
     history: History,
     selection: Selection,
     options: LoadOptions,
+    /// The file as it was read or written last.
+    stamp: Option<Stamp>,
+    /// The text that it was read from, as long as not all of it could be read.
+    source: Option<Arc<Source>>,
+    revision: u64,
 }
 
 /// What a command did, or what was taken back or done again.
@@ -34,32 +50,6 @@ pub struct Step {
     pub text: String,
     /// More that should be said: *Also keyed frame 0, so that apple moves from there*.
     pub note: Option<String>,
-}
-
-/// Why a document was not saved.
-#[derive(Debug, thiserror::Error)]
-pub enum SaveError {
-    /// It has no file yet.
-    #[error("this scene has no file yet: choose a name")]
-    Unnamed,
-    /// What the scene names would not be found from there.
-    #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
-    FilesElsewhere {
-        /// The file that was chosen.
-        target: PathBuf,
-        /// A file that the scene names.
-        mesh: String,
-        /// The folder that the scene's files are named from.
-        folder: PathBuf,
-    },
-    /// The file system would not.
-    #[error("{} was not written: {source}", target.display())]
-    Unwritable {
-        /// The file.
-        target: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
 }
 
 impl Document {
@@ -81,6 +71,7 @@ impl Document {
     /// # Errors
     /// Everything that is wrong with the files, each with its place.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Report> {
+        let stamp = Stamp::of(path);
         let mut loaded = load::load(path, options)?;
         let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         if !is_scene {
@@ -98,7 +89,8 @@ impl Document {
             }
         }
         let file = is_scene.then(|| path.to_owned());
-        Ok(Self::of(loaded, file, options.clone()))
+        let stamp = stamp.filter(|_| is_scene);
+        Ok(Self { stamp, ..Self::of(loaded, file, options.clone()) })
     }
 
     fn of(loaded: LoadedScene, file: Option<PathBuf>, options: LoadOptions) -> Self {
@@ -110,6 +102,9 @@ impl Document {
             history: History::new(is_saved),
             selection: Selection::default(),
             options,
+            stamp: None,
+            source: None,
+            revision: 0,
         }
     }
 
@@ -174,6 +169,7 @@ impl Document {
         }
         self.select(done.selection.unwrap_or_else(|| before.clone()));
         let Some(change) = change else { return Ok(Step { text: String::new(), note: done.note }) };
+        self.revision += 1;
         self.history.push(done.text.clone(), change, [before, self.selection.clone()]);
         Ok(Step { text: done.text, note: done.note })
     }
@@ -199,6 +195,7 @@ impl Document {
         }
         let change = SceneChange::between(&first, &loaded.scene);
         self.loaded = Arc::new(loaded);
+        self.revision += 1;
         self.history.replace_last(change, self.selection.clone());
         self.history.mark_last(key.to_owned(), at_secs);
         Ok(Step { text: done.text, note: done.note })
@@ -213,7 +210,9 @@ impl Document {
 
     /// An edited scene with its files; what is wrong with it is the refusal.
     fn with_files(&self, scene: Scene) -> Result<LoadedScene, Refusal> {
-        self.loaded.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
+        let held = self.source.as_ref().map(|source| source.held(&self.loaded));
+        let held = held.as_ref().unwrap_or(&self.loaded);
+        held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
     /// Reads a mesh by its path from the scene's folder and adds an object for it, with a region for each of its groups.
@@ -241,6 +240,9 @@ impl Document {
     pub fn undo(&mut self) -> Option<Step> {
         self.preview = None;
         let entry = self.history.undo()?.clone();
+        if let Some([before, _]) = entry.sources {
+            self.source = before;
+        }
         let mut scene = self.loaded.scene.clone();
         entry.change.undo(&mut scene);
         self.travel(scene, entry.selections[0].clone(), entry.text)
@@ -250,6 +252,9 @@ impl Document {
     pub fn redo(&mut self) -> Option<Step> {
         self.preview = None;
         let entry = self.history.redo()?.clone();
+        if let Some([_, after]) = entry.sources {
+            self.source = after;
+        }
         let mut scene = self.loaded.scene.clone();
         entry.change.redo(&mut scene);
         self.travel(scene, entry.selections[1].clone(), entry.text)
@@ -257,6 +262,7 @@ impl Document {
 
     /// Both ends of an entry were good once. Should a file be gone since, the scene comes back without it.
     fn travel(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
+        self.revision += 1;
         let loaded = self.with_files(scene.clone());
         let note = loaded.as_ref().err().map(ToString::to_string);
         self.loaded = Arc::new(loaded.unwrap_or_else(|_| LoadedScene { scene, ..(*self.loaded).clone() }));
@@ -284,6 +290,16 @@ impl Document {
         !self.history.is_saved()
     }
 
+    /// How many entries of the history the file has not.
+    pub fn changes(&self) -> usize {
+        self.history.since_saved()
+    }
+
+    /// A number that every change of the scene raises.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// The file that `save` writes.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
@@ -293,6 +309,13 @@ impl Document {
     pub fn name(&self) -> String {
         let file = self.file.as_ref().and_then(|file| file.file_name());
         file.map_or_else(|| "Untitled".to_owned(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// A file name to begin with for a copy: *still_life_copy.ron*.
+    pub fn suggested_copy(&self) -> PathBuf {
+        let own = self.suggested_file();
+        let stem = own.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        own.with_file_name(format!("{stem}_copy.ron"))
     }
 
     /// The folder that the scene's files are named from.
@@ -321,55 +344,6 @@ impl Document {
         let stem: String =
             stem.chars().map(|c| if c.is_alphanumeric() || "-_ ".contains(c) { c } else { '_' }).collect();
         self.folder().join(format!("{stem}.ron"))
-    }
-
-    /// Writes the scene to its file; at any moment the file is the old one or the new one, whole.
-    ///
-    /// # Errors
-    /// As [`Document::save_as`], and where there is no file yet.
-    pub fn save(&mut self) -> Result<PathBuf, SaveError> {
-        let file = self.file.clone().ok_or(SaveError::Unnamed)?;
-        self.save_as(&file)?;
-        Ok(file)
-    }
-
-    /// Writes the scene to a file, which is its own from then on. The history stays.
-    ///
-    /// # Errors
-    /// When what the scene names would not be found from there, or the file system refuses; the old file is untouched.
-    pub fn save_as(&mut self, target: &Path) -> Result<(), SaveError> {
-        self.save_copy(target)?;
-        self.file = Some(target.to_owned());
-        self.loaded = Arc::new(LoadedScene { path: target.to_owned(), ..(*self.loaded).clone() });
-        self.history.mark_saved();
-        Ok(())
-    }
-
-    /// Writes the scene to another file, and stays with its own.
-    ///
-    /// # Errors
-    /// As [`Document::save_as`].
-    pub fn save_copy(&self, target: &Path) -> Result<(), SaveError> {
-        let folder_of = |path: &Path| {
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-            let folder = folder.unwrap_or(Path::new("."));
-            folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
-        };
-        if folder_of(target) != folder_of(&self.loaded.path)
-            && let Some(mesh) = self.files_named().find(|name| !folder_of(target).join(name).is_file())
-        {
-            let (target, mesh, folder) = (target.to_owned(), mesh.to_owned(), self.folder().to_owned());
-            return Err(SaveError::FilesElsewhere { target, mesh, folder });
-        }
-        let write = save::write(target, self.scene());
-        write.map_err(|source| SaveError::Unwritable { target: target.to_owned(), source })
-    }
-
-    /// The files that the scene names, but for those of the house.
-    pub fn files_named(&self) -> impl Iterator<Item = &str> {
-        let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
-        let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
-        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))
     }
 }
 

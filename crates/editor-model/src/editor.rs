@@ -7,6 +7,7 @@
 //! ```
 
 mod actions;
+mod mending;
 mod objects;
 mod painted;
 mod pointer;
@@ -35,6 +36,7 @@ use crate::timeline::{KeysEvent, TimeHand};
 use crate::tools::{Hand, ToolOutput};
 use crate::transform::{Operation, Transforming};
 
+pub use mending::Mend;
 pub use pointer::{PointerEvent, PointerKind};
 
 /// What only the window can do.
@@ -145,12 +147,15 @@ pub struct Editor {
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
+    /// What could not be read of the document, when that was told last.
+    losses: usize,
 }
 
 impl Editor {
     /// An editor with a document.
     pub fn new(document: Document) -> Self {
         let reference_frame = reference_frame(document.scene());
+        let losses = document.loss_count();
         let session = Session { frame: reference_frame, ..Session::default() };
         Self {
             document,
@@ -170,6 +175,7 @@ impl Editor {
             said: Vec::new(),
             requests: Vec::new(),
             version: 1,
+            losses,
         }
     }
 
@@ -198,6 +204,7 @@ impl Editor {
             Some(target) => self.document.save_as(target)?,
             None => drop(self.document.save()?),
         }
+        self.losses = self.document.loss_count();
         self.say(format!("Saved {}", self.document.name()));
         Ok(())
     }
@@ -294,6 +301,10 @@ impl Editor {
 
     /// Takes all lines that are to be shown.
     pub fn take_said(&mut self) -> Vec<Said> {
+        let losses = self.document.loss_count();
+        if std::mem::replace(&mut self.losses, losses) > 0 && losses == 0 {
+            self.say("No problems left. Saving is on again.");
+        }
         std::mem::take(&mut self.said)
     }
 

@@ -1,6 +1,9 @@
 //! What can be undone and redone.
 
+use std::sync::Arc;
+
 use crate::change::SceneChange;
+use crate::document::Source;
 use crate::selection::Selection;
 
 /// The history forgets its oldest entries beyond this many bytes.
@@ -18,6 +21,8 @@ pub(crate) struct Entry {
     pub(crate) selections: [Selection; 2],
     pub(crate) merge_key: Option<String>,
     pub(crate) at_secs: f64,
+    /// What was known of the text that the scene was read from, before and after; none where that stays.
+    pub(crate) sources: Option<[Option<Arc<Source>>; 2]>,
     serial: u64,
 }
 
@@ -48,6 +53,7 @@ impl History {
             selections,
             merge_key: None,
             at_secs: f64::NEG_INFINITY,
+            sources: None,
             serial,
         });
         let mut bytes: usize = self.done.iter().map(|entry| entry.change.bytes()).sum();
@@ -71,6 +77,12 @@ impl History {
     pub(crate) fn mark_last(&mut self, merge_key: String, at_secs: f64) {
         if let Some(entry) = self.done.last_mut() {
             (entry.merge_key, entry.at_secs) = (Some(merge_key), at_secs);
+        }
+    }
+
+    pub(crate) fn mark_sources(&mut self, sources: [Option<Arc<Source>>; 2]) {
+        if let Some(entry) = self.done.last_mut() {
+            entry.sources = Some(sources);
         }
     }
 
@@ -113,6 +125,21 @@ impl History {
 
     pub(crate) fn mark_saved(&mut self) {
         self.saved = Some(self.here());
+    }
+
+    /// How many entries the file has not, or has too many.
+    pub(crate) fn since_saved(&self) -> usize {
+        let Some(saved) = self.saved else { return self.done.len() };
+        if saved == self.forgotten {
+            return self.done.len();
+        }
+        let done = self.done.iter().rposition(|entry| entry.serial == saved);
+        let undone = self.undone.iter().rposition(|entry| entry.serial == saved);
+        match (done, undone) {
+            (Some(index), _) => self.done.len() - 1 - index,
+            (None, Some(index)) => self.undone.len() - index,
+            (None, None) => self.done.len(),
+        }
     }
 
     pub(crate) fn is_saved(&self) -> bool {

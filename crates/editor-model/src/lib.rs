@@ -20,13 +20,16 @@ mod names;
 pub mod path;
 pub mod picking;
 pub mod playback;
+pub mod recovery;
 mod refusal;
 pub mod selection;
 pub mod session;
+pub mod stamp;
 pub mod stroke_fields;
 pub mod timeline;
 pub mod tools;
 pub mod transform;
+pub mod watch;
 
 pub use command::Command;
 pub use document::Document;

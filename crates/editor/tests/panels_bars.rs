@@ -405,11 +405,23 @@ fn questions_are_answered_by_their_verbs_and_keys() {
             Answer::KeepWorking,
         ),
         (
-            Question::Recovered { at: "14:32".to_owned(), changes: 9 },
-            "Compare",
-            Answer::Compare,
+            Question::Recovered {
+                name: scene(),
+                age: "5 minutes ago".to_owned(),
+                changes: 9,
+                of_another: true,
+            },
+            "Discard",
+            Answer::Discard,
             Answer::OpenCopy,
-            Answer::OpenCopy,
+            Answer::Cancel,
+        ),
+        (
+            Question::SaveOver { name: scene() },
+            "Save over it",
+            Answer::SaveOver,
+            Answer::SaveAs,
+            Answer::Cancel,
         ),
         (
             Question::Problems { count: 1, line: 38 },

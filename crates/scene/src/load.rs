@@ -17,6 +17,7 @@ mod edited;
 mod files;
 mod overrides;
 mod parse;
+pub mod salvage;
 mod source;
 
 use files::{Files, Readers, retold};

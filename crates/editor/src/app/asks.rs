@@ -1,7 +1,7 @@
 //! Doing what panels and the editor ask for.
 
 use egui::Context;
-use impasto_editor_model::editor::Request;
+use impasto_editor_model::editor::{Mend, Request};
 use impasto_editor_model::picking::View;
 
 use super::EditorApp;
@@ -32,6 +32,11 @@ impl EditorApp {
                 }
             }
             Ask::Timeline(event) => self.editor.timeline(event),
+            Ask::Mend(mend) => drop(self.editor.mend(&mend)),
+            Ask::SaveCopy => {
+                let start = self.editor.document().suggested_copy();
+                self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
+            }
             Ask::Open(path) => self.open_asking(&path),
             Ask::Copy(words) => ctx.copy_text(words),
             Ask::ChooseMesh(object) => {
@@ -60,7 +65,7 @@ impl EditorApp {
                     let start = self.editor.document().suggested_file();
                     self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
                 }
-                Request::Revert => self.revert_asking(),
+                Request::Revert => drop(self.editor.mend(&Mend::ReadAgain)),
                 Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),
                 Request::Palette => self.sheets.palette = true,
                 Request::Shortcuts => self.sheets.shortcuts = true,

@@ -105,28 +105,6 @@ impl EditorApp {
         self.settle_then(Next::Close);
     }
 
-    /// Reads the document's file again; asks where there are edits.
-    pub(super) fn revert_asking(&mut self) {
-        if self.editor.document().is_edited() {
-            self.sheets.revert = true;
-        } else {
-            self.revert();
-        }
-    }
-
-    fn revert(&mut self) {
-        let Some(file) = self.editor.document().file().map(Path::to_owned) else { return };
-        let (looking, session) = (self.editor.looking.clone(), self.editor.session.clone());
-        let selection = self.editor.document().selection().clone();
-        let before = self.editor.shown().1;
-        self.open(&file);
-        // Where it could not be read, the old one is still there.
-        if self.editor.shown().1 != before {
-            (self.editor.looking, self.editor.session) = (looking, session);
-            self.editor.select(selection);
-        }
-    }
-
     fn settle_then(&mut self, next: Next) {
         if self.editor.document().is_edited() {
             self.wait_for(next);
@@ -150,6 +128,7 @@ impl EditorApp {
                 self.note_last_seen();
                 let folder = self.editor.document().folder().to_owned();
                 self.editor.open(Document::empty(&folder));
+                self.sheets.problems = false;
                 self.keymap();
                 self.studio.forget();
             }
@@ -159,7 +138,13 @@ impl EditorApp {
 
     /// Saves to a file, or to the document's own. Whether that went well.
     pub(super) fn save(&mut self, target: Option<&Path>) -> bool {
-        match self.editor.save(target) {
+        let saved = self.editor.save(target);
+        self.saved(saved)
+    }
+
+    /// What follows a save.
+    pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
+        match saved {
             Ok(()) => {
                 if let Some(file) = self.editor.document().file().map(Path::to_owned) {
                     self.preferences.note_recent(&file);
@@ -172,7 +157,9 @@ impl EditorApp {
                 false
             }
             Err(error) => {
-                self.toast(error.to_string(), None, true);
+                // What was to go on waits for a save that goes well.
+                self.files.waiting = None;
+                self.ask_about_saving(error);
                 false
             }
         }
@@ -192,14 +179,8 @@ impl EditorApp {
             self.ask_about_changes(ctx);
         } else if self.files.along.is_some() {
             self.ask_to_take_along(ctx);
-        } else if self.sheets.revert {
-            let name = self.editor.document().name();
-            if let Some(answer) = ask_close::ask(ctx, &Question::ReadAgain { name }) {
-                self.sheets.revert = false;
-                if answer == ask_close::Answer::ReadAgain {
-                    self.revert();
-                }
-            }
+        } else if self.safe.is_asking() {
+            self.ask_about_safety(ctx);
         } else if let Some(frame) = self.sheets.recapture
             && let Some(answer) = ask_close::ask(ctx, &Question::Recapture { frame })
         {
@@ -256,6 +237,8 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
+            // With losses the copy is gone on with: the file that was read stays what it is.
+            Ask::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             Ask::SaveCopy => self.save_copy(&path),
             Ask::LocateMesh => self.replace_mesh(&path),
         }

@@ -13,6 +13,7 @@ mod last_seen;
 mod marks;
 mod motion_marks;
 mod picture;
+mod safe_keeping;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -36,6 +37,7 @@ use crate::window::{self, Opened, numpad_pressed, tab_pressed};
 use file_flow::FileFlow;
 use marks::MarkCache;
 use picture::{News, Studio};
+use safe_keeping::SafeKeeping;
 
 /// A line at the bottom stays so long; what was refused, too.
 const TOAST: Duration = Duration::from_secs(4);
@@ -46,6 +48,7 @@ pub(crate) struct EditorApp {
     studio: Studio,
     marks: MarkCache,
     files: FileFlow,
+    safe: SafeKeeping,
     preferences: Preferences,
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
@@ -70,7 +73,7 @@ struct Sheets {
     palette: bool,
     shortcuts: bool,
     recapture: Option<i64>,
-    revert: bool,
+    problems: bool,
 }
 
 /// What is folded away.
@@ -91,6 +94,7 @@ impl EditorApp {
             studio: Studio::new(options.driver.unwrap_or(preferences.driver), opened.waker.clone()),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
+            safe: SafeKeeping::new(),
             sheets: Sheets {
                 welcome: preferences.show_welcome && options.path.is_none(),
                 ..Sheets::default()
@@ -111,6 +115,8 @@ impl EditorApp {
         }
         if let Some(path) = &options.path {
             app.open(path);
+        } else {
+            app.offer_copies(None);
         }
         app
     }
@@ -128,7 +134,7 @@ impl EditorApp {
     }
 
     fn open(&mut self, path: &Path) {
-        match Document::open(path, &LoadOptions::default()) {
+        match Document::open_with_problems(path, &LoadOptions::default()) {
             Ok(document) => {
                 self.note_last_seen();
                 let scene = document.scene();
@@ -137,18 +143,21 @@ impl EditorApp {
                     document.loaded().meshes.values().map(|file| file.mesh.triangles.len()).sum();
                 let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
                 let warnings = document.loaded().warnings.len();
+                let losses = document.loss_count();
                 self.editor.open(document);
                 self.keymap();
                 self.studio.forget();
                 self.sheets.welcome = false;
+                self.sheets.problems = losses > 0;
                 self.toast(format!("{name}: {triangles} triangles, {regions} regions"), None, false);
-                if warnings > 0 {
+                if warnings > 0 && losses == 0 {
                     let words = format!("{warnings} warnings: `impasto check {name}` lists them");
                     self.toast(words, None, false);
                 }
                 self.go_to_last_seen(path);
                 self.preferences.note_recent(path);
                 self.keep_preferences();
+                self.offer_copies(Some(path));
             }
             Err(report) => {
                 for problem in report.0.iter().filter(|problem| problem.severity.is_fatal()).take(3) {
@@ -172,8 +181,9 @@ impl EditorApp {
     }
 
     fn is_modal(&self) -> bool {
-        let Sheets { welcome, palette, shortcuts, recapture, revert } = &self.sheets;
-        *welcome || *palette || *shortcuts || *revert || recapture.is_some() || self.files.is_asking()
+        let Sheets { welcome, palette, shortcuts, recapture, problems: _ } = &self.sheets;
+        let asks = self.files.is_asking() || self.safe.is_asking();
+        *welcome || *palette || *shortcuts || recapture.is_some() || asks
     }
 
     fn page(&mut self, ui: &mut Ui) {
@@ -202,6 +212,7 @@ impl EditorApp {
             area(ui, Area::TopBar, |ui| panels::top_bar::top_bar(ui, &shown, &mut asks));
             panels::status_line::status_line(ui, &shown, &mut asks);
             area(ui, Area::Strip, |ui| panels::strip::strip(ui, &shown, &mut asks));
+            self.sheets.problems &= self.sheets.problems && panels::problems::problems(ui, &shown, &mut asks);
             if !self.folds.column && ui.available_width() >= 900.0 {
                 panels::column(ui, &shown, &mut asks);
             }
@@ -309,6 +320,9 @@ impl window::App for EditorApp {
         if self.folds.had_focus && !focused {
             self.editor.focus_lost(&view);
         }
+        if focused && !self.folds.had_focus {
+            self.safe.look_now();
+        }
         self.folds.had_focus = focused;
         let numpad = numpad_pressed(&ctx);
         // An open menu has Esc to itself, and what is typed over it is meant for it.
@@ -326,8 +340,10 @@ impl window::App for EditorApp {
         }
         self.requests(&ctx);
         if self.file_sheets(&ctx, ui) {
+            self.safe.give_up();
             frame.close();
         }
+        self.keep_safe(&ctx);
         self.lines(&ctx);
         self.tell_rest(&ctx);
     }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::theme::Theme;
 
-pub use store::{Loaded, PreferencesError, config_folder, load, save};
+pub use store::{Loaded, PreferencesError, config_folder, load, recovery_folder, save};
 
 /// The newest layout that this build reads.
 pub const VERSION: u32 = 1;

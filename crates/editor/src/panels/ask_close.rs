@@ -24,11 +24,6 @@ pub enum Question {
         /// The folder.
         folder: String,
     },
-    /// The file is read again, and there are edits.
-    ReadAgain {
-        /// The document's name.
-        name: String,
-    },
     /// The file on disk is another than the one that was opened.
     ChangedOutside {
         /// The document's name.
@@ -36,10 +31,19 @@ pub enum Question {
     },
     /// There is a copy of unsaved work from a session that broke off.
     Recovered {
-        /// When it was written: *14:32*.
-        at: String,
+        /// What it is a copy of.
+        name: String,
+        /// How old it is: *5 minutes ago*.
+        age: String,
         /// How many entries of the history the file does not have.
         changes: usize,
+        /// The file is another one than the copy was made from.
+        of_another: bool,
+    },
+    /// The file on disk is another than the one that was opened, and would be saved over.
+    SaveOver {
+        /// The document's name.
+        name: String,
     },
     /// The file was read with losses, so that saving over it would make them last.
     Problems {
@@ -69,10 +73,8 @@ pub enum Answer {
     SaveAs,
     /// Leave everything as it is.
     KeepWorking,
-    /// Open the file, not the copy.
-    OpenFile,
-    /// Show both.
-    Compare,
+    /// Save in the place of what somebody else wrote.
+    SaveOver,
     /// Open the copy.
     OpenCopy,
     /// Go to what is wrong.
@@ -103,11 +105,6 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
             "The scene would not find its meshes and pictures from there. Nothing that is there is written over.".to_owned(),
             &[("Cancel", Answer::Cancel), ("Copy and save", Answer::Copy)],
         ),
-        Question::ReadAgain { name } => (
-            format!("Read {name} again?"),
-            "Your edits are not in it, and they cannot be brought back.".to_owned(),
-            &[("Read it, drop my edits", Answer::ReadAgain), ("Cancel", Answer::Cancel)],
-        ),
         Question::ChangedOutside { name } => (
             format!("{name} was changed by another program"),
             "Your edits are not in it.".to_owned(),
@@ -117,13 +114,26 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
                 ("Keep working", Answer::KeepWorking),
             ],
         ),
-        Question::Recovered { at, changes } => (
+        Question::Recovered { name, age, changes, of_another } => (
             "Impasto closed unexpectedly".to_owned(),
-            format!("A copy from {at} has {} that the file does not.", counted(*changes, "change")),
+            format!(
+                "A copy of {name} from {age} has {} that the file does not.{}",
+                counted(*changes, "change"),
+                if *of_another { " The file was changed since." } else { "" }
+            ),
             &[
-                ("Open the file", Answer::OpenFile),
-                ("Compare", Answer::Compare),
-                ("Open the copy", Answer::OpenCopy),
+                ("Discard", Answer::Discard),
+                ("Later", Answer::Cancel),
+                ("Open what was being painted", Answer::OpenCopy),
+            ],
+        ),
+        Question::SaveOver { name } => (
+            format!("{name} was changed by another program"),
+            "Saving now would take the place of what that one wrote.".to_owned(),
+            &[
+                ("Save over it", Answer::SaveOver),
+                ("Cancel", Answer::Cancel),
+                ("Save mine as\u{2026}", Answer::SaveAs),
             ],
         ),
         Question::Problems { count, line } => (

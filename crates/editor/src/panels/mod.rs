@@ -9,6 +9,7 @@ pub mod empty;
 mod menus;
 pub mod options_bar;
 pub mod palette;
+pub mod problems;
 pub mod rail;
 pub mod shortcuts;
 pub mod status_line;
@@ -27,6 +28,7 @@ mod inspector;
 mod tree;
 
 use impasto_editor_model::command::Command;
+use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::{Action, Keymap, Preset};
 use impasto_editor_model::timeline::{TimeHand, TimelineEvent};
 use impasto_editor_model::{Document, Selection, Session};
@@ -134,6 +136,10 @@ pub enum Ask {
     Select(Selection),
     /// Ask for a mesh file and give it to this object.
     ChooseMesh(String),
+    /// Do something about what is wrong with the document.
+    Mend(Mend),
+    /// Ask for a file, and write a copy of the scene there.
+    SaveCopy,
     /// Do what a key would do.
     Act(Action),
     /// Mode, tools, overlays and frame as they are in this session.

@@ -71,7 +71,14 @@ fn travel(ui: &mut Ui, (shown, action): (&Shown<'_>, Action), icon: Icon, entry:
 fn document(ui: &mut Ui, shown: &Shown<'_>) {
     let tokens = Tokens::of(ui);
     let (name, edited) = (shown.document.name(), shown.document.is_edited());
-    let mark = if edited { 22.0 + text_width(ui, "edited", type_face::small()) } else { 0.0 };
+    let off = shown.document.loss_count() > 0;
+    let words = match (off, edited) {
+        (true, _) => "saving over it is off",
+        (false, true) => "edited",
+        (false, false) => "",
+    };
+    let mark = if words.is_empty() { 0.0 } else { 22.0 + text_width(ui, words, type_face::small()) };
+    let mark = if off { mark + 4.0 } else { mark };
     let mut job = egui::text::LayoutJob::simple_singleline(name.clone(), type_face::body(), tokens.text);
     job.wrap = egui::text::TextWrapping::truncate_at_width((ui.available_width() - mark).max(24.0));
     let galley = ui.painter().layout_job(job);
@@ -80,13 +87,19 @@ fn document(ui: &mut Ui, shown: &Shown<'_>) {
     let name_right = rect.left() + galley.size().x;
     let at = Align2::LEFT_CENTER.anchor_size(rect.left_center(), galley.size()).min;
     ui.painter().galley(at, galley, tokens.text);
-    if edited {
-        ui.painter().circle_filled(egui::pos2(name_right + 11.0, rect.center().y), 3.5, tokens.ochre);
-        let at = egui::pos2(name_right + 20.0, rect.center().y);
-        ui.painter().text(at, Align2::LEFT_CENTER, "edited", type_face::small(), tokens.weak);
+    let beside = |right: f32| egui::pos2(name_right + right, rect.center().y);
+    if off {
+        let font = type_face::icon(measure::SMALL_ICON);
+        let (glyph, colour) = (icons::LOCKED.glyph(), tokens.vermilion);
+        ui.painter().text(beside(14.0), Align2::CENTER_CENTER, glyph, font, colour);
+        ui.painter().text(beside(26.0), Align2::LEFT_CENTER, words, type_face::small(), colour);
+    } else if edited {
+        ui.painter().circle_filled(beside(11.0), 3.5, tokens.ochre);
+        ui.painter().text(beside(20.0), Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, "Document"));
-    let spoken = if edited { format!("{name}, edited") } else { name };
+    let also = |is: bool, words: &str| if is { format!(", {words}") } else { String::new() };
+    let spoken = format!("{name}{}{}", also(edited, "edited"), also(off, "saving over it is off"));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(spoken));
     if let Some(file) = shown.document.file() {
         response.on_hover_text(file.display().to_string());

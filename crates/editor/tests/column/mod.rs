@@ -108,7 +108,13 @@ impl Column {
                 "act".to_owned()
             }
             Ask::Recapture(frame) => format!("ask about frame {frame}"),
-            Ask::Timeline(_) | Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Quit => {
+            Ask::Timeline(_)
+            | Ask::Open(_)
+            | Ask::Copy(_)
+            | Ask::Welcome
+            | Ask::Quit
+            | Ask::Mend(_)
+            | Ask::SaveCopy => {
                 "of another panel".to_owned()
             }
             Ask::Session(session) => {

@@ -79,7 +79,7 @@ impl Files {
 }
 
 /// Each name that objects give, with the field that gives it first, in the order of the file.
-fn first_uses<'a>(
+pub(super) fn first_uses<'a>(
     scene: &'a Scene,
     name_of: impl Fn(&'a crate::document::Object) -> Option<&'a String>,
     field: &str,

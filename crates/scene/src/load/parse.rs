@@ -1,5 +1,6 @@
 //! From text to the document, with every complaint of the RON parser said in the words of a scene.
 
+use std::ops::Range;
 use std::path::Path;
 
 use ron::error::{Position, SpannedError};
@@ -41,7 +42,10 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
         }
         let offset = |at: Position| located.offset_in(&left, at.line, at.col);
         let span = (offset(error.span.start), offset(error.span.end));
-        let unknown = unknown_field(&located, &left, &error.code, span.1);
+        let unknown = match &error.code {
+            ron::Error::NoSuchStructField { found, .. } => field_before(&located, &left, found, span.1),
+            _ => None,
+        };
         problems.push(explain(path, &located, &error.code, span, unknown));
         // An unknown field is blanked out, so that the parser goes on to the next fault and all places hold.
         match unknown {
@@ -60,11 +64,11 @@ fn is_mistyped(error: &SpannedError, problems: &[Problem]) -> bool {
 }
 
 /// The version is looked at before anything else: a newer file may have any fields.
-fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
-    let Inside::Fields(fields) = &located.root().inside else { return Ok(()) };
+pub(super) fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
+    let Inside::Fields(_) = &located.root().inside else { return Ok(()) };
     let place = |node: &Node| Some(located.place(node.start as usize));
     let current = Scene::VERSION;
-    let Some(field) = fields.iter().find(|field| located.text_of(&field.key) == "version") else {
+    let Some(field) = version_field(located) else {
         let mend = format!("write `version: {current},` as the first field");
         return Err(error_in(path, place(located.root()), "the scene does not say its version", mend));
     };
@@ -86,16 +90,32 @@ fn check_version(path: &Path, located: &Located) -> Result<(), Problem> {
     }
 }
 
-fn from_ron(text: &str) -> Result<Scene, SpannedError> {
+/// The field that says the version.
+pub(super) fn version_field(located: &Located) -> Option<&Field> {
+    let Inside::Fields(fields) = &located.root().inside else { return None };
+    fields.iter().find(|field| located.text_of(&field.key) == "version")
+}
+
+/// Whether a scene says that it is of a newer version than this build reads.
+pub(super) fn is_newer(located: &Located) -> bool {
+    let digits = version_field(located).map(|field| located.text_of(&field.value));
+    digits.and_then(|digits| digits.parse::<u64>().ok()).is_some_and(|said| said > u64::from(Scene::VERSION))
+}
+
+pub(super) fn from_ron(text: &str) -> Result<Scene, SpannedError> {
     ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME)
         .with_recursion_limit(2 * limits::MAX_NESTING)
         .from_str(text)
 }
 
-/// The field that the parser does not know, looked for where it stopped.
-fn unknown_field<'a>(located: &'a Located, left: &str, error: &ron::Error, end: usize) -> Option<&'a Field> {
-    let ron::Error::NoSuchStructField { found, .. } = error else { return None };
+/// The last field of a name that begins before the place where the parser stopped.
+pub(super) fn field_before<'a>(
+    located: &'a Located,
+    left: &str,
+    found: &str,
+    end: usize,
+) -> Option<&'a Field> {
     let is_left = |field: &&Field| !left[field.key.start as usize..].starts_with(' ');
     let mut best: Option<&Field> = None;
     let mut open = vec![located.root()];
@@ -119,20 +139,30 @@ fn reaches(node: &Node, offset: usize) -> bool {
 }
 
 /// Overwrites a field, and the comma behind it, with spaces. Line ends stay, and so does every other byte.
-fn blank_out(text: &mut String, field: &Field) {
-    let (start, end) = (field.key.start as usize, field.value.end as usize);
-    let behind = text[end..].trim_start();
-    let end = if behind.starts_with(',') { text.len() - behind.len() + 1 } else { end };
+pub(super) fn blank_out(text: &mut String, field: &Field) {
+    let range = with_comma(text, field.key.start as usize..field.value.end as usize);
+    blank_range(text, range);
+}
+
+/// A part of a text with the comma behind it.
+pub(super) fn with_comma(text: &str, range: Range<usize>) -> Range<usize> {
+    let behind = text[range.end..].trim_start();
+    let end = if behind.starts_with(',') { text.len() - behind.len() + 1 } else { range.end };
+    range.start..end
+}
+
+/// Overwrites a part of a text with spaces.
+pub(super) fn blank_range(text: &mut String, range: Range<usize>) {
     let blank = |character: char| match character {
         '\n' => "\n".to_owned(),
         // As many bytes as before, so that byte offsets hold.
         character => " ".repeat(character.len_utf8()),
     };
-    let blanked: String = text[start..end].chars().map(blank).collect();
-    text.replace_range(start..end, &blanked);
+    let blanked: String = text[range.clone()].chars().map(blank).collect();
+    text.replace_range(range, &blanked);
 }
 
-fn explain(
+pub(super) fn explain(
     path: &Path,
     located: &Located,
     error: &ron::Error,
@@ -217,6 +247,12 @@ fn is_inside_value(located: &Located, offset: usize) -> bool {
 
 /// Which value the parser stumbled in: its path for a message, and its offset.
 fn enclosing(located: &Located, start: usize, end: usize) -> (String, usize) {
+    let (field_path, offset) = enclosing_path(located, start, end);
+    (named(&field_path), offset)
+}
+
+/// Which value the parser stumbled in: its path, empty for the scene, and its offset.
+pub(super) fn enclosing_path(located: &Located, start: usize, end: usize) -> (String, usize) {
     let behind = &located.text()[start.min(end)..];
     let blank = behind.len() - behind.trim_start().len();
     let first = (start.min(end) + blank).min(start.max(end));
@@ -227,11 +263,18 @@ fn enclosing(located: &Located, start: usize, end: usize) -> (String, usize) {
             (field_path, node) = (later_path, later);
         }
     }
-    (named(&field_path), node.start as usize)
+    (field_path, node.start as usize)
 }
 
 /// The struct in whose brackets the parser stood: its path for a message, and its offset.
 fn enclosing_struct(located: &Located, offset: usize) -> (String, usize) {
+    let field_path = enclosing_struct_path(located, offset);
+    let node = located.node_at(&field_path).unwrap_or(located.root());
+    (named(&field_path), node.start as usize)
+}
+
+/// The path of that struct, empty for the scene.
+pub(super) fn enclosing_struct_path(located: &Located, offset: usize) -> String {
     let (mut field_path, mut node) = located.innermost(offset);
     let is_open = |node: &Node| {
         let is_bracketed = !matches!(node.inside, Inside::Nothing) && located.text_of(node).ends_with(')');
@@ -242,7 +285,7 @@ fn enclosing_struct(located: &Located, offset: usize) -> (String, usize) {
         field_path.truncate(cut);
         node = located.node_at(&field_path).unwrap_or(located.root());
     }
-    (named(&field_path), node.start as usize)
+    field_path
 }
 
 fn named(field_path: &str) -> String {

@@ -53,20 +53,26 @@ pub(super) fn scan(path: &Path, text: &str) -> Result<Located, Problem> {
         return Err(too_long(path));
     }
     let at = |offset| Some(place_in(text, &line_starts(text), offset));
-    if let Some(offset) = text.find('\0') {
-        let mend = "save the scene as plain UTF-8 text";
-        return Err(error_in(path, at(offset), "there is a NUL character in the file", mend));
-    }
-    Located::scan(text).map_err(|refused: Refused| {
+    scan_refusing(text).map_err(|refused| {
         let severity = if refused.is_limit { Severity::Limit } else { Severity::Error };
         let problem = error_in(path, at(refused.offset), refused.message, refused.mend);
         Problem { severity, ..problem }
     })
 }
 
+/// Scans a text that is not too long.
+pub(super) fn scan_refusing(text: &str) -> Result<Located, Refused> {
+    if let Some(offset) = text.find('\0') {
+        let message = "there is a NUL character in the file".to_owned();
+        let mend = "save the scene as plain UTF-8 text".to_owned();
+        return Err(Refused { offset, message, mend, is_limit: false });
+    }
+    Located::scan(text)
+}
+
 const START: Place = Place { line: 1, column: 1 };
 
-fn too_long(path: &Path) -> Problem {
+pub(super) fn too_long(path: &Path) -> Problem {
     let limit_mib = limits::MAX_SCENE_BYTES >> 20;
     let problem = error_in(
         path,

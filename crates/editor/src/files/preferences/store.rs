@@ -20,6 +20,19 @@ pub fn config_folder() -> Option<PathBuf> {
     }
 }
 
+/// The folder of copies of unsaved work: in `$IMPASTO_CONFIG_DIR`, else in the user's folder for what programs keep of their
+/// state; none where the user has no home.
+pub fn recovery_folder() -> Option<PathBuf> {
+    let folder = match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
+        Some(folder) => PathBuf::from(folder),
+        None => {
+            let places = etcetera::choose_base_strategy().ok()?;
+            places.state_dir().unwrap_or_else(|| places.data_dir()).join("impasto")
+        }
+    };
+    Some(folder.join("recovery"))
+}
+
 /// Preferences as they were read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {

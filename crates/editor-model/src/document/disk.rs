@@ -1,0 +1,231 @@
+//! A document and its files on the disk: saving, reading again, copies of unsaved work.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::problem::Report;
+use impasto_scene::save;
+
+use super::{Document, Step};
+use crate::change::SceneChange;
+use crate::recovery::{Copy, Work};
+use crate::refusal::Refusal;
+use crate::stamp::{self, Stamp};
+
+/// Why a document was not saved.
+#[derive(Debug, thiserror::Error)]
+pub enum SaveError {
+    /// It has no file yet.
+    #[error("this scene has no file yet: choose a name")]
+    Unnamed,
+    /// What the scene names would not be found from there.
+    #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
+    FilesElsewhere {
+        /// The file that was chosen.
+        target: PathBuf,
+        /// A file that the scene names.
+        mesh: String,
+        /// The folder that the scene's files are named from.
+        folder: PathBuf,
+    },
+    /// The file system would not.
+    #[error("{} was not written: {source}", target.display())]
+    Unwritable {
+        /// The file.
+        target: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Somebody else wrote the file since it was read.
+    #[error("{} was changed by another program since it was read", target.display())]
+    ChangedOutside {
+        /// The file.
+        target: PathBuf,
+    },
+    /// Not all of the file could be read, and saving over it would lose the rest.
+    #[error(
+        "this scene has {count} problems left; saving over it would lose what could not be read (line {line}): save a copy"
+    )]
+    Problems {
+        /// How many are left.
+        count: usize,
+        /// The line of the first one.
+        line: usize,
+    },
+}
+
+impl Document {
+    /// Writes the scene to its file; at any moment the file is the old one or the new one, whole.
+    ///
+    /// # Errors
+    /// As [`Document::save_as`], where there is no file yet, and where somebody else wrote the file since.
+    pub fn save(&mut self) -> Result<PathBuf, SaveError> {
+        let file = self.file.clone().ok_or(SaveError::Unnamed)?;
+        self.may_save_over(&file)?;
+        if self.is_changed_outside() {
+            return Err(SaveError::ChangedOutside { target: file });
+        }
+        self.save_as(&file)?;
+        Ok(file)
+    }
+
+    /// As [`Document::save`], in the place of what somebody else wrote since.
+    ///
+    /// # Errors
+    /// As [`Document::save_as`], and where there is no file yet.
+    pub fn save_over(&mut self) -> Result<PathBuf, SaveError> {
+        let file = self.file.clone().ok_or(SaveError::Unnamed)?;
+        self.save_as(&file)?;
+        Ok(file)
+    }
+
+    /// Whether the document's file holds other bytes than were read or written last. One that is gone is nothing that could
+    /// be lost.
+    pub fn is_changed_outside(&self) -> bool {
+        let is_other = |file: &PathBuf| Stamp::is_other(self.stamp.as_ref(), file) && file.exists();
+        self.file.as_ref().is_some_and(is_other)
+    }
+
+    /// Writes the scene to a file, which is its own from then on. The history stays.
+    ///
+    /// # Errors
+    /// When what the scene names would not be found from there, the file system refuses, or it is the document's own file and
+    /// not all of that could be read; the old file is untouched.
+    pub fn save_as(&mut self, target: &Path) -> Result<(), SaveError> {
+        self.may_save_over(target)?;
+        self.save_copy(target)?;
+        // What was written, should somebody else have written since.
+        let text = save::to_ron(self.scene());
+        let written = |stamp| Stamp { bytes: text.len() as u64, hash: stamp::hash(text.as_bytes()), ..stamp };
+        self.stamp = Stamp::of(target).map(written);
+        self.file = Some(target.to_owned());
+        self.loaded = Arc::new(LoadedScene { path: target.to_owned(), ..(*self.loaded).clone() });
+        self.source = None;
+        self.history.mark_saved();
+        Ok(())
+    }
+
+    fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
+        let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        // The text may belong to another file than the document's own: that of a copy of unsaved work.
+        let is_own = real(target) == real(&self.loaded.path);
+        match self.first_loss().filter(|_| is_own) {
+            Some(line) => Err(SaveError::Problems { count: self.loss_count(), line }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the scene to another file, and stays with its own.
+    ///
+    /// # Errors
+    /// As [`Document::save_as`].
+    pub fn save_copy(&self, target: &Path) -> Result<(), SaveError> {
+        let folder_of = |path: &Path| {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new("."));
+            folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+        };
+        if folder_of(target) != folder_of(&self.loaded.path)
+            && let Some(mesh) = self.files_named().find(|name| !folder_of(target).join(name).is_file())
+        {
+            let (target, mesh, folder) = (target.to_owned(), mesh.to_owned(), self.folder().to_owned());
+            return Err(SaveError::FilesElsewhere { target, mesh, folder });
+        }
+        let write = save::write(target, self.scene());
+        write.map_err(|source| SaveError::Unwritable { target: target.to_owned(), source })
+    }
+
+    /// The files that the scene names, but for those of the house.
+    pub fn files_named(&self) -> impl Iterator<Item = &str> {
+        let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
+        let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
+        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))
+    }
+
+    /// Reads the scene's own file again, all of it, meshes and pictures too: one entry of the history, so that edits can be
+    /// brought back. Where the file has errors, everything stays as it was.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn reload(&mut self) -> Result<Step, Report> {
+        let Some(file) = self.file.clone() else { return Ok(nothing()) };
+        let read = Self::open(&file, &self.options)?;
+        Ok(self.go_on_with(read))
+    }
+
+    /// As [`Document::reload`], with as much of a file with errors as can be read.
+    ///
+    /// # Errors
+    /// Where there is nothing to read.
+    pub fn read_again(&mut self) -> Result<Step, Report> {
+        let Some(file) = self.file.clone() else { return Ok(nothing()) };
+        let read = Self::open_with_problems(&file, &self.options)?;
+        Ok(self.go_on_with(read))
+    }
+
+    fn go_on_with(&mut self, read: Self) -> Step {
+        let change = SceneChange::between(self.scene(), read.scene());
+        let sources = [self.source.clone(), read.source.clone()];
+        let is_nothing = change.is_none() && sources.iter().all(Option::is_none);
+        self.preview = None;
+        (self.loaded, self.stamp, self.source) = (read.loaded, read.stamp, read.source);
+        let before = self.selection.clone();
+        self.select(before.clone());
+        let text = if is_nothing { String::new() } else { "Read again".to_owned() };
+        if !is_nothing {
+            self.revision += 1;
+            let selections = [before, self.selection.clone()];
+            self.history.push(text.clone(), change.unwrap_or_default(), selections);
+            self.history.mark_sources(sources);
+        }
+        self.history.mark_saved();
+        Step { text, note: None }
+    }
+
+    /// Reads the meshes and pictures that the scene names again. No entry of the history: the scene stays.
+    ///
+    /// # Errors
+    /// What is wrong with them, in the words to show; those that were held stay.
+    pub fn read_files_again(&mut self) -> Result<(), Refusal> {
+        let scene = self.scene().clone();
+        let (meshes, textures, brushes) = Default::default();
+        let bare = LoadedScene { meshes, textures, brushes, warnings: Vec::new(), ..(*self.loaded).clone() };
+        let read = bare.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?;
+        self.preview = None;
+        self.loaded = Arc::new(read);
+        Ok(())
+    }
+
+    /// The files that the scene was read from, with its own first, where they are on the disk.
+    pub fn files_on_disk(&self) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> = self.file.iter().cloned().collect();
+        for name in self.files_named() {
+            let path = self.folder().join(name.trim().replace('\\', "/"));
+            if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
+                files.push(path.with_extension("mtl"));
+            }
+            files.push(path);
+        }
+        files
+    }
+
+    /// The unsaved work, to be kept.
+    pub fn work(&self, at_unix_secs: u64) -> Work {
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let copy = Copy {
+            file: self.file.as_deref().map(absolute),
+            path: absolute(&self.loaded.path),
+            stamp: self.stamp,
+            at_unix_secs,
+            changes: self.changes(),
+            lossy: self.first_loss().is_some(),
+            text: String::new(),
+        };
+        Work { copy, scene: Arc::clone(&self.loaded) }
+    }
+}
+
+fn nothing() -> Step {
+    Step { text: String::new(), note: None }
+}

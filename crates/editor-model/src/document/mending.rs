@@ -1,0 +1,284 @@
+//! Settling what could not be read, and what lies oddly: each repair is one entry of the history.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use impasto_core::nearest::nearest_point;
+use impasto_scene::document::{GuidePoint, Scene};
+use impasto_scene::load::salvage::{self, Loss};
+use impasto_scene::problem::Problem;
+
+use super::opening::Source;
+use super::{Document, Step};
+use crate::change::{SceneChange, head};
+use crate::command::{Command, Directions};
+use crate::refusal::Refusal;
+
+/// One thing that is wrong with the document, for a list.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What, and where in the text.
+    pub problem: Problem,
+    /// What serves until it is mended, as a sentence; empty for what is only odd.
+    pub instead: String,
+    /// What can be done about it, the best last.
+    pub repairs: Vec<Repair>,
+}
+
+/// What can be done about a problem.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Repair {
+    /// Another mesh for an object.
+    Locate {
+        /// The object.
+        object: String,
+    },
+    /// A change of the text that it was read from.
+    Fix {
+        /// Its place among the losses of the source.
+        loss: usize,
+        /// The verb: *Rename*, *Use leaf.obj*.
+        verb: String,
+        /// Whether nothing else can have been meant.
+        is_certain: bool,
+    },
+    /// A guide's points go onto the surface.
+    Snap {
+        /// The region.
+        region: String,
+        /// The guide's place in it.
+        guide: usize,
+    },
+}
+
+impl Document {
+    /// Everything that is wrong or odd: what keeps the scene from being saved over its file, then the rest.
+    pub fn problems(&self) -> Vec<Row> {
+        let losses = self.open_losses().map(|(index, loss)| {
+            let mut repairs = Vec::new();
+            let user = |mesh: &String| self.scene().objects.iter().find(|object| object.mesh == *mesh);
+            if let Some(object) = loss.mesh.as_ref().and_then(user) {
+                repairs.push(Repair::Locate { object: object.name.clone() });
+            }
+            repairs.extend(loss.fix.as_ref().map(|fix| Repair::Fix {
+                loss: index,
+                verb: fix.verb.clone(),
+                is_certain: fix.is_certain,
+            }));
+            Row { problem: loss.problem.clone(), instead: loss.instead.clone(), repairs }
+        });
+        let warnings = self.loaded.warnings.iter().map(|problem| {
+            let snap = guide_in(&problem.field_path).and_then(|(region, guide)| {
+                let region = self.scene().regions.get(region)?.name.clone();
+                Some(Repair::Snap { region, guide })
+            });
+            Row { problem: problem.clone(), instead: String::new(), repairs: snap.into_iter().collect() }
+        });
+        losses.chain(warnings).collect()
+    }
+
+    /// How many losses are left: while there are any, the scene must not take the place of its file.
+    pub fn loss_count(&self) -> usize {
+        self.open_losses().count()
+    }
+
+    /// The line of the first loss that is left.
+    pub(super) fn first_loss(&self) -> Option<usize> {
+        let (_, first) = self.open_losses().next()?;
+        Some(first.problem.place.map_or(1, |place| place.line))
+    }
+
+    /// Of meshes that cannot be used, those that the scene names still.
+    fn open_losses(&self) -> impl Iterator<Item = (usize, &Loss)> {
+        let losses = self.source.iter().flat_map(|source| source.losses.iter().enumerate());
+        losses.filter(|(_, loss)| {
+            let is_named = |mesh: &String| self.scene().objects.iter().any(|object| object.mesh == *mesh);
+            loss.mesh.as_ref().is_none_or(is_named)
+        })
+    }
+
+    /// Mends one loss.
+    ///
+    /// # Errors
+    /// Where there is no certain way, or what it would change was edited since; the document is as it was.
+    pub fn fix_problem(&mut self, loss: usize) -> Result<Step, Refusal> {
+        self.fix(&[loss])
+    }
+
+    /// The losses that can be mended in one way only.
+    pub fn certain(&self) -> Vec<usize> {
+        let is_certain = |loss: &Loss| loss.fix.as_ref().is_some_and(|fix| fix.is_certain);
+        self.open_losses().filter(|(_, loss)| is_certain(loss)).map(|(index, _)| index).collect()
+    }
+
+    /// Mends all losses that can be mended in one way only, as one entry.
+    ///
+    /// # Errors
+    /// As [`Document::fix_problem`].
+    pub fn fix_certain(&mut self) -> Result<Step, Refusal> {
+        self.fix(&self.certain())
+    }
+
+    fn fix(&mut self, losses: &[usize]) -> Result<Step, Refusal> {
+        let source = self.source.clone().ok_or_else(|| Refusal::new("There is nothing to fix"))?;
+        let fixed: Vec<&Loss> = losses.iter().filter_map(|&index| source.losses.get(index)).collect();
+        let fixes: Vec<_> = fixed.iter().filter_map(|loss| loss.fix.as_ref()).collect();
+        if fixes.is_empty() {
+            return Err(Refusal::new("Nothing here can be fixed without you"));
+        }
+        let text = match fixed[..] {
+            [one] => format!("Fix line {}", one.problem.place.map_or(1, |place| place.line)),
+            _ => format!("Fix {} problems", fixes.len()),
+        };
+        self.read_instead(&salvage::mended(&source.text, &fixes), text)
+    }
+
+    /// Reads another text in place of the one that the scene was read from. The file on disk stays as it is.
+    ///
+    /// # Errors
+    /// Where nothing of it can be read, or what it changes was edited since; the document is as it was.
+    pub fn read_text(&mut self, text: &str) -> Result<Step, Refusal> {
+        self.read_instead(text, "Read the source again".to_owned())
+    }
+
+    fn read_instead(&mut self, text: &str, words: String) -> Result<Step, Refusal> {
+        let read = salvage::salvage_text(&self.loaded.path, text, &self.options)
+            .map_err(|report| Refusal::of(&report))?;
+        let after = Source::of(&read).map(Arc::new);
+        let loaded = match &self.source {
+            // Edited since: both changes hold, where they are of different things.
+            Some(source) if source.scene != *self.scene() => {
+                let scene = both(&source.scene, &read.loaded.scene, self.scene())?;
+                // What is held already is not read again, what stands in for something stands on.
+                let held = after.as_ref().map(|after| after.held(&read.loaded));
+                let held = held.as_ref().unwrap_or(&read.loaded);
+                held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?
+            }
+            _ => read.loaded,
+        };
+        let change = SceneChange::between(self.scene(), &loaded.scene).unwrap_or_default();
+        let sources = [self.source.clone(), after.clone()];
+        self.preview = None;
+        self.loaded = Arc::new(loaded);
+        self.source = after;
+        self.revision += 1;
+        let before = self.selection.clone();
+        self.select(before.clone());
+        self.history.push(words.clone(), change, [before, self.selection.clone()]);
+        self.history.mark_sources(sources);
+        Ok(Step { text: words, note: None })
+    }
+
+    /// Moves the points of a guide onto the surface that they belong to.
+    ///
+    /// # Errors
+    /// Where there is no such guide or surface, or the region is locked.
+    pub fn snap_guide(&mut self, region: &str, guide: usize) -> Result<Step, Refusal> {
+        let scene = self.scene();
+        let of = scene.regions.iter().find(|other| other.name == region);
+        let (region_of, found) = of
+            .and_then(|of| Some((of, of.guides.get(guide)?)))
+            .ok_or_else(|| Refusal::unknown("region", region))?;
+        let name = found.object.as_deref().or(region_of.on.object());
+        let object = scene.objects.iter().find(|object| Some(object.name.as_str()) == name);
+        let surface = object.and_then(|object| Some((object, self.loaded.meshes.get(&object.mesh)?)));
+        let (object, file) = surface.ok_or_else(|| Refusal::new("There is no surface to snap to"))?;
+        let model_from_file = object.model_from_file();
+        let group = object.group.as_ref().and_then(|name| file.groups.iter().position(|known| known == name));
+        let mesh = &file.mesh;
+        let of_object = |triangle: &usize| {
+            group.is_none_or(|group| {
+                mesh.group_of_triangle.get(*triangle).is_some_and(|&own| own as usize == group)
+            })
+        };
+        let snapped = |point: &GuidePoint| {
+            let at = DVec3::from(point.at);
+            let places = (0..mesh.triangles.len()).filter(of_object).map(|triangle| {
+                let corners = mesh.corners(triangle).map(|corner| model_from_file * corner.as_dvec3());
+                (nearest_point(at, corners), corners)
+            });
+            let squared = |place: &DVec3| (*place - at).length_squared();
+            let (place, [a, b, c]) =
+                places.min_by(|left, right| squared(&left.0).total_cmp(&squared(&right.0)))?;
+            let normal = (b - a).cross(c - a).try_normalize();
+            let normal = normal.map_or(point.normal, |normal| normal.to_array());
+            Some(GuidePoint { at: place.to_array(), normal, ..point.clone() })
+        };
+        let points = found.points.iter().enumerate().filter_map(|(index, point)| {
+            let guide = (region.to_owned(), guide);
+            Some(Command::Directions(Directions::MoveGuidePoint { guide, point: index, to: snapped(point)? }))
+        });
+        let words = format!("Snap guide g{} to the surface", guide + 1);
+        let command = Command::Several(words, points.collect());
+        self.apply(&command)
+    }
+}
+
+/// The region and the guide in `regions[1].guides[2].points[0].at`.
+fn guide_in(field_path: &str) -> Option<(usize, usize)> {
+    let (region, rest) = field_path.strip_prefix("regions[")?.split_once("].guides[")?;
+    let (guide, _) = rest.split_once("].points[")?;
+    Some((region.parse().ok()?, guide.parse().ok()?))
+}
+
+/// What came of a scene `from` which two hands changed.
+fn both(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
+    let mut scene = Scene {
+        size: either(&from.size, &left.size, &right.size, "size")?,
+        seed: either(&from.seed, &left.seed, &right.seed, "seed")?,
+        background: either(&from.background, &left.background, &right.background, "background")?,
+        timeline: either(&from.timeline, &left.timeline, &right.timeline, "timeline")?,
+        reference: either(&from.reference, &left.reference, &right.reference, "reference")?,
+        further_references: either(
+            &from.further_references,
+            &left.further_references,
+            &right.further_references,
+            "references",
+        )?,
+        camera: either(&from.camera, &left.camera, &right.camera, "shot camera")?,
+        strokes: either(&from.strokes, &left.strokes, &right.strokes, "strokes")?,
+        style: either(&from.style, &left.style, &right.style, "style")?,
+        ..head(right)
+    };
+    scene.lights = items(&from.lights, &left.lights, &right.lights, |light| &light.name)?;
+    scene.objects = items(&from.objects, &left.objects, &right.objects, |object| &object.name)?;
+    scene.regions = items(&from.regions, &left.regions, &right.regions, |region| &region.name)?;
+    Ok(scene)
+}
+
+fn either<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str) -> Result<T, Refusal> {
+    if left == from || left == right {
+        Ok(right.clone())
+    } else if right == from {
+        Ok(left.clone())
+    } else {
+        Err(Refusal::new(format!("{what} was edited since: undo that first, or save a copy")))
+    }
+}
+
+/// Lists of things with names: what `right` has, with what `left` changed, added and took away.
+fn items<T: Clone + PartialEq>(
+    from: &[T],
+    left: &[T],
+    right: &[T],
+    name: impl Fn(&T) -> &String,
+) -> Result<Vec<T>, Refusal> {
+    let find = |list: &'_ [T], wanted: &T| list.iter().position(|item| name(item) == name(wanted));
+    let mut merged = Vec::new();
+    for item in right {
+        let [was, now] = [from, left].map(|list| find(list, item).map(|index| &list[index]));
+        match (was, now) {
+            (Some(was), Some(now)) => merged.push(either(was, now, item, name(item))?),
+            (Some(was), None) if was == item => {}
+            _ => merged.push(item.clone()),
+        }
+    }
+    for (index, item) in left.iter().enumerate() {
+        if find(from, item).is_none() && find(right, item).is_none() {
+            // Behind what it stood behind.
+            let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
+            merged.insert(before.map_or(0, |at| at + 1), item.clone());
+        }
+    }
+    Ok(merged)
+}

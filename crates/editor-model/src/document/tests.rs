@@ -1,0 +1,190 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use impasto_scene::load::LoadOptions;
+
+use super::*;
+use crate::command::{Arrange, Command, SceneEdit};
+
+const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn with(text: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("meshes")).expect("made");
+        fs::write(folder.path().join("meshes/leaf.obj"), QUAD).expect("written");
+        fs::write(folder.path().join("s.ron"), text).expect("written");
+        Self(folder)
+    }
+
+    fn path(&self) -> PathBuf {
+        self.0.path().join("s.ron")
+    }
+
+    fn text(&self) -> String {
+        fs::read_to_string(self.path()).expect("there")
+    }
+
+    fn open(&self) -> Document {
+        Document::open_with_problems(&self.path(), &LoadOptions::default()).expect("opens")
+    }
+}
+
+fn scene(mesh: &str, more: &str) -> String {
+    format!(
+        "(\n  version: 1,\n  camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]),\n  objects: [(name: \"leaf\", mesh: \"{mesh}\")],\n{more})\n"
+    )
+}
+
+fn broken() -> String {
+    scene("leaf.obj", "  strokes: (widht_px: 9),\n  seed: \"x\",\n")
+}
+
+fn seed(seed: u32) -> Command {
+    Command::Scene(SceneEdit::SetSeed(seed))
+}
+
+#[test]
+fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled() {
+    let folder = Folder::with(&broken());
+    let mut document = folder.open();
+    assert_eq!(document.loss_count(), 3);
+    assert!(!document.is_edited());
+    let refused = document.save().expect_err("off");
+    assert!(matches!(refused, SaveError::Problems { count: 3, line: 4 }), "{refused}");
+    assert!(document.save_as(&folder.path()).is_err());
+    assert!(document.save_as(&folder.0.path().join("meshes/../s.ron")).is_err(), "the same file");
+    // A copy can be saved, and leaves the file what it is.
+    document.save_copy(&folder.0.path().join("copy.ron")).expect("saved");
+    let step = document.fix_certain().expect("fixed");
+    assert_eq!(step.text, "Fix 2 problems");
+    assert_eq!(document.scene().strokes.width_px, Some(9.0));
+    assert_eq!(document.scene().objects[0].mesh, "meshes/leaf.obj");
+    assert_eq!(document.loss_count(), 1);
+    assert!(document.is_edited() && document.save().is_err());
+    assert_eq!(folder.text(), broken());
+    // Undone, the problems are back; done again, gone.
+    document.undo().expect("undone");
+    assert_eq!((document.loss_count(), document.scene().strokes.width_px), (3, None));
+    assert!(document.apply(&seed(3)).is_ok(), "a box stands in again");
+    document.undo().expect("undone");
+    document.redo().expect("the edit again");
+    document.undo().expect("undone");
+    let text = document.source().expect("a source").text.replace("\"x\"", "7");
+    document.read_text(&text).expect("read");
+    document.fix_certain().expect("fixed");
+    assert_eq!(document.loss_count(), 0);
+    document.save().expect("on again");
+    let saved = Document::open(&folder.path(), &LoadOptions::default()).expect("well");
+    assert_eq!((saved.scene().seed, saved.scene()), (7, document.scene()));
+}
+
+#[test]
+fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
+    let folder = Folder::with(&broken());
+    let mut document = folder.open();
+    document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
+    document.fix_certain().expect("fixed");
+    assert_eq!(document.scene().size, (640, 480));
+    assert_eq!(document.scene().strokes.width_px, Some(9.0));
+    // Of one thing, they do not: nothing is lost, and the words say what to do.
+    document.apply(&seed(4)).expect("done");
+    let text = document.source().expect("a source").text.replace("\"x\"", "7");
+    let refused = document.read_text(&text).expect_err("two hands");
+    assert!(refused.0.starts_with("seed was edited since"), "{refused}");
+    assert_eq!(document.scene().seed, 4);
+}
+
+#[test]
+fn another_mesh_settles_a_missing_one_and_undo_brings_the_box_back() {
+    let folder = Folder::with(&scene("lost.obj", ""));
+    let mut document = folder.open();
+    let rows = document.problems();
+    assert_eq!(rows[0].repairs, [Repair::Locate { object: "leaf".to_owned() }]);
+    let (object, mesh) = ("leaf".to_owned(), "meshes/leaf.obj".to_owned());
+    document.apply(&Command::Arrange(Arrange::ReplaceMesh { object, mesh })).expect("replaced");
+    assert_eq!(document.loss_count(), 0);
+    document.undo().expect("undone");
+    assert_eq!(document.loss_count(), 1);
+    assert!(document.loaded().meshes.contains_key("lost.obj"));
+    document.redo().expect("done again");
+    document.save().expect("saved");
+}
+
+#[test]
+fn a_guide_off_its_surface_is_listed_and_snaps_to_it() {
+    let more = "  regions: [(name: \"skin\", on: Object(\"leaf\"), guides: [(radius: 0.1, points: [\n    (at: (0.2, 0.5, 0.42), normal: (0, 0, 1)), (at: (0.8, 0.5, 0.42), normal: (0, 0, 1))])])],\n";
+    let folder = Folder::with(&scene("meshes/leaf.obj", more));
+    let mut document = folder.open();
+    assert_eq!(document.loss_count(), 0);
+    let snap = Repair::Snap { region: "skin".to_owned(), guide: 0 };
+    assert!(document.problems().iter().any(|row| row.repairs == [snap.clone()]));
+    document.snap_guide("skin", 0).expect("snapped");
+    assert!(document.problems().is_empty(), "{:?}", document.problems());
+    for (point, x) in document.scene().regions[0].guides[0].points.iter().zip([0.2, 0.8]) {
+        let off: f64 = point.at.iter().zip([x, 0.5, 0.0]).map(|(a, b)| (a - b).abs()).sum();
+        assert!(off < 1e-6, "{:?}", point.at);
+    }
+    document.undo().expect("one step");
+    assert_eq!(document.undo_count(), 0);
+}
+
+#[test]
+fn what_somebody_else_wrote_is_not_saved_over_and_can_be_read_again() {
+    let folder = Folder::with(&scene("meshes/leaf.obj", ""));
+    let mut document = folder.open();
+    document.apply(&seed(1)).expect("done");
+    let theirs = scene("meshes/leaf.obj", "  seed: 9,\n");
+    fs::write(folder.path(), &theirs).expect("written");
+    assert!(document.is_changed_outside());
+    assert!(matches!(document.save(), Err(SaveError::ChangedOutside { .. })));
+    assert_eq!(folder.text(), theirs);
+    document.reload().expect("read");
+    assert_eq!((document.scene().seed, document.is_edited()), (9, false));
+    assert!(!document.is_changed_outside());
+    // What was dropped is one undo away.
+    document.undo().expect("undone");
+    assert_eq!((document.scene().seed, document.is_edited()), (1, true));
+    document.save().expect("known by now");
+    // What cannot be read changes nothing.
+    fs::write(folder.path(), "(version: 1, camera").expect("written");
+    assert!(document.reload().is_err());
+    assert_eq!(document.scene().seed, 1);
+    // Its own writing is no news.
+    document.save_as(&folder.path()).expect("chosen by hand");
+    assert!(!document.is_changed_outside());
+}
+
+#[test]
+fn a_mesh_that_was_changed_is_read_again_without_an_entry() {
+    let folder = Folder::with(&scene("meshes/leaf.obj", ""));
+    let mut document = folder.open();
+    let mesh: &Path = &folder.0.path().join("meshes/leaf.obj");
+    assert!(document.files_on_disk().iter().any(|file| file == mesh));
+    fs::write(mesh, QUAD.replace("f 1 2 3 4", "f 1 2 3")).expect("written");
+    document.read_files_again().expect("read");
+    assert_eq!(document.loaded().meshes["meshes/leaf.obj"].mesh.triangles.len(), 1);
+    assert!(!document.is_edited() && document.undo_count() == 0);
+    fs::write(mesh, "f 1 2 3").expect("written");
+    assert!(document.read_files_again().is_err());
+    assert_eq!(document.loaded().meshes["meshes/leaf.obj"].mesh.triangles.len(), 1, "the last good one");
+}
+
+#[test]
+fn a_copy_of_a_scene_with_losses_never_takes_the_place_of_its_file() {
+    let folder = Folder::with(&broken());
+    let mut document = folder.open();
+    document.apply(&Command::Scene(SceneEdit::SetSize(640, 480))).expect("done");
+    let place = tempfile::tempdir().expect("a folder");
+    crate::recovery::Recovery::open(place.path(), "1-1")
+        .expect("opens")
+        .keep(&document.work(1))
+        .expect("kept");
+    let offers = crate::recovery::Recovery::offers(place.path());
+    let mut back = Document::recovered(&offers[0].copy, &LoadOptions::default()).expect("opens");
+    assert_eq!(back.scene().size, (640, 480));
+    assert!(matches!(back.save(), Err(SaveError::Unnamed)));
+    assert_eq!(folder.text(), broken());
+}

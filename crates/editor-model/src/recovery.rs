@@ -1,0 +1,175 @@
+//! Copies of unsaved work, in a folder of the user's: written while one paints, offered again after a crash.
+//!
+//! ```text
+//! Document ─▶ Work ─▶ Keeper (a thread) ─▶ Recovery::keep ─▶ NAME.ron   whole or not at all, never over a scene
+//! next start: Recovery::offers ─▶ Offer ─▶ Document::recovered, edited and not saved
+//! ```
+//!
+//! A session holds the lock of `NAME.lock` while it lives, so another one knows its copy from one that was left behind: the
+//! system lets a lock go with its process, however that ends.
+
+mod cadence;
+mod copy;
+mod keeper;
+#[cfg(test)]
+mod tests;
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+pub use cadence::Cadence;
+pub use copy::{Copy, Work};
+pub use keeper::{Keeper, Kept};
+
+/// Copies that are kept at most; of more, the oldest go.
+pub const MAX_COPIES: usize = 20;
+
+/// Entries of the folder that are looked at.
+const MAX_ENTRIES: usize = 1000;
+
+const COPY: &str = "ron";
+const LOCK: &str = "lock";
+const PART: &str = "part";
+
+/// Where one session keeps its copy.
+#[derive(Debug)]
+pub struct Recovery {
+    folder: PathBuf,
+    name: String,
+    /// Held as long as the session lives.
+    _lock: File,
+}
+
+/// A copy that no living session holds. While it is held, no other session is offered it.
+#[derive(Debug)]
+pub struct Offer {
+    /// The copy.
+    pub copy: Copy,
+    file: PathBuf,
+    lock_file: PathBuf,
+    _lock: File,
+}
+
+impl Recovery {
+    /// A place for one session; `name` must be its own, as a process id with the time of its start.
+    ///
+    /// # Errors
+    /// What the system said: the folder cannot be made or written.
+    pub fn open(folder: &Path, name: &str) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        // It gets its name once it is locked, so that nobody ever finds it free.
+        let lock = tempfile::Builder::new().prefix(name).suffix(".new").tempfile_in(folder)?;
+        lock.as_file().lock()?;
+        let lock = lock.persist(folder.join(name).with_extension(LOCK)).map_err(|error| error.error)?;
+        Ok(Self { folder: folder.to_owned(), name: name.to_owned(), _lock: lock })
+    }
+
+    /// Writes the copy of this session; at any moment it is the one before or this one, whole.
+    ///
+    /// # Errors
+    /// What the system said; the copy before is untouched.
+    pub fn keep(&self, work: &Work) -> io::Result<()> {
+        let prefix = format!("{}~", self.name);
+        let mut file = tempfile::Builder::new().prefix(&prefix).suffix(".part").tempfile_in(&self.folder)?;
+        file.write_all(work.to_text().as_bytes())?;
+        file.as_file().sync_all()?;
+        file.persist(self.file()).map_err(|error| error.error)?;
+        self.settle()
+    }
+
+    /// Removes the copy of this session: what it held is saved, or was given up.
+    ///
+    /// # Errors
+    /// What the system said.
+    pub fn forget(&self) -> io::Result<()> {
+        match fs::remove_file(self.file()) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    }
+
+    /// Goes on with a copy that was offered: it is this session's from now on.
+    ///
+    /// # Errors
+    /// What the system said; the copy then stays what it was.
+    pub fn take_over(&self, offer: Offer) -> io::Result<()> {
+        fs::rename(&offer.file, self.file())?;
+        // Without its copy the lock means nothing; the next look takes it away where this fails.
+        let _ = fs::remove_file(&offer.lock_file);
+        self.settle()
+    }
+
+    /// The copies that sessions left behind, the newest first. Takes away what they left besides, and all but the newest
+    /// [`MAX_COPIES`].
+    pub fn offers(folder: &Path) -> Vec<Offer> {
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        let files: Vec<PathBuf> =
+            entries.take(MAX_ENTRIES).filter_map(|entry| Some(entry.ok()?.path())).collect();
+        let has_ending =
+            |file: &&PathBuf, ending: &str| file.extension().is_some_and(|extension| extension == ending);
+        let mut offers = Vec::new();
+        for file in files.iter().filter(|file| has_ending(file, COPY)) {
+            let lock_file = file.with_extension(LOCK);
+            let Some(lock) = lock_of(&lock_file) else { continue };
+            // What cannot be read is left for people to look at.
+            let Some(copy) = Copy::read(file) else { continue };
+            offers.push(Offer { copy, file: file.clone(), lock_file, _lock: lock });
+        }
+        offers.sort_by_key(|offer| std::cmp::Reverse(offer.copy.at_unix_secs));
+        for offer in offers.drain(MAX_COPIES.min(offers.len())..) {
+            // Where that fails, the next look tries again.
+            let _ = offer.discard();
+        }
+        for file in files.iter().filter(|file| has_ending(file, LOCK) || has_ending(file, PART)) {
+            let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+            let session = folder.join(stem.split('~').next().unwrap_or_default());
+            let lock = File::open(session.with_extension(LOCK));
+            let is_dead = lock.map_or(true, |lock| lock.try_lock().is_ok());
+            if is_dead && !session.with_extension(COPY).exists() {
+                let _ = fs::remove_file(file);
+            }
+        }
+        offers
+    }
+
+    fn file(&self) -> PathBuf {
+        self.folder.join(&self.name).with_extension(COPY)
+    }
+
+    /// The folder's own entry on the disk, too, where the system knows of that.
+    fn settle(&self) -> io::Result<()> {
+        if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
+    }
+}
+
+impl Drop for Recovery {
+    /// A copy that is still there stays, and then so does its lock.
+    fn drop(&mut self) {
+        if !self.file().exists() {
+            let _ = fs::remove_file(self.folder.join(&self.name).with_extension(LOCK));
+        }
+    }
+}
+
+impl Offer {
+    /// Throws the copy away.
+    ///
+    /// # Errors
+    /// What the system said.
+    pub fn discard(self) -> io::Result<()> {
+        fs::remove_file(&self.file)?;
+        fs::remove_file(&self.lock_file)
+    }
+}
+
+/// The lock of a session that is gone; none where it lives.
+fn lock_of(lock_file: &Path) -> Option<File> {
+    let lock = File::options().create(true).truncate(false).write(true).open(lock_file).ok()?;
+    match lock.try_lock() {
+        Ok(()) => Some(lock),
+        Err(TryLockError::WouldBlock) => None,
+        // A file system without locks: better offered than lost.
+        Err(TryLockError::Error(_)) => Some(lock),
+    }
+}

@@ -1,0 +1,114 @@
+//! The thread that writes copies, so that no disk ever holds up the window.
+
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread::JoinHandle;
+
+use super::{Offer, Recovery, Work};
+
+/// Writes copies on a thread of its own, in the order in which they are asked for.
+#[derive(Debug)]
+pub struct Keeper {
+    orders: Option<Sender<Order>>,
+    done: Receiver<Kept>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// What came of a copy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// It is written; when it was made, seconds since 1970.
+    At(u64),
+    /// It is not, with the words that say why.
+    Not(String),
+}
+
+enum Order {
+    Keep(Box<Work>),
+    Forget,
+    TakeOver(Box<Offer>),
+}
+
+impl Keeper {
+    /// A thread for one session's place.
+    ///
+    /// # Errors
+    /// Where the system gives no thread.
+    pub fn new(recovery: Recovery) -> std::io::Result<Self> {
+        let (orders, to_do) = mpsc::channel();
+        let (told, done) = mpsc::channel();
+        let thread = std::thread::Builder::new()
+            .name("copies".to_owned())
+            .spawn(move || work(&recovery, &to_do, &told))?;
+        Ok(Self { orders: Some(orders), done, thread: Some(thread) })
+    }
+
+    /// Copies this, soon.
+    pub fn keep(&self, work: Work) {
+        self.order(Order::Keep(Box::new(work)));
+    }
+
+    /// Removes the copy: its work is saved, or was given up.
+    pub fn forget(&self) {
+        self.order(Order::Forget);
+    }
+
+    /// Goes on with a copy that was offered.
+    pub fn take_over(&self, offer: Offer) {
+        self.order(Order::TakeOver(Box::new(offer)));
+    }
+
+    /// What came of the copies since it was asked last.
+    pub fn done(&self) -> Vec<Kept> {
+        self.done.try_iter().collect()
+    }
+
+    fn order(&self, order: Order) {
+        // The thread ends only with this.
+        if let Some(orders) = &self.orders {
+            let _ = orders.send(order);
+        }
+    }
+}
+
+impl Drop for Keeper {
+    /// Waits until everything that was ordered is done. A copy that nobody said to forget stays.
+    fn drop(&mut self) {
+        self.orders = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn work(recovery: &Recovery, to_do: &Receiver<Order>, told: &Sender<Kept>) {
+    let not = |error: std::io::Error| Kept::Not(format!("Unsaved work could not be copied: {error}"));
+    while let Ok(mut order) = to_do.recv() {
+        // Of several copies that wait, only the last is of use.
+        let mut next = None;
+        while matches!(order, Order::Keep(_)) && next.is_none() {
+            match to_do.try_recv() {
+                Ok(later @ Order::Keep(_)) => order = later,
+                Ok(other) => next = Some(other),
+                Err(_) => break,
+            }
+        }
+        for order in [Some(order), next].into_iter().flatten() {
+            let kept = match order {
+                Order::Keep(work) => match recovery.keep(&work) {
+                    Ok(()) => Kept::At(work.copy.at_unix_secs),
+                    Err(error) => not(error),
+                },
+                Order::Forget => match recovery.forget() {
+                    Ok(()) => continue,
+                    Err(error) => not(error),
+                },
+                Order::TakeOver(offer) => match recovery.take_over(*offer) {
+                    Ok(()) => continue,
+                    Err(error) => not(error),
+                },
+            };
+            // Nobody may be listening any more.
+            let _ = told.send(kept);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Whether files of the document change under it: by their size and time, looked at now and then.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use crate::document::Document;
+
+/// Size and time of a file; none where it is not there.
+type Look = Option<(u64, Option<SystemTime>)>;
+
+/// The files of a document, as they looked last.
+#[derive(Debug, Default)]
+pub struct Watch {
+    files: BTreeMap<PathBuf, Watched>,
+}
+
+#[derive(Debug)]
+struct Watched {
+    /// As it was taken in.
+    known: Look,
+    /// As it looked a moment ago, where that is other: it may still be being written.
+    seen: Option<Look>,
+}
+
+/// What changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum News {
+    /// Meshes or pictures of the scene.
+    Files,
+    /// The scene file itself, by another hand.
+    Scene,
+}
+
+impl Watch {
+    /// Looks at the document's files once. What changed since it was asked last, and has come to rest since: a file that looks
+    /// the same twice. Files that it has not seen before only become known.
+    pub fn look(&mut self, document: &Document) -> Option<News> {
+        let paths = document.files_on_disk();
+        self.files.retain(|path, _| paths.contains(path));
+        let mut news = None;
+        for path in paths {
+            let now = look_of(&path);
+            let Some(watched) = self.files.get_mut(&path) else {
+                self.files.insert(path, Watched { known: now, seen: None });
+                continue;
+            };
+            if now == watched.known {
+                watched.seen = None;
+            } else if watched.seen != Some(now) {
+                watched.seen = Some(now);
+            } else {
+                *watched = Watched { known: now, seen: None };
+                let of_scene = document.file() == Some(&path);
+                if !of_scene {
+                    news = news.max(Some(News::Files));
+                } else if document.is_changed_outside() {
+                    news = news.max(Some(News::Scene));
+                }
+            }
+        }
+        news
+    }
+}
+
+fn look_of(path: &Path) -> Look {
+    let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
+    Some((metadata.len(), metadata.modified().ok()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::command::{Command, SceneEdit};
+
+    const SCENE: &str = "(version: 1, camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]), \
+        objects: [(name: \"leaf\", mesh: \"leaf.obj\")])";
+    const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+
+    #[test]
+    fn files_are_news_once_they_have_come_to_rest_and_are_by_another_hand() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [scene, mesh] = ["s.ron", "leaf.obj"].map(|name| folder.path().join(name));
+        fs::write(&scene, SCENE).expect("written");
+        fs::write(&mesh, QUAD).expect("written");
+        let mut document = Document::open(&scene, &Default::default()).expect("opens");
+        let mut watch = Watch::default();
+        assert_eq!([watch.look(&document), watch.look(&document)], [None, None]);
+        fs::write(&mesh, format!("{QUAD}# more\n")).expect("written");
+        assert_eq!(watch.look(&document), None, "it may be half written");
+        fs::write(&mesh, format!("{QUAD}# more and more\n")).expect("written");
+        assert_eq!(watch.look(&document), None);
+        assert_eq!([watch.look(&document), watch.look(&document)], [Some(News::Files), None]);
+        // Its own saving is no news.
+        document.apply(&Command::Scene(SceneEdit::SetSeed(5))).expect("done");
+        document.save().expect("saved");
+        assert_eq!([watch.look(&document), watch.look(&document)], [None, None]);
+        fs::write(&scene, format!("{SCENE} ")).expect("written");
+        assert_eq!([watch.look(&document), watch.look(&document)], [None, Some(News::Scene)]);
+        assert_eq!(watch.look(&document), None, "told once");
+        // Another document: nothing is known of it yet.
+        let other = Document::empty(folder.path());
+        assert_eq!([watch.look(&other), watch.look(&document)], [None, None]);
+    }
+}

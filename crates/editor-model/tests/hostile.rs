@@ -1,0 +1,140 @@
+//! Files that nobody should write, where `IMPASTO_CORPUS` names a folder of them: each is opened by a process of its own,
+//! with little memory and little time. It ends with a document or with words, and leaves the file as it was.
+
+#![cfg(unix)]
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command as Process;
+
+use impasto_editor_model::Document;
+use impasto_scene::load::LoadOptions;
+use impasto_scene::load::salvage;
+
+/// Address space and time for one file.
+const MEMORY_KIB: u32 = 1 << 20;
+const SECONDS: u32 = 20;
+
+const FILE: &str = "IMPASTO_TEST_OPENS";
+
+fn tell(words: &str) {
+    writeln!(std::io::stdout(), "\n{words}").expect("told");
+}
+
+/// Opens one file, asks everything of it that the window would, and says how that went.
+#[test]
+#[ignore = "the test below starts it, once for each file"]
+fn opener() {
+    let Some(file) = std::env::var_os(FILE) else { return };
+    let file = Path::new(&file);
+    match Document::open_with_problems(file, &LoadOptions::default()) {
+        Err(report) => {
+            assert!(report.0.iter().any(|problem| problem.severity.is_fatal()), "no word of why");
+            tell(&format!("refused: {report}"));
+        }
+        Ok(mut document) => {
+            let (rows, losses) = (document.problems().len(), document.loss_count());
+            // What was opened is well: an edit of nothing is taken.
+            let loaded = document.loaded();
+            let again = loaded.with_scene(loaded.scene.clone(), &Default::default());
+            assert!(again.is_ok(), "{:?}", again.map(drop));
+            if losses > 0 {
+                assert!(document.save().is_err(), "saved over what it could not read");
+            }
+            let _ = document.fix_certain();
+            while document.undo().is_some() {}
+            assert_eq!(document.loss_count(), losses);
+            tell(&format!("opened: {losses} losses of {rows}"));
+        }
+    }
+}
+
+fn hostile_files() -> Option<Vec<PathBuf>> {
+    let Some(corpus) = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from) else {
+        eprintln!("not run: IMPASTO_CORPUS names no folder");
+        return None;
+    };
+    let mut files = Vec::new();
+    let mut open = vec![corpus.join("hostile"), corpus.join("models")];
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder of the corpus") {
+            let entry = entry.expect("an entry");
+            let path = entry.path();
+            let is_ours = path.extension().is_some_and(|extension| extension == "obj" || extension == "ron");
+            match entry.file_type().expect("a type") {
+                kind if kind.is_dir() => open.push(path),
+                _ if is_ours => files.push(path),
+                _ => {}
+            }
+        }
+    }
+    files.sort();
+    Some(files)
+}
+
+#[test]
+fn hostile_files_open_or_are_refused_and_stay_what_they_are() {
+    let Some(files) = hostile_files() else { return };
+    assert!(files.len() > 50, "{} files", files.len());
+    let script = format!(
+        "ulimit -v {MEMORY_KIB} && exec timeout {SECONDS} \"$0\" --exact opener --ignored --nocapture --test-threads=1"
+    );
+    let mut failures = Vec::new();
+    for file in &files {
+        let before = std::fs::read(file).ok();
+        let output = Process::new("sh")
+            .args(["-c", &script])
+            .arg(std::env::current_exe().expect("this test"))
+            .env(FILE, file)
+            .output()
+            .expect("sh runs");
+        let said = String::from_utf8_lossy(&output.stdout);
+        let has_words = said.contains("\nrefused: ") || said.contains("\nopened: ");
+        if !output.status.success() || !has_words {
+            let said = said + String::from_utf8_lossy(&output.stderr);
+            failures.push(format!("{}: {:?}\n{said}", file.display(), output.status));
+        }
+        assert_eq!(std::fs::read(file).ok(), before, "{} was touched", file.display());
+    }
+    assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), files.len(), failures.join("\n"));
+}
+
+/// The bytes of a scene of the house, changed here and there by a fixed chance.
+#[test]
+fn scenes_with_bytes_changed_open_or_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("s.ron");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let text = std::fs::read_to_string(scenes.join("still_life.ron")).expect("a scene");
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = |below: usize| {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        (random % below as u64) as usize
+    };
+    let (mut opened, mut lossy) = (0, 0);
+    for _ in 0..300 {
+        let mut bytes = text.clone().into_bytes();
+        for _ in 0..=next(4) {
+            let at = next(bytes.len());
+            match next(3) {
+                0 => bytes[at] = b"()[]{},:\"x0-"[next(12)],
+                1 => drop(bytes.drain(at..(at + next(40)).min(bytes.len()))),
+                _ => bytes.insert(at, b"()[]{},:\"x0-"[next(12)]),
+            }
+        }
+        let Ok(text) = String::from_utf8(bytes) else { continue };
+        match salvage::salvage_text(&path, &text, &LoadOptions::default()) {
+            Ok(salvaged) => {
+                opened += 1;
+                lossy += usize::from(!salvaged.losses.is_empty());
+                let loaded = &salvaged.loaded;
+                let again = loaded.with_scene(loaded.scene.clone(), &Default::default());
+                assert!(again.is_ok(), "{:?}", again.map(drop));
+            }
+            Err(report) => assert!(!report.0.is_empty()),
+        }
+    }
+    assert!(opened > 270 && lossy > 200, "{opened} opened, {lossy} with losses");
+}

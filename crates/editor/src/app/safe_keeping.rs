@@ -1,0 +1,254 @@
+//! That no work is lost: copies of what is not saved, what a session before left behind, and files that others change.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use egui::Context;
+use impasto_editor_model::document::{Document, SaveError};
+use impasto_editor_model::recovery::{Cadence, Keeper, Kept, Offer, Recovery};
+use impasto_editor_model::watch::{News, Watch};
+use impasto_scene::load::LoadOptions;
+use impasto_scene::problem::Report;
+
+use super::EditorApp;
+use crate::files::dialogs::Ask as FileAsk;
+use crate::files::preferences;
+use crate::panels::ask_close::{self, Answer, Question};
+
+/// Time between two looks at the files of the document.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// Copies, offers, and what is watched.
+pub(super) struct SafeKeeping {
+    folder: Option<PathBuf>,
+    keeper: Option<Keeper>,
+    cadence: Cadence,
+    /// Whether this session has a copy on the disk, or has ordered one.
+    has_copy: bool,
+    /// What sessions before left behind, to be asked about one by one.
+    offers: VecDeque<Offer>,
+    watch: Watch,
+    next_look: Instant,
+    start: Instant,
+    asks: Option<About>,
+    trouble: Option<String>,
+}
+
+/// What has to be settled.
+#[derive(Clone, Copy, Debug)]
+enum About {
+    /// Another program wrote the file, and there are edits.
+    Changed,
+    /// The file would be saved over, and another program wrote it.
+    SavingOver,
+    /// The file was read with losses: so many, the first in this line.
+    Losses(usize, usize),
+}
+
+impl SafeKeeping {
+    /// Ready to keep; where that cannot be, the window says so.
+    pub(super) fn new() -> Self {
+        let folder = preferences::recovery_folder();
+        let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let name = format!("{}-{}", std::process::id(), since.as_nanos());
+        let open = |folder: &PathBuf| Keeper::new(Recovery::open(folder, &name)?);
+        let opened = folder.as_ref().map(open).transpose();
+        let trouble = opened.as_ref().err().map(|error| format!("Unsaved work will not be copied: {error}"));
+        let now = Instant::now();
+        Self {
+            folder,
+            keeper: opened.ok().flatten(),
+            cadence: Cadence::default(),
+            has_copy: false,
+            offers: VecDeque::new(),
+            watch: Watch::default(),
+            next_look: now,
+            start: now,
+            asks: None,
+            trouble,
+        }
+    }
+
+    pub(super) fn is_asking(&self) -> bool {
+        self.asks.is_some() || !self.offers.is_empty()
+    }
+
+    /// Looks at the files at the next chance.
+    pub(super) fn look_now(&mut self) {
+        self.next_look = Instant::now();
+    }
+
+    /// The work was given up: its copy goes.
+    pub(super) fn give_up(&mut self) {
+        if std::mem::take(&mut self.has_copy)
+            && let Some(keeper) = &self.keeper
+        {
+            keeper.forget();
+        }
+        self.cadence = Cadence::default();
+    }
+
+    fn keep(&mut self, document: &Document) {
+        let Some(keeper) = &self.keeper else { return };
+        let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        keeper.keep(document.work(since.as_secs()));
+        self.cadence.kept_now(document.revision());
+        self.has_copy = true;
+    }
+}
+
+impl EditorApp {
+    /// Asks about the copies that sessions before left behind: of one scene, or of any.
+    pub(super) fn offer_copies(&mut self, of: Option<&Path>) {
+        let Some(folder) = &self.safe.folder else { return };
+        let of = of.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned()));
+        let mut offers = Recovery::offers(folder);
+        if let Some(of) = of {
+            offers.retain(|offer| offer.copy.file.as_ref() == Some(&of));
+        }
+        self.safe.offers = offers.into();
+    }
+
+    /// Copies what is due, and looks whether others changed the document's files.
+    pub(super) fn keep_safe(&mut self, ctx: &Context) {
+        if let Some(words) = self.safe.trouble.take() {
+            self.toast(words, None, true);
+        }
+        let kept = self.safe.keeper.as_ref().map_or_else(Vec::new, Keeper::done);
+        for kept in kept {
+            if let Kept::Not(words) = kept {
+                self.toast(words, None, true);
+            }
+        }
+        let document = self.editor.document();
+        let minutes = self.preferences.autosave_minutes;
+        if !document.is_edited() {
+            self.safe.give_up();
+        } else if minutes > 0 {
+            let every_secs = f64::from(minutes) * 60.0;
+            let now_secs = self.safe.start.elapsed().as_secs_f64();
+            if self.safe.cadence.is_due(Some(document.revision()), now_secs, every_secs) {
+                self.safe.keep(document);
+            }
+            ctx.request_repaint_after(LOOK);
+        }
+        let has_files = document.file().is_some() || !document.loaded().meshes.is_empty();
+        if has_files && !self.editor.is_moving() && self.safe.asks.is_none() {
+            if Instant::now() >= self.safe.next_look {
+                self.safe.next_look = Instant::now() + LOOK;
+                if let Some(news) = self.safe.watch.look(self.editor.document()) {
+                    self.changed_outside(news);
+                }
+            }
+            ctx.request_repaint_after(LOOK);
+        }
+    }
+
+    /// Copies the work now, before something that may go wrong.
+    pub(super) fn keep_before_risk(&mut self) {
+        let document = self.editor.document();
+        if document.is_edited() && self.preferences.autosave_minutes > 0 {
+            self.safe.keep(document);
+        }
+    }
+
+    fn changed_outside(&mut self, news: News) {
+        self.keep_before_risk();
+        if !self.editor.take_in(news) {
+            self.safe.asks = Some(About::Changed);
+        }
+        self.sheets.problems |= self.editor.document().loss_count() > 0;
+    }
+
+    /// Says why a save did not go, or asks what is to be done.
+    pub(super) fn ask_about_saving(&mut self, error: SaveError) {
+        match error {
+            SaveError::ChangedOutside { .. } => self.safe.asks = Some(About::SavingOver),
+            SaveError::Problems { count, line } => self.safe.asks = Some(About::Losses(count, line)),
+            error => self.toast(error.to_string(), None, true),
+        }
+    }
+
+    /// Shows the question that is open.
+    pub(super) fn ask_about_safety(&mut self, ctx: &Context) {
+        let name = self.editor.document().name();
+        let question = match self.safe.asks {
+            Some(About::Changed) => Question::ChangedOutside { name },
+            Some(About::SavingOver) => Question::SaveOver { name },
+            Some(About::Losses(count, line)) => Question::Problems { count, line },
+            None => return self.ask_about_copy(ctx),
+        };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        self.safe.asks = None;
+        match answer {
+            Answer::ReadAgain => drop(self.editor.mend(&impasto_editor_model::editor::Mend::ReadAgain)),
+            Answer::SaveOver => {
+                let saved = self.editor.save_over();
+                self.saved(saved);
+            }
+            Answer::SaveAs => {
+                let start = self.editor.document().suggested_copy();
+                self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
+            }
+            Answer::SaveCopy => {
+                let start = self.editor.document().suggested_copy();
+                self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
+            }
+            Answer::ShowProblem => self.sheets.problems = true,
+            _ => {}
+        }
+        self.sheets.problems |= self.editor.document().loss_count() > 0;
+    }
+
+    fn ask_about_copy(&mut self, ctx: &Context) {
+        let Some(offer) = self.safe.offers.front() else { return };
+        let question = Question::Recovered {
+            name: offer.copy.name(),
+            age: offer.copy.age(SystemTime::now()),
+            changes: offer.copy.changes,
+            of_another: offer.copy.is_of_another_file(),
+        };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        let Some(offer) = self.safe.offers.pop_front() else { return };
+        match answer {
+            Answer::OpenCopy => self.open_copy(offer),
+            Answer::Discard => {
+                if let Err(error) = offer.discard() {
+                    self.toast(format!("The copy was not removed: {error}"), None, true);
+                }
+            }
+            // Later: with the lock it goes back to whoever asks next.
+            _ => {}
+        }
+    }
+
+    fn open_copy(&mut self, offer: Offer) {
+        match Document::recovered(&offer.copy, &LoadOptions::default()) {
+            Ok(document) => {
+                self.keep_before_risk();
+                self.editor.open(document);
+                self.keymap();
+                self.studio.forget();
+                self.sheets.welcome = false;
+                self.sheets.problems = self.editor.document().loss_count() > 0;
+                self.toast(
+                    format!("{} as it was being painted; it is not saved", offer.copy.name()),
+                    None,
+                    false,
+                );
+                self.safe.offers.clear();
+                if let Some(keeper) = &self.safe.keeper {
+                    keeper.take_over(offer);
+                    self.safe.has_copy = true;
+                    self.safe.cadence.kept_now(self.editor.document().revision());
+                }
+            }
+            Err(Report(problems)) => {
+                if let Some(problem) = problems.first() {
+                    self.toast(problem.to_string(), None, true);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,356 @@
+//! The problems of a scene that could not be read whole: a list with what mends each, and the text beside it.
+
+use std::sync::Arc;
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{
+    Align2, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
+};
+use impasto_editor_model::document::{Repair, Row, Source};
+use impasto_editor_model::editor::Mend;
+use impasto_scene::problem::Place;
+
+use super::{Ask, Shown, row, row_from_right, within};
+use crate::icons;
+use crate::theme::{Tokens, measure, type_face};
+use crate::widgets::{self, Button};
+
+const HEIGHT: f32 = 232.0;
+const HEAD: f32 = 41.0;
+const FOOT: f32 = 44.0;
+const ROW: f32 = 44.0;
+/// The list's share of the width.
+const LIST: f32 = 0.6;
+/// A longer text is shown round its problem only, and edited elsewhere.
+const MAX_EDITED_BYTES: usize = 256 << 10;
+/// Lines that are shown of a longer text.
+const LINES_AROUND: usize = 40;
+
+/// What the panel remembers from one pass to the next.
+#[derive(Clone, Default)]
+struct Memory {
+    selected: usize,
+    /// The text under the hand, and the source that it was begun from.
+    typed: String,
+    begun_from: Option<Arc<Source>>,
+    /// The line to scroll to in the next pass.
+    go_to: Option<usize>,
+}
+
+/// Takes 232 points at the bottom of `ui`. False once it is closed or nothing is wrong any more.
+pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
+    let rows = shown.document.problems();
+    if rows.is_empty() {
+        return false;
+    }
+    let tokens = Tokens::of(ui);
+    let mut stays = true;
+    let frame = egui::Frame::new().fill(tokens.panel);
+    let panel = Panel::bottom("problems").exact_size(HEIGHT).resizable(false).frame(frame);
+    let shown_panel = panel.show(ui, |ui| {
+        let whole = ui.max_rect();
+        ui.painter().hline(whole.x_range(), whole.top(), (2.0, tokens.vermilion));
+        let id = Id::unique("problems panel");
+        let mut memory: Memory = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        memory.selected = memory.selected.min(rows.len() - 1);
+        let split = whole.left() + (whole.width() * LIST).round();
+        let part = |x: egui::Rangef, top: f32, bottom: f32| Rect::from_x_y_ranges(x, top..=bottom);
+        let head_rect = part(whole.x_range(), whole.top() + 2.0, whole.top() + HEAD);
+        within(ui, head_rect.shrink2(vec2(12.0, 0.0)), row(), |ui| {
+            stays = head(ui, shown, rows.len(), asks);
+        });
+        ui.painter().hline(whole.x_range(), head_rect.bottom(), (1.0, tokens.div));
+        let left = egui::Rangef::new(whole.left(), split);
+        let has_certain = shown.document.certain().len();
+        let foot = if has_certain > 0 { FOOT } else { 0.0 };
+        let list_rect = part(left, head_rect.bottom() + 1.0, whole.bottom() - foot);
+        within(ui, list_rect, egui::Layout::top_down(egui::Align::Min), |ui| {
+            list(ui, &rows, &mut memory, asks);
+        });
+        if has_certain > 0 {
+            let rect = part(left, whole.bottom() - FOOT, whole.bottom()).shrink2(vec2(12.0, 0.0));
+            within(ui, rect, row(), |ui| fix_all(ui, has_certain, asks));
+        }
+        ui.painter().vline(split, head_rect.bottom()..=whole.bottom(), (1.0, tokens.div));
+        let source_rect =
+            part(egui::Rangef::new(split + 1.0, whole.right()), head_rect.bottom() + 1.0, whole.bottom());
+        let place = rows[memory.selected].problem.place;
+        within(ui, source_rect, egui::Layout::top_down(egui::Align::Min), |ui| {
+            source(ui, (shown, place), &mut memory, asks);
+        });
+        ui.data_mut(|data| data.insert_temp(id, memory));
+    });
+    shown_panel.response.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Problems"));
+    stays
+}
+
+/// False where it is closed.
+fn head(ui: &mut Ui, shown: &Shown<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
+    let tokens = Tokens::of(ui);
+    let is_lossy = shown.document.loss_count() > 0;
+    let glyph = if is_lossy { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
+    ui.spacing_mut().item_spacing.x = 10.0;
+    ui.label(RichText::new(glyph.0.glyph()).font(type_face::icon(measure::ICON)).color(glyph.1));
+    let of = shown.document.name();
+    let words = if count == 1 { format!("1 problem in {of}") } else { format!("{count} problems in {of}") };
+    ui.label(RichText::new(words).font(type_face::head()).color(tokens.text));
+    let calm = "The file on disk stays as it is until you choose.";
+    ui.label(RichText::new(calm).font(type_face::body()).color(tokens.weak));
+    let mut stays = true;
+    let rest = ui.available_rect_before_wrap();
+    within(ui, rest, row_from_right(), |ui| {
+        ui.spacing_mut().item_spacing.x = measure::GAP;
+        if !is_lossy && widgets::icon_button(ui, icons::CLOSE, "Close problems").clicked() {
+            stays = false;
+        }
+        if Button::new("Save a copy\u{2026}").name("Save a copy").show(ui).clicked() {
+            asks.push(Ask::SaveCopy);
+        }
+        let again = Button::new("Read again").icon(icons::REFRESH).show(ui);
+        if again.on_hover_text("Reads the file on disk once more. Ctrl Z takes it back.").clicked() {
+            asks.push(Ask::Mend(Mend::ReadAgain));
+        }
+    });
+    stays
+}
+
+fn fix_all(ui: &mut Ui, count: usize, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.x = measure::GAP;
+    let words = format!("Fix all that are certain ({count})");
+    if Button::new(&words).name("Fix all that are certain").show(ui).clicked() {
+        asks.push(Ask::Mend(Mend::FixCertain));
+    }
+    let note = RichText::new("as one step, Ctrl Z takes it back").font(type_face::small());
+    ui.label(note.color(Tokens::of(ui).weak));
+}
+
+fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ScrollArea::vertical().id_salt("problems").auto_shrink(false).show_rows(
+        ui,
+        ROW,
+        rows.len(),
+        |ui, range| {
+            for index in range {
+                let (rect, response) =
+                    ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+                line(ui, (rect, &response), (&rows[index], memory.selected == index), asks);
+                if response.clicked() {
+                    memory.selected = index;
+                    memory.go_to = rows[index].problem.place.map(|place| place.line);
+                }
+            }
+        },
+    );
+}
+
+/// One problem: its place, its words, what mends it.
+fn line(
+    ui: &mut Ui,
+    (rect, response): (Rect, &egui::Response),
+    (shown, is_selected): (&Row, bool),
+    asks: &mut Vec<Ask>,
+) {
+    let tokens = Tokens::of(ui);
+    let Row { problem, instead, repairs } = shown;
+    let is_fatal = problem.severity.is_fatal();
+    if is_selected || response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, if is_selected { tokens.sel } else { tokens.hov });
+    }
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, tokens.div));
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect.shrink(2.0), 2.0, (2.0, tokens.accent_text), egui::StrokeKind::Inside);
+    }
+    let (icon, colour, kind) = match is_fatal {
+        true => (icons::ERROR, tokens.vermilion, "error"),
+        false => (icons::WARNING, tokens.ochre, "warning"),
+    };
+    let middle = rect.center().y;
+    let font = type_face::icon(measure::ICON);
+    ui.painter().text(pos2(rect.left() + 21.0, middle), Align2::CENTER_CENTER, icon.glyph(), font, colour);
+    let (place, spoken) = match problem.place {
+        Some(Place { line, column }) => {
+            (format!("{line}:{column}"), format!("line {line} column {column}, "))
+        }
+        None => (String::new(), String::new()),
+    };
+    ui.painter().text(
+        pos2(rect.left() + 40.0, middle),
+        Align2::LEFT_CENTER,
+        place,
+        type_face::number(),
+        tokens.weak,
+    );
+    let name = format!("{spoken}{kind}, {}", problem.message);
+    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &name));
+    let words_left = rect.left() + 94.0;
+    let buttons = Rect::from_x_y_ranges(words_left..=rect.right() - 12.0, rect.y_range());
+    let right = within(ui, buttons, row_from_right(), |ui| {
+        ui.spacing_mut().item_spacing.x = measure::GAP;
+        for repair in repairs.iter().rev() {
+            repair_button(ui, repair, asks);
+        }
+        if repairs.is_empty() { buttons.right() } else { ui.min_rect().left() - 12.0 }
+    });
+    let second = match (instead.is_empty(), problem.mend.is_empty()) {
+        (false, true) => instead.clone(),
+        (true, _) => sentence(&problem.mend),
+        // The names that are known are for the tooltip.
+        (false, false) => {
+            let mend = problem.mend.split(" Known here").next().unwrap_or_default();
+            let mend = mend.split("known here").next().unwrap_or_default();
+            format!("{} {instead}", sentence(mend)).trim().to_owned()
+        }
+    };
+    let wide = (right - words_left).max(40.0);
+    for (words, font, colour, y) in [
+        // Where it was looked for stands in the tooltip.
+        (
+            sentence(problem.message.split(" (tried ").next().unwrap_or_default()),
+            type_face::body(),
+            tokens.text,
+            middle - 9.0,
+        ),
+        (second, type_face::small(), tokens.weak, middle + 9.0),
+    ] {
+        let mut job = LayoutJob::simple_singleline(words, font, colour);
+        job.wrap = egui::text::TextWrapping::truncate_at_width(wide);
+        let galley = ui.painter().layout_job(job);
+        let at = Align2::LEFT_CENTER.anchor_size(pos2(words_left, y), galley.size()).min;
+        ui.painter().galley(at, galley, colour);
+    }
+    response.clone().on_hover_text(format!("{}\n{}", sentence(&problem.message), sentence(&problem.mend)));
+}
+
+fn repair_button(ui: &mut Ui, repair: &Repair, asks: &mut Vec<Ask>) {
+    match repair {
+        Repair::Locate { object } => {
+            if Button::new("Locate\u{2026}").name("Locate").show(ui).clicked() {
+                asks.push(Ask::ChooseMesh(object.clone()));
+            }
+        }
+        Repair::Fix { loss, verb, .. } => {
+            let button = Button::new(verb);
+            let button = if verb.starts_with("Use ") { button.primary() } else { button };
+            if button.show(ui).clicked() {
+                asks.push(Ask::Mend(Mend::Fix(*loss)));
+            }
+        }
+        Repair::Snap { region, guide } => {
+            if Button::new("Snap to surface").show(ui).clicked() {
+                asks.push(Ask::Mend(Mend::Snap(region.clone(), *guide)));
+            }
+        }
+    }
+}
+
+/// With a capital and a full stop.
+fn sentence(words: &str) -> String {
+    let mut characters = words.trim().chars();
+    let Some(first) = characters.next() else { return String::new() };
+    let end = if words.trim().ends_with(['.', '?', '!']) { "" } else { "." };
+    first.to_uppercase().chain(characters).collect::<String>() + end
+}
+
+/// The text with its lines numbered and the one with the problem marked.
+fn source(
+    ui: &mut Ui,
+    (shown, place): (&Shown<'_>, Option<Place>),
+    memory: &mut Memory,
+    asks: &mut Vec<Ask>,
+) {
+    let tokens = Tokens::of(ui);
+    ui.painter().rect_filled(ui.max_rect(), 0.0, tokens.field);
+    let Some(source) = shown.document.source() else {
+        let words = "All of the file was read: its text is no longer needed.";
+        ui.add_space(12.0);
+        ui.label(RichText::new(words).font(type_face::small()).color(tokens.weak));
+        return;
+    };
+    if !memory.begun_from.as_ref().is_some_and(|before| Arc::ptr_eq(before, source)) {
+        // What was typed stays while the text behind it does.
+        if memory.begun_from.as_ref().is_none_or(|before| before.text != source.text) {
+            memory.typed.clone_from(&source.text);
+        }
+        memory.begun_from = Some(Arc::clone(source));
+        memory.go_to = place.map(|place| place.line);
+    }
+    let marked = place.map(|place| place.line).filter(|_| memory.typed == source.text);
+    if source.text.len() > MAX_EDITED_BYTES {
+        return excerpt(ui, &source.text, marked.unwrap_or(1));
+    }
+    let id = Id::unique("problems source");
+    let is_typing = ui.memory(|memory| memory.has_focus(id));
+    if is_typing && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter)) {
+        asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
+    }
+    let row_height = ui.fonts_mut(|fonts| fonts.row_height(&type_face::number()));
+    let mut area = ScrollArea::both().id_salt("source").auto_shrink(false);
+    if let Some(line) = memory.go_to.take() {
+        area = area.vertical_scroll_offset((line.saturating_sub(3) as f32 * row_height).max(0.0));
+    }
+    let typed = &mut memory.typed;
+    let is_changed = *typed != source.text;
+    area.show(ui, |ui| {
+        ui.horizontal_top(|ui| {
+            let lines = typed.split('\n').count();
+            let numbers: String = (1..=lines).map(|line| format!("{line:>5}\n")).collect();
+            let plain = LayoutJob::simple(numbers, type_face::number(), tokens.weak, f32::INFINITY);
+            ui.add(egui::Label::new(plain).selectable(false));
+            let mut lay_out = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
+                ui.painter().layout_job(coloured(text.as_str(), marked, tokens))
+            };
+            let edit = TextEdit::multiline(typed)
+                .id(id)
+                .font(type_face::number())
+                .frame(egui::Frame::NONE)
+                .margin(egui::Margin::ZERO)
+                .desired_width(f32::INFINITY)
+                .code_editor()
+                .layouter(&mut lay_out);
+            let edit = ui.add(edit);
+            edit.widget_info(|| WidgetInfo::labeled(Role::MultilineTextInput, true, "Source"));
+        });
+    });
+    if is_changed {
+        let words = "Ctrl Enter reads it again; the file on disk stays";
+        let at = ui.max_rect().right_bottom() - vec2(14.0, 8.0);
+        ui.painter().text(at, Align2::RIGHT_BOTTOM, words, type_face::small(), tokens.ochre);
+    }
+}
+
+fn coloured(text: &str, marked: Option<usize>, tokens: &Tokens) -> LayoutJob {
+    let format = |background| TextFormat {
+        font_id: type_face::number(),
+        color: tokens.text,
+        background,
+        ..TextFormat::default()
+    };
+    let mut job = LayoutJob { break_on_newline: true, ..LayoutJob::default() };
+    job.wrap.max_width = f32::INFINITY;
+    for (index, line) in text.split_inclusive('\n').enumerate() {
+        let is_marked = marked == Some(index + 1);
+        let background =
+            if is_marked { tokens.vermilion.gamma_multiply(0.25) } else { egui::Color32::TRANSPARENT };
+        job.append(line, 0.0, format(background));
+    }
+    job
+}
+
+/// Of a long text the lines round one, to be read only.
+fn excerpt(ui: &mut Ui, text: &str, line: usize) {
+    let tokens = Tokens::of(ui);
+    let first = line.saturating_sub(4);
+    let numbered = text.lines().enumerate().skip(first).take(LINES_AROUND);
+    let lines: String = numbered
+        .map(|(index, line)| format!("{:>6} {}\n", index + 1, line.chars().take(200).collect::<String>()))
+        .collect();
+    let marked = Some(line - first);
+    ScrollArea::both().id_salt("excerpt").auto_shrink(false).show(ui, |ui| {
+        let label = ui.add(egui::Label::new(coloured(&lines, marked, tokens)).selectable(false));
+        label.widget_info(|| WidgetInfo::labeled(Role::Label, true, "Source"));
+        let words = "This text is too long to be edited here. Edit the file; it is read again by itself.";
+        ui.label(RichText::new(words).font(type_face::small()).color(tokens.weak));
+    });
+}

@@ -1,0 +1,166 @@
+//! The panel of what could not be read, driven by name: what it lists, what it asks for, and how it looks.
+
+mod headless;
+
+use std::path::PathBuf;
+
+use egui::{CentralPanel, Key, Modifiers, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, SnapshotOptions};
+use headless::Headless;
+use impasto_editor::panels::{Ask, Numbers, Shown, problems, status_line, top_bar};
+use impasto_editor::theme::{self, Theme, Tokens};
+use impasto_editor_model::editor::Editor;
+use impasto_editor_model::keymap::Preset;
+use impasto_editor_model::{Document, Session};
+use impasto_gl_render::context::Driver;
+
+const TEXT: &str = r#"(
+    version: 1,
+    camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]),
+    objects: [
+        (name: "apple", mesh: "meshes/apple.obj"),
+        (name: "leaf", mesh: "laef.obj", parent: "apple"),
+        (name: "stem", mesh: "stem.obj", parent: "apple"),
+    ],
+    regions: [
+        (name: "skin", on: Object("apple"), strokes: (widht_px: 9, length_px: "long"), guides: [(radius: 0.1, points: [
+            (at: (0.2, 0.5, 0.42), normal: (0, 0, 1)), (at: (0.8, 0.5, 0.42), normal: (0, 0, 1)),
+        ])]),
+    ],
+)
+"#;
+
+/// The window without its viewport; the editor does what is asked.
+struct Page {
+    editor: Editor,
+    path: PathBuf,
+    chosen: Vec<String>,
+    copies: usize,
+    is_open: bool,
+    has_bars: bool,
+    _folder: tempfile::TempDir,
+}
+
+impl Page {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::create_dir(folder.path().join("meshes")).expect("made");
+        let quad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+        for name in ["apple.obj", "leaf.obj", "stem.obj"] {
+            std::fs::write(folder.path().join("meshes").join(name), quad).expect("written");
+        }
+        let path = folder.path().join("still_life.ron");
+        std::fs::write(&path, TEXT).expect("written");
+        let document = Document::open_with_problems(&path, &Default::default()).expect("opens");
+        let editor = Editor::new(document);
+        Self { editor, path, chosen: Vec::new(), copies: 0, is_open: true, has_bars: true, _folder: folder }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui) {
+        let whole = ui.ctx().content_rect();
+        let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
+        ui.set_clip_rect(whole);
+        let mut asks = Vec::new();
+        let session = Session::default();
+        let shown = Shown {
+            document: self.editor.document(),
+            session: &session,
+            painting: None,
+            keys: Preset::Blender,
+            status: "",
+            numbers: Numbers::default(),
+            recent: &[],
+        };
+        if self.has_bars {
+            top_bar::top_bar(ui, &shown, &mut asks);
+            status_line::status_line(ui, &shown, &mut asks);
+        }
+        self.is_open &= self.is_open && problems::problems(ui, &shown, &mut asks);
+        CentralPanel::default().frame(egui::Frame::new().fill(Tokens::of(ui).app)).show(ui, |_| {});
+        for ask in asks {
+            match ask {
+                Ask::Mend(mend) => drop(self.editor.mend(&mend)),
+                Ask::ChooseMesh(object) => self.chosen.push(object),
+                Ask::SaveCopy => self.copies += 1,
+                _ => {}
+            }
+        }
+    }
+}
+
+fn harness() -> Harness<'static, Page> {
+    let mut harness = Harness::builder()
+        .with_size(vec2(1000.0, 300.0))
+        .with_theme(egui::Theme::Dark)
+        .with_render_cursor(false)
+        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
+        .renderer(Headless::open(Driver::Auto))
+        .build_ui_state(|ui, page: &mut Page| page.ui(ui), Page::new());
+    harness.run();
+    harness
+}
+
+fn click(harness: &mut Harness<'_, Page>, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run_steps(SETTLED);
+}
+
+/// Passes after which a list has scrolled where it should.
+const SETTLED: usize = 12;
+
+fn document_value(harness: &Harness<'_, Page>) -> String {
+    harness.get_by_label("Document").accesskit_node().value().unwrap_or_default()
+}
+
+#[test]
+fn the_panel_looks_as_it_did() {
+    let mut harness = harness();
+    harness.state_mut().has_bars = false;
+    harness.set_size(vec2(880.0, 240.0));
+    harness.run();
+    // The whole words stand in a tooltip; the picture is of the list.
+    harness.get_by_label_contains("line 6 column 30").click();
+    harness.run();
+    harness.hover_at(egui::pos2(600.0, 4.0));
+    harness.run();
+    harness.snapshot_options("problems_dark", &SnapshotOptions::new().threshold(0.6));
+}
+
+#[test]
+fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
+    let mut harness = harness();
+    assert_eq!(document_value(&harness), "still_life.ron, saving over it is off");
+    assert!(harness.query_by_label_contains("line 6 column 30, error, ").is_some());
+    assert!(harness.query_by_label("Close problems").is_none(), "it cannot be put away");
+    click(&mut harness, "Save a copy");
+    assert_eq!(harness.state().copies, 1);
+    harness.get_all_by_label("Locate").next().expect("a button").click();
+    harness.run_steps(SETTLED);
+    assert_eq!(harness.state().chosen, ["leaf"]);
+    click(&mut harness, "Use leaf.obj");
+    click(&mut harness, "Fix all that are certain");
+    let document = harness.state().editor.document();
+    assert_eq!((document.loss_count(), document.undo_text()), (1, Some("Fix 2 problems")));
+    assert!(harness.query_by_label("Fix all that are certain").is_none());
+    // The last one by hand, in the text: Ctrl Enter reads it.
+    let source = harness.state().editor.document().source().expect("a source").text.clone();
+    harness.get_by_label("Source").focus();
+    harness.run_steps(SETTLED);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(SETTLED);
+    harness.get_by_label("Source").type_text(&source.replace("\"long\"", "40"));
+    harness.run_steps(SETTLED);
+    assert_eq!(harness.state().editor.document().loss_count(), 1, "not before it is asked for");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    harness.run_steps(SETTLED);
+    assert_eq!(harness.state().editor.document().scene().regions[0].strokes.length_px, Some(40.0));
+    assert_eq!(document_value(&harness), "still_life.ron, edited");
+    let said = harness.state_mut().editor.take_said();
+    assert!(said.iter().any(|said| said.words == "No problems left. Saving is on again."), "{said:?}");
+    assert!(harness.query_by_label("Close problems").is_some());
+    click(&mut harness, "Snap to surface");
+    assert!(!harness.state().is_open, "nothing is left to list");
+    let page = harness.state();
+    assert_eq!(std::fs::read_to_string(&page.path).expect("there"), TEXT, "the file was touched");
+}

@@ -1,0 +1,394 @@
+//! Reading what can be read of a scene that has errors, with everything that could not, and what would mend it.
+//!
+//! ```text
+//! text ─▶ brackets ─▶ values ─▶ sense ─▶ files ─▶ a scene that is well
+//!    ▲        │ cut      │ field or item overwritten with spaces
+//!    └────────┴──────────┴────────┘ and once more; places hold, for nothing before them moves
+//! ```
+//!
+//! What is given passed the same checks as any scene. The file is only read.
+
+mod cut;
+mod files;
+mod fix;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use super::parse::{
+    self, blank_out, blank_range, enclosing_path, enclosing_struct_path, explain, field_before,
+};
+use super::source::{self, error_in};
+use super::{LoadOptions, Told};
+use crate::check::{self, Finding};
+use crate::document::Scene;
+use crate::limits;
+use crate::loaded::LoadedScene;
+use crate::locate::{Inside, Located, Step};
+use crate::problem::{Place, Problem, Report, Severity};
+
+use files::Held;
+pub use fix::{Fix, mended};
+
+/// Bytes that are scanned and parsed at most in all passes over one text.
+const MOST_PARSED_BYTES: usize = 64 << 20;
+
+/// Passes over one text at most.
+const MOST_PASSES: usize = 1000;
+
+/// A scene as far as it could be read.
+#[derive(Clone, Debug)]
+pub struct Salvaged {
+    /// The scene and its files; boxes stand in for meshes that cannot be used.
+    pub loaded: LoadedScene,
+    /// What could not be read, in the order of the file; empty where everything could.
+    pub losses: Vec<Loss>,
+    /// The text that it was read from, without byte order mark.
+    pub text: String,
+}
+
+/// Something that could not be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loss {
+    /// What is wrong, and where.
+    pub problem: Problem,
+    /// What serves until it is mended, as a sentence.
+    pub instead: String,
+    /// The mesh that a box stands in for, as the document writes it; none where the loss is one of the text.
+    pub mesh: Option<String>,
+    /// What would mend it.
+    pub fix: Option<Fix>,
+}
+
+/// Reads as much of a scene file as can be read.
+///
+/// # Errors
+/// Where there is nothing to open: no file, no text, a newer version, more than this build allows.
+pub fn salvage(path: &Path, options: &LoadOptions) -> Result<Salvaged, Report> {
+    let alone = |problem| Report(vec![problem]);
+    let bytes = source::read(path).map_err(alone)?;
+    let text = source::decode(path, &bytes).map_err(alone)?;
+    salvage_text(path, text, options)
+}
+
+/// As [`salvage`], of a text that belongs to a path; its files are named from there.
+///
+/// # Errors
+/// As [`salvage`].
+pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Salvaged, Report> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if text.len() as u64 > limits::MAX_SCENE_BYTES {
+        return Err(Report(vec![source::too_long(path)]));
+    }
+    let mut reading =
+        Reading { path, left: text.to_owned(), losses: Vec::new(), blanked: Vec::new(), unlisted: 0 };
+    let mut held = Held::new(path, options);
+    let most_passes = (MOST_PARSED_BYTES / text.len().max(1)).clamp(2, MOST_PASSES);
+    for _ in 0..most_passes {
+        if let Some(loaded) = reading.pass(&mut held)? {
+            let mut losses = reading.losses;
+            losses.sort_by_key(|loss| (loss.problem.place.is_none(), loss.problem.place));
+            if reading.unlisted > 0 {
+                let message = format!("{} more problems are not listed", reading.unlisted);
+                let problem = error_in(path, None, message, "mend those above first");
+                losses.push(Loss { problem, instead: String::new(), mesh: None, fix: None });
+            }
+            return Ok(Salvaged { loaded, losses, text: text.to_owned() });
+        }
+    }
+    Err(reading.given_up())
+}
+
+/// One text while what is wrong with it is taken out.
+struct Reading<'a> {
+    path: &'a Path,
+    /// The text with spaces where something was wrong. Up to the first thing that was added at its end, every byte stands
+    /// where it stood.
+    left: String,
+    losses: Vec<Loss>,
+    /// What was overwritten, and for which loss.
+    blanked: Vec<(std::ops::Range<usize>, usize)>,
+    unlisted: usize,
+}
+
+impl Reading<'_> {
+    /// One pass: the scene where all is well, none where something was taken out.
+    fn pass(&mut self, held: &mut Held<'_>) -> Result<Option<LoadedScene>, Report> {
+        let alone = |problem| Report(vec![problem]);
+        let located = match source::scan_refusing(&self.left) {
+            Ok(located) => located,
+            Err(refused) => {
+                self.cut(refused)?;
+                return Ok(None);
+            }
+        };
+        if let Err(problem) = parse::check_version(self.path, &located) {
+            if parse::is_newer(&located) {
+                return Err(alone(problem));
+            }
+            self.lose(problem, format!("It is read as version {}.", Scene::VERSION));
+            if parse::version_field(&located).is_some() {
+                self.blank(&located, "version");
+            }
+            self.add_at_end(&located, &format!("version: {}", Scene::VERSION));
+            return Ok(None);
+        }
+        let scene = match parse::from_ron(&self.left) {
+            Ok(scene) => scene,
+            Err(error) => {
+                self.take_out(&located, &error)?;
+                return Ok(None);
+            }
+        };
+        let findings = check::check(&scene);
+        if self.take_out_found(&located, &findings)? {
+            return Ok(None);
+        }
+        let mut files = held.read(&scene, &located);
+        if !files.refused.is_empty() {
+            for (problem, field_path, fix) in std::mem::take(&mut files.refused) {
+                let index = self.lose(problem, "Left out until then.".to_owned());
+                self.losses[index].fix = fix;
+                self.blank_for(&located, &field_path, index)?;
+            }
+            return Ok(None);
+        }
+        let on_meshes = check::check_with_meshes(&scene, &files.real);
+        if self.take_out_found(&located, &on_meshes)? {
+            return Ok(None);
+        }
+        let told = Told { path: self.path, written: Some(&located), applied: &[], edited: None };
+        let mut warnings: Vec<Problem> =
+            findings.into_iter().chain(on_meshes).map(|finding| told.problem(finding)).collect();
+        super::sort_and_cap(self.path, &mut warnings, files.warnings);
+        for loss in files.missing {
+            self.add(loss);
+        }
+        let meshes = files.real.into_iter().chain(files.stand_ins).collect();
+        Ok(Some(LoadedScene {
+            path: self.path.to_owned(),
+            scene,
+            meshes,
+            textures: files.textures,
+            brushes: files.brushes,
+            warnings,
+        }))
+    }
+
+    /// Writes a loss down; where it is in the list.
+    fn lose(&mut self, problem: Problem, instead: String) -> usize {
+        self.add(Loss { problem, instead, mesh: None, fix: None })
+    }
+
+    fn add(&mut self, loss: Loss) -> usize {
+        if self.losses.len() < limits::MAX_PROBLEMS {
+            self.losses.push(loss);
+        } else {
+            self.unlisted += 1;
+        }
+        self.losses.len() - 1
+    }
+
+    /// Ends the text before what cannot be read.
+    fn cut(&mut self, refused: crate::locate::Refused) -> Result<(), Report> {
+        let cut = cut::before(&self.left, refused.offset.min(self.left.len()));
+        let place = |offset| {
+            Some(crate::locate::place_in(&self.left, &crate::locate::line_starts(&self.left), offset))
+        };
+        let problem =
+            error_in(self.path, place(refused.offset), refused.message.clone(), refused.mend.clone());
+        let Some(cut) = cut.filter(|_| !refused.is_limit) else {
+            let severity = if refused.is_limit { Severity::Limit } else { Severity::Error };
+            return Err(Report(vec![Problem { severity, ..problem }]));
+        };
+        let at = place(cut.read_to);
+        let message = match at {
+            Some(Place { line, column }) => {
+                format!("cannot read past line {line}, column {column}: {}", refused.message)
+            }
+            None => refused.message.clone(),
+        };
+        let instead = match cut.objects_behind {
+            0 => "Everything before it is open.".to_owned(),
+            1 => "Everything before it is open; 1 object after it is not.".to_owned(),
+            count => format!("Everything before it is open; {count} objects after it are not."),
+        };
+        self.lose(Problem { message, place: at, ..problem }, instead);
+        self.left = cut.text;
+        Ok(())
+    }
+
+    /// Takes out what the parser stumbled over.
+    fn take_out(&mut self, located: &Located, error: &ron::error::SpannedError) -> Result<(), Report> {
+        let offset = |at: ron::error::Position| located.offset_in(&self.left, at.line, at.col);
+        let span = (offset(error.span.start), offset(error.span.end));
+        let unknown = match &error.code {
+            ron::Error::NoSuchStructField { found, .. } => field_before(located, &self.left, found, span.1),
+            ron::Error::DuplicateStructField { field, .. } => {
+                field_before(located, &self.left, field, span.1)
+            }
+            _ => None,
+        };
+        let problem = explain(self.path, located, &error.code, span, unknown);
+        if let Some(field) = unknown {
+            let fix = fix::renamed(located, field, &error.code);
+            let index = self.lose(problem, "Left out until then; its default serves.".to_owned());
+            self.losses[index].fix = fix;
+            self.blanked.push((field.key.start as usize..field.value.end as usize, index));
+            blank_out(&mut self.left, field);
+            return Ok(());
+        }
+        let root_start = located.root().start as usize;
+        if span.1 < root_start || matches!(error.code, ron::Error::NoSuchExtension(_)) {
+            self.lose(problem, "Left out until then.".to_owned());
+            blank_range(&mut self.left, 0..root_start);
+            return Ok(());
+        }
+        let (field_path, at) = match &error.code {
+            ron::Error::MissingStructField { field, .. } => {
+                let path = enclosing_struct_path(located, span.1);
+                if path.is_empty() {
+                    return self.add_missing(located, field, problem);
+                }
+                let at = located.node_at(&path).map_or(span.1, |node| node.start as usize);
+                (path, at)
+            }
+            _ => enclosing_path(located, span.0, span.1),
+        };
+        let node = located.node_at(&field_path);
+        let within = node.map_or(at..at, |node| node.start as usize..node.end as usize);
+        // What is missing because it was taken out is no loss of its own.
+        let cause = self.blanked.iter().rev().find(|(range, _)| within.contains(&range.start));
+        let index = match cause {
+            Some(&(_, index)) => {
+                let what = described(&field_path);
+                self.losses[index].instead = format!("{what} is left out until then.");
+                index
+            }
+            None => self.lose(problem, format!("{} is left out until then.", described(&field_path))),
+        };
+        self.blank_for(located, &field_path, index)
+    }
+
+    /// A field of the scene that must be there and is not.
+    fn add_missing(&mut self, located: &Located, field: &str, problem: Problem) -> Result<(), Report> {
+        let written = match field {
+            "version" => "version: 1",
+            "objects" => "objects: []",
+            "camera" => "camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
+            _ => return Err(Report(vec![problem])),
+        };
+        // Taken out by a cut, or mistyped: said already.
+        if self.losses.is_empty() {
+            self.lose(problem, "A usual one stands in for it.".to_owned());
+        }
+        self.add_at_end(located, written);
+        Ok(())
+    }
+
+    /// Takes out everything that makes no sense; whether there was anything.
+    fn take_out_found(&mut self, located: &Located, findings: &[Finding]) -> Result<bool, Report> {
+        let fatal: Vec<&Finding> = findings.iter().filter(|finding| finding.severity.is_fatal()).collect();
+        let told = Told { path: self.path, written: Some(located), applied: &[], edited: None };
+        let before = self.left.clone();
+        for finding in &fatal {
+            if finding.field_path.is_empty() {
+                continue;
+            }
+            let instead = format!("{} is left out until then.", described(&finding.field_path));
+            let index = self.lose(told.problem((*finding).clone()), instead);
+            self.blank_for(located, &finding.field_path, index)?;
+        }
+        if !fatal.is_empty() && self.left == before {
+            return Err(self.given_up_with(fatal.iter().map(|finding| told.problem((*finding).clone()))));
+        }
+        Ok(!fatal.is_empty())
+    }
+
+    fn blank(&mut self, located: &Located, field_path: &str) -> bool {
+        let Some(range) = takeable(located, field_path, &self.left) else { return false };
+        blank_range(&mut self.left, range);
+        true
+    }
+
+    /// Overwrites a field or an item of a list, or what is round it where it is overwritten already.
+    fn blank_for(&mut self, located: &Located, field_path: &str, loss: usize) -> Result<(), Report> {
+        let mut path = field_path.to_owned();
+        loop {
+            if let Some(range) = takeable(located, &path, &self.left) {
+                blank_range(&mut self.left, range.clone());
+                self.blanked.push((range, loss));
+                return Ok(());
+            }
+            let Some(cut) = path.rfind(['.', '[']) else { return Err(self.given_up()) };
+            path.truncate(cut);
+        }
+    }
+
+    /// Writes a field before the last bracket.
+    fn add_at_end(&mut self, located: &Located, field: &str) {
+        let end = located.root().end as usize - 1;
+        let before = self.left[located.root().start as usize..end].trim_end();
+        let comma = if before.ends_with(['(', ',']) { "" } else { "," };
+        self.left.insert_str(end, &format!("{comma} {field},"));
+    }
+
+    fn given_up(&self) -> Report {
+        self.given_up_with(std::iter::empty())
+    }
+
+    fn given_up_with(&self, more: impl Iterator<Item = Problem>) -> Report {
+        let problems: Vec<Problem> =
+            self.losses.iter().map(|loss| loss.problem.clone()).chain(more).collect();
+        if problems.is_empty() {
+            return Report(vec![error_in(
+                self.path,
+                None,
+                "nothing of the scene can be read",
+                "mend it by hand",
+            )]);
+        }
+        Report(problems)
+    }
+}
+
+/// What of the text goes for a field: with its comma; none where nothing is left to take.
+fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
+    let mut node = located.root();
+    let mut range = None;
+    for step in Step::split(field_path) {
+        let outer = located.through_some(node);
+        match (&outer.inside, step) {
+            (Inside::Fields(fields), Step::Field(name)) => {
+                let Some(field) = fields.iter().find(|field| located.text_of(&field.key) == name) else {
+                    break;
+                };
+                range = Some(field.key.start as usize..field.value.end as usize);
+                node = &field.value;
+            }
+            (Inside::Items(items), Step::Index(index)) => {
+                let Some(item) = items.get(index) else { break };
+                // One of several numbers is nothing without the others.
+                if located.text_of(outer).starts_with('[') {
+                    range = Some(item.start as usize..item.end as usize);
+                }
+                node = item;
+            }
+            _ => break,
+        }
+    }
+    let range = parse::with_comma(left, range?);
+    let is_left = left.get(range.clone())?.chars().any(|character| !character.is_whitespace());
+    is_left.then_some(range)
+}
+
+/// *The object*, *The key*: what an item of a list is called.
+fn described(field_path: &str) -> String {
+    let last = field_path.rsplit('.').next().unwrap_or(field_path);
+    match last.split_once('[') {
+        Some((list, _)) => format!("The {}", list.strip_suffix('s').unwrap_or(list).replace('_', " ")),
+        None if last.is_empty() => "It".to_owned(),
+        None => format!("`{last}`"),
+    }
+}

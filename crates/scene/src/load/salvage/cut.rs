@@ -1,0 +1,151 @@
+//! Ending a text before a fault of its brackets, so that what stands before it can be read.
+
+/// A text that was ended early.
+pub(super) struct Cut {
+    /// What stands before the fault, with every bracket closed.
+    pub(super) text: String,
+    /// Up to where it was read, bytes.
+    pub(super) read_to: usize,
+    /// About how many objects stand behind.
+    pub(super) objects_behind: usize,
+}
+
+/// A bracket that is open.
+struct Open {
+    byte: u8,
+    /// Behind the bracket, or behind its last comma.
+    item_start: usize,
+    /// Whether it holds `name: value`.
+    has_fields: bool,
+    /// Whether the item that is read now has its colon.
+    has_colon: bool,
+}
+
+/// Ends a text before `fault`, or before an earlier place where a bracket must have been forgotten. None where nothing
+/// stands before it.
+pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
+    let bytes = text.as_bytes();
+    // A bracket that is never closed is found at its opening; the text may be good to its end.
+    let is_unclosed = matches!(bytes.get(fault), Some(b'(' | b'[' | b'{'));
+    let end = if is_unclosed { bytes.len() } else { fault };
+    let mut open: Vec<Open> = Vec::new();
+    let mut at = 0;
+    let mut read_to = end;
+    while at < end {
+        match bytes[at] {
+            b'"' => {
+                let Some(behind) = behind_text(bytes, at) else {
+                    read_to = at;
+                    break;
+                };
+                at = behind;
+                continue;
+            }
+            b'/' if bytes.get(at + 1) == Some(&b'/') => {
+                at += text[at..].find('\n').unwrap_or(text.len() - at);
+                continue;
+            }
+            b'/' if bytes.get(at + 1) == Some(&b'*') => {
+                let Some(length) = text[at..].find("*/") else {
+                    read_to = at;
+                    break;
+                };
+                at += length + 2;
+                continue;
+            }
+            // What stands before the scene: `#![enable(…)]`.
+            b'#' if open.is_empty() => {
+                at += text[at..].find(']').map_or(1, |length| length + 1);
+                continue;
+            }
+            byte @ (b'(' | b'[' | b'{') => {
+                if let Some(outer) = open.last()
+                    && outer.byte == b'('
+                    && outer.has_fields
+                    && !outer.has_colon
+                {
+                    // A value without a name among fields: the bracket before it was meant to be closed.
+                    read_to = at;
+                    break;
+                }
+                open.push(Open { byte, item_start: at + 1, has_fields: false, has_colon: false });
+            }
+            b')' | b']' | b'}' => {
+                open.pop();
+                if open.is_empty() {
+                    // Whatever follows the scene is no part of it.
+                    return (at + 1 < text.len()).then(|| Cut {
+                        text: text[..=at].to_owned(),
+                        read_to: at + 1,
+                        objects_behind: objects_in(&text[at + 1..]),
+                    });
+                }
+            }
+            b',' => {
+                if let Some(open) = open.last_mut() {
+                    (open.item_start, open.has_colon) = (at + 1, false);
+                }
+            }
+            b':' => {
+                if let Some(open) = open.last_mut() {
+                    (open.has_fields, open.has_colon) = (true, true);
+                }
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    let read_to = if text.is_char_boundary(read_to) { read_to } else { at };
+    let inner = open.last()?;
+    // What was begun last goes, unless its bracket is what is missing.
+    let is_whole = match inner.byte {
+        b'(' => inner.has_colon && !text[..end].trim_end().ends_with(':'),
+        _ => true,
+    };
+    let keep_to = if is_unclosed && read_to == end && is_whole { end } else { inner.item_start };
+    let mut kept = text[..keep_to.min(read_to)].to_owned();
+    if keep_to == end {
+        kept.push('\n');
+    }
+    kept.extend(open.iter().rev().map(|open| char::from(closing_of(open.byte))));
+    (kept.len() < text.len() + open.len() + 2 && kept != text).then(|| Cut {
+        text: kept,
+        read_to,
+        objects_behind: objects_in(&text[keep_to.min(read_to)..]),
+    })
+}
+
+fn closing_of(opening: u8) -> u8 {
+    match opening {
+        b'(' => b')',
+        b'[' => b']',
+        _ => b'}',
+    }
+}
+
+/// Behind the closing quote of the text that starts here, with raw texts.
+fn behind_text(bytes: &[u8], quote: usize) -> Option<usize> {
+    let hashes = bytes[..quote].iter().rev().take_while(|&&byte| byte == b'#').count();
+    let is_raw = bytes[..quote - hashes].last() == Some(&b'r');
+    let mut at = quote + 1;
+    while let Some(&byte) = bytes.get(at) {
+        match byte {
+            b'\\' if !is_raw => at += 2,
+            b'"' => {
+                let closes =
+                    !is_raw || bytes[at + 1..].iter().take_while(|&&byte| byte == b'#').count() >= hashes;
+                at += 1;
+                if closes {
+                    return Some(at + if is_raw { hashes } else { 0 });
+                }
+            }
+            _ => at += 1,
+        }
+    }
+    None
+}
+
+/// Every object has one `mesh`.
+fn objects_in(text: &str) -> usize {
+    text.matches("mesh:").count()
+}

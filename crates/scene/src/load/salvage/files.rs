@@ -1,0 +1,277 @@
+//! The files of a scene with errors: those that are there, and what stands in for the others.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::fix::Fix;
+use super::{LoadOptions, Loss};
+use crate::check;
+use crate::document::{Object, PatchRef, Scene};
+use crate::limits;
+use crate::load::files::{first_uses, retold};
+use crate::load::{folder_of, read_brush, read_mesh, read_texture};
+use crate::locate::Located;
+use crate::mesh_file::{Material, MeshFile, Texture};
+use crate::problem::{Problem, Severity};
+
+/// Files that are looked through at most for one that is missing.
+const MOST_ENTRIES: usize = 4000;
+
+/// Folders inside each other that are looked through for it.
+const DEEPEST: usize = 4;
+
+type Read<T> = Result<(Arc<T>, Vec<Problem>), Problem>;
+
+/// Files that were read, or could not be: once, however many passes there are.
+pub(super) struct Held<'a> {
+    path: &'a Path,
+    options: &'a LoadOptions,
+    meshes: BTreeMap<String, Read<MeshFile>>,
+    textures: BTreeMap<String, Read<Texture>>,
+    brushes: BTreeMap<String, Read<Texture>>,
+    /// The files in the scene's folder and below, by path from there; none before they are looked for.
+    nearby: Option<Vec<PathBuf>>,
+}
+
+/// The files of one pass.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) real: BTreeMap<String, Arc<MeshFile>>,
+    pub(super) stand_ins: BTreeMap<String, Arc<MeshFile>>,
+    pub(super) textures: BTreeMap<String, Arc<Texture>>,
+    pub(super) brushes: BTreeMap<String, Arc<Texture>>,
+    pub(super) warnings: Vec<Problem>,
+    /// Meshes that boxes stand in for.
+    pub(super) missing: Vec<Loss>,
+    /// What nothing can stand in for: the problem, its field, and what would mend it.
+    pub(super) refused: Vec<(Problem, String, Option<Fix>)>,
+}
+
+impl<'a> Held<'a> {
+    pub(super) fn new(path: &'a Path, options: &'a LoadOptions) -> Self {
+        let (meshes, textures, brushes) = Default::default();
+        Self { path, options, meshes, textures, brushes, nearby: None }
+    }
+
+    /// Reads what a scene names.
+    pub(super) fn read(&mut self, scene: &Scene, located: &Located) -> Found {
+        let mut found = Found::default();
+        let (path, folders) = (self.path, &self.options.folders);
+        for (name, field_path) in first_uses(scene, |object| Some(&object.mesh), "mesh") {
+            let read = self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, self.options));
+            match read.clone() {
+                Ok((mesh, warnings)) => {
+                    found.warnings.extend(warnings);
+                    found.real.insert(name.to_owned(), mesh);
+                }
+                Err(problem) => {
+                    found.stand_ins.insert(name.to_owned(), Arc::new(stand_in(scene, name)));
+                    let users: Vec<String> = (0..scene.objects.len())
+                        .filter(|&index| scene.objects[index].mesh == name)
+                        .map(|index| format!("objects[{index}].mesh"))
+                        .collect();
+                    let fix = self.nearby_fix(name, &users, located);
+                    found.missing.push(Loss {
+                        problem: self.at(problem, &field_path, located),
+                        instead: "A box stands in for it.".to_owned(),
+                        mesh: Some(name.to_owned()),
+                        fix,
+                    });
+                }
+            }
+        }
+        for (name, field_path) in first_uses(scene, |object| object.morph.as_ref(), "morph") {
+            if found.stand_ins.contains_key(name) {
+                continue;
+            }
+            let read = self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, self.options));
+            match read.clone() {
+                Ok((mesh, _)) => drop(found.real.insert(name.to_owned(), mesh)),
+                Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
+            }
+        }
+        let texture_of =
+            |object: &'_ Object| object.material.as_ref().and_then(|material| material.texture.clone());
+        let textures: Vec<Option<String>> = scene.objects.iter().map(texture_of).collect();
+        for (index, name) in textures.iter().enumerate() {
+            let Some(name) = name else { continue };
+            let field_path = format!("objects[{index}].material.texture");
+            let read = self
+                .textures
+                .entry(name.clone())
+                .or_insert_with(|| read_texture(path, name, folders).map(super::super::shared));
+            match read.clone() {
+                Ok((texture, _)) => drop(found.textures.insert(name.clone(), texture)),
+                Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
+            }
+        }
+        for (name, field_path) in check::brush_pictures(scene).into_iter().take(limits::MAX_BRUSH_PICTURES) {
+            let read = self
+                .brushes
+                .entry(name.to_owned())
+                .or_insert_with(|| read_brush(path, name, folders).map(super::super::shared));
+            match read.clone() {
+                Ok((brush, _)) => drop(found.brushes.insert(name.to_owned(), brush)),
+                Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
+            }
+        }
+        found
+    }
+
+    fn refuse(
+        &mut self,
+        found: &mut Found,
+        problem: Problem,
+        (name, field_path, located): (&str, &str, &Located),
+    ) {
+        let fix = self.nearby_fix(name, &[field_path.to_owned()], located);
+        found.refused.push((self.at(problem, field_path, located), field_path.to_owned(), fix));
+    }
+
+    fn at(&self, problem: Problem, field_path: &str, located: &Located) -> Problem {
+        // A fault within the mesh file keeps its line in the words.
+        let words = match problem.place {
+            Some(place) if problem.path != self.path => format!("line {}: {}", place.line, problem.message),
+            _ => problem.message.clone(),
+        };
+        let place = Some(located.place_of(field_path));
+        let severity = problem.severity.max(Severity::Error);
+        let problem = Problem { message: words, field_path: field_path.into(), severity, ..problem };
+        retold(problem, self.path, place)
+    }
+
+    /// The one file of that name elsewhere in the scene's folder, or the one of nearly that name.
+    fn nearby_fix(&mut self, name: &str, fields: &[String], located: &Located) -> Option<Fix> {
+        let plain = name.trim().replace('\\', "/");
+        let wanted = Path::new(&plain).file_name()?.to_str()?.to_lowercase();
+        let folder = folder_of(self.path).to_owned();
+        let nearby = self.nearby.get_or_insert_with(|| files_below(&folder));
+        // It is there, so something else is wrong with it.
+        if wanted.len() > 128 || nearby.iter().any(|file| file == Path::new(&plain)) {
+            return None;
+        }
+        let name_of = |file: &PathBuf| Some(file.file_name()?.to_str()?.to_lowercase());
+        let same: Vec<&PathBuf> =
+            nearby.iter().filter(|file| name_of(file).as_ref() == Some(&wanted)).collect();
+        let extension = Path::new(&wanted).extension();
+        let is_like = |file: &&PathBuf| {
+            name_of(file).is_some_and(|other| {
+                Path::new(&other).extension() == extension
+                    && other.len() <= 128
+                    && strsim::damerau_levenshtein(&other, &wanted) <= 2
+            })
+        };
+        let (file, is_certain) = match same[..] {
+            [file] => (file.clone(), true),
+            [] => {
+                let like: Vec<&PathBuf> = nearby.iter().filter(is_like).collect();
+                let [file] = like[..] else { return None };
+                (file.clone(), false)
+            }
+            _ => return None,
+        };
+        let written = file.to_str()?.replace('\\', "/");
+        let edits = fields.iter().filter_map(|field| {
+            let node = located.through_some(located.node_at(field)?);
+            Some((node.start as usize..node.end as usize, format!("{written:?}")))
+        });
+        let edits: Vec<_> = edits.collect();
+        let verb = format!("Use {}", file.file_name()?.to_str()?);
+        (!edits.is_empty()).then_some(Fix { verb, is_certain, edits })
+    }
+}
+
+fn mesh(path: &Path, name: &str, options: &LoadOptions) -> Read<MeshFile> {
+    read_mesh(path, name, &options.folders).map(super::super::shared).map_err(|report| {
+        let fatal = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
+        fatal.cloned().unwrap_or_else(|| super::error_in(path, None, "the mesh cannot be used", ""))
+    })
+}
+
+/// The files of a folder and of those in it, by path from there, in order. Links are not followed.
+fn files_below(root: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut open = vec![(PathBuf::new(), 0)];
+    let mut seen = 0;
+    while let Some((folder, depth)) = open.pop() {
+        let Ok(entries) = std::fs::read_dir(root.join(&folder)) else { continue };
+        for entry in entries.filter_map(Result::ok) {
+            seen += 1;
+            if seen > MOST_ENTRIES {
+                // Of a part one cannot say that a name is the only one.
+                return Vec::new();
+            }
+            let Ok(kind) = entry.file_type() else { continue };
+            let path = folder.join(entry.file_name());
+            if kind.is_file() {
+                files.push(path);
+            } else if kind.is_dir() && depth < DEEPEST {
+                open.push((path, depth + 1));
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// A box of one unit that has every group and material that a scene looks for in the mesh.
+fn stand_in(scene: &Scene, name: &str) -> MeshFile {
+    let users: BTreeSet<&str> = scene
+        .objects
+        .iter()
+        .filter(|object| object.mesh == name)
+        .map(|object| object.name.as_str())
+        .collect();
+    let mut groups = BTreeSet::new();
+    let mut materials = BTreeSet::new();
+    groups.extend(
+        scene.objects.iter().filter(|object| object.mesh == name).filter_map(|object| object.group.clone()),
+    );
+    for region in &scene.regions {
+        if !region.on.object().is_some_and(|object| users.contains(object)) {
+            continue;
+        }
+        for patch in region.on.patches() {
+            match patch {
+                PatchRef::Group(group) => drop(groups.insert(group.to_owned())),
+                PatchRef::Material(material) => drop(materials.insert(material.to_owned())),
+                PatchRef::Whole | PatchRef::Dabs(_) | PatchRef::Flood(..) => {}
+            }
+        }
+    }
+    let or_plain = |mut names: BTreeSet<String>| {
+        if names.is_empty() {
+            names.insert("box".to_owned());
+        }
+        names.into_iter().collect::<Vec<_>>()
+    };
+    let (groups, materials) = (or_plain(groups), or_plain(materials));
+    let material = |name| Material { name, color: [0.55, 0.53, 0.5], texture: None, gloss: 0.0 };
+    let mesh = box_mesh(groups.len() as u32, materials.len() as u32);
+    MeshFile { mesh, groups, materials: materials.into_iter().map(material).collect() }
+}
+
+fn box_mesh(groups: u32, materials: u32) -> impasto_core::TriangleMesh {
+    use glam::Vec3;
+    let mut mesh = impasto_core::TriangleMesh::default();
+    for (axis, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0), (2, 1.0), (2, -1.0)] {
+        let normal = Vec3::from_array(std::array::from_fn(|index| if index == axis { side } else { 0.0 }));
+        let across =
+            Vec3::from_array(std::array::from_fn(|index| f32::from(u8::from(index == (axis + 1) % 3))));
+        let up = normal.cross(across);
+        let first = mesh.positions.len() as u32;
+        for (right, top) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {
+            mesh.positions.push(normal * 0.5 + across * right + up * top);
+            mesh.normals.push(normal);
+        }
+        for corners in [[0, 1, 2], [0, 2, 3]] {
+            let index = mesh.triangles.len() as u32;
+            mesh.polygon_of_triangle.push(index / 2);
+            mesh.triangles.push(corners.map(|corner: u32| first + corner));
+            mesh.group_of_triangle.push(index % groups);
+            mesh.material_of_triangle.push(index % materials);
+        }
+    }
+    mesh
+}

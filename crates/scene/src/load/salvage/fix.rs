@@ -1,0 +1,70 @@
+//! What would mend a loss: words for a button, and what to write in place of what.
+
+use std::ops::Range;
+
+use crate::locate::{Field, Inside, Located, Node};
+
+/// Letters in which a mistyped name may differ from the one that was meant.
+const NEAR: usize = 2;
+
+/// A change of the text that mends a loss.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fix {
+    /// The verb: *Rename*, *Use leaf.obj*.
+    pub verb: String,
+    /// Whether nothing else can have been meant.
+    pub is_certain: bool,
+    /// What is written instead of which bytes.
+    pub(super) edits: Vec<(Range<usize>, String)>,
+}
+
+/// A text with fixes carried out. Fixes of other texts do nothing where they do not fit.
+pub fn mended(text: &str, fixes: &[&Fix]) -> String {
+    let mut edits: Vec<&(Range<usize>, String)> = fixes.iter().flat_map(|fix| &fix.edits).collect();
+    edits.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
+    let mut mended = text.to_owned();
+    let mut last = usize::MAX;
+    for (range, written) in edits {
+        if range.end <= last && mended.get(range.clone()).is_some() {
+            mended.replace_range(range.clone(), written);
+            last = range.start;
+        }
+    }
+    mended
+}
+
+/// An unknown field by the name that is known there; none where none is near, or where that one is given already.
+pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> Option<Fix> {
+    let ron::Error::NoSuchStructField { expected, found, .. } = error else { return None };
+    if found.len() > 64 {
+        return None;
+    }
+    let near: Vec<&str> =
+        expected.iter().copied().filter(|known| strsim::damerau_levenshtein(known, found) <= NEAR).collect();
+    let holder = holder_of(located.root(), field)?;
+    let is_given = |name: &str| holder.iter().any(|other| located.text_of(&other.key) == name);
+    let [meant] = near[..] else { return None };
+    (!is_given(meant)).then(|| Fix {
+        verb: "Rename".to_owned(),
+        is_certain: true,
+        edits: vec![(field.key.start as usize..field.key.end as usize, meant.to_owned())],
+    })
+}
+
+/// The fields among which one stands.
+fn holder_of<'a>(root: &'a Node, field: &Field) -> Option<&'a [Field]> {
+    let holds = |node: &Node| (node.start..node.end).contains(&field.key.start);
+    let mut node = root;
+    loop {
+        match &node.inside {
+            Inside::Nothing => return None,
+            Inside::Items(items) => node = items.iter().find(|item| holds(item))?,
+            Inside::Fields(fields) => {
+                if fields.iter().any(|other| other.key.start == field.key.start) {
+                    return Some(fields);
+                }
+                node = &fields.iter().find(|other| holds(&other.value))?.value;
+            }
+        }
+    }
+}

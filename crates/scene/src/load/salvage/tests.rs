@@ -1,0 +1,201 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::load;
+
+const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng side\nf 1 4 3 2\n";
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("meshes")).expect("made");
+        for name in ["leaf.obj", "apple.obj"] {
+            fs::write(folder.path().join("meshes").join(name), CUBE).expect("written");
+        }
+        Self(folder)
+    }
+
+    fn path(&self) -> PathBuf {
+        self.0.path().join("s.ron")
+    }
+
+    fn read(&self, text: &str) -> Salvaged {
+        fs::write(self.path(), text).expect("written");
+        let salvaged =
+            salvage(&self.path(), &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
+        assert_eq!(fs::read_to_string(self.path()).expect("there"), text, "the file was touched");
+        salvaged
+    }
+}
+
+/// A scene of these objects and further fields.
+fn scene(objects: &str, more: &str) -> String {
+    format!(
+        "(\n  version: 1,\n  camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]),\n  objects: [\n{objects}\n  ],\n{more}\n)\n"
+    )
+}
+
+fn said(salvaged: &Salvaged) -> Vec<String> {
+    let line = |loss: &Loss| {
+        let place = loss.problem.place.expect("a place");
+        format!("{}:{} {} / {}", place.line, place.column, loss.problem.message, loss.instead)
+    };
+    salvaged.losses.iter().map(line).collect()
+}
+
+fn names(salvaged: &Salvaged) -> Vec<&str> {
+    salvaged.loaded.scene.objects.iter().map(|object| object.name.as_str()).collect()
+}
+
+/// With all fixes carried out, the text is a scene without losses.
+fn all_fixed(salvaged: &Salvaged, path: &Path) -> Salvaged {
+    let fixes: Vec<&Fix> = salvaged.losses.iter().filter_map(|loss| loss.fix.as_ref()).collect();
+    salvage_text(path, &mended(&salvaged.text, &fixes), &LoadOptions::default()).expect("opens")
+}
+
+#[test]
+fn a_scene_without_errors_loses_nothing() {
+    let folder = Folder::new();
+    let text = scene("    (name: \"a\", mesh: \"meshes/apple.obj\"),", "");
+    let salvaged = folder.read(&text);
+    assert!(salvaged.losses.is_empty());
+    let loaded = load::load(&folder.path(), &LoadOptions::default()).expect("loads");
+    assert_eq!(salvaged.loaded.scene, loaded.scene);
+    assert_eq!(salvaged.loaded.warnings, loaded.warnings);
+}
+
+#[test]
+fn an_unknown_field_is_left_out_and_one_near_it_is_a_certain_fix() {
+    let folder = Folder::new();
+    let text = scene(
+        "    (name: \"a\", mesh: \"meshes/apple.obj\"),",
+        "  strokes: (widht_px: 9, length_px: 40, nonsense: [(1)]),",
+    );
+    let salvaged = folder.read(&text);
+    assert_eq!(salvaged.loaded.scene.strokes.length_px, Some(40.0));
+    assert_eq!(salvaged.losses.len(), 2, "{:?}", said(&salvaged));
+    assert!(said(&salvaged)[0].starts_with("7:13 unknown field `widht_px`"), "{:?}", said(&salvaged));
+    let fix = salvaged.losses[0].fix.as_ref().expect("a fix");
+    assert!(fix.is_certain && fix.verb == "Rename");
+    assert_eq!(salvaged.losses[1].fix, None);
+    let fixed = all_fixed(&salvaged, &folder.path());
+    assert_eq!(fixed.loaded.scene.strokes.width_px, Some(9.0));
+    assert_eq!(fixed.losses.len(), 1);
+    // Where the right name is there already, it is not written twice.
+    let text = scene("", "  strokes: (widht_px: 9, width_px: 10),");
+    assert_eq!(folder.read(&text).losses[0].fix, None);
+}
+
+#[test]
+fn a_box_stands_in_for_a_mesh_and_all_else_of_the_object_is_kept() {
+    let folder = Folder::new();
+    let object = r#"    (name: "leaf", mesh: "meshes/laef.obj", group: "blade", keys: [(frame: 0, translation: (0, 2, 0))]),
+    (name: "more", mesh: "leaf.obj"),"#;
+    let region = r#"  regions: [(name: "r", on: Material("leaf", "green"))],"#;
+    let salvaged = folder.read(&scene(object, region));
+    assert_eq!(said(&salvaged).len(), 2, "{:?}", said(&salvaged));
+    assert!(salvaged.losses.iter().all(|loss| loss.instead == "A box stands in for it."));
+    let leaf = &salvaged.loaded.scene.objects[0];
+    assert_eq!((leaf.mesh.as_str(), leaf.keys[0].translation), ("meshes/laef.obj", [0.0, 2.0, 0.0]));
+    // It can be edited: what the scene looks for in the mesh is there.
+    let again = salvaged.loaded.with_scene(salvaged.loaded.scene.clone(), &Default::default());
+    assert!(again.is_ok(), "{again:?}");
+    let fixes: Vec<_> = salvaged.losses.iter().map(|loss| loss.fix.clone().expect("a fix")).collect();
+    assert_eq!((fixes[0].verb.as_str(), fixes[0].is_certain), ("Use leaf.obj", false));
+    // The same name in another folder is certain.
+    assert_eq!((fixes[1].verb.as_str(), fixes[1].is_certain), ("Use leaf.obj", true));
+    let fixed = mended(&salvaged.text, &[&fixes[1]]);
+    assert!(fixed.contains(r#"(name: "more", mesh: "meshes/leaf.obj")"#), "{fixed}");
+    // Two of that name: nothing is certain.
+    fs::write(folder.0.path().join("leaf.obj.obj"), "").expect("written");
+    fs::create_dir(folder.0.path().join("other")).expect("made");
+    fs::write(folder.0.path().join("other/leaf.obj"), CUBE).expect("written");
+    let text = scene("    (name: \"m\", mesh: \"lost/leaf.obj\"),", "");
+    assert_eq!(folder.read(&text).losses[0].fix, None);
+}
+
+#[test]
+fn a_broken_bracket_ends_the_reading_and_what_stands_before_it_is_open() {
+    let folder = Folder::new();
+    let objects = "    (name: \"a\", mesh: \"meshes/apple.obj\", particles: 100),\n    (name: \"b\", mesh: \"meshes/leaf.obj\",\n    (name: \"c\", mesh: \"meshes/leaf.obj\"),\n    (name: \"d\", mesh: \"meshes/leaf.obj\"),";
+    let salvaged = folder.read(&scene(objects, "  strokes: (length_px: 40),"));
+    assert_eq!(names(&salvaged), ["a", "b"]);
+    let said = said(&salvaged);
+    assert!(said[0].starts_with("7:5 cannot read past line 7, column 5: "), "{said:?}");
+    assert!(said[0].ends_with("Everything before it is open; 2 objects after it are not."), "{said:?}");
+    assert_eq!(said.len(), 1);
+    // The end of the file is missing, in the middle of an object.
+    let whole = scene(objects, "");
+    let end = whole.find("mesh: \"meshes/leaf.obj\"").expect("there");
+    let salvaged = folder.read(&whole[..end + 9]);
+    assert_eq!(names(&salvaged), ["a"], "{:?}", self::said(&salvaged));
+}
+
+#[test]
+fn a_value_that_makes_no_sense_goes_with_the_least_that_holds_it() {
+    let folder = Folder::new();
+    let object = r#"    (name: "a", mesh: "meshes/apple.obj", parent: "nobody", keys: [(frame: 0), (frame: "x"), (frame: 5, scale: -1)]),
+    (name: "b", mesh: 7),"#;
+    let salvaged = folder.read(&scene(object, "  size: (0, 40),\n  lights: [(name: \"l\", kind: Moon)],"));
+    assert_eq!(names(&salvaged), ["a"]);
+    let a = &salvaged.loaded.scene.objects[0];
+    assert_eq!((a.parent.as_deref(), a.keys.len()), (None, 2));
+    assert_eq!(salvaged.loaded.scene.size, (1280, 720));
+    assert!(salvaged.loaded.scene.lights.is_empty());
+    let said = said(&salvaged);
+    assert_eq!(said.len(), 6, "{said:#?}");
+    assert!(
+        said.iter()
+            .any(|line| line.contains("`7` does not fit")
+                && line.ends_with("The object is left out until then.")),
+        "{said:#?}"
+    );
+}
+
+#[test]
+fn a_scene_without_camera_objects_or_version_gets_usual_ones() {
+    let folder = Folder::new();
+    let salvaged = folder.read("(\n  strokes: (length_px: 40),\n)\n");
+    assert_eq!(salvaged.loaded.scene.strokes.length_px, Some(40.0));
+    assert_eq!(salvaged.loaded.scene.camera.keys.len(), 1);
+    assert!(!salvaged.losses.is_empty());
+    let salvaged = folder.read("(version: 1, camera: (keys: []), objects: [] // the end\n)");
+    assert_eq!(salvaged.loaded.scene.camera.keys.len(), 1);
+}
+
+#[test]
+fn what_is_no_scene_is_refused_whole() {
+    let folder = Folder::new();
+    for text in ["", "// only words", "(version: 2, camera: ())", "{\"version\": 1}", "\0"] {
+        fs::write(folder.path(), text).expect("written");
+        let report = salvage(&folder.path(), &LoadOptions::default()).expect_err(text);
+        assert!(!report.0.is_empty(), "{text:?}");
+    }
+    assert!(salvage(&folder.0.path().join("nothing.ron"), &LoadOptions::default()).is_err());
+}
+
+#[test]
+fn every_beginning_of_a_scene_opens_or_is_refused_in_words() {
+    let folder = Folder::new();
+    let object = "    (name: \"a\", mesh: \"meshes/apple.obj\", keys: [(frame: 0, translation: (0, 2, 0))]),\n    (name: \"ü\", mesh: \"meshes/leaf.obj\"), /* b */";
+    let whole = "#![enable(implicit_some)]\n".to_owned()
+        + &scene(
+            object,
+            "  regions: [(name: \"r\", on: Group(\"a\", \"side\"), strokes: (length_px: 4))], // end",
+        );
+    assert!(folder.read(&whole).losses.is_empty());
+    let mut opened = 0;
+    for end in (0..whole.len() - 3).filter(|&end| whole.is_char_boundary(end)) {
+        match salvage_text(&folder.path(), &whole[..end], &LoadOptions::default()) {
+            Ok(salvaged) => {
+                opened += 1;
+                assert!(!salvaged.losses.is_empty(), "nothing said of {:?}", &whole[..end]);
+            }
+            Err(report) => assert!(!report.0.is_empty()),
+        }
+    }
+    assert!(opened > whole.len() * 19 / 20, "{opened} of {}", whole.len());
+}
