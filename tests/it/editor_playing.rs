@@ -11,8 +11,9 @@ use impasto_editor_model::keymap::Action;
 use impasto_editor_model::picking::View;
 use impasto_editor_model::playback::Pacing;
 use impasto_editor_model::timeline::TimelineEvent;
-use impasto_painting::{FrameOptions, prepare};
+use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::load::LoadOptions;
+use impasto_scene::motion::CameraPose;
 use impasto_tests::command::root;
 use impasto_tests::screen::{EditorWindow, Screen, wait_for};
 
@@ -140,7 +141,7 @@ fn what_is_played_scrubbed_to_and_rendered_is_the_same_to_the_bit() {
         assert!(asked.iter().all(|frame| frame.fract() == 0.0 && (0.0..FRAMES).contains(frame)), "{asked:?}");
         assert!(asked.contains(&0.0) && asked.contains(&119.0), "it went over the seam");
         for &frame in asked.iter().step_by(9) {
-            let strokes = |painting: &impasto_painting::Painting, camera, frame| {
+            let strokes = |painting: &Painting, camera: &CameraPose, frame: f64| {
                 let frame = painting.seen_by(camera, frame, &options);
                 assert!(frame.strokes.len() > 300);
                 format!("{:?}", (frame.strokes, frame.view))

@@ -66,11 +66,13 @@ impl Page {
         let shown = Shown {
             document: self.editor.document(),
             session: &session,
+            time: self.editor.time(),
             painting: None,
             keys: Preset::Blender,
             status: "",
             numbers: Numbers::default(),
             recent: &[],
+            likely_meshes: &[],
         };
         if self.has_bars {
             top_bar::top_bar(ui, &shown, &mut asks);
