@@ -52,12 +52,17 @@ pub struct Step {
     pub note: Option<String>,
 }
 
+/// A new scene has room to move: five seconds.
+const LAST_FRAME: i64 = 119;
+
 impl Document {
     /// A document with nothing in it, whose files lie in `folder`.
     pub fn empty(folder: &Path) -> Self {
+        let mut scene = new_scene::empty();
+        scene.timeline.last = LAST_FRAME;
         let loaded = LoadedScene {
             path: folder.join("untitled.ron"),
-            scene: new_scene::empty(),
+            scene,
             meshes: Default::default(),
             textures: Default::default(),
             brushes: Default::default(),
@@ -75,6 +80,7 @@ impl Document {
         let mut loaded = load::load(path, options)?;
         let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         if !is_scene {
+            loaded.scene.timeline.last = LAST_FRAME;
             // What the mesh is made of can be painted at once.
             let mesh = loaded
                 .scene

@@ -28,7 +28,7 @@ fn the_tree_names_every_row() {
             "apple leaf, region",
             "wall, region, crossing",
             "jug rim, region, around",
-            "backdrop, background",
+            "canvas, background",
             "Expand apple",
             "Hide apple stem",
             "Search scene",

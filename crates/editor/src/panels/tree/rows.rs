@@ -16,7 +16,7 @@ const ROWS_OPEN_AT_FIRST: usize = 20;
 /// One row of the scene tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Row {
-    /// What it stands for; none for the backdrop.
+    /// What it stands for; none for the canvas.
     pub(super) item: Option<Item>,
     /// What it shows.
     pub(super) name: String,
@@ -93,7 +93,7 @@ pub(super) fn rows(loaded: &LoadedScene, state: &ColumnState) -> Vec<Row> {
     );
     rows.push(Row {
         item: None,
-        name: "backdrop".to_owned(),
+        name: "canvas".to_owned(),
         ..Row::new(Item::Camera, "background", RowMark::Icon(icons::BACKDROP))
     });
     match searched {
