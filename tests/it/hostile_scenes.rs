@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use impasto_editor_model::Document;
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::{Report, Severity};
@@ -256,6 +257,28 @@ fn every_case_ends_as_it_should_and_says_why() {
         assert!(said.contains(case.says), "{}: {said}\nexpected: {}", case.name, case.says);
         // One fault, one problem.
         assert!(said.lines().count() <= 1, "{}: {said}", case.name);
+    }
+}
+
+#[test]
+fn every_case_opens_in_the_editor_as_far_as_it_can_be_read_and_its_file_stays() {
+    for case in CASES {
+        let folder = tempfile::tempdir().unwrap();
+        let text = scene_text(case.fields);
+        let loads = load_in_folder(folder.path(), text.as_bytes()).is_ok();
+        let path = folder.path().join("scene.ron");
+        match Document::open_with_problems(&path, &LoadOptions::default()) {
+            Ok(mut document) => {
+                let has_losses = document.loss_count() > 0;
+                assert_eq!(has_losses, !loads, "{}: what is refused is a loss", case.name);
+                assert_eq!(document.save().is_err(), has_losses, "{}: less is never saved over it", case.name);
+                if has_losses {
+                    let after = std::fs::read(&path).unwrap();
+                    assert!(after == text.as_bytes(), "{}: the file was touched", case.name);
+                }
+            }
+            Err(report) => assert!(!report.0.is_empty() && !loads, "{}: {report}", case.name),
+        }
     }
 }
 
