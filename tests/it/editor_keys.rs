@@ -39,7 +39,8 @@ fn page() -> String {
             }
             told.push(line.action);
             let keys = |lines: &[impasto_editor_model::keymap::Listed]| {
-                let own = lines.iter().find(|other| other.action == line.action && words(other.scope) == place);
+                let own =
+                    lines.iter().find(|other| other.action == line.action && words(other.scope) == place);
                 own.map_or_else(String::new, |own| {
                     let keys = own.keys.split(", ").map(|key| format!("`{}`", key.replace('|', "\\|")));
                     keys.collect::<Vec<_>>().join(", ")

@@ -271,7 +271,12 @@ fn every_case_opens_in_the_editor_as_far_as_it_can_be_read_and_its_file_stays() 
             Ok(mut document) => {
                 let has_losses = document.loss_count() > 0;
                 assert_eq!(has_losses, !loads, "{}: what is refused is a loss", case.name);
-                assert_eq!(document.save().is_err(), has_losses, "{}: less is never saved over it", case.name);
+                assert_eq!(
+                    document.save().is_err(),
+                    has_losses,
+                    "{}: less is never saved over it",
+                    case.name
+                );
                 if has_losses {
                     let after = std::fs::read(&path).unwrap();
                     assert!(after == text.as_bytes(), "{}: the file was touched", case.name);

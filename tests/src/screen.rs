@@ -310,16 +310,13 @@ impl<'a> EditorWindow<'a> {
         self.screen.keep_picture(&format!("{}_{moment}", self.name))
     }
 
-    /// Quits by the File menu, waits for the end, and tells the exit code.
+    /// Quits by its key, waits for the end, and tells the exit code.
     ///
     /// # Panics
     /// When it stays.
     pub fn quit(mut self) -> Option<i32> {
-        let value = self.rest().1;
-        self.screen.hand(&["mousemove", "59", "20", "click", "1"]);
-        self.wait_for_value(&format!("{value}, under a menu"));
-        self.screen.hand(&["mousemove", "100", "302", "click", "1"]);
-        wait_for("the end, by File, Quit", || self.process.try_wait().ok().flatten()).code()
+        self.keys(&["ctrl+q"]);
+        wait_for("the end, by Ctrl Q", || self.process.try_wait().ok().flatten()).code()
     }
 }
 

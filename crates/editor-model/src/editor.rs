@@ -54,6 +54,8 @@ pub enum Request {
     SaveCopy,
     /// Reads the document's file again; asks about unsaved work first.
     Revert,
+    /// Closes the window; asks about unsaved work first.
+    Quit,
     /// Asks for a mesh to add.
     Import,
     /// The command search.

@@ -24,6 +24,8 @@ pub enum Action {
     SaveCopy,
     /// Reads the scene's file again.
     Revert,
+    /// Closes the window; unsaved work is asked about first.
+    Quit,
     /// Adds a mesh to the scene.
     ImportMesh,
     /// The sheet that renders frames.

@@ -30,6 +30,7 @@ impl Editor {
                 self.refuse(&Refusal::new("This scene has no file yet"));
             }
             Action::Revert => self.requests.push(Request::Revert),
+            Action::Quit => self.requests.push(Request::Quit),
             Action::ImportMesh => self.requests.push(Request::Import),
             Action::Palette => self.requests.push(Request::Palette),
             Action::Shortcuts => self.requests.push(Request::Shortcuts),

@@ -86,6 +86,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     both(Action::SaveAs, "Save as", EVERYWHERE, &[ctrl_shift(Key::Letter('S'))]),
     both(Action::SaveCopy, "Save a copy", EVERYWHERE, &[]),
     both(Action::Revert, "Read again", EVERYWHERE, &[]),
+    both(Action::Quit, "Quit", EVERYWHERE, &[ctrl(Key::Letter('Q'))]),
     both(Action::ImportMesh, "Import a mesh", EVERYWHERE, &[ctrl(Key::Letter('I'))]),
     both(Action::Render, "Render", EVERYWHERE, &[plain(Key::Function(12))]),
     each(

@@ -45,7 +45,6 @@ impl EditorApp {
                 self.files.dialogs.open(ctx, FileAsk::LocateMesh, &start);
             }
             Ask::Recapture(frame) => self.sheets.recapture = Some(frame),
-            Ask::Quit => self.quit_asking(),
             Ask::Welcome => self.sheets.welcome = true,
         }
     }
@@ -65,6 +64,7 @@ impl EditorApp {
                     let start = self.editor.document().suggested_file();
                     self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
                 }
+                Request::Quit => self.quit_asking(),
                 Request::Revert => drop(self.editor.mend(&Mend::ReadAgain)),
                 Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),
                 Request::Palette => self.sheets.palette = true,

@@ -16,11 +16,10 @@ enum Line {
     Recent,
     CopyRenderCommand,
     FirstRun,
-    Quit,
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{CopyRenderCommand, Do, FirstRun, Part, Quit, Recent, Sub};
+use Line::{CopyRenderCommand, Do, FirstRun, Part, Recent, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -39,7 +38,7 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::Render),
             CopyRenderCommand,
             Part,
-            Quit,
+            Do(Action::Quit),
         ],
     ),
     (
@@ -200,11 +199,6 @@ fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>))
                     asks.extend(file.map(|file| Ask::Copy(render_command(&file.to_string_lossy()))));
                 }
             }
-            Quit => {
-                if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
-                    asks.push(Ask::Quit);
-                }
-            }
             FirstRun => {
                 if usable(ui, None, MenuRow { words: words_of(*line), ..MenuRow::default() }) {
                     asks.push(Ask::Welcome);
@@ -221,7 +215,6 @@ fn words_of(line: Line) -> &'static str {
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
         FirstRun => "First run sheet",
-        Quit => "Quit",
         Part => "",
     }
 }

@@ -152,8 +152,6 @@ pub enum Ask {
     Copy(String),
     /// Ask whether this frame becomes the reference.
     Recapture(i64),
-    /// Close the window; unsaved work is asked about first.
-    Quit,
     /// Show the first-run sheet.
     Welcome,
 }
