@@ -11,7 +11,7 @@ use impasto_tests::command::{impasto, root};
 use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
 
 /// A folder with the apple, alone and of fewer particles that it is soon painted, whose strokes lie just as they are directed.
-fn folder() -> tempfile::TempDir {
+pub(crate) fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let scenes = root().join("scenes");
     std::fs::create_dir(folder.path().join("meshes")).unwrap();
@@ -34,7 +34,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn read(folder: &Path, file: &str) -> Scene {
+pub(crate) fn read(folder: &Path, file: &str) -> Scene {
     load(&folder.join(file), &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}")).scene
 }
 

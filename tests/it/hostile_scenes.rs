@@ -278,7 +278,7 @@ fn every_case_opens_in_the_editor_as_far_as_it_can_be_read_and_its_file_stays() 
                     case.name
                 );
                 if has_losses {
-                    let after = std::fs::read(&path).unwrap();
+                    let after = fs::read(&path).unwrap();
                     assert!(after == text.as_bytes(), "{}: the file was touched", case.name);
                 }
             }

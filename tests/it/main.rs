@@ -7,6 +7,7 @@ mod corpus;
 mod covered;
 mod directions;
 mod editor_gestures;
+mod editor_journeys;
 mod editor_keys;
 mod editor_playing;
 mod editor_script;

@@ -196,9 +196,21 @@ impl<'a> EditorWindow<'a> {
     /// # Panics
     /// When the window does not come.
     pub fn open(screen: &'a Screen, name: &'static str, folder: &Path, file: &str) -> Self {
+        let mut editor = Self::start(screen, name, folder, &[file]);
+        editor.rest_after(0);
+        editor
+    }
+
+    /// As [`EditorWindow::open`] with these arguments, none for an empty window; waits for the window alone.
+    ///
+    /// # Panics
+    /// When the window does not come.
+    pub fn start(screen: &'a Screen, name: &'static str, folder: &Path, arguments: &[&str]) -> Self {
         let words = folder.join("words");
         let process = Command::new(impasto())
-            .args(["edit", file, "--in-app-dialogs", "--tell"])
+            .arg("edit")
+            .args(arguments)
+            .args(["--in-app-dialogs", "--tell"])
             .current_dir(folder)
             .env("DISPLAY", &screen.display)
             .env("WINIT_X11_SCALE_FACTOR", "1")
@@ -228,7 +240,6 @@ impl<'a> EditorWindow<'a> {
             "--sync",
             &editor.window,
         ]);
-        editor.rest_after(0);
         editor
     }
 
