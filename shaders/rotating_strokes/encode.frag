@@ -27,13 +27,15 @@ const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 vec4 toned_ground(ivec2 at) {
     vec4 body = texelFetch(reference_color, at, 0);
 #ifdef DRAFT
-    // Stands in for the underpainting too.
-    vec3 under = mix(body.rgb, vec3(0.10, 0.08, 0.06), 0.35);
+    // Stands in for the underpainting too, and for the faintest strokes: it hides what it lies on.
+    vec3 under = mix(body.rgb, vec3(0.10, 0.08, 0.06), 0.25);
+    float hides = wash > 0.0 ? 1.0 : 0.0;
 #else
     vec3 under = mix(body.rgb * vec3(0.90, 0.85, 0.80), tone.rgb, tone.a);
+    float hides = wash;
 #endif
     // Ground that is left out (transparent) stays out.
-    return vec4(mix(ground.rgb, under, wash * body.a * ground.a), ground.a);
+    return vec4(mix(ground.rgb, under, hides * body.a * ground.a), ground.a);
 }
 
 #ifndef DRAFT

@@ -15,7 +15,7 @@ const OPEN_A_MESH: [&str; 2] = ["378", "560"];
 
 /// Middles of the brushes and of the length in the inspector of a region.
 const SECOND_BRUSH: [&str; 2] = ["1089", "529"];
-const LENGTH: [&str; 2] = ["1170", "626"];
+const LENGTH: [&str; 2] = ["1170", "607"];
 
 fn click(screen: &Screen, [x, y]: [&str; 2]) {
     screen.hand(&[
@@ -197,4 +197,4 @@ fn a_broken_scene_is_mended() {
 }
 
 /// *Fix all that are certain* in the panel of problems.
-const FIX_ALL: [&str; 2] = ["130", "100"];
+const FIX_ALL: [&str; 2] = ["100", "710"];
