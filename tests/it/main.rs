@@ -8,6 +8,7 @@ mod covered;
 mod directions;
 mod editor_gestures;
 mod editor_playing;
+mod editor_render;
 mod editor_script;
 mod editor_window;
 mod guides;

@@ -114,7 +114,8 @@ impl Column {
             | Ask::Welcome
             | Ask::Quit
             | Ask::Mend(_)
-            | Ask::SaveCopy => "of another panel".to_owned(),
+            | Ask::SaveCopy
+            | Ask::StopWork(_) => "of another panel".to_owned(),
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()
