@@ -10,6 +10,7 @@ mod editor_gestures;
 mod editor_journeys;
 mod editor_keys;
 mod editor_playing;
+mod editor_render;
 mod editor_script;
 mod editor_window;
 mod guides;

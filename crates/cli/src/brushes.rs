@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use impasto_core::brush::{self, HEIGHT_SCALE, Mark};
+use impasto_frame_files::picture_file::{self, Provenance};
+use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_gl_render::Picture;
 use impasto_scene::load::load_brush;
 
 use crate::args::BrushesArguments;
 use crate::failure::Failure;
-use crate::output;
-use crate::picture_file::{self, Provenance};
 
 /// Free pixels round each mark.
 const GAP_PX: usize = 12;
@@ -24,8 +24,8 @@ const HALF_MIXED: [f32; 3] = [0.05, 0.028, 0.016];
 
 pub(crate) fn run(arguments: &BrushesArguments) -> Result<(), Failure> {
     let path = Path::new(&arguments.output);
-    output::not_an_input(path, &arguments.pictures)?;
-    output::ready_folder(path)?;
+    not_an_input(path, &arguments.pictures)?;
+    ready_folder(path)?;
     let mut rows: Vec<(String, Vec<Mark>)> = Vec::new();
     for name in brush::NAMES {
         rows.push((name.to_owned(), brush::marks_of(name).unwrap_or_default()));
@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &BrushesArguments) -> Result<(), Failure> {
     let picture = sheet(&rows);
     let provenance =
         Provenance { scene: "brushes".to_owned(), frame: "sheet".to_owned(), driver: String::new() };
-    picture_file::write(path, &picture, &provenance)
+    picture_file::write(path, (picture.size_px, &picture.rgba8), &provenance)
         .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
     eprintln!("{}, from the top:", path.display());
     for (name, _) in &rows {

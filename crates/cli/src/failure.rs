@@ -1,5 +1,6 @@
 //! Why a command ends early, and the exit code that says so.
 
+use impasto_frame_files::PlaceError;
 use impasto_gl_render::RenderError;
 use impasto_gl_render::context::ContextError;
 use impasto_scene::problem::Report;
@@ -69,6 +70,12 @@ impl Failure {
 impl From<Report> for Failure {
     fn from(report: Report) -> Self {
         Self::Input(report)
+    }
+}
+
+impl From<PlaceError> for Failure {
+    fn from(error: PlaceError) -> Self {
+        Self::Refused(format!("{error}; name another place with -o"))
     }
 }
 

@@ -7,13 +7,10 @@ mod doctor;
 #[cfg(feature = "editor")]
 mod edit;
 mod failure;
-mod frame_list;
 mod info;
 mod measure;
 mod movie;
 mod new;
-mod output;
-mod picture_file;
 mod render;
 mod session;
 mod sheet;

@@ -4,11 +4,12 @@ use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
+use impasto_frame_files::{not_an_input, picture_file, ready_folder};
 use impasto_measure::{MeasureError, MeasureOptions, MeasureReport, Progress, measure, plot, turntable};
 
 use crate::args::{MeasureArguments, SceneArguments};
 use crate::failure::Failure;
-use crate::{output, picture_file, session};
+use crate::session;
 
 /// The exit code when a row does not hold.
 const MISSED: u8 = 1;
@@ -28,8 +29,8 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
         };
         let mut loaded = session::read_scene(&scene, arguments.quiet)?;
         if let Some(plot) = &arguments.plot {
-            output::not_an_input(plot, &session::inputs(&loaded))?;
-            output::ready_folder(plot)?;
+            not_an_input(plot, &loaded.inputs())?;
+            ready_folder(plot)?;
         }
         if arguments.turntable {
             loaded = turntable(&loaded);

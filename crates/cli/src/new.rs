@@ -2,12 +2,12 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::save;
 
 use crate::args::NewArguments;
 use crate::failure::Failure;
-use crate::output;
 
 pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     if arguments.output.exists() && !arguments.force {
@@ -20,8 +20,8 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     for warning in &loaded.warnings {
         eprintln!("{warning}");
     }
-    output::not_an_input(&arguments.output, std::slice::from_ref(&arguments.model))?;
-    let folder = output::ready_folder(&arguments.output)?;
+    not_an_input(&arguments.output, std::slice::from_ref(&arguments.model))?;
+    let folder = ready_folder(&arguments.output)?;
     let mut scene = loaded.scene;
     let mesh = path_from(&folder, &arguments.model)?;
     // The model; what stands beside it needs no file.

@@ -7,6 +7,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use impasto_frame_files::picture_file::{self, Provenance};
+use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting, Rotation, StrokeColors};
 use impasto_scene::document::Style;
@@ -14,10 +16,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice, StyleChoice};
 use crate::failure::Failure;
-use crate::frame_list::FrameList;
 use crate::movie::{self, Movie};
-use crate::output::{self, Pattern};
-use crate::picture_file::{self, Provenance};
 use crate::session;
 use crate::sheet::Sheet;
 
@@ -93,19 +92,19 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     }
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));
-    let inputs = session::inputs(&loaded);
-    output::not_an_input(std::path::Path::new(&arguments.output), &inputs)?;
+    let inputs = loaded.inputs();
+    not_an_input(std::path::Path::new(&arguments.output), &inputs)?;
     let destination = destination(arguments, &frames)?;
     match &destination {
         Destination::Files(pattern) => {
             for frame in frames.iter() {
-                output::not_an_input(&pattern.path(frame), &inputs)?;
+                not_an_input(&pattern.path(frame), &inputs)?;
             }
-            output::ready_folder(&pattern.path(0))?;
+            ready_folder(&pattern.path(0))?;
         }
         Destination::Animation(path) | Destination::Movie(path) => {
-            output::not_an_input(path, &inputs)?;
-            output::ready_folder(path)?;
+            not_an_input(path, &inputs)?;
+            ready_folder(path)?;
         }
         Destination::Stream => {}
     }
@@ -203,7 +202,7 @@ impl Plan {
             }
             let begun = Instant::now();
             let drawn = self.draw(frame_number).and_then(|(frame, picture)| {
-                picture_file::write(&path, &picture, &self.provenance(frame_number))
+                picture_file::write(&path, pixels(&picture), &self.provenance(frame_number))
                     .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
                 Ok((frame, picture))
             });
@@ -239,7 +238,7 @@ impl Plan {
         bar.finish_and_clear();
         if let Some(sheet) = sheet {
             let path = pattern.beside("sheet");
-            picture_file::write(&path, &sheet.picture(), &self.provenance_of("sheet"))
+            picture_file::write(&path, pixels(&sheet.picture()), &self.provenance_of("sheet"))
                 .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
         }
         if failed > 0 {
@@ -322,7 +321,7 @@ impl Plan {
         let frame_number = self.frames.iter().next().unwrap_or(0);
         let (_, picture) = self.draw(frame_number)?;
         let mut bytes = Vec::new();
-        picture_file::encode(&mut bytes, &picture, &self.provenance(frame_number))
+        picture_file::encode(&mut bytes, pixels(&picture), &self.provenance(frame_number))
             .map_err(|error| Failure::Other(error.to_string()))?;
         std::io::stdout().write_all(&bytes)?;
         Ok(())
@@ -382,6 +381,10 @@ impl Plan {
             driver: self.renderer.report().renderer.clone(),
         }
     }
+}
+
+fn pixels(picture: &Picture) -> picture_file::Pixels<'_> {
+    (picture.size_px, &picture.rgba8)
 }
 
 fn progress_bar(count: u64, arguments: &RenderArguments) -> ProgressBar {

@@ -1,6 +1,5 @@
 //! What the commands that draw have in common: a scene that was read, a painting, a renderer.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
@@ -79,16 +78,4 @@ pub(crate) fn driver(choice: DriverChoice) -> Driver {
         DriverChoice::Egl => Driver::Egl,
         DriverChoice::Osmesa => Driver::Osmesa,
     }
-}
-
-/// Every file that a command reads, for not writing over it.
-pub(crate) fn inputs(loaded: &LoadedScene) -> Vec<PathBuf> {
-    let folder = loaded.path.parent().map(PathBuf::from).unwrap_or_default();
-    let named = loaded
-        .meshes
-        .keys()
-        .chain(loaded.textures.keys())
-        .chain(loaded.brushes.keys())
-        .map(|name| folder.join(name));
-    std::iter::once(loaded.path.clone()).chain(named).collect()
 }

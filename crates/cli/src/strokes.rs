@@ -5,6 +5,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use impasto_core::color::srgb_from_linear;
+use impasto_frame_files::{not_an_input, picture_file, ready_folder};
 use impasto_gl_render::ResolvedStroke;
 use impasto_painting::frame::{LayerRun, Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, Painting};
@@ -12,7 +13,7 @@ use serde::Serialize;
 
 use crate::args::{StrokeFormat, StrokesArguments};
 use crate::failure::Failure;
-use crate::{output, picture_file, session};
+use crate::session;
 
 /// One line of the table. Pixels from the lower left, Y up; angles counter-clockwise from +X.
 #[derive(Debug, Serialize)]
@@ -47,10 +48,10 @@ const EVERYTHING_ELSE: &str = "everything else";
 
 pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     let loaded = session::read_scene(&arguments.scene, false)?;
-    let inputs = session::inputs(&loaded);
+    let inputs = loaded.inputs();
     if arguments.output != "-" {
-        output::not_an_input(Path::new(&arguments.output), &inputs)?;
-        output::ready_folder(Path::new(&arguments.output))?;
+        not_an_input(Path::new(&arguments.output), &inputs)?;
+        ready_folder(Path::new(&arguments.output))?;
     }
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let mut renderer = session::open_renderer(arguments.driver, false)?;

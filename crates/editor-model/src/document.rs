@@ -12,6 +12,7 @@ use std::sync::Arc;
 use impasto_scene::document::{Region, Scene};
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::new_scene;
 use impasto_scene::problem::Report;
 
@@ -221,6 +222,14 @@ impl Document {
         held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
+    /// Takes a mesh that was read before, by its path from the scene's folder, so that it is not read again; one that is
+    /// held stays. No change of the scene.
+    pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
+        let mut loaded = (*self.loaded).clone();
+        loaded.meshes.entry(mesh.to_owned()).or_insert(file);
+        self.loaded = Arc::new(loaded);
+    }
+
     /// Reads a mesh by its path from the scene's folder and adds an object for it, with a region for each of its groups.
     ///
     /// # Errors
@@ -236,9 +245,7 @@ impl Document {
             }
         };
         // So that it is not read again to be looked at.
-        let mut loaded = (*self.loaded).clone();
-        loaded.meshes.insert(mesh.to_owned(), Arc::clone(&file));
-        self.loaded = Arc::new(loaded);
+        self.hold_mesh(mesh, Arc::clone(&file));
         self.apply(&Command::Arrange(Arrange::Import { mesh: mesh.to_owned(), file }))
     }
 

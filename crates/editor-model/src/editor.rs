@@ -72,6 +72,8 @@ pub enum Request {
     MaximiseViewport,
     /// The next area of the window takes the keys.
     NextArea,
+    /// The sheet of what is rendered.
+    Render,
     /// Asks before this frame becomes the reference.
     Recapture(i64),
 }

@@ -22,6 +22,7 @@ pub mod picking;
 pub mod playback;
 pub mod recovery;
 mod refusal;
+pub mod render_settings;
 pub mod selection;
 pub mod session;
 pub mod stamp;

@@ -6,6 +6,7 @@ mod app;
 pub mod files;
 pub mod icons;
 pub mod panels;
+pub mod rendering;
 pub mod theme;
 pub mod viewport;
 pub mod widgets;

@@ -25,3 +25,12 @@ pub struct LoadedScene {
     /// Everything that was odd and could be mended on the way.
     pub warnings: Vec<Problem>,
 }
+
+impl LoadedScene {
+    /// Every file that it was read from, for not writing over it.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
+        let named = self.meshes.keys().chain(self.textures.keys()).chain(self.brushes.keys());
+        std::iter::once(self.path.clone()).chain(named.map(|name| folder.join(name))).collect()
+    }
+}

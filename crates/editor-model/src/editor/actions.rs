@@ -127,9 +127,7 @@ impl Editor {
                 }
             }
             Action::SetKey => self.set_key(),
-            Action::Render => self.refuse(&Refusal::new(
-                "Rendering from here comes with playback; File, Copy render command does it in a terminal",
-            )),
+            Action::Render => self.requests.push(Request::Render),
             Action::Play => self.play_or_stop(),
             _ => {}
         }

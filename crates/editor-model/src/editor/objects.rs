@@ -1,7 +1,10 @@
 //! Moving, turning and scaling objects.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use impasto_scene::document::ObjectKey;
+use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion;
 
 use super::{Busy, Editor, TransformDrag};
@@ -15,6 +18,11 @@ use crate::transform::{
 };
 
 impl Editor {
+    /// Takes a mesh that was read before; see [`crate::Document::hold_mesh`].
+    pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
+        self.document.hold_mesh(mesh, file);
+    }
+
     /// Begins a transform of what is selected; false where nothing is, or it is locked. `from` says where the pointer is, and
     /// whether its button is held.
     pub(super) fn begin_transform(

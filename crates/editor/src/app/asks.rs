@@ -6,6 +6,7 @@ use impasto_editor_model::picking::View;
 
 use super::EditorApp;
 use crate::files::dialogs::Ask as FileAsk;
+use crate::panels::work::WorkKind;
 use crate::panels::{self, Ask};
 
 impl EditorApp {
@@ -45,6 +46,8 @@ impl EditorApp {
                 self.files.dialogs.open(ctx, FileAsk::LocateMesh, &start);
             }
             Ask::Recapture(frame) => self.sheets.recapture = Some(frame),
+            Ask::StopWork(WorkKind::Reading) => self.stop_reading(),
+            Ask::StopWork(_) => {}
             Ask::Welcome => self.sheets.welcome = true,
         }
     }
@@ -74,6 +77,7 @@ impl EditorApp {
                 Request::ToggleColumn => self.folds.column = !self.folds.column,
                 Request::MaximiseViewport => self.folds.everything = !self.folds.everything,
                 Request::NextArea => panels::next_area(ctx),
+                Request::Render => self.open_render_sheet(),
                 Request::Recapture(frame) => self.sheets.recapture = Some(frame),
             }
         }

@@ -5,15 +5,16 @@ use std::time::Instant;
 
 use egui::{Context, Ui};
 use impasto_editor_model::Item;
-use impasto_editor_model::command::{Arrange, Command, Regions, StrokeChange, StrokesOf};
+use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::document::{Document, SaveError};
 use impasto_editor_model::keymap::Preset;
 use impasto_scene::document::BrushMix;
 
 use super::EditorApp;
+use super::long_work::MeshFor;
 use crate::files::beside::Copies;
 use crate::files::dialogs::{Answer, Ask, FileDialogs};
-use crate::files::incoming::{self, Present, Step, adopt_mesh, adopt_picture};
+use crate::files::incoming::{self, Present, adopt_picture};
 use crate::files::preferences::{self, Keys, Preferences};
 use crate::panels::ask_close::{self, Question};
 use crate::panels::welcome::{self, Choices, Left};
@@ -85,6 +86,9 @@ pub(super) fn keep(preferences: &Preferences) -> Result<(), String> {
 impl EditorApp {
     /// Whether the window may close now; else a question shows.
     pub(super) fn may_close(&mut self) -> bool {
+        if self.render.holds_window() {
+            return false;
+        }
         if !self.editor.document().is_edited() {
             self.note_last_seen();
             return true;
@@ -102,7 +106,9 @@ impl EditorApp {
     }
 
     pub(super) fn quit_asking(&mut self) {
-        self.settle_then(Next::Close);
+        if !self.render.holds_window() {
+            self.settle_then(Next::Close);
+        }
     }
 
     fn settle_then(&mut self, next: Next) {
@@ -125,12 +131,14 @@ impl EditorApp {
                 self.files.closes = true;
             }
             Next::New => {
+                self.long.forget();
                 self.note_last_seen();
                 let folder = self.editor.document().folder().to_owned();
                 self.editor.open(Document::empty(&folder));
                 self.sheets.problems = false;
                 self.keymap();
                 self.studio.forget();
+                self.render.forget();
             }
             Next::Open(path) => self.open(&path),
         }
@@ -241,6 +249,7 @@ impl EditorApp {
             Ask::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             Ask::SaveCopy => self.save_copy(&path),
             Ask::LocateMesh => self.replace_mesh(&path),
+            Ask::RenderOutput => self.render_to(&path),
         }
     }
 
@@ -291,7 +300,7 @@ impl EditorApp {
         }
     }
 
-    fn import(&mut self, path: &Path) {
+    pub(super) fn import(&mut self, path: &Path) {
         let document = self.editor.document();
         if Present::of(document) == Present::Nothing {
             return self.open(path);
@@ -300,30 +309,13 @@ impl EditorApp {
         if let Some(folder) = std::path::absolute(path).ok().as_deref().and_then(Path::parent) {
             self.editor.live_in(folder);
         }
-        let folder = self.editor.document().folder().to_owned();
-        match adopt_mesh(path, &folder) {
-            Ok(adopted) => {
-                if !adopted.copied.is_empty() {
-                    let words = format!("Copied {} beside the scene", adopted.name);
-                    self.toast(words, None, false);
-                }
-                self.editor.import(&adopted.name);
-            }
-            Err(error) => self.toast(error.to_string(), None, true),
-        }
+        self.read_mesh(path, MeshFor::Import);
     }
 
     /// The mesh that was chosen for the object that asked for one.
     fn replace_mesh(&mut self, path: &Path) {
         let Some(object) = self.files.mesh_of.take() else { return };
-        let folder = self.editor.document().folder().to_owned();
-        match adopt_mesh(path, &folder) {
-            Ok(adopted) => {
-                let command = Arrange::ReplaceMesh { object, mesh: adopted.name };
-                self.editor.run(&Command::Arrange(command));
-            }
-            Err(error) => self.toast(error.to_string(), None, true),
-        }
+        self.read_mesh(path, MeshFor::Replace(object));
     }
 
     fn dropped(&mut self, ui: &mut Ui) {
@@ -338,17 +330,12 @@ impl EditorApp {
             self.toast(words, None, true);
         }
         for step in plan.steps {
-            match step {
-                Step::Open(path) => self.open_asking(&path),
-                Step::Begin(path) => self.open(&path),
-                Step::Import(path) => self.import(&path),
-                Step::Brush(path) => self.brush(&path),
-            }
+            self.take_step(step);
         }
     }
 
     /// A picture becomes the brush of the selected region, or of the scene.
-    fn brush(&mut self, path: &Path) {
+    pub(super) fn brush(&mut self, path: &Path) {
         let folder = self.editor.document().folder().to_owned();
         match adopt_picture(path, &folder) {
             Ok(adopted) => {

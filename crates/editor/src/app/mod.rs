@@ -10,9 +10,11 @@ mod file_flow;
 mod foreseen;
 mod keys;
 mod last_seen;
+mod long_work;
 mod marks;
 mod motion_marks;
 mod picture;
+mod render_flow;
 mod safe_keeping;
 mod view;
 
@@ -24,19 +26,22 @@ use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
 use impasto_editor_model::keymap::{Digits, Keymap, Preset};
 use impasto_editor_model::session::Mode;
-use impasto_scene::load::LoadOptions;
+use impasto_scene::problem::Report;
 
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
+use crate::panels::work::Work;
 use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
 use crate::window::{self, Opened, numpad_pressed, tab_pressed};
 
 use file_flow::FileFlow;
+use long_work::LongWork;
 use marks::MarkCache;
 use picture::{News, Studio};
+use render_flow::RenderFlow;
 use safe_keeping::SafeKeeping;
 
 /// A line at the bottom stays so long; what was refused, too.
@@ -49,6 +54,8 @@ pub(crate) struct EditorApp {
     marks: MarkCache,
     files: FileFlow,
     safe: SafeKeeping,
+    render: RenderFlow,
+    long: LongWork,
     preferences: Preferences,
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
@@ -95,6 +102,8 @@ impl EditorApp {
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             safe: SafeKeeping::new(),
+            render: RenderFlow::new(opened.waker.clone()),
+            long: LongWork::new(opened.waker.clone()),
             sheets: Sheets {
                 welcome: preferences.show_welcome && options.path.is_none(),
                 ..Sheets::default()
@@ -133,8 +142,8 @@ impl EditorApp {
             self.preferences.foresee_strokes && !self.preferences.reduced_motion;
     }
 
-    fn open(&mut self, path: &Path) {
-        match Document::open_with_problems(path, &LoadOptions::default()) {
+    fn opened(&mut self, path: &Path, opened: Result<Document, Report>) {
+        match opened {
             Ok(document) => {
                 self.note_last_seen();
                 let scene = document.scene();
@@ -147,6 +156,7 @@ impl EditorApp {
                 self.editor.open(document);
                 self.keymap();
                 self.studio.forget();
+                self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = losses > 0;
                 self.toast(format!("{name}: {triangles} triangles, {regions} regions"), None, false);
@@ -182,7 +192,7 @@ impl EditorApp {
 
     fn is_modal(&self) -> bool {
         let Sheets { welcome, palette, shortcuts, recapture, problems: _ } = &self.sheets;
-        let asks = self.files.is_asking() || self.safe.is_asking();
+        let asks = self.files.is_asking() || self.safe.is_asking() || self.render.is_modal();
         *welcome || *palette || *shortcuts || recapture.is_some() || asks
     }
 
@@ -192,6 +202,7 @@ impl EditorApp {
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
+        let works: Vec<Work> = self.long.work().into_iter().chain(self.render.work()).collect();
         let shown = Shown {
             document: self.editor.document(),
             session: &self.editor.session,
@@ -204,6 +215,7 @@ impl EditorApp {
                 strokes_of: self.studio.strokes_of(),
                 pictures_per_second: self.studio.pictures_per_second(),
                 driver: &driver,
+                works: &works,
             },
             recent: &recent,
             likely_meshes: &self.likely_meshes.found,
@@ -307,6 +319,7 @@ impl window::App for EditorApp {
     fn ui(&mut self, ui: &mut Ui, frame: &mut window::Frame<'_>) {
         let ctx = ui.ctx().clone();
         self.editor.tick(ui.input(|input| input.time));
+        self.follow_reading(&ctx);
         let news = self.studio.poll(&ctx, &mut self.editor);
         if news == Some(News::NextOfFilm) {
             self.tell_played();
@@ -343,6 +356,7 @@ impl window::App for EditorApp {
             self.safe.give_up();
             frame.close();
         }
+        self.render_sheets(&ctx);
         self.keep_safe(&ctx);
         self.lines(&ctx);
         self.tell_rest(&ctx);

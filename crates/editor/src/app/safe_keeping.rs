@@ -230,6 +230,7 @@ impl EditorApp {
                 self.editor.open(document);
                 self.keymap();
                 self.studio.forget();
+                self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = self.editor.document().loss_count() > 0;
                 self.toast(

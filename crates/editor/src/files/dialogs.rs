@@ -37,6 +37,8 @@ pub enum Ask {
     SaveCopy,
     /// Find a mesh that the scene names.
     LocateMesh,
+    /// Choose where rendered frames go.
+    RenderOutput,
 }
 
 impl Ask {
@@ -48,6 +50,7 @@ impl Ask {
             Self::SaveAs => "Save the scene as",
             Self::SaveCopy => "Save a copy of the scene",
             Self::LocateMesh => "Locate the mesh",
+            Self::RenderOutput => "Choose where the frames go",
         }
     }
 
@@ -57,12 +60,22 @@ impl Ask {
             Self::Open => &[Kind::Scene, Kind::Mesh],
             Self::ImportMesh | Self::LocateMesh => &[Kind::Mesh],
             Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
+            Self::RenderOutput => &[Kind::Picture],
+        }
+    }
+
+    /// The file that is meant, with the ending that it needs, whatever was typed.
+    pub(super) fn completed(self, path: PathBuf) -> PathBuf {
+        match self {
+            Self::SaveAs | Self::SaveCopy => as_file(path, Kind::Scene, ".ron"),
+            Self::RenderOutput => as_file(path, Kind::Picture, ".png"),
+            Self::Open | Self::ImportMesh | Self::LocateMesh => path,
         }
     }
 
     /// The file is written.
     pub fn is_save(self) -> bool {
-        matches!(self, Self::SaveAs | Self::SaveCopy)
+        matches!(self, Self::SaveAs | Self::SaveCopy | Self::RenderOutput)
     }
 }
 
@@ -153,7 +166,7 @@ impl FileDialogs {
                 Picked::Cancelled => None,
             },
             Shown::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
-                (Ok(Some(path)), _) => Some(if ask.is_save() { as_scene_file(path) } else { path }),
+                (Ok(Some(path)), _) => Some(ask.completed(path)),
                 (Ok(None), waited) if waited > HAND => None,
                 (Ok(None) | Err(TryRecvError::Disconnected), _) => {
                     // There is no dialog here: it is not tried again.
@@ -185,13 +198,12 @@ impl FileDialogs {
     }
 }
 
-/// The file with the ending of a scene, whatever was typed.
-pub(super) fn as_scene_file(path: PathBuf) -> PathBuf {
-    if Kind::of(&path) == Some(Kind::Scene) {
+fn as_file(path: PathBuf, kind: Kind, ending: &str) -> PathBuf {
+    if Kind::of(&path) == Some(kind) {
         return path;
     }
     let mut name = path.into_os_string();
-    name.push(".ron");
+    name.push(ending);
     PathBuf::from(name)
 }
 
@@ -246,6 +258,7 @@ fn choose_on_desktop(ask: Ask, start: &Path) -> Option<PathBuf> {
             .add_filter("Meshes", &["obj", "OBJ"]),
         Ask::ImportMesh | Ask::LocateMesh => dialog.add_filter("Meshes", &["obj", "OBJ"]),
         Ask::SaveAs | Ask::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
+        Ask::RenderOutput => dialog.add_filter("Pictures", &["png"]),
     };
     if !ask.is_save() {
         return dialog.set_directory(start).pick_file();

@@ -160,6 +160,6 @@ pub(super) fn refusal(path: &Path) -> String {
     }
 }
 
-pub(super) fn name_of(path: &Path) -> String {
+pub(crate) fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

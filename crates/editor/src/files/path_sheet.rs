@@ -11,7 +11,7 @@ use egui::{
     vec2,
 };
 
-use super::dialogs::{Ask, as_scene_file};
+use super::dialogs::Ask;
 use super::incoming::{self, Kind, name_of};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
@@ -244,7 +244,7 @@ impl PathSheet {
             if typed.ends_with('/') {
                 return Err(format!("There is no folder {}", path.display()));
             }
-            let path = as_scene_file(path);
+            let path = self.ask.completed(path);
             return match std::fs::symlink_metadata(&path) {
                 Ok(metadata) if metadata.is_dir() => Err(format!("{} is a folder", name_of(&path))),
                 Ok(_) => Ok(Judged::Replaces(path)),

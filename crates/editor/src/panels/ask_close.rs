@@ -45,6 +45,18 @@ pub enum Question {
         /// The document's name.
         name: String,
     },
+    /// Files of frames that are to be rendered are there already.
+    FramesThere {
+        /// How many of them.
+        there: u64,
+        /// How many frames there are.
+        total: u64,
+    },
+    /// The window closes while frames are rendered.
+    StopRendering {
+        /// How many are finished: *47 of 120*.
+        count: String,
+    },
     /// The file was read with losses, so that saving over it would make them last.
     Problems {
         /// How many are left.
@@ -81,6 +93,12 @@ pub enum Answer {
     ShowProblem,
     /// Save beside the file.
     SaveCopy,
+    /// Render all frames, in the place of those that are there.
+    ReplaceFrames,
+    /// Render the frames that are not there.
+    KeepFrames,
+    /// End rendering.
+    StopRendering,
 }
 
 /// Asks over everything else. The answer, once there is one; `Enter` is the safe verb.
@@ -136,6 +154,20 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
                 ("Save mine as\u{2026}", Answer::SaveAs),
             ],
         ),
+        Question::FramesThere { there, total } => (
+            format!("{there} of {} there already", files_are(*total)),
+            "What is replaced cannot be had back.".to_owned(),
+            &[
+                ("Replace all", Answer::ReplaceFrames),
+                ("Cancel", Answer::Cancel),
+                ("Keep them, render the rest", Answer::KeepFrames),
+            ],
+        ),
+        Question::StopRendering { count } => (
+            "Stop rendering and close?".to_owned(),
+            format!("{count} frames are finished and stay. The rest would not be rendered."),
+            &[("Stop and close", Answer::StopRendering), ("Keep rendering", Answer::Cancel)],
+        ),
         Question::Problems { count, line } => (
             format!("This scene has {} left", counted(*count, "problem")),
             format!("Saving over it would lose what could not be read (line {line})."),
@@ -151,6 +183,10 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
     let cancel = verbs.iter().position(|(_, answer)| *answer == Answer::Cancel).unwrap_or(names.len() - 1);
     let chosen = dialog(ctx, &Dialog { title: &title, words: &words, verbs: &names, cancel })?;
     verbs.get(chosen).map(|(_, answer)| *answer)
+}
+
+fn files_are(count: u64) -> String {
+    if count == 1 { "1 file is".to_owned() } else { format!("{count} files are") }
 }
 
 fn counted(count: usize, what: &str) -> String {

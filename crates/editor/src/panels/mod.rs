@@ -11,6 +11,7 @@ pub mod options_bar;
 pub mod palette;
 pub mod problems;
 pub mod rail;
+pub mod render_sheet;
 pub mod shortcuts;
 pub mod status_line;
 pub mod strip;
@@ -18,6 +19,7 @@ pub mod timeline;
 mod tool_names;
 pub mod top_bar;
 pub mod welcome;
+pub mod work;
 
 use std::path::{Path, PathBuf};
 
@@ -78,7 +80,6 @@ impl Shown<'_> {
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
         let selected = self.document.selection().active().is_some();
         match action {
-            Action::Render => Some("The render sheet comes with playback"),
             Action::Revert if self.document.file().is_none() => Some("This scene has no file yet"),
             Action::Undo if self.document.undo_text().is_none() => Some("There is nothing to take back"),
             Action::Redo if self.document.redo_text().is_none() => Some("Nothing was taken back"),
@@ -93,7 +94,9 @@ impl Shown<'_> {
             {
                 Some("Nothing is selected")
             }
-            Action::SelectAll | Action::FrameAll if self.document.scene().objects.is_empty() => {
+            Action::SelectAll | Action::FrameAll | Action::Render
+                if self.document.scene().objects.is_empty() =>
+            {
                 Some("The scene is empty")
             }
             _ => None,
@@ -119,6 +122,8 @@ pub struct Numbers<'a> {
     pub pictures_per_second: Option<f64>,
     /// Who draws: *llvmpipe*.
     pub driver: &'a str,
+    /// What runs beside the window.
+    pub works: &'a [work::Work],
 }
 
 /// What a panel asks for.
@@ -152,6 +157,8 @@ pub enum Ask {
     Copy(String),
     /// Ask whether this frame becomes the reference.
     Recapture(i64),
+    /// Stop what takes its time.
+    StopWork(work::WorkKind),
     /// Show the first-run sheet.
     Welcome,
 }

@@ -14,7 +14,7 @@ struct Part<'a> {
 }
 
 /// Takes the lowest 24 points of `ui`.
-pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, _asks: &mut Vec<Ask>) {
+pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("status line").exact_size(measure::STATUS_LINE).resizable(false).frame(frame).show(
         ui,
@@ -24,6 +24,9 @@ pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, _asks: &mut Vec<Ask>) {
                 ui.spacing_mut().item_spacing.x = 14.0;
                 for words in numbers(&shown.numbers) {
                     note(ui, &words);
+                }
+                for work in shown.numbers.works {
+                    super::work::show(ui, work, asks);
                 }
                 ui.min_rect().left()
             });

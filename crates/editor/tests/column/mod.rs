@@ -108,9 +108,13 @@ impl Column {
                 "act".to_owned()
             }
             Ask::Recapture(frame) => format!("ask about frame {frame}"),
-            Ask::Timeline(_) | Ask::Open(_) | Ask::Copy(_) | Ask::Welcome | Ask::Mend(_) | Ask::SaveCopy => {
-                "of another panel".to_owned()
-            }
+            Ask::Timeline(_)
+            | Ask::Open(_)
+            | Ask::Copy(_)
+            | Ask::Welcome
+            | Ask::Mend(_)
+            | Ask::SaveCopy
+            | Ask::StopWork(_) => "of another panel".to_owned(),
             Ask::Session(session) => {
                 self.session = *session;
                 "session".to_owned()

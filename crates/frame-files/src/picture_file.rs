@@ -3,26 +3,33 @@
 use std::io::Write;
 use std::path::Path;
 
-use impasto_gl_render::Picture;
-
 /// What a file tells about where it comes from.
 #[derive(Clone, Debug)]
-pub(crate) struct Provenance {
-    pub(crate) scene: String,
-    pub(crate) frame: String,
-    pub(crate) driver: String,
+pub struct Provenance {
+    /// The scene's file name.
+    pub scene: String,
+    /// Which frame, or what else it is.
+    pub frame: String,
+    /// Who drew it.
+    pub driver: String,
 }
 
+/// Width and height in pixels, and the pixels: sRGB with straight alpha, row by row from the top.
+pub type Pixels<'a> = ([u32; 2], &'a [u8]);
+
 /// Writes a picture to a file of that name, or nothing.
-pub(crate) fn write(path: &Path, picture: &Picture, provenance: &Provenance) -> anyhow::Result<()> {
-    whole(path, |file| encode(file, picture, provenance))
+///
+/// # Errors
+/// What the disk or the encoder said.
+pub fn write(path: &Path, pixels: Pixels<'_>, provenance: &Provenance) -> anyhow::Result<()> {
+    whole(path, |file| encode(file, pixels, provenance))
 }
 
 /// Fills a temporary file beside `path`, then gives it its name: a killed command leaves no half file.
-pub(crate) fn whole(
-    path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
-) -> anyhow::Result<()> {
+///
+/// # Errors
+/// What the disk or the encoder said.
+pub fn whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = tempfile::Builder::new().prefix(".impasto-").suffix(".part").tempfile_in(folder)?;
     {
@@ -41,17 +48,23 @@ pub(crate) fn whole(
 }
 
 /// Writes one picture as PNG: sRGB, straight alpha.
-pub(crate) fn encode(file: &mut dyn Write, picture: &Picture, provenance: &Provenance) -> anyhow::Result<()> {
-    let mut encoder = encoder(file, picture.size_px, provenance)?;
+///
+/// # Errors
+/// What the disk or the encoder said.
+pub fn encode(file: &mut dyn Write, pixels: Pixels<'_>, provenance: &Provenance) -> anyhow::Result<()> {
+    let mut encoder = encoder(file, pixels.0, provenance)?;
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&picture.rgba8)?;
+    writer.write_image_data(pixels.1)?;
     writer.finish()?;
     Ok(())
 }
 
 /// An encoder with what all our files have in common.
-pub(crate) fn encoder<'a>(
+///
+/// # Errors
+/// What the disk or the encoder said.
+pub fn encoder<'a>(
     file: &'a mut dyn Write,
     size_px: [u32; 2],
     provenance: &Provenance,

@@ -5,7 +5,7 @@ const MAX_FRAMES: u64 = 1_000_000;
 
 /// Frames in the order in which they were written down.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct FrameList {
+pub struct FrameList {
     ranges: Vec<Range>,
 }
 
@@ -18,13 +18,16 @@ struct Range {
 
 impl FrameList {
     /// `first` to `last`, both included.
-    pub(crate) fn whole(first: i64, last: i64) -> Self {
+    pub fn whole(first: i64, last: i64) -> Self {
         Self { ranges: vec![Range { first, last, step: 1 }] }
     }
 
     /// Reads `a`, `a-b`, `a..b`, each with `xN` or `:N` for every Nth frame, separated by commas. Numbers may be
     /// negative; `b` may be less than `a`, which counts down.
-    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+    ///
+    /// # Errors
+    /// Words that say how a list is written, or that it is too long.
+    pub fn parse(text: &str) -> Result<Self, String> {
         let ranges: Result<Vec<Range>, String> =
             text.split(',').map(|part| Range::parse(part.trim())).collect();
         let list = Self { ranges: ranges? };
@@ -38,11 +41,13 @@ impl FrameList {
         Ok(list)
     }
 
-    pub(crate) fn count(&self) -> u64 {
+    /// How many there are.
+    pub fn count(&self) -> u64 {
         self.ranges.iter().map(|range| range.count()).sum()
     }
 
-    pub(crate) fn iter(&self) -> impl Iterator<Item = i64> + '_ {
+    /// Each frame, in the order of the list.
+    pub fn iter(&self) -> impl Iterator<Item = i64> + '_ {
         self.ranges.iter().flat_map(|range| range.iter())
     }
 }

@@ -1,12 +1,10 @@
-//! Names of output files.
+//! Names of frames.
 
-use std::path::{Path, PathBuf};
-
-use crate::failure::Failure;
+use std::path::PathBuf;
 
 /// A path with a place for the frame number; one frame needs no such place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Pattern {
+pub struct Pattern {
     before: String,
     /// `None` where the path has no place for the number.
     digits: Option<usize>,
@@ -14,17 +12,18 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// `####` (as many digits as there are), `%04d`, `$F4`. A name without any is taken as it is for a single frame, and
-    /// gets `_####` before its ending for several.
-    pub(crate) fn parse(text: &str, frames: u64) -> Self {
-        if let Some((start, end, digits)) = hashes(text).or_else(|| percent(text)).or_else(|| dollar(text)) {
+    /// `####` (as many digits as there are), `%04d`, `$F4` in the file's name; what folders are called is left alone. A name
+    /// without any is taken as it is for a single frame, and gets `_####` before its ending for several.
+    pub fn parse(text: &str, frames: u64) -> Self {
+        let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
+        let name = &text[name_at..];
+        if let Some((start, end, digits)) = hashes(name).or_else(|| percent(name)).or_else(|| dollar(name)) {
             return Self {
-                before: text[..start].to_owned(),
+                before: text[..name_at + start].to_owned(),
                 digits: Some(digits),
-                after: text[end..].to_owned(),
+                after: text[name_at + end..].to_owned(),
             };
         }
-        let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
         let dot = text[name_at..].rfind('.').map_or(text.len(), |at| name_at + at);
         let (name, after) = (text[..dot].to_owned(), text[dot..].to_owned());
         match frames {
@@ -34,7 +33,7 @@ impl Pattern {
     }
 
     /// The file of a frame.
-    pub(crate) fn path(&self, frame: i64) -> PathBuf {
+    pub fn path(&self, frame: i64) -> PathBuf {
         let sign = if frame < 0 { "-" } else { "" };
         let Self { before, digits, after } = self;
         let Some(digits) = *digits else { return PathBuf::from(format!("{before}{after}")) };
@@ -42,7 +41,7 @@ impl Pattern {
     }
 
     /// A file beside the frames, named after them.
-    pub(crate) fn beside(&self, word: &str) -> PathBuf {
+    pub fn beside(&self, word: &str) -> PathBuf {
         let gap = if self.digits.is_some() { "" } else { "_" };
         PathBuf::from(format!("{}{gap}{word}{}", self.before, self.after))
     }
@@ -69,35 +68,6 @@ fn dollar(text: &str) -> Option<(usize, usize, usize)> {
     Some((start, start + 2 + number.len(), usize::clamp(digits, 1, 18)))
 }
 
-/// Makes the folder of an output file and finds out whether a file can be written there.
-pub(crate) fn ready_folder(path: &Path) -> Result<PathBuf, Failure> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
-        _ => PathBuf::from("."),
-    };
-    let refused = |error: std::io::Error| {
-        Failure::Refused(format!(
-            "cannot write into {}: {error}; name another place with -o",
-            folder.display()
-        ))
-    };
-    std::fs::create_dir_all(&folder).map_err(refused)?;
-    tempfile::NamedTempFile::new_in(&folder).map_err(refused)?;
-    Ok(folder)
-}
-
-/// Refuses to write over something that is read.
-pub(crate) fn not_an_input(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    let Ok(output_now) = output.canonicalize() else { return Ok(()) };
-    match inputs.iter().find(|input| input.canonicalize().is_ok_and(|input| input == output_now)) {
-        Some(input) => Err(Failure::Refused(format!(
-            "{} is read by this command and would be written over; name another place with -o",
-            input.display()
-        ))),
-        None => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,6 +83,8 @@ mod tests {
             ("out/f.png", 7, "out/f_0007.png"),
             ("out.d/f", 7, "out.d/f_0007"),
             ("f_####.png", -3, "f_-0003.png"),
+            ("take #2/f_####.png", 7, "take #2/f_0007.png"),
+            ("take #2/f.png", 7, "take #2/f_0007.png"),
         ] {
             assert_eq!(Pattern::parse(pattern, 9).path(frame), PathBuf::from(path), "{pattern}");
         }

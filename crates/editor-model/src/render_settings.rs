@@ -1,0 +1,285 @@
+//! What the render sheet decides: which frames, how large, where to, and what that comes to.
+//!
+//! ```text
+//! RenderSettings ─▶ plan(document, frame) ─▶ RenderPlan: the document as it is now, each frame and its file
+//!                                        └─▶ command: what `impasto render` would be told
+//! ```
+
+mod command;
+mod progress;
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashSet;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use impasto_frame_files::{FrameList, Pattern, PlaceError, not_an_input, ready_folder};
+use impasto_scene::document::Scene;
+use impasto_scene::limits::{MAX_PIXELS, MAX_SIDE_PX};
+use impasto_scene::loaded::LoadedScene;
+
+use crate::document::Document;
+
+pub use command::shell_words;
+pub use progress::{Outcome, RenderProgress, Stage};
+
+/// Where frames go unless something else is chosen, from the scene's folder.
+pub const OUTPUT: &str = "out/frame_####.png";
+
+/// Which frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Which {
+    /// The whole shot.
+    #[default]
+    All,
+    /// The frame that is shown.
+    This,
+    /// Those of the list.
+    Listed,
+}
+
+/// What draws.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RenderDriver {
+    /// EGL where it works, else OSMesa.
+    #[default]
+    Automatic,
+    /// EGL, on a graphics card or in software.
+    Egl,
+    /// OSMesa, in software.
+    Osmesa,
+}
+
+/// What happens to files that are there already.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Existing {
+    /// They are rendered anew.
+    #[default]
+    Replace,
+    /// They stay, and their frames are left out.
+    Keep,
+}
+
+/// What is to be rendered, as it stands in the sheet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RenderSettings {
+    /// Which frames.
+    pub which: Which,
+    /// The list of [`Which::Listed`], as `impasto render --frames` reads it.
+    pub list: String,
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// The files, from the scene's folder: `####` stands for the frame number.
+    pub output: String,
+    /// What draws.
+    pub driver: RenderDriver,
+    /// No ground under the paint.
+    pub transparent: bool,
+}
+
+/// A field of the sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    /// The frames.
+    Frames,
+    /// Width and height.
+    Size,
+    /// The files.
+    Output,
+}
+
+/// Why nothing can be rendered as the sheet stands, in the words under the field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The field.
+    pub field: Field,
+    /// What is wrong with it, and the mend.
+    pub words: String,
+}
+
+/// What will be rendered, of the document as it was when the plan was made.
+#[derive(Clone, Debug)]
+pub struct RenderPlan {
+    /// The scene with its files.
+    pub loaded: Arc<LoadedScene>,
+    /// Its frames.
+    pub frames: FrameList,
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// What draws.
+    pub driver: RenderDriver,
+    /// No ground under the paint.
+    pub transparent: bool,
+    /// What happens to files that are there.
+    pub existing: Existing,
+    pattern: Pattern,
+    output: PathBuf,
+    list: String,
+}
+
+impl RenderSettings {
+    /// The whole shot as the scene has it.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            which: Which::All,
+            list: whole(scene),
+            size_px: [scene.size.0, scene.size.1],
+            output: OUTPUT.to_owned(),
+            driver: RenderDriver::default(),
+            transparent: false,
+        }
+    }
+
+    /// The list that the choice of frames stands for.
+    pub fn frames(&self, scene: &Scene, shown: f64) -> String {
+        match self.which {
+            Which::All => whole(scene),
+            Which::This => format!("{}", shown.round() as i64),
+            Which::Listed => self.list.trim().to_owned(),
+        }
+    }
+
+    /// The document as it is now, with everything that is needed to render it.
+    ///
+    /// # Errors
+    /// What is wrong with the first field that is wrong.
+    pub fn plan(&self, document: &Document, shown: f64) -> Result<RenderPlan, Fault> {
+        let fault = |field: Field| move |words: String| Fault { field, words };
+        let list = self.frames(document.scene(), shown);
+        let frames = FrameList::parse(&list).map_err(fault(Field::Frames))?;
+        check_size(self.size_px).map_err(fault(Field::Size))?;
+        let output = file(&self.output, document.folder()).map_err(fault(Field::Output))?;
+        let pattern = Pattern::parse(&output.to_string_lossy(), frames.count());
+        Ok(RenderPlan {
+            loaded: Arc::clone(document.loaded()),
+            frames,
+            size_px: self.size_px,
+            driver: self.driver,
+            transparent: self.transparent,
+            existing: Existing::Replace,
+            pattern,
+            output,
+            list,
+        })
+    }
+}
+
+impl RenderPlan {
+    /// The same, where files that are there stay.
+    pub fn keeping(self) -> Self {
+        Self { existing: Existing::Keep, ..self }
+    }
+
+    /// The file of a frame.
+    pub fn path(&self, frame: i64) -> PathBuf {
+        self.pattern.path(frame)
+    }
+
+    /// The pattern of all files, from the root.
+    pub fn output(&self) -> &Path {
+        &self.output
+    }
+
+    /// The folder of all files.
+    pub fn folder(&self) -> &Path {
+        self.output.parent().unwrap_or(Path::new("/"))
+    }
+
+    /// Whether the files lie elsewhere than with the scene.
+    pub fn is_outside(&self) -> bool {
+        let folder = self.loaded.path.parent().unwrap_or(Path::new(""));
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let goes_up = |path: &Path| path.components().any(|part| part == std::path::Component::ParentDir);
+        self.output.strip_prefix(folder).map_or(true, goes_up)
+    }
+
+    /// How many of its files are there already.
+    pub fn existing_count(&self) -> usize {
+        let Ok(entries) = std::fs::read_dir(self.folder()) else { return 0 };
+        let there: HashSet<OsString> = entries.flatten().map(|entry| entry.file_name()).collect();
+        let is_there = |frame: &i64| self.path(*frame).file_name().is_some_and(|name| there.contains(name));
+        self.frames.iter().filter(is_there).count()
+    }
+
+    /// Makes the folder, and looks whether files can be written there and are not those that the scene is read from.
+    ///
+    /// # Errors
+    /// [`PlaceError`].
+    pub fn ready(&self) -> Result<(), PlaceError> {
+        ready_folder(&self.output)?;
+        let inputs = self.loaded.inputs();
+        // Only a picture can be both read and written.
+        let ours: HashSet<PathBuf> = self.frames.iter().map(|frame| self.path(frame)).collect();
+        let is_ours = |input: &&PathBuf| {
+            let input = std::path::absolute(input).unwrap_or_else(|_| (*input).clone());
+            ours.contains(&input)
+        };
+        inputs.iter().find(is_ours).map_or(Ok(()), |input| not_an_input(input, &inputs))
+    }
+
+    /// What a file says of its scene.
+    pub fn scene_name(&self) -> String {
+        self.loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+}
+
+/// The scene's own frames.
+fn whole(scene: &Scene) -> String {
+    let timeline = &scene.timeline;
+    if timeline.first == timeline.last {
+        timeline.first.to_string()
+    } else {
+        format!("{}-{}", timeline.first, timeline.last)
+    }
+}
+
+/// *120 frames*.
+pub fn counted_frames(count: u64) -> String {
+    if count == 1 { "1 frame".to_owned() } else { format!("{count} frames") }
+}
+
+/// The size of a share of the scene's, in per cent.
+pub fn scaled(scene: &Scene, percent: u32) -> [u32; 2] {
+    [scene.size.0, scene.size.1].map(|side| side.saturating_mul(percent).div_ceil(100).max(1))
+}
+
+/// The scene's shape, with 3840 pixels along its longer side.
+pub fn size_4k(scene: &Scene) -> [u32; 2] {
+    let sides = [scene.size.0, scene.size.1].map(f64::from);
+    let scale = 3840.0 / sides[0].max(sides[1]);
+    sides.map(|side| ((side * scale).round() as u32).max(1))
+}
+
+fn check_size(size_px: [u32; 2]) -> Result<(), String> {
+    if size_px.contains(&0) {
+        return Err("a picture has at least one pixel each way".to_owned());
+    }
+    let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
+    if size_px.iter().any(|&side| side > MAX_SIDE_PX) || pixels > MAX_PIXELS {
+        return Err(format!("the limit is {MAX_SIDE_PX} pixels a side and {MAX_PIXELS} in all"));
+    }
+    Ok(())
+}
+
+/// The pattern as a path from the root.
+fn file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
+    let typed = typed.trim();
+    let name = Path::new(typed).file_name().map(|name| name.to_string_lossy().into_owned());
+    let Some(name) = name.filter(|_| !typed.ends_with(['/', '\\'])) else {
+        return Err(format!("name a file, such as {OUTPUT}"));
+    };
+    if typed.contains('\0') {
+        return Err("a name cannot hold this character".to_owned());
+    }
+    if !name.to_lowercase().ends_with(".png") {
+        return Err("let the name end in .png; movies are made by impasto render -o film.mp4".to_owned());
+    }
+    let path = folder.join(typed);
+    let path = std::path::absolute(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    if path.to_str().is_none() {
+        return Err(format!("{}: the folder's name is no text", path.display()));
+    }
+    Ok(path)
+}

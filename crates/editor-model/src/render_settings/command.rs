@@ -1,0 +1,52 @@
+//! The same frames by the command line.
+
+use super::{Existing, RenderDriver, RenderPlan};
+use crate::document::Document;
+
+impl RenderPlan {
+    /// What `impasto` is to be told to write the same files.
+    ///
+    /// # Errors
+    /// Where no command can: it reads the scene's file.
+    pub fn command(&self, document: &Document) -> Result<Vec<String>, String> {
+        let Some(file) = document.file() else {
+            return Err("Save the scene first: a command reads its file".to_owned());
+        };
+        if document.loss_count() > 0 {
+            return Err("Mend the scene's problems first: a command reads its file".to_owned());
+        }
+        let file = std::path::absolute(file).map_err(|error| error.to_string())?;
+        let mut words: Vec<String> = vec!["render".to_owned(), file.to_string_lossy().into_owned()];
+        let [width, height] = self.size_px;
+        // A list may begin with a minus.
+        words.push(format!("--frames={}", self.list));
+        words.extend(["--size".to_owned(), format!("{width}x{height}")]);
+        words.extend(["--output".to_owned(), self.output.to_string_lossy().into_owned()]);
+        match self.driver {
+            RenderDriver::Automatic => {}
+            RenderDriver::Egl => words.extend(["--driver".to_owned(), "egl".to_owned()]),
+            RenderDriver::Osmesa => words.extend(["--driver".to_owned(), "osmesa".to_owned()]),
+        }
+        if self.transparent {
+            words.push("--alpha".to_owned());
+        }
+        if self.existing == Existing::Keep {
+            words.push("--skip-existing".to_owned());
+        }
+        Ok(words)
+    }
+}
+
+/// A command as it is typed into a shell.
+pub fn shell_words(program: &str, arguments: &[String]) -> String {
+    let quoted = |word: &str| {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,+".contains(c);
+        if !word.is_empty() && word.chars().all(is_plain) {
+            word.to_owned()
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
+    };
+    let words = std::iter::once(program).chain(arguments.iter().map(String::as_str)).map(quoted);
+    words.collect::<Vec<_>>().join(" ")
+}

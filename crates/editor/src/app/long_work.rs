@@ -1,0 +1,210 @@
+//! What takes longer than a hand waits: files are read on a thread of their own, and the status line says so.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use egui::Context;
+use impasto_editor_model::Document;
+use impasto_editor_model::command::{Arrange, Command};
+use impasto_scene::load::{LoadOptions, load_mesh};
+use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::problem::Report;
+
+use super::EditorApp;
+use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
+use crate::panels::work::{Work, WorkKind};
+use crate::window::Waker;
+
+/// What is done within this time is done in the same pass.
+const AT_ONCE: Duration = Duration::from_millis(80);
+
+/// What takes longer than this is shown.
+const SHOWN_AFTER: Duration = Duration::from_millis(200);
+
+/// What a mesh is read for.
+#[derive(Clone, Debug)]
+pub(super) enum MeshFor {
+    /// A new object.
+    Import,
+    /// An object that has another.
+    Replace(String),
+}
+
+/// What was read.
+enum Came {
+    Opened(PathBuf, Result<Box<Document>, Report>),
+    Mesh(MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
+}
+
+struct Reading {
+    words: String,
+    since: Instant,
+    came: Receiver<Came>,
+    /// The document when it began: its folder, and its version.
+    folder: PathBuf,
+    revision: u64,
+}
+
+/// Files that are being read, and those that wait.
+pub(super) struct LongWork {
+    waker: Waker,
+    reading: Option<Reading>,
+    queue: VecDeque<Step>,
+}
+
+impl LongWork {
+    pub(super) fn new(waker: Waker) -> Self {
+        Self { waker, reading: None, queue: VecDeque::new() }
+    }
+
+    /// Lets go of what is being read: what comes of it is thrown away.
+    pub(super) fn forget(&mut self) {
+        self.reading = None;
+        self.queue.clear();
+    }
+
+    /// What the status line shows.
+    pub(super) fn work(&self) -> Option<Work> {
+        let reading = self.reading.as_ref().filter(|reading| reading.since.elapsed() >= SHOWN_AFTER)?;
+        Some(Work { words: reading.words.clone(), share: None, kind: WorkKind::Reading })
+    }
+
+    /// Begins to read. What is read at once is given back; else it comes by [`LongWork::poll`].
+    fn read(
+        &mut self,
+        words: String,
+        document: &Document,
+        work: impl FnOnce() -> Came + Send + 'static,
+    ) -> Option<(Came, Reading)> {
+        let (sender, came) = channel();
+        let waker = self.waker.clone();
+        let run = move || {
+            // Nobody listens once it was stopped.
+            let _stopped = sender.send(work());
+            waker.wake();
+        };
+        let spawned = std::thread::Builder::new().name("reading".to_owned()).spawn(run);
+        let folder = document.folder().to_owned();
+        let reading = Reading { words, since: Instant::now(), came, folder, revision: document.revision() };
+        match spawned.map(|_| reading.came.recv_timeout(AT_ONCE)) {
+            Ok(Ok(came)) => return Some((came, reading)),
+            Ok(Err(RecvTimeoutError::Timeout)) => self.reading = Some(reading),
+            // The next look finds that nothing comes.
+            Ok(Err(RecvTimeoutError::Disconnected)) | Err(_) => self.reading = Some(reading),
+        }
+        None
+    }
+}
+
+impl EditorApp {
+    /// Opens a scene or a mesh in place of the document.
+    pub(super) fn open(&mut self, path: &Path) {
+        self.long.forget();
+        let path = path.to_owned();
+        let words = format!("Opening {}\u{2026}", name_of(&path));
+        let came = self.long.read(words, self.editor.document(), move || {
+            let document = Document::open_with_problems(&path, &LoadOptions::default());
+            Came::Opened(path, document.map(Box::new))
+        });
+        if let Some((came, reading)) = came {
+            self.take_read(came, &reading);
+        }
+    }
+
+    /// Brings a mesh into the document.
+    pub(super) fn read_mesh(&mut self, path: &Path, what_for: MeshFor) {
+        let (path, folder) = (path.to_owned(), self.editor.document().folder().to_owned());
+        let words = format!("Importing {}\u{2026}", name_of(&path));
+        let came = self.long.read(words, self.editor.document(), move || {
+            let read = || {
+                let adopted = adopt_mesh(&path, &folder).map_err(|error| error.to_string())?;
+                let file = folder.join(&adopted.name);
+                let (mesh, _) = load_mesh(&file, &LoadOptions::default().folders)
+                    .map_err(|report| report.0.first().map_or_else(String::new, ToString::to_string))?;
+                Ok((adopted, Arc::new(mesh)))
+            };
+            Came::Mesh(what_for, read())
+        });
+        if let Some((came, reading)) = came {
+            self.take_read(came, &reading);
+        }
+    }
+
+    /// Does this, after what is being read.
+    pub(super) fn take_step(&mut self, step: Step) {
+        if self.long.reading.is_some() {
+            return self.long.queue.push_back(step);
+        }
+        match step {
+            Step::Open(path) => self.open_asking(&path),
+            Step::Begin(path) => self.open(&path),
+            Step::Import(path) => self.import(&path),
+            Step::Brush(path) => self.brush(&path),
+        }
+    }
+
+    /// Takes what has been read.
+    pub(super) fn follow_reading(&mut self, ctx: &Context) {
+        let Some(reading) = self.long.reading.take() else { return };
+        match reading.came.try_recv() {
+            Ok(came) => self.take_read(came, &reading),
+            Err(TryRecvError::Empty) => {
+                ctx.request_repaint_after(SHOWN_AFTER.saturating_sub(reading.since.elapsed()));
+                self.long.reading = Some(reading);
+                return;
+            }
+            Err(TryRecvError::Disconnected) => {
+                let words = reading.words.trim_end_matches('\u{2026}');
+                self.toast(format!("{words} broke off; nothing changed"), None, true);
+            }
+        }
+        while self.long.reading.is_none()
+            && let Some(step) = self.long.queue.pop_front()
+        {
+            self.take_step(step);
+        }
+    }
+
+    /// Ends what is being read; the document is as it was.
+    pub(super) fn stop_reading(&mut self) {
+        if let Some(reading) = &self.long.reading {
+            let words =
+                format!("{} was stopped; nothing changed", reading.words.trim_end_matches('\u{2026}'));
+            self.toast(words, None, false);
+        }
+        self.long.forget();
+    }
+
+    fn take_read(&mut self, came: Came, reading: &Reading) {
+        let document = self.editor.document();
+        match came {
+            Came::Opened(path, opened) => {
+                // Nobody was asked about work that was done since.
+                if document.revision() != reading.revision && document.is_edited() {
+                    let name = document.name();
+                    let words = format!("{} was not opened: {name} was edited meanwhile", name_of(&path));
+                    return self.toast(words, None, true);
+                }
+                self.opened(&path, opened.map(|document| *document));
+            }
+            Came::Mesh(..) if document.folder() != reading.folder => {}
+            Came::Mesh(what_for, Ok((adopted, file))) => {
+                if !adopted.copied.is_empty() {
+                    self.toast(format!("Copied {} beside the scene", adopted.name), None, false);
+                }
+                self.editor.hold_mesh(&adopted.name, file);
+                match what_for {
+                    MeshFor::Import => self.editor.import(&adopted.name),
+                    MeshFor::Replace(object) => {
+                        let command = Arrange::ReplaceMesh { object, mesh: adopted.name };
+                        self.editor.run(&Command::Arrange(command))
+                    }
+                };
+            }
+            Came::Mesh(_, Err(words)) => self.toast(words, None, true),
+        }
+    }
+}

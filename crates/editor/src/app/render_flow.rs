@@ -1,0 +1,270 @@
+//! Rendering from the window: the sheet, the thread, the questions, and what is told when it ends.
+
+use std::path::Path;
+use std::time::Duration;
+
+use egui::{Context, TextureHandle, TextureOptions};
+use impasto_editor_model::render_settings::{
+    Outcome, RenderPlan, RenderProgress, RenderSettings, shell_words,
+};
+
+use super::EditorApp;
+use crate::files::dialogs::Ask as FileAsk;
+use crate::files::show_folder::show_folder;
+use crate::panels::ask_close::{self, Answer, Question};
+use crate::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
+use crate::panels::work::{Work, WorkKind};
+use crate::rendering::Rendering;
+use crate::window::Waker;
+
+/// Time between two looks at the clock while frames come.
+const TICK: Duration = Duration::from_millis(500);
+
+/// The sheet, and the frames that come.
+pub(super) struct RenderFlow {
+    waker: Waker,
+    settings: Option<RenderSettings>,
+    /// The scene's size when the settings were looked at last.
+    size_of_scene: (u32, u32),
+    is_open: bool,
+    running: Option<Rendering>,
+    picture: Option<TextureHandle>,
+    asks: Option<About>,
+    /// Whether the end was told.
+    told: bool,
+}
+
+/// What has to be settled.
+enum About {
+    /// So many of its files are there already.
+    Existing(Box<RenderPlan>, u64),
+    /// The window would close while frames come.
+    Closing,
+}
+
+impl RenderFlow {
+    pub(super) fn new(waker: Waker) -> Self {
+        Self {
+            waker,
+            settings: None,
+            size_of_scene: (0, 0),
+            is_open: false,
+            running: None,
+            picture: None,
+            asks: None,
+            told: true,
+        }
+    }
+
+    /// Another document has settings of its own. What is being rendered goes on.
+    pub(super) fn forget(&mut self) {
+        self.settings = None;
+    }
+
+    pub(super) fn is_modal(&self) -> bool {
+        self.is_open || self.asks.is_some()
+    }
+
+    /// Whether the window must not close without a question; asks it.
+    pub(super) fn holds_window(&mut self) -> bool {
+        let runs = self.running.as_ref().is_some_and(|running| !running.is_over());
+        if runs {
+            self.asks = Some(About::Closing);
+        }
+        runs
+    }
+
+    /// What the status line shows while the sheet is folded away.
+    pub(super) fn work(&self) -> Option<Work> {
+        let progress = self.running.as_ref().filter(|_| !self.is_open)?.progress();
+        let words = match &progress.outcome {
+            None => format!("Rendering {}", progress.count()),
+            Some(Outcome::Done) => format!("Rendered {}", progress.count()),
+            Some(Outcome::Stopped) => format!("Stopped at {}", progress.count()),
+            Some(Outcome::Failed(_)) => format!("Rendering broke off at {}", progress.count()),
+        };
+        Some(Work { words, share: Some(progress.share() as f32), kind: WorkKind::Rendering })
+    }
+
+    fn begin(&mut self, plan: RenderPlan) -> Result<(), String> {
+        let waker = self.waker.clone();
+        // What ran before is over: its files are written.
+        self.running = None;
+        self.picture = None;
+        let running = Rendering::start(plan, move || waker.wake());
+        self.running = Some(running.map_err(|error| format!("No thread to render with: {error}"))?);
+        self.told = false;
+        Ok(())
+    }
+}
+
+impl EditorApp {
+    /// Opens the sheet, or unfolds it.
+    pub(super) fn open_render_sheet(&mut self) {
+        if self.editor.document().scene().objects.is_empty() {
+            return self.toast("There is nothing to render: the scene is empty", None, true);
+        }
+        let size = self.editor.document().scene().size;
+        let flow = &mut self.render;
+        let settings =
+            flow.settings.get_or_insert_with(|| RenderSettings::of(self.editor.document().scene()));
+        // Whoever has not chosen a size renders the scene's.
+        if settings.size_px == [flow.size_of_scene.0, flow.size_of_scene.1] {
+            settings.size_px = [size.0, size.1];
+        }
+        flow.size_of_scene = size;
+        flow.is_open = true;
+        if flow.running.as_ref().is_some_and(Rendering::is_over) && flow.told {
+            (flow.running, flow.picture) = (None, None);
+        }
+    }
+
+    /// Shows what is to be shown of rendering.
+    pub(super) fn render_sheets(&mut self, ctx: &Context) {
+        self.follow_rendering(ctx);
+        if self.render.asks.is_some() {
+            self.ask_about_rendering(ctx);
+        } else if self.render.is_open && !self.files.is_asking() {
+            self.show_render_sheet(ctx);
+        }
+    }
+
+    fn follow_rendering(&mut self, ctx: &Context) {
+        let flow = &mut self.render;
+        let Some(running) = &flow.running else { return };
+        if let Some(picture) = running.take_picture() {
+            flow.picture = Some(ctx.load_texture("last frame", picture, TextureOptions::LINEAR));
+        }
+        let progress = running.progress();
+        let Some(outcome) = progress.outcome.clone() else {
+            return ctx.request_repaint_after(TICK);
+        };
+        if std::mem::replace(&mut flow.told, true) || flow.is_open {
+            return;
+        }
+        let folder = running.plan().folder().display().to_string();
+        let failed = matches!(outcome, Outcome::Failed(_));
+        let words = progress.state_words();
+        self.toast(if failed { words } else { format!("{words}, in {folder}") }, None, failed);
+    }
+
+    fn show_render_sheet(&mut self, ctx: &Context) {
+        let Some(mut settings) = self.render.settings.take() else { return };
+        let progress: Option<RenderProgress> = self.render.running.as_ref().map(Rendering::progress);
+        let shown = RenderShown {
+            document: self.editor.document(),
+            frame: self.editor.session.frame,
+            driver: self.studio.driver(),
+            progress: progress.as_ref(),
+            picture: self.render.picture.as_ref(),
+        };
+        let ask = render_sheet(ctx, &shown, &mut settings);
+        self.render.settings = Some(settings);
+        match ask {
+            None => {}
+            Some(RenderAsk::Render) => self.start_rendering(),
+            Some(RenderAsk::Stop) => {
+                if let Some(running) = &self.render.running {
+                    running.stop();
+                }
+            }
+            Some(RenderAsk::WorkOn) => self.render.is_open = false,
+            Some(RenderAsk::Close) => {
+                (self.render.is_open, self.render.running, self.render.picture) = (false, None, None);
+            }
+            Some(RenderAsk::OpenFolder) => {
+                let folder = self.render.running.as_ref().map(|running| running.plan().folder().to_owned());
+                if let Some(Err(words)) = folder.as_deref().map(show_folder) {
+                    self.toast(words, None, true);
+                }
+            }
+            Some(RenderAsk::CopyCommand) => self.copy_render_command(ctx),
+            Some(RenderAsk::Browse) => {
+                if let Some(Ok(plan)) = self.render_plan() {
+                    self.files.dialogs.open(ctx, FileAsk::RenderOutput, plan.output());
+                } else {
+                    let start = self.editor.document().folder().join("frame_####.png");
+                    self.files.dialogs.open(ctx, FileAsk::RenderOutput, &start);
+                }
+            }
+        }
+    }
+
+    fn render_plan(&self) -> Option<Result<RenderPlan, String>> {
+        let plan = self.render.settings.as_ref()?.plan(self.editor.document(), self.editor.session.frame);
+        Some(plan.map_err(|fault| fault.words))
+    }
+
+    fn start_rendering(&mut self) {
+        match self.render_plan() {
+            None => {}
+            Some(Err(words)) => self.toast(words, None, true),
+            Some(Ok(plan)) => match plan.existing_count() as u64 {
+                0 => self.begin_rendering(plan),
+                there => self.render.asks = Some(About::Existing(Box::new(plan), there)),
+            },
+        }
+    }
+
+    fn begin_rendering(&mut self, plan: RenderPlan) {
+        if let Err(words) = self.render.begin(plan) {
+            self.toast(words, None, true);
+        }
+    }
+
+    fn ask_about_rendering(&mut self, ctx: &Context) {
+        let question = match &self.render.asks {
+            None => return,
+            Some(About::Existing(plan, there)) => {
+                Question::FramesThere { there: *there, total: plan.frames.count() }
+            }
+            Some(About::Closing) => {
+                let progress = self.render.running.as_ref().map(Rendering::progress).unwrap_or_default();
+                Question::StopRendering { count: progress.count() }
+            }
+        };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        match (self.render.asks.take(), answer) {
+            (Some(About::Existing(plan, _)), Answer::ReplaceFrames) => self.begin_rendering(*plan),
+            (Some(About::Existing(plan, _)), Answer::KeepFrames) => {
+                self.begin_rendering(plan.keeping());
+            }
+            (Some(About::Closing), Answer::StopRendering) => {
+                if let Some(running) = &self.render.running {
+                    running.stop();
+                }
+                (self.render.running, self.render.told) = (None, true);
+                self.quit_asking();
+            }
+            _ => {}
+        }
+    }
+
+    fn copy_render_command(&mut self, ctx: &Context) {
+        let document = self.editor.document();
+        let command = self.render_plan().map(|plan| plan.and_then(|plan| plan.command(document)));
+        match command {
+            None => {}
+            Some(Err(words)) => self.toast(words, None, true),
+            Some(Ok(words)) => {
+                ctx.copy_text(shell_words("impasto", &words));
+                let note = if self.editor.document().is_edited() {
+                    "Copied. It renders the file as it was saved last, without what was edited since"
+                } else {
+                    "Copied: it renders the same files in a terminal"
+                };
+                self.toast(note, None, false);
+            }
+        }
+    }
+
+    /// Frames go to files like this one.
+    pub(super) fn render_to(&mut self, file: &Path) {
+        let folder = self.editor.document().folder();
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        if let Some(settings) = &mut self.render.settings {
+            let shown = file.strip_prefix(&folder).unwrap_or(file);
+            settings.output = shown.to_string_lossy().into_owned();
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! The thread that writes frames: the files of `impasto render`, in a context of its own, while the window goes on.
+//!
+//! ```text
+//! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ each frame: draw ─▶ file beside ─▶ its name ─▶ Rendering::progress
+//! ```
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use egui::ColorImage;
+use impasto_editor_model::render_settings::{
+    Existing, Outcome, RenderDriver, RenderPlan, RenderProgress, Stage,
+};
+use impasto_frame_files::picture_file::{self, Provenance};
+use impasto_gl_render::context::{self, Driver, OpenOptions};
+use impasto_gl_render::{Picture, Renderer};
+use impasto_painting::{FrameOptions, prepare};
+
+#[cfg(test)]
+mod tests;
+
+/// How long closing waits for a frame that is being written.
+const CLOSING: Duration = Duration::from_millis(1500);
+
+/// Longest side of the small copy of the last frame, in pixels.
+const SMALL_PX: u32 = 480;
+
+/// Frames that are being rendered. Dropping it stops them; what is written stays, whole.
+pub struct Rendering {
+    shared: Arc<Shared>,
+    plan: RenderPlan,
+    thread: Option<JoinHandle<()>>,
+}
+
+struct Shared {
+    stop: AtomicBool,
+    began: Instant,
+    board: Mutex<Board>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct Board {
+    progress: RenderProgress,
+    /// The last frame, small; taken by whoever shows it.
+    picture: Option<ColorImage>,
+}
+
+impl Rendering {
+    /// Starts. `wake` is called on the thread whenever there is something new to show.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(plan: RenderPlan, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let progress = RenderProgress { total: plan.frames.count(), ..RenderProgress::default() };
+        let shared = Arc::new(Shared {
+            stop: AtomicBool::new(false),
+            began: Instant::now(),
+            board: Mutex::new(Board { progress, picture: None }),
+            changed: Condvar::new(),
+        });
+        let (theirs, orders) = (Arc::clone(&shared), plan.clone());
+        let thread = std::thread::Builder::new().name("rendering".to_owned()).spawn(move || {
+            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, &orders, &wake)));
+            let outcome = match outcome {
+                Ok(Ok(outcome)) => outcome,
+                Ok(Err(words)) => Outcome::Failed(words),
+                Err(panic) => Outcome::Failed(format!("Rendering broke off: {}", words(panic.as_ref()))),
+            };
+            theirs.note(|board| {
+                board.progress.gone_s = theirs.began.elapsed().as_secs_f64();
+                board.progress.outcome = Some(outcome);
+            });
+            wake();
+        })?;
+        Ok(Self { shared, plan, thread: Some(thread) })
+    }
+
+    /// What is rendered.
+    pub fn plan(&self) -> &RenderPlan {
+        &self.plan
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> RenderProgress {
+        let mut progress = self.shared.board().progress.clone();
+        if progress.outcome.is_none() {
+            progress.gone_s = self.shared.began.elapsed().as_secs_f64();
+            progress.stopping = self.shared.is_stopped();
+        }
+        progress
+    }
+
+    /// Whether it ended.
+    pub fn is_over(&self) -> bool {
+        self.shared.board().progress.outcome.is_some()
+    }
+
+    /// A small copy of the last frame, once.
+    pub fn take_picture(&self) -> Option<ColorImage> {
+        self.shared.board().picture.take()
+    }
+
+    /// Ends it as soon as it can; the frame under way is given up.
+    pub fn stop(&self) {
+        self.shared.stop.store(true, Ordering::Release);
+    }
+
+    /// Waits for the end. Whether it came in time.
+    pub fn wait(&self, most: Duration) -> bool {
+        let board = self.shared.board();
+        let runs = |board: &mut Board| board.progress.outcome.is_none();
+        let waited = self.shared.changed.wait_timeout_while(board, most, runs);
+        waited.unwrap_or_else(PoisonError::into_inner).0.progress.outcome.is_some()
+    }
+}
+
+impl Drop for Rendering {
+    fn drop(&mut self) {
+        self.stop();
+        if self.wait(CLOSING)
+            && let Some(thread) = self.thread.take()
+        {
+            // Its panics have been told already.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    /// No code that holds the lock can panic half way.
+    fn board(&self) -> MutexGuard<'_, Board> {
+        self.board.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Acquire)
+    }
+
+    fn note(&self, change: impl FnOnce(&mut Board)) {
+        change(&mut self.board());
+        self.changed.notify_all();
+    }
+}
+
+fn words(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().cloned();
+    text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
+        .unwrap_or_else(|| "no reason was given".to_owned())
+}
+
+/// Renders what is ordered; what ends it early is told with its frame and file.
+fn run(shared: &Shared, plan: &RenderPlan, wake: &dyn Fn()) -> Result<Outcome, String> {
+    plan.ready().map_err(|error| error.to_string())?;
+    let driver = match plan.driver {
+        RenderDriver::Automatic => Driver::Auto,
+        RenderDriver::Egl => Driver::Egl,
+        RenderDriver::Osmesa => Driver::Osmesa,
+    };
+    let context = context::open(driver, &OpenOptions::default()).map_err(|error| error.to_string())?;
+    let mut renderer = Renderer::new(context).map_err(|error| error.to_string())?;
+    if shared.is_stopped() {
+        return Ok(Outcome::Stopped);
+    }
+    let painting = prepare(Arc::clone(&plan.loaded)).map_err(|error| error.to_string())?;
+    shared.note(|board| board.progress.stage = Stage::Drawing);
+    wake();
+    let options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
+    let mut provenance = Provenance {
+        scene: plan.scene_name(),
+        frame: String::new(),
+        driver: renderer.report().renderer.clone(),
+    };
+    for frame_number in plan.frames.iter() {
+        if shared.is_stopped() {
+            return Ok(Outcome::Stopped);
+        }
+        let path = plan.path(frame_number);
+        if plan.existing == Existing::Keep && path.exists() {
+            shared.note(|board| board.progress.kept += 1);
+            continue;
+        }
+        let began = Instant::now();
+        let frame = painting.at(frame_number as f64, &options);
+        let drawn = renderer.render_unless(&frame, &mut || shared.is_stopped());
+        let failed = |error: &dyn std::fmt::Display| {
+            format!("Frame {frame_number} was not written. {}: {error}", path.display())
+        };
+        let Some(picture) = drawn.map_err(|error| failed(&error))? else { return Ok(Outcome::Stopped) };
+        provenance.frame = frame_number.to_string();
+        write(&path, &picture, &provenance).map_err(|error| failed(&error))?;
+        let strokes = renderer.resolved_strokes().iter().filter(|stroke| stroke.alpha > 0.0).count();
+        let small = small_copy(&picture);
+        shared.note(|board| {
+            let progress = &mut board.progress;
+            progress.written += 1;
+            progress.drawing_s += began.elapsed().as_secs_f64();
+            progress.strokes = strokes;
+            progress.last = Some(path);
+            board.picture = Some(small);
+        });
+        wake();
+    }
+    Ok(Outcome::Done)
+}
+
+fn write(path: &Path, picture: &Picture, provenance: &Provenance) -> anyhow::Result<()> {
+    picture_file::write(path, (picture.size_px, &picture.rgba8), provenance)
+}
+
+/// Every so many pixels, which is enough for a look.
+fn small_copy(picture: &Picture) -> ColorImage {
+    let [width, height] = picture.size_px;
+    let step = width.max(height).div_ceil(SMALL_PX).max(1);
+    let small = [width.div_ceil(step), height.div_ceil(step)];
+    let pixel = |index: u32| {
+        let (x, y) = (index % small[0] * step, index / small[0] * step);
+        let at = (y as usize * width as usize + x as usize) * 4;
+        let [r, g, b, a] = [0, 1, 2, 3].map(|channel| picture.rgba8[at + channel]);
+        egui::Color32::from_rgba_unmultiplied(r, g, b, a)
+    };
+    let pixels = (0..small[0] * small[1]).map(pixel).collect();
+    ColorImage::new(small.map(|side| side as usize), pixels)
+}

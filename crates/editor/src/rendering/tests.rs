@@ -1,0 +1,94 @@
+use std::path::Path;
+
+use impasto_editor_model::Document;
+use impasto_editor_model::render_settings::{RenderSettings, Which};
+
+use super::*;
+
+const LONG: Duration = Duration::from_secs(120);
+
+fn plan(folder: &Path, frames: &str) -> RenderPlan {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let mut document = Document::open(&scenes.join("meshes/cube.obj"), &Default::default()).unwrap();
+    document
+        .apply(&impasto_editor_model::Command::Scene(impasto_editor_model::command::SceneEdit::SetSeed(7)))
+        .unwrap();
+    let settings = RenderSettings {
+        which: Which::Listed,
+        list: frames.to_owned(),
+        size_px: [64, 36],
+        output: folder.join("f_##.png").to_string_lossy().into_owned(),
+        driver: RenderDriver::Osmesa,
+        transparent: false,
+    };
+    settings.plan(&document, 0.0).unwrap()
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+fn is_whole(path: &Path) -> bool {
+    image::open(path).is_ok_and(|picture| (picture.width(), picture.height()) == (64, 36))
+}
+
+#[test]
+fn frames_are_written_and_those_that_are_there_can_stay() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("f_01.png"), "mine").unwrap();
+    let plan = plan(folder.path(), "0-2").keeping();
+    let rendering = Rendering::start(plan, || ()).unwrap();
+    assert!(rendering.wait(LONG));
+    let progress = rendering.progress();
+    assert_eq!((&progress.outcome, progress.written, progress.kept), (&Some(Outcome::Done), 2, 1));
+    assert!(progress.strokes > 0 && progress.left_s().is_none());
+    assert_eq!(progress.last, Some(folder.path().join("f_02.png")));
+    assert_eq!(rendering.take_picture().unwrap().size, [64, 36]);
+    assert_eq!(files(folder.path()), ["f_00.png", "f_01.png", "f_02.png"]);
+    assert_eq!(std::fs::read(folder.path().join("f_01.png")).unwrap(), b"mine");
+    assert!(is_whole(&folder.path().join("f_00.png")) && is_whole(&folder.path().join("f_02.png")));
+}
+
+#[test]
+fn what_is_stopped_leaves_whole_frames_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let rendering = Rendering::start(plan(folder.path(), "0-99999"), || ()).unwrap();
+    while rendering.progress().written < 2 && !rendering.is_over() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    rendering.stop();
+    assert!(rendering.wait(LONG));
+    let progress = rendering.progress();
+    assert_eq!(progress.outcome, Some(Outcome::Stopped));
+    let names = files(folder.path());
+    assert_eq!(names.len() as u64, progress.written, "{names:?}");
+    assert!(names.iter().all(|name| is_whole(&folder.path().join(name))), "{names:?}");
+}
+
+#[test]
+fn an_error_names_frame_and_file_and_leaves_the_frames_before() {
+    let folder = tempfile::tempdir().unwrap();
+    // Nothing can take the place of a folder.
+    std::fs::create_dir_all(folder.path().join("f_01.png/in the way")).unwrap();
+    let rendering = Rendering::start(plan(folder.path(), "0-2"), || ()).unwrap();
+    assert!(rendering.wait(LONG));
+    let Some(Outcome::Failed(words)) = rendering.progress().outcome else { panic!("it cannot go well") };
+    let path = folder.path().join("f_01.png").display().to_string();
+    assert!(words.contains("Frame 1 ") && words.contains(&path), "{words}");
+    assert_eq!(files(folder.path()), ["f_00.png", "f_01.png"]);
+    assert!(is_whole(&folder.path().join("f_00.png")));
+}
+
+#[test]
+fn a_folder_that_cannot_be_is_told_before_anything_is_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file"), "").unwrap();
+    let rendering = Rendering::start(plan(&folder.path().join("file"), "0"), || ()).unwrap();
+    assert!(rendering.wait(LONG));
+    let Some(Outcome::Failed(words)) = rendering.progress().outcome else { panic!("it cannot go well") };
+    assert!(words.contains("cannot write into"), "{words}");
+}

@@ -1,0 +1,195 @@
+//! The render sheet, driven by name: what it asks for, what it refuses, and how it looks.
+
+mod headless;
+
+use std::path::{Path, PathBuf};
+
+use egui::{Color32, ColorImage, Key, Modifiers, TextureHandle, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, SnapshotOptions};
+use headless::Headless;
+use impasto_editor::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
+use impasto_editor::theme::{self, Theme};
+use impasto_editor_model::Document;
+use impasto_editor_model::render_settings::{
+    Outcome, RenderDriver, RenderProgress, RenderSettings, Stage, Which,
+};
+use impasto_gl_render::context::Driver;
+
+struct Page {
+    document: Document,
+    settings: RenderSettings,
+    progress: Option<RenderProgress>,
+    picture: Option<TextureHandle>,
+    asked: Vec<RenderAsk>,
+    _folder: Option<tempfile::TempDir>,
+}
+
+impl Page {
+    /// A document of no file, in a folder that need not be there.
+    fn unsaved() -> Self {
+        let document = Document::empty(Path::new("/pictures/pears"));
+        let settings = RenderSettings::of(document.scene());
+        Self { document, settings, progress: None, picture: None, asked: Vec::new(), _folder: None }
+    }
+
+    fn saved() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut document = Document::empty(folder.path());
+        document.save_as(&folder.path().join("pears.ron")).expect("saved");
+        Self { document, _folder: Some(folder), ..Self::unsaved() }
+    }
+
+    fn running(self) -> Self {
+        let progress = RenderProgress {
+            stage: Stage::Drawing,
+            total: 120,
+            written: 47,
+            gone_s: 115.0,
+            drawing_s: 112.8,
+            strokes: 5774,
+            last: Some(PathBuf::from("/pictures/pears/out/frame_0046.png")),
+            ..RenderProgress::default()
+        };
+        Self { progress: Some(progress), ..self }
+    }
+
+    fn ui(&mut self, ui: &egui::Ui) {
+        let ctx = ui.ctx().clone();
+        if self.progress.is_some() && self.picture.is_none() {
+            let pixel = |index: usize| Color32::from_rgb(60 + (index % 16) as u8 * 8, 90, 140);
+            let image = ColorImage::new([16, 9], (0..16 * 9).map(pixel).collect());
+            self.picture = Some(ctx.load_texture("last", image, egui::TextureOptions::LINEAR));
+        }
+        let shown = RenderShown {
+            document: &self.document,
+            frame: 7.0,
+            driver: "llvmpipe",
+            progress: self.progress.as_ref(),
+            picture: self.picture.as_ref(),
+        };
+        self.asked.extend(render_sheet(&ctx, &shown, &mut self.settings));
+    }
+}
+
+fn harness(page: Page) -> Harness<'static, Page> {
+    let mut harness = Harness::builder()
+        .with_size(vec2(1280.0, 500.0))
+        .with_theme(egui::Theme::Dark)
+        .with_render_cursor(false)
+        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
+        .renderer(Headless::open(Driver::Auto))
+        .build_ui_state(|ui, page: &mut Page| page.ui(ui), page);
+    harness.run();
+    harness
+}
+
+fn click(harness: &mut Harness<'_, Page>, name: &str) {
+    harness.get_by_label(name).click();
+    harness.run();
+}
+
+/// Types in the place of what a field holds.
+fn fill(harness: &mut Harness<'_, Page>, name: &str, text: &str) {
+    harness.get_by_label(name).focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run();
+    harness.get_by_label(name).type_text(text);
+    harness.run();
+}
+
+fn asked(harness: &mut Harness<'_, Page>) -> Vec<RenderAsk> {
+    std::mem::take(&mut harness.state_mut().asked)
+}
+
+fn is_enabled(harness: &Harness<'_, Page>, name: &str) -> bool {
+    !harness.get_by_label(name).accesskit_node().is_disabled()
+}
+
+#[test]
+fn the_sheet_looks_as_it_did() {
+    let mut settings = harness(Page::unsaved());
+    assert!(settings.query_by_label("Render settings").is_some());
+    settings.snapshot_options("render_dark", &SnapshotOptions::new().threshold(0.6));
+    let mut running = harness(Page::unsaved().running());
+    running.snapshot_options("render_running_dark", &SnapshotOptions::new().threshold(0.6));
+}
+
+#[test]
+fn every_setting_is_reached_by_name() {
+    let mut harness = harness(Page::saved());
+    let scene = harness.state().document.scene().clone();
+    click(&mut harness, "This frame");
+    assert_eq!(harness.state().settings.which, Which::This);
+    fill(&mut harness, "Frames", "3-9x2");
+    let settings = &harness.state().settings;
+    assert_eq!((settings.which, settings.list.as_str()), (Which::Listed, "3-9x2"));
+    click(&mut harness, "Size 50 %");
+    assert_eq!(harness.state().settings.size_px, [scene.size.0 / 2, scene.size.1 / 2]);
+    harness.get_by_label("Width px").focus();
+    harness.run();
+    harness.key_press(Key::ArrowUp);
+    harness.run();
+    harness.get_by_label("Height px").focus();
+    harness.run();
+    harness.key_press(Key::ArrowDown);
+    harness.run();
+    assert_eq!(harness.state().settings.size_px, [scene.size.0 / 2 + 1, scene.size.1 / 2 - 1]);
+    fill(&mut harness, "Output files", "best/f_##.png");
+    assert_eq!(harness.state().settings.output, "best/f_##.png");
+    click(&mut harness, "Driver");
+    click(&mut harness, "OSMesa, in software");
+    click(&mut harness, "Transparent background");
+    let settings = &harness.state().settings;
+    assert!(settings.driver == RenderDriver::Osmesa && settings.transparent);
+    assert_eq!(asked(&mut harness), []);
+    click(&mut harness, "Copy as command");
+    click(&mut harness, "Browse for output files");
+    click(&mut harness, "Start rendering");
+    click(&mut harness, "Close render settings");
+    let all = [RenderAsk::CopyCommand, RenderAsk::Browse, RenderAsk::Render, RenderAsk::Close];
+    assert_eq!(asked(&mut harness), all);
+}
+
+#[test]
+fn what_cannot_be_rendered_is_told_where_it_is_typed() {
+    let mut harness = harness(Page::saved());
+    fill(&mut harness, "Frames", "3-");
+    assert!(harness.query_by_label_contains("is no frame list").is_some());
+    assert!(!is_enabled(&harness, "Start rendering") && !is_enabled(&harness, "Copy as command"));
+    fill(&mut harness, "Frames", "3");
+    assert!(is_enabled(&harness, "Start rendering") && is_enabled(&harness, "Copy as command"));
+    fill(&mut harness, "Output files", "film.mp4");
+    assert!(harness.query_by_label_contains("let the name end in .png").is_some());
+    fill(&mut harness, "Output files", "/elsewhere/f_##.png");
+    assert!(harness.query_by_label_contains("outside the scene").is_some());
+    assert!(!is_enabled(&harness, "Open folder"), "nothing is there yet");
+    let unsaved = self::harness(Page::unsaved());
+    assert!(!is_enabled(&unsaved, "Copy as command") && is_enabled(&unsaved, "Start rendering"));
+}
+
+#[test]
+fn while_frames_come_they_can_be_stopped_or_left_alone() {
+    let mut harness = harness(Page::saved().running());
+    let progress = harness.get_by_label("Progress").accesskit_node();
+    assert_eq!(progress.value().as_deref(), Some("47 of 120, 1 min 55 s gone, about 2 min 55 s left"));
+    assert!(!is_enabled(&harness, "Output files") && !is_enabled(&harness, "Transparent background"));
+    click(&mut harness, "Work on while it renders");
+    click(&mut harness, "Open folder");
+    click(&mut harness, "Stop");
+    harness.key_press(Key::Escape);
+    harness.run();
+    let all = [RenderAsk::WorkOn, RenderAsk::OpenFolder, RenderAsk::Stop, RenderAsk::WorkOn];
+    assert_eq!(asked(&mut harness), all);
+    harness.state_mut().progress.as_mut().expect("it runs").stopping = true;
+    harness.run();
+    assert!(!is_enabled(&harness, "Stop"), "once is enough");
+    let words = "Frame 47 was not written. /pictures/pears/out/frame_0047.png: No space left on device";
+    harness.state_mut().progress.as_mut().expect("it ran").outcome = Some(Outcome::Failed(words.to_owned()));
+    harness.run();
+    assert_eq!(harness.get_by_label("Rendering state").accesskit_node().value().as_deref(), Some(words));
+    assert!(harness.query_by_label("Stop").is_none() && is_enabled(&harness, "Open folder"));
+    click(&mut harness, "Start rendering");
+    assert_eq!(asked(&mut harness), [RenderAsk::Render]);
+}

@@ -1,0 +1,11 @@
+//! Rendered frames as files: which frames, what they are called, and how they are written. The command line and the editor
+//! write the same bytes because both write them here.
+
+mod frame_list;
+mod pattern;
+pub mod picture_file;
+mod place;
+
+pub use frame_list::FrameList;
+pub use pattern::Pattern;
+pub use place::{PlaceError, not_an_input, ready_folder};

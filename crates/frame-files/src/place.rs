@@ -1,0 +1,46 @@
+//! Where files may be written.
+
+use std::path::{Path, PathBuf};
+
+/// Why a file cannot be written where it was to be.
+#[derive(Debug, thiserror::Error)]
+pub enum PlaceError {
+    /// The folder cannot be made, or nothing can be written into it.
+    #[error("cannot write into {}: {error}", folder.display())]
+    NotWritable {
+        /// The folder.
+        folder: PathBuf,
+        /// What the system said.
+        error: std::io::Error,
+    },
+    /// The file is one of those that are read.
+    #[error("{} is read by this command and would be written over", .0.display())]
+    Input(PathBuf),
+}
+
+/// Makes the folder of an output file and finds out whether a file can be written there.
+///
+/// # Errors
+/// [`PlaceError::NotWritable`].
+pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
+        _ => PathBuf::from("."),
+    };
+    let refused = |error: std::io::Error| PlaceError::NotWritable { folder: folder.clone(), error };
+    std::fs::create_dir_all(&folder).map_err(refused)?;
+    tempfile::NamedTempFile::new_in(&folder).map_err(refused)?;
+    Ok(folder)
+}
+
+/// Refuses to write over something that is read.
+///
+/// # Errors
+/// [`PlaceError::Input`].
+pub fn not_an_input(output: &Path, inputs: &[PathBuf]) -> Result<(), PlaceError> {
+    let Ok(output_now) = output.canonicalize() else { return Ok(()) };
+    match inputs.iter().find(|input| input.canonicalize().is_ok_and(|input| input == output_now)) {
+        Some(input) => Err(PlaceError::Input(input.clone())),
+        None => Ok(()),
+    }
+}
