@@ -144,6 +144,8 @@ pub struct Editor {
     pointer_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
+    /// When the pointer last did something; the clock goes on without it.
+    moved_secs: f64,
     /// Whether the tool knows already that the hand rests.
     has_rested: bool,
     said: Vec<Said>,
@@ -173,6 +175,7 @@ impl Editor {
             pointer_px: None,
             held: Modifiers::default(),
             at_secs: 0.0,
+            moved_secs: 0.0,
             has_rested: false,
             said: Vec::new(),
             requests: Vec::new(),
