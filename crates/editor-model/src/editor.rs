@@ -281,8 +281,9 @@ impl Editor {
             Tool::Scale => Operation::Scale,
             _ => return None,
         };
-        let is_shown =
-            self.session.mode != Mode::Paint && !self.is_navigating() && !self.time.playback.is_playing();
+        // A comparison shows the reference, where nothing stands as it does now.
+        let poses = self.session.mode != Mode::Paint && !self.session.compare;
+        let is_shown = poses && !self.is_navigating() && !self.time.playback.is_playing();
         let object = self.active_object().filter(|_| is_shown)?;
         let pose = *self.poses().get(object)?;
         Some(Gizmo::new(operation, self.session.options.axes, pose, view))

@@ -140,7 +140,8 @@ impl MarkCache {
         let colours = region_colours(scene);
         if shows_hairs {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
-            let look = HairLook { overlays: session.overlays, region_colours: &colours, region };
+            let object = active.filter(|_| session.mode != Mode::Paint);
+            let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
             half.hairs = hair_marks(painting, (seen.camera, seen.frame), &framing, &map, &look);
         }
         if session.overlays.regions {

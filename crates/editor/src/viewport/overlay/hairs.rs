@@ -23,7 +23,7 @@ pub struct HairMark {
     pub angle_rad: f32,
     /// How it is drawn.
     pub ink: HairInk,
-    /// Whether it is of a region that is not being painted.
+    /// Whether it is of something else than what is painted or posed.
     pub faint: bool,
 }
 
