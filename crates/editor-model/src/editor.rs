@@ -146,6 +146,8 @@ pub struct Editor {
     pointer_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
+    /// When the pointer last did something; the clock goes on without it.
+    moved_secs: f64,
     /// Whether the tool knows already that the hand rests.
     has_rested: bool,
     said: Vec<Said>,
@@ -175,6 +177,7 @@ impl Editor {
             pointer_px: None,
             held: Modifiers::default(),
             at_secs: 0.0,
+            moved_secs: 0.0,
             has_rested: false,
             said: Vec::new(),
             requests: Vec::new(),
@@ -280,8 +283,9 @@ impl Editor {
             Tool::Scale => Operation::Scale,
             _ => return None,
         };
-        let is_shown =
-            self.session.mode != Mode::Paint && !self.is_navigating() && !self.time.playback.is_playing();
+        // A comparison shows the reference, where nothing stands as it does now.
+        let poses = self.session.mode != Mode::Paint && !self.session.compare;
+        let is_shown = poses && !self.is_navigating() && !self.time.playback.is_playing();
         let object = self.active_object().filter(|_| is_shown)?;
         let pose = *self.poses().get(object)?;
         Some(Gizmo::new(operation, self.session.options.axes, pose, view))

@@ -92,4 +92,10 @@ impl Document {
     pub fn source(&self) -> Option<&Arc<Source>> {
         self.source.as_ref()
     }
+
+    /// Whether a mesh, as an object names it, is not there or cannot be used: nothing or a box stands in for it.
+    pub fn lacks_mesh(&self, mesh: &str) -> bool {
+        let is_boxed = |source: &Arc<Source>| source.stand_ins.contains_key(mesh);
+        self.source.as_ref().is_some_and(is_boxed) || !self.shown().meshes.contains_key(mesh)
+    }
 }

@@ -52,6 +52,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     let mut document = folder.open();
     assert_eq!(document.loss_count(), 3);
     assert!(!document.is_edited());
+    assert!(document.lacks_mesh(&document.scene().objects[0].mesh), "a box stands in");
     let refused = document.save().expect_err("off");
     assert!(matches!(refused, SaveError::Problems { count: 3, line: 4 }), "{refused}");
     assert!(document.save_as(&folder.path()).is_err());
@@ -62,6 +63,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     assert_eq!(step.text, "Fix 2 problems");
     assert_eq!(document.scene().strokes.width_px, Some(9.0));
     assert_eq!(document.scene().objects[0].mesh, "meshes/leaf.obj");
+    assert!(!document.lacks_mesh("meshes/leaf.obj"));
     assert_eq!(document.loss_count(), 1);
     assert!(document.is_edited() && document.save().is_err());
     assert_eq!(folder.text(), broken());

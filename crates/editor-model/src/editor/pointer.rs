@@ -57,7 +57,7 @@ impl Editor {
         }
         let before_px = self.pointer_px.unwrap_or(event.at_px);
         (self.held, self.at_secs) = (event.held, event.at_secs);
-        self.has_rested = false;
+        (self.moved_secs, self.has_rested) = (event.at_secs, false);
         self.pointer_px = (event.kind != PointerKind::Leave).then_some(event.at_px);
         match event.kind {
             PointerKind::Move => self.moved(event, event.at_px - before_px, view),
@@ -79,7 +79,7 @@ impl Editor {
             && self.session.mode == Mode::Paint
             && self.pointer_px.is_some()
             && !self.hand.is_busy();
-        if waits && self.at_secs + REST_SECS <= at_secs && !self.has_rested {
+        if waits && self.moved_secs + REST_SECS <= at_secs && !self.has_rested {
             self.at_secs = at_secs;
             self.hover_again(view);
             self.has_rested = true;

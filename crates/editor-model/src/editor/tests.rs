@@ -226,10 +226,14 @@ fn strokes_are_foreseen_while_the_hand_moves_and_until_it_rests() {
     }
 
     let view = view(&editor);
-    editor.rested(editor.at_secs + 0.2, &view);
-    assert!(editor.tool_output().foreseen.is_some() && editor.tool_output().label.is_none());
-    editor.rested(editor.at_secs + 0.5, &view);
-    assert!(editor.tool_output().foreseen.is_none());
+    let moved_secs = editor.at_secs;
+    // The clock is told in every pass, as the window does.
+    for (rest_secs, rests) in [(0.2, false), (0.5, true)] {
+        editor.tick(moved_secs + rest_secs);
+        editor.rested(moved_secs + rest_secs, &view);
+        assert_eq!(editor.tool_output().label.is_some(), rests, "after {rest_secs} s");
+        assert_eq!(editor.tool_output().foreseen.is_none(), rests, "after {rest_secs} s");
+    }
     assert!(editor.tool_output().label.as_ref().is_some_and(|label| label.contains("trust")));
 
     editor.session.options.foresee = false;

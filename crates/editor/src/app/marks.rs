@@ -20,7 +20,8 @@ use super::foreseen::ForeseenStrokes;
 use super::motion_marks;
 use super::picture::Studio;
 use crate::viewport::overlay::{
-    CurvePart, GuideCurve, HairMark, MotionPath, Outline, RegionTint, Sight, SingularPoint, StandIn,
+    CurvePart, GuideCurve, HairMark, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
+    StandIn,
 };
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
@@ -77,6 +78,7 @@ pub(super) struct Fresh {
     guides: Vec<GuideCurve>,
     gizmo: Option<Gizmo>,
     stand_ins: Vec<(StandIn, bool)>,
+    missing: Vec<MissingMesh>,
     singular: Vec<SingularPoint>,
     radius_px: f64,
     hides_pointer: bool,
@@ -138,7 +140,8 @@ impl MarkCache {
         let colours = region_colours(scene);
         if shows_hairs {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
-            let look = HairLook { overlays: session.overlays, region_colours: &colours, region };
+            let object = active.filter(|_| session.mode != Mode::Paint);
+            let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
             half.hairs = hair_marks(painting, (seen.camera, seen.frame), &framing, &map, &look);
         }
         if session.overlays.regions {
@@ -180,6 +183,7 @@ impl MarkCache {
             tag: fresh.tag.as_deref(),
             guides: &fresh.guides,
             stand_ins: &fresh.stand_ins,
+            missing: &fresh.missing,
             foreseen: self.foreseen.shown(),
             gizmo: fresh.gizmo.as_ref().map(|gizmo| (gizmo, None)),
             hides_pointer: fresh.hides_pointer,
@@ -229,6 +233,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
         guides,
         gizmo: editor.gizmo(view),
         stand_ins: if editor.session.mode == Mode::Arrange { stand_ins(editor, scene) } else { Vec::new() },
+        missing: motion_marks::missing(editor, &poses),
         singular: singular(editor, &poses, view),
         radius_px: editor.session.options.radius_px,
         hides_pointer: has_ring && editor.session.tool() != Tool::Pick,

@@ -225,7 +225,7 @@ impl EditorApp {
             panels::status_line::status_line(ui, &shown, &mut asks);
             area(ui, Area::Strip, |ui| panels::strip::strip(ui, &shown, &mut asks));
             self.sheets.problems &= self.sheets.problems && panels::problems::problems(ui, &shown, &mut asks);
-            if !self.folds.column && ui.available_width() >= 900.0 {
+            if !self.folds.column && panels::column_fits(ui, &shown) {
                 panels::column(ui, &shown, &mut asks);
             }
             area(ui, Area::Options, |ui| panels::options_bar::options_bar(ui, &shown, &mut asks));
@@ -305,7 +305,7 @@ impl LikelyMeshes {
     /// Looks round in the folder where other meshes are missing than before.
     fn follow(&mut self, document: &Document) {
         let loaded = document.shown();
-        let is_missing = |mesh: &&str| !loaded.meshes.contains_key(*mesh);
+        let is_missing = |mesh: &&str| document.lacks_mesh(mesh);
         let missing = loaded.scene.objects.iter().map(|object| object.mesh.as_str()).filter(is_missing);
         if !missing.clone().eq(self.of.iter().map(String::as_str)) {
             let missing: Vec<&str> = missing.collect();

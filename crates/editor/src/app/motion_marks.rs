@@ -1,13 +1,14 @@
 //! What Animate shows of a motion: the way of the selected object with its keys, and where it stands at those beside this frame.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
+use impasto_editor_model::editor::Editor;
 use impasto_painting::Painting;
-use impasto_scene::document::Scene;
+use impasto_scene::document::{Object, Scene};
 use impasto_scene::motion;
 
 use super::marks::bodies;
 use crate::viewport::Framing;
-use crate::viewport::overlay::{MotionPath, Outline};
+use crate::viewport::overlay::{MissingMesh, MotionPath, Outline};
 use crate::viewport::surface_map::SurfaceMap;
 
 use super::marks::Seen;
@@ -48,6 +49,21 @@ pub(super) fn ghosts(painting: &Painting, seen: &Seen<'_>, framing: &Framing, ob
         Outline::new(&SurfaceMap::new(&bodies, &view, CELLS_PER_POINT), |other| other == object)
     };
     before.into_iter().chain(after).map(ghost).collect()
+}
+
+/// Boxes for the objects whose meshes were not found, where they stand now.
+pub(super) fn missing(editor: &Editor, poses: &[DAffine3]) -> Vec<MissingMesh> {
+    let document = editor.document();
+    let boxed = |(index, object): (usize, &Object)| {
+        let is_missing = !object.hidden && document.lacks_mesh(&object.mesh);
+        let bounds = editor.picker().bounds_in_model(index).filter(|_| is_missing)?;
+        let pose = poses.get(index)?;
+        let corner =
+            |corner: usize| DVec3::from_array([0, 1, 2].map(|axis| bounds[corner >> axis & 1][axis]));
+        let corners = std::array::from_fn(|index| pose.transform_point3(corner(index)));
+        Some(MissingMesh { name: object.name.clone(), corners })
+    };
+    document.shown().scene.objects.iter().enumerate().filter_map(boxed).collect()
 }
 
 #[cfg(test)]

@@ -8,13 +8,21 @@ use crate::theme::Tokens;
 /// A window at least so wide has a wider column.
 const WIDE: f32 = 1600.0;
 
+/// Whether the column leaves enough of the window for the picture, or for both pictures of a comparison.
+pub fn column_fits(ui: &Ui, shown: &Shown<'_>) -> bool {
+    let compares = shown.session.compare && !shown.document.scene().objects.is_empty();
+    ui.available_width() >= if compares { WIDE } else { 900.0 }
+}
+
 /// Takes the right column off the `Ui`. The line between tree and inspector can be dragged.
 pub fn column(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let is_wide = ui.ctx().content_rect().width() >= WIDE;
     let (width, tree_height) = if is_wide { (336.0, 330.0) } else { (280.0, 252.0) };
+    // Each of the two keeps what its lines were dragged to.
+    let (whole, top) = if is_wide { ("wide column", "wide tree") } else { ("column", "tree") };
     let frame = Frame::new().fill(Tokens::of(ui).panel);
-    Panel::right("column").default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {
-        let top = Panel::top("tree").default_size(tree_height).size_range(96.0..=640.0).resizable(true);
+    Panel::right(whole).default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {
+        let top = Panel::top(top).default_size(tree_height).size_range(96.0..=640.0).resizable(true);
         top.frame(frame).show_separator_line(false).show(ui, |ui| {
             area(ui, Area::Tree, |ui| tree(ui, shown, asks));
         });

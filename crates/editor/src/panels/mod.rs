@@ -37,7 +37,7 @@ use impasto_editor_model::{Document, Selection, Session};
 use impasto_painting::Painting;
 
 pub use areas::{Area, area, next_area};
-pub use column::column;
+pub use column::{column, column_fits};
 pub use column_state::{open_add_menu, rename};
 pub use inspector::inspector;
 pub use tree::tree;

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Align2, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo,
-    pos2, vec2,
+    Align, Align2, Color32, FontId, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense,
+    TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 use impasto_editor_model::document::{Repair, Row, Source};
 use impasto_editor_model::editor::Mend;
+use impasto_editor_model::{Item, Selection};
 use impasto_scene::problem::Place;
 
 use super::{Ask, Shown, row, row_from_right, within};
@@ -20,6 +21,8 @@ const HEIGHT: f32 = 232.0;
 const HEAD: f32 = 41.0;
 const FOOT: f32 = 44.0;
 const ROW: f32 = 44.0;
+/// The height of a line of the source.
+const LINE: f32 = 18.0;
 /// The list's share of the width.
 const LIST: f32 = 0.6;
 /// A longer text is shown round its problem only, and edited elsewhere.
@@ -65,7 +68,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
         let has_certain = shown.document.certain().len();
         let foot = if has_certain > 0 { FOOT } else { 0.0 };
         let list_rect = part(left, head_rect.bottom() + 1.0, whole.bottom() - foot);
-        within(ui, list_rect, egui::Layout::top_down(egui::Align::Min), |ui| {
+        within(ui, list_rect, egui::Layout::top_down(Align::Min), |ui| {
             list(ui, &rows, &mut memory, asks);
         });
         if has_certain > 0 {
@@ -76,7 +79,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
         let source_rect =
             part(egui::Rangef::new(split + 1.0, whole.right()), head_rect.bottom() + 1.0, whole.bottom());
         let place = rows[memory.selected].problem.place;
-        within(ui, source_rect, egui::Layout::top_down(egui::Align::Min), |ui| {
+        within(ui, source_rect, egui::Layout::top_down(Align::Min), |ui| {
             source(ui, (shown, place), &mut memory, asks);
         });
         ui.data_mut(|data| data.insert_temp(id, memory));
@@ -139,10 +142,20 @@ fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
                 if response.clicked() {
                     memory.selected = index;
                     memory.go_to = rows[index].problem.place.map(|place| place.line);
+                    asks.extend(concerned(&rows[index]).map(|item| Ask::Select(Selection::only(item))));
                 }
             }
         },
     );
+}
+
+/// What a problem is of, where that can be selected.
+fn concerned(row: &Row) -> Option<Item> {
+    row.repairs.iter().find_map(|repair| match repair {
+        Repair::Locate { object } => Some(Item::Object(object.clone())),
+        Repair::Snap { region, .. } => Some(Item::Region(region.clone())),
+        Repair::Fix { .. } => None,
+    })
 }
 
 /// One problem: its place, its words, what mends it.
@@ -214,13 +227,18 @@ fn line(
         ),
         (second, type_face::small(), tokens.weak, middle + 9.0),
     ] {
-        let mut job = LayoutJob::simple_singleline(words, font, colour);
+        let mut job = with_code(&words, (font, colour));
         job.wrap = egui::text::TextWrapping::truncate_at_width(wide);
         let galley = ui.painter().layout_job(job);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(words_left, y), galley.size()).min;
         ui.painter().galley(at, galley, colour);
     }
-    response.clone().on_hover_text(format!("{}\n{}", sentence(&problem.message), sentence(&problem.mend)));
+    let whole = format!("{}\n{}", sentence(&problem.message), sentence(&problem.mend));
+    response.clone().on_hover_ui(|ui| {
+        let mut job = with_code(&whole, (type_face::body(), tokens.text));
+        (job.break_on_newline, job.wrap.max_width) = (true, ui.spacing().tooltip_width);
+        ui.label(job);
+    });
 }
 
 fn repair_button(ui: &mut Ui, repair: &Repair, asks: &mut Vec<Ask>) {
@@ -243,6 +261,16 @@ fn repair_button(ui: &mut Ui, repair: &Repair, asks: &mut Vec<Ask>) {
             }
         }
     }
+}
+
+/// One line, with what stands between backticks in the type of the source.
+fn with_code(words: &str, (font, colour): (FontId, Color32)) -> LayoutJob {
+    let mut job = LayoutJob { break_on_newline: false, ..LayoutJob::default() };
+    for (index, part) in words.split('`').enumerate() {
+        let font = if index % 2 == 1 { type_face::number() } else { font.clone() };
+        job.append(part, 0.0, TextFormat::simple(font, colour));
+    }
+    job
 }
 
 /// With a capital and a full stop.
@@ -276,19 +304,18 @@ fn source(
         memory.begun_from = Some(Arc::clone(source));
         memory.go_to = place.map(|place| place.line);
     }
-    let marked = place.map(|place| place.line).filter(|_| memory.typed == source.text);
+    let marked = place.filter(|_| memory.typed == source.text);
     if source.text.len() > MAX_EDITED_BYTES {
-        return excerpt(ui, &source.text, marked.unwrap_or(1));
+        return excerpt(ui, &source.text, marked);
     }
     let id = Id::unique("problems source");
     let is_typing = ui.memory(|memory| memory.has_focus(id));
     if is_typing && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter)) {
         asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
     }
-    let row_height = ui.fonts_mut(|fonts| fonts.row_height(&type_face::number()));
     let mut area = ScrollArea::both().id_salt("source").auto_shrink(false);
     if let Some(line) = memory.go_to.take() {
-        area = area.vertical_scroll_offset((line.saturating_sub(3) as f32 * row_height).max(0.0));
+        area = area.vertical_scroll_offset((line.saturating_sub(4) as f32 * LINE).max(0.0));
     }
     let typed = &mut memory.typed;
     let is_changed = *typed != source.text;
@@ -296,7 +323,8 @@ fn source(
         ui.horizontal_top(|ui| {
             let lines = typed.split('\n').count();
             let numbers: String = (1..=lines).map(|line| format!("{line:>5}\n")).collect();
-            let plain = LayoutJob::simple(numbers, type_face::number(), tokens.weak, f32::INFINITY);
+            let mut plain = LayoutJob::default();
+            plain.append(&numbers, 0.0, code(tokens.weak));
             ui.add(egui::Label::new(plain).selectable(false));
             let mut lay_out = |ui: &Ui, text: &dyn egui::TextBuffer, _: f32| {
                 ui.painter().layout_job(coloured(text.as_str(), marked, tokens))
@@ -320,37 +348,72 @@ fn source(
     }
 }
 
-fn coloured(text: &str, marked: Option<usize>, tokens: &Tokens) -> LayoutJob {
-    let format = |background| TextFormat {
-        font_id: type_face::number(),
-        color: tokens.text,
-        background,
-        ..TextFormat::default()
-    };
+/// A line of the source.
+fn code(colour: Color32) -> TextFormat {
+    TextFormat { line_height: Some(LINE), ..TextFormat::simple(type_face::number(), colour) }
+}
+
+/// The text, with the line of a problem marked and what is wrong in it underlined.
+fn coloured(text: &str, marked: Option<Place>, tokens: &Tokens) -> LayoutJob {
     let mut job = LayoutJob { break_on_newline: true, ..LayoutJob::default() };
     job.wrap.max_width = f32::INFINITY;
+    let plain = code(tokens.text);
     for (index, line) in text.split_inclusive('\n').enumerate() {
-        let is_marked = marked == Some(index + 1);
-        let background =
-            if is_marked { tokens.vermilion.gamma_multiply(0.25) } else { egui::Color32::TRANSPARENT };
-        job.append(line, 0.0, format(background));
+        let Some(place) = marked.filter(|place| place.line == index + 1) else {
+            job.append(line, 0.0, plain.clone());
+            continue;
+        };
+        let lit = TextFormat { background: tokens.vermilion.gamma_multiply(0.25), ..plain.clone() };
+        let colour = tokens.vermilion;
+        let wrong = TextFormat { color: colour, underline: egui::Stroke::new(1.0, colour), ..lit.clone() };
+        let [before, word, after] = word_at(line, place.column);
+        for (part, format) in [(before, lit.clone()), (word, wrong), (after, lit)] {
+            job.append(part, 0.0, format);
+        }
     }
     job
 }
 
+/// A line before, in and behind the word or the quoted text that begins at a column.
+fn word_at(line: &str, column: usize) -> [&str; 3] {
+    let start = line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at);
+    let (before, rest) = line.split_at(start);
+    let end = match rest.strip_prefix('"') {
+        Some(quoted) => quoted.find('"').map_or(0, |end| end + 2),
+        None => rest.find(|c: char| !(c.is_alphanumeric() || "_.-".contains(c))).unwrap_or(rest.len()),
+    };
+    let (word, after) = rest.split_at(end);
+    [before, word, after]
+}
+
 /// Of a long text the lines round one, to be read only.
-fn excerpt(ui: &mut Ui, text: &str, line: usize) {
+fn excerpt(ui: &mut Ui, text: &str, place: Option<Place>) {
     let tokens = Tokens::of(ui);
+    let line = place.map_or(1, |place| place.line);
     let first = line.saturating_sub(4);
     let numbered = text.lines().enumerate().skip(first).take(LINES_AROUND);
     let lines: String = numbered
         .map(|(index, line)| format!("{:>6} {}\n", index + 1, line.chars().take(200).collect::<String>()))
         .collect();
-    let marked = Some(line - first);
+    // Each line has its number before it.
+    let marked = place.map(|place| Place { line: line - first, column: place.column + 7 });
     ScrollArea::both().id_salt("excerpt").auto_shrink(false).show(ui, |ui| {
         let label = ui.add(egui::Label::new(coloured(&lines, marked, tokens)).selectable(false));
         label.widget_info(|| WidgetInfo::labeled(Role::Label, true, "Source"));
         let words = "This text is too long to be edited here. Edit the file; it is read again by itself.";
         ui.label(RichText::new(words).font(type_face::small()).color(tokens.weak));
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_in_a_line_is_a_word_or_a_quoted_text() {
+        assert_eq!(word_at("(mesh: \"a b.obj\", x)", 8), ["(mesh: ", "\"a b.obj\"", ", x)"]);
+        assert_eq!(word_at("\u{e4}(widht_px: 19)\n", 3), ["\u{e4}(", "widht_px", ": 19)\n"]);
+        assert_eq!(word_at("\"open", 1), ["", "", "\"open"]);
+        assert_eq!(word_at("short", 99), ["short", "", ""]);
+    }
 }

@@ -24,7 +24,7 @@ pub fn top_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH) / 2.0);
         let part = |left: f32, right: f32| egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
         let end = switch + SWITCH + measure::GAP;
-        within(ui, part(whole.left(), switch - 12.0), row(), |ui| left(ui, shown, asks));
+        within(ui, part(whole.left(), switch - 6.0), row(), |ui| left(ui, shown, asks));
         within(ui, part(switch, end), row(), |ui| modes(ui, shown, asks));
         within(ui, part(end, whole.right()), row_from_right(), |ui| right(ui, shown, asks));
     });
@@ -49,7 +49,7 @@ fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         }
         ui.add_space(4.0);
     }
-    ui.add_space(9.0);
+    ui.add_space(6.0);
     document(ui, shown);
 }
 

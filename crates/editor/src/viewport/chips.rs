@@ -4,7 +4,7 @@
 use egui::{Align2, Area, Id, Order, Rect, Ui, Vec2, vec2};
 use impasto_editor_model::camera_rig::AxisView;
 use impasto_editor_model::keymap::Action;
-use impasto_editor_model::session::{Hairs, Session, Shading};
+use impasto_editor_model::session::{Hairs, Mode, Session, Shading};
 
 use super::{Badge, Look, ViewportEvents, ViewportInput};
 use crate::icons;
@@ -74,13 +74,16 @@ fn looks(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
 fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
     let mut wanted = session.clone();
     let shown = &mut wanted.overlays;
+    let paints = session.mode == Mode::Paint;
     let toggle = |ui: &mut Ui, icon, (name, key, effect): (&str, &str, &str), on: &mut bool| {
         let response = icon_toggle(ui, icon, name, on);
         Tip { name, key, effect, range: "" }.on(response);
     };
-    let mut hairs = shown.hairs != Hairs::Off;
+    // Where none are drawn, none are said to be.
+    let mut hairs = paints && shown.hairs != Hairs::Off;
     let before = hairs;
-    toggle(ui, icons::HAIRS, ("Directions", "O", "Short lines along the strokes."), &mut hairs);
+    let effect = if paints { "Short lines along the strokes." } else { "Directions show in Paint." };
+    ui.add_enabled_ui(paints, |ui| toggle(ui, icons::HAIRS, ("Directions", "O", effect), &mut hairs));
     if hairs != before {
         shown.hairs = if hairs { Hairs::Plain } else { Hairs::Off };
     }

@@ -5,7 +5,7 @@ use impasto_editor_model::tools::{Needle, Ring};
 use impasto_editor_model::transform::Constraint;
 
 use super::overlay::{self, Comb, ForeseenStroke, GuideCurve, HairMark, MotionPath, Outline, RegionTint};
-use super::overlay::{Sheet, Sight, SingularPoint, StandIn};
+use super::overlay::{MissingMesh, Sheet, Sight, SingularPoint, StandIn};
 
 /// What is drawn over one picture. Empty by default.
 #[derive(Clone, Copy, Default)]
@@ -38,6 +38,8 @@ pub struct Marks<'a> {
     pub path: Option<&'a MotionPath>,
     /// Lights and cameras, with whether they are selected.
     pub stand_ins: &'a [(StandIn, bool)],
+    /// Boxes where meshes are missing.
+    pub missing: &'a [MissingMesh],
     /// Handles, and the one that is lit.
     pub gizmo: Option<(&'a Gizmo, Option<Constraint>)>,
     /// Whether the ring stands for the pointer.
@@ -73,6 +75,7 @@ impl Marks<'_> {
         if let Some(path) = self.path {
             overlay::motion_path(sheet, path);
         }
+        self.missing.iter().for_each(|missing| overlay::missing_mesh(sheet, missing));
         overlay::stand_ins(sheet, self.stand_ins);
         if let Some((gizmo, lit)) = &self.gizmo {
             overlay::gizmo(sheet, gizmo, lit.as_ref());

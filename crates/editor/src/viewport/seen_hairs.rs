@@ -23,6 +23,8 @@ pub struct HairLook<'a> {
     pub region_colours: &'a [Color32],
     /// The region that is being painted: hairs of others are faint. `None` where all are alike.
     pub region: Option<usize>,
+    /// The object that is being posed: hairs of others are faint. `None` where all are alike.
+    pub object: Option<usize>,
 }
 
 /// The hairs of a painting at a frame, seen through a camera (not widened) in a framing. `map` is what that camera sees.
@@ -59,7 +61,8 @@ pub fn hair_marks(
         at_px: place(hair),
         angle_rad: hair.angle_rad,
         ink: ink(hair),
-        faint: look.region.is_some_and(|region| region != hair.region),
+        faint: look.region.is_some_and(|region| region != hair.region)
+            || look.object.is_some_and(|object| object != hair.object),
     };
     hairs.iter().map(mark).collect()
 }

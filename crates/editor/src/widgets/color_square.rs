@@ -1,14 +1,17 @@
 use egui::color_picker::{Alpha, color_picker_color32};
-use egui::{Color32, Popup, PopupCloseBehavior, Response, Role, Sense, Ui, vec2};
+use egui::{Color32, Popup, PopupCloseBehavior, Response, Role, Sense, StrokeKind, Ui, vec2};
 
 use super::draw;
-use crate::theme::measure;
+use crate::theme::{Tokens, measure};
 
 /// A square of a region's colour; a click opens egui's colour picker. Changed while the user picks.
 pub fn color_square(ui: &mut Ui, name: &str, colour: &mut Color32) -> Response {
     let (rect, mut response) = ui.allocate_exact_size(vec2(measure::HIT, measure::HIT), Sense::click());
     let seen = egui::Rect::from_center_size(rect.center(), vec2(16.0, 16.0));
     ui.painter().rect_filled(seen, 3.0, *colour);
+    // A colour near the panel's own has an edge too.
+    let edge = if response.hovered() { Tokens::of(ui).text } else { Tokens::of(ui).out };
+    ui.painter().rect_stroke(seen, 3.0, (1.0, edge), StrokeKind::Outside);
     draw::focus_ring(ui, &response, seen, 3.0);
     draw::named(&response, Role::ColorWell, name);
     let mut changed = false;

@@ -22,7 +22,7 @@ pub type DialogResponse = Option<usize>;
 /// Shows a question over everything. Returns the verb that was chosen.
 pub fn dialog(ctx: &Context, asked: &Dialog<'_>) -> DialogResponse {
     let mut chosen = None;
-    sheet(ctx, asked.title, 420.0, |ui| {
+    sheet(ctx, asked.title, 432.0, |ui| {
         let tokens = Tokens::of(ui);
         ui.label(RichText::new(asked.title).font(type_face::title()).color(tokens.text));
         ui.add_space(4.0);

@@ -32,6 +32,7 @@ pub struct NumberField<'a> {
     refused: Option<&'a dyn Fn(f64) -> Option<String>>,
     reads: Option<Read<'a>>,
     warns: bool,
+    centred: bool,
     tip: Tip<'a>,
 }
 
@@ -85,6 +86,7 @@ impl<'a> NumberField<'a> {
             refused: None,
             reads: None,
             warns: false,
+            centred: false,
             tip: Tip::default(),
         }
     }
@@ -132,6 +134,11 @@ impl<'a> NumberField<'a> {
     /// Reads what is typed in its own way: more units than one.
     pub fn reading(self, reads: &'a dyn Fn(&str) -> Option<f64>) -> Self {
         Self { reads: Some(reads), ..self }
+    }
+
+    /// The number stands in the middle of its box.
+    pub fn centred(self) -> Self {
+        Self { centred: true, ..self }
     }
 
     /// The number stands in ochre: it is not kept as it is.
@@ -210,7 +217,9 @@ impl<'a> NumberField<'a> {
         frame.min.x += measure::LABEL;
         frame.max.x = (frame.max.x - measure::ROW_END).max(frame.min.x + 48.0);
         let room = measure::LABEL - measure::GAP;
-        draw::words_within(ui, row.left_center(), (self.name, type_face::body()), (tokens.weak, room));
+        // A unit stands in the box: it is not said twice.
+        let label = self.name.strip_suffix(self.unit).map_or(self.name, str::trim_end);
+        draw::words_within(ui, row.left_center(), (label, type_face::body()), (tokens.weak, room));
         if let Some(error) = self.error {
             let at = pos2(frame.left(), row.bottom() + 10.0);
             let room = row.right() - frame.left();
@@ -348,7 +357,9 @@ impl<'a> NumberField<'a> {
             draw::words(painter, at, Align2::LEFT_CENTER, (self.letter, type_face::small()), tokens.weak);
             at.x += 11.0;
         }
-        draw::words(painter, at, Align2::LEFT_CENTER, (&self.shown(), type_face::number()), colour);
+        let (at, align) =
+            if self.centred { (frame.center(), Align2::CENTER_CENTER) } else { (at, Align2::LEFT_CENTER) };
+        draw::words(painter, at, align, (&self.shown(), type_face::number()), colour);
         let end = frame.right_center() - vec2(8.0, 0.0);
         draw::words(painter, end, Align2::RIGHT_CENTER, (self.unit, type_face::small()), tokens.weak);
         draw::focus_ring(ui, response, frame, measure::CORNER);

@@ -26,7 +26,9 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         return;
     };
     let item = Item::Object(name.to_owned());
-    let mesh = asker.shown.document.shown().meshes.get(&object.mesh).cloned();
+    let document = asker.shown.document;
+    let mesh =
+        document.shown().meshes.get(&object.mesh).filter(|_| !document.lacks_mesh(&object.mesh)).cloned();
     let tokens = Tokens::of(ui);
     head(ui, |ui| {
         let (icon, colour) =

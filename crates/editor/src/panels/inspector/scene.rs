@@ -6,7 +6,7 @@ use impasto_scene::document::{Canvas, CanvasFollows, Reference, RotatingStrokes,
 use impasto_scene::limits::{MAX_SIDE_PX, MAX_STRENGTH};
 
 use super::number::Number;
-use super::parts::{body, head, note, pick, row, section, seen};
+use super::parts::{head, note, pick, row, section, seen};
 use super::{Asker, strokes};
 use crate::panels::Ask;
 use crate::theme::type_face;
@@ -15,7 +15,7 @@ use crate::widgets::{self, Button, Tip};
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     if asker.scene().objects.is_empty() {
         ui.add_space(12.0);
-        body(ui, |ui| note(ui, "Select something to see its settings."));
+        ui.vertical_centered(|ui| note(ui, "Select something to see its settings."));
         return;
     }
     head(ui, |ui| {

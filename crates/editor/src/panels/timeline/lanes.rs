@@ -171,7 +171,9 @@ fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
 
 /// The way from one key to the next.
 fn way([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
-    let (low, high) = (middle + SWING, middle - SWING);
+    // A short way is no steeper than a long one.
+    let swing = SWING.min((to - from) / 12.0);
+    let (low, high) = (middle + swing, middle - swing);
     match ease {
         Ease::Step => vec![pos2(from, low), pos2(to, low), pos2(to, high)],
         Ease::Linear => vec![pos2(from, low), pos2(to, high)],

@@ -48,7 +48,7 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Ve
     let field = NumberField::new("Current frame", &mut frame, f64::NEG_INFINITY..=f64::INFINITY)
         .reading(&read)
         .tip("", "The frame that is shown. A time may be typed: 1.5 s.");
-    if field.unlabelled(52.0).show(ui).changed {
+    if field.unlabelled(52.0).centred().show(ui).changed {
         let frame = frame.clamp(-MAX_FRAME, MAX_FRAME);
         asks.push(Ask::Timeline(TimelineEvent::GoTo(frame)));
     }

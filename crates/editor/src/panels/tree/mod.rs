@@ -33,7 +33,7 @@ pub fn tree(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         moved
     });
     let state = ColumnState::with(ui.ctx(), |state| state.clone());
-    let rows = rows::rows(loaded, &state);
+    let rows = rows::rows(shown.document, &state);
     let output = ScrollArea::vertical().id_salt("tree").auto_shrink(false).show(ui, |ui| {
         let mut placed = Vec::new();
         for row in &rows {
@@ -106,7 +106,7 @@ fn show_row(ui: &mut Ui, row: &Row, (shown, moved): (&Shown<'_>, bool), asks: &m
             };
             selection.contains(item) || selection.active().is_some_and(of_guide)
         }
-        None => selection.items().is_empty(),
+        None => selection.items().is_empty() && !shown.document.scene().objects.is_empty(),
     };
     let drawn = TreeRow {
         name: &row.name,
@@ -124,7 +124,8 @@ fn show_row(ui: &mut Ui, row: &Row, (shown, moved): (&Shown<'_>, bool), asks: &m
     let answer = if can_hide { drawn.show(ui) } else { drawn.show_bare(ui) };
     let rect = answer.response.rect;
     if drawn.selected && moved {
-        ui.scroll_to_rect(rect, None);
+        // With a row above and below, clear of where the list fades out.
+        ui.scroll_to_rect(rect.expand2(vec2(0.0, 1.5 * measure::TREE_ROW)), None);
     }
     let Some(item) = &row.item else {
         if answer.response.clicked() {
@@ -205,7 +206,14 @@ fn words_below(ui: &mut Ui, rows: &[Row], state: &ColumnState, empty: bool) {
         _ => return,
     };
     let weak = Tokens::of(ui).weak;
-    egui::Frame::new().inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
-        ui.label(RichText::new(words).font(type_face::small()).color(weak));
+    ui.add_space(16.0);
+    egui::Frame::new().inner_margin(egui::Margin::symmetric(40, 0)).show(ui, |ui| {
+        ui.vertical_centered(|ui| {
+            if state.search.is_none() {
+                ui.label(RichText::new(icons::OBJECT.glyph()).font(type_face::icon(28.0)).color(weak));
+                ui.add_space(8.0);
+            }
+            ui.label(RichText::new(words).font(type_face::small()).color(weak));
+        });
     });
 }

@@ -1,9 +1,8 @@
 //! The rows of the scene tree.
 
 use egui::Color32;
-use impasto_editor_model::Item;
+use impasto_editor_model::{Document, Item};
 use impasto_scene::document::{Color, Direction, Object, Region, Scene};
-use impasto_scene::loaded::LoadedScene;
 use impasto_scene::new_scene::REGION_COLORS;
 
 use crate::icons;
@@ -70,7 +69,8 @@ impl Row {
 }
 
 /// The rows as they are shown, top to bottom.
-pub(super) fn rows(loaded: &LoadedScene, state: &ColumnState) -> Vec<Row> {
+pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<Row> {
+    let loaded = document.shown();
     let scene = &loaded.scene;
     let searched = state.search.as_deref().map(str::trim).filter(|text| !text.is_empty());
     let camera = Row {
@@ -81,7 +81,7 @@ pub(super) fn rows(loaded: &LoadedScene, state: &ColumnState) -> Vec<Row> {
     let light = RowMark::Icon(icons::LIGHT);
     rows.extend(scene.lights.iter().map(|of| Row::new(Item::Light(of.name.clone()), "light", light)));
     let few = scene.objects.len() + scene.regions.len() + rows.len() <= ROWS_OPEN_AT_FIRST;
-    let listing = Listing { loaded, state, few, all: searched.is_some() };
+    let listing = Listing { document, state, few, all: searched.is_some() };
     listing.objects_on(None, 0, &mut rows);
     rows.extend(
         scene
@@ -103,7 +103,7 @@ pub(super) fn rows(loaded: &LoadedScene, state: &ColumnState) -> Vec<Row> {
 }
 
 struct Listing<'a> {
-    loaded: &'a LoadedScene,
+    document: &'a Document,
     state: &'a ColumnState,
     few: bool,
     all: bool,
@@ -111,7 +111,7 @@ struct Listing<'a> {
 
 impl Listing<'_> {
     fn objects_on(&self, parent: Option<&str>, depth: usize, rows: &mut Vec<Row>) {
-        let scene = &self.loaded.scene;
+        let scene = &self.document.shown().scene;
         for object in scene.objects.iter().filter(|object| object.parent.as_deref() == parent) {
             let name = object.name.as_str();
             let regions = || {
@@ -120,7 +120,7 @@ impl Listing<'_> {
             let is_parent = regions().next().is_some()
                 || scene.objects.iter().any(|other| other.parent.as_deref() == Some(name));
             let open = self.all || self.state.rows.get(name).copied().unwrap_or(self.few);
-            let wrong = !self.loaded.meshes.contains_key(&object.mesh);
+            let wrong = self.document.lacks_mesh(&object.mesh);
             rows.push(Row {
                 depth,
                 expanded: is_parent.then_some(open),

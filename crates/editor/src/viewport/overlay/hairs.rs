@@ -23,7 +23,7 @@ pub struct HairMark {
     pub angle_rad: f32,
     /// How it is drawn.
     pub ink: HairInk,
-    /// Whether it is of a region that is not being painted.
+    /// Whether it is of something else than what is painted or posed.
     pub faint: bool,
 }
 
@@ -50,7 +50,7 @@ pub fn hairs(sheet: &Sheet<'_>, marks: &[HairMark]) {
 
 fn draw(painter: &Painter, ends: [Pos2; 2], hair: HairInk, share: f32) {
     let ink = |colour: Color32| {
-        Ink::new(WIDTH, colour.gamma_multiply(share), (WIDTH + 1.6, ink::black(0.55 * share)))
+        Ink::new(WIDTH, colour.gamma_multiply(share), (WIDTH + 1.8, ink::black(0.7 * share)))
     };
     match hair {
         HairInk::Plain => ink(ink::WHITE).segment(painter, ends),
