@@ -12,7 +12,6 @@ use impasto_editor::panels::{Ask, Numbers, Shown, problems, status_line, top_bar
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::keymap::Preset;
-use impasto_editor_model::timeline::TimeHand;
 use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
 
@@ -64,11 +63,10 @@ impl Page {
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
         let session = Session::default();
-        let time = TimeHand::default();
         let shown = Shown {
             document: self.editor.document(),
             session: &session,
-            time: &time,
+            time: self.editor.time(),
             painting: None,
             keys: Preset::Blender,
             status: "",
