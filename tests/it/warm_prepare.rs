@@ -1,8 +1,9 @@
 //! A painting prepared after an edit is, to the bit, the one that is prepared from nothing.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use impasto_painting::{Frame, FrameOptions, Preparer, prepare};
+use impasto_painting::{Frame, FrameOptions, PrepareError, Preparer, prepare};
 use impasto_scene::document::{
     Bend, Color, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector,
     Solver, Style,
@@ -142,4 +143,27 @@ fn a_warm_prepare_gives_the_bits_of_a_cold_one() {
     }
     // The edits did what they say.
     assert!(counts.windows(2).filter(|pair| pair[0] != pair[1]).count() > 6, "{counts:?}");
+}
+
+#[test]
+fn what_was_given_up_half_way_is_prepared_to_the_same_bits_after() {
+    let mut preparer = Preparer::default();
+    let mut loaded = start();
+    preparer.prepare(Arc::clone(&loaded)).unwrap();
+    let mut given_up = 0;
+    for (index, (name, edit)) in edits().into_iter().enumerate() {
+        let mut next = (*loaded).clone();
+        edit(&mut next.scene);
+        loaded = Arc::new(next);
+        // Each edit is given up at another step.
+        let asked = AtomicUsize::new(0);
+        let give_up = || asked.fetch_add(1, Ordering::Relaxed) >= index % 5;
+        let result = preparer.prepare_unless(Arc::clone(&loaded), &give_up);
+        given_up += usize::from(result.err() == Some(PrepareError::GivenUp));
+        let warm = preparer.prepare(Arc::clone(&loaded)).unwrap();
+        let cold = prepare(Arc::clone(&loaded)).unwrap();
+        let [a, b]: [Frame; 2] = [&warm, &cold].map(|painting| painting.at(7.5, &OPTIONS));
+        assert!(a.strokes == b.strokes && a.sources == b.sources, "{name}: strokes differ");
+    }
+    assert!(given_up > 15, "only {given_up} were given up");
 }

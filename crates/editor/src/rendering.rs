@@ -19,7 +19,7 @@ use impasto_editor_model::render_settings::{
 use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer};
-use impasto_painting::{FrameOptions, prepare};
+use impasto_painting::{FrameOptions, PrepareError, Preparer};
 
 #[cfg(test)]
 mod tests;
@@ -167,7 +167,12 @@ fn run(shared: &Shared, plan: &RenderPlan, wake: &dyn Fn()) -> Result<Outcome, S
     if shared.is_stopped() {
         return Ok(Outcome::Stopped);
     }
-    let painting = prepare(Arc::clone(&plan.loaded)).map_err(|error| error.to_string())?;
+    let prepared = Preparer::default().prepare_unless(Arc::clone(&plan.loaded), &|| shared.is_stopped());
+    let painting = match prepared {
+        Ok(painting) => painting,
+        Err(PrepareError::GivenUp) => return Ok(Outcome::Stopped),
+        Err(error) => return Err(error.to_string()),
+    };
     shared.note(|board| board.progress.stage = Stage::Drawing);
     wake();
     let options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
@@ -194,13 +199,12 @@ fn run(shared: &Shared, plan: &RenderPlan, wake: &dyn Fn()) -> Result<Outcome, S
         let Some(picture) = drawn.map_err(|error| failed(&error))? else { return Ok(Outcome::Stopped) };
         provenance.frame = frame_number.to_string();
         write(&path, &picture, &provenance).map_err(|error| failed(&error))?;
-        let strokes = renderer.resolved_strokes().iter().filter(|stroke| stroke.alpha > 0.0).count();
         let small = small_copy(&picture);
         shared.note(|board| {
             let progress = &mut board.progress;
             progress.written += 1;
             progress.drawing_s += began.elapsed().as_secs_f64();
-            progress.strokes = strokes;
+            progress.strokes = frame.strokes.len();
             progress.last = Some(path);
             board.picture = Some(small);
         });

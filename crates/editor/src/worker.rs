@@ -125,6 +125,11 @@ impl Worker {
         self.desk.put(job, ahead);
     }
 
+    /// Gives up preparing what is to be shown now: what was shown before stays, until something else is to be shown.
+    pub fn stop_preparing(&self) {
+        self.desk.stop_preparing();
+    }
+
     /// Everything that has come since the last call; of several pictures of one view, the newest.
     pub fn poll(&self) -> Vec<Report> {
         self.desk.collect()

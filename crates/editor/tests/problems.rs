@@ -12,7 +12,6 @@ use impasto_editor::panels::{Ask, Numbers, Shown, problems, status_line, top_bar
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::keymap::Preset;
-
 use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
 

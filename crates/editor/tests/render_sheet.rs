@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Color32, ColorImage, Key, Modifiers, TextureHandle, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use egui_kittest::{Harness, SnapshotOptions};
+use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use headless::Headless;
 use impasto_editor::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
 use impasto_editor::theme::{self, Theme};
@@ -109,11 +109,14 @@ fn is_enabled(harness: &Harness<'_, Page>, name: &str) -> bool {
 
 #[test]
 fn the_sheet_looks_as_it_did() {
-    let mut settings = harness(Page::unsaved());
-    assert!(settings.query_by_label("Render settings").is_some());
-    settings.snapshot_options("render_dark", &SnapshotOptions::new().threshold(0.6));
-    let mut running = harness(Page::unsaved().running());
-    running.snapshot_options("render_running_dark", &SnapshotOptions::new().threshold(0.6));
+    let mut results = SnapshotResults::new();
+    for (page, name) in [(Page::unsaved(), "render_dark"), (Page::unsaved().running(), "render_running_dark")]
+    {
+        let mut harness = harness(page);
+        assert!(harness.query_by_label("Render settings").is_some());
+        harness.snapshot_options(name, &SnapshotOptions::new().threshold(0.6));
+        results.extend_harness(&mut harness);
+    }
 }
 
 #[test]
@@ -129,11 +132,11 @@ fn every_setting_is_reached_by_name() {
     assert_eq!(harness.state().settings.size_px, [scene.size.0 / 2, scene.size.1 / 2]);
     harness.get_by_label("Width px").focus();
     harness.run();
-    harness.key_press(Key::ArrowUp);
+    harness.key_press(Key::ArrowRight);
     harness.run();
     harness.get_by_label("Height px").focus();
     harness.run();
-    harness.key_press(Key::ArrowDown);
+    harness.key_press(Key::ArrowLeft);
     harness.run();
     assert_eq!(harness.state().settings.size_px, [scene.size.0 / 2 + 1, scene.size.1 / 2 - 1]);
     fill(&mut harness, "Output files", "best/f_##.png");

@@ -37,6 +37,9 @@ pub enum PrepareError {
         /// Path of the mesh as written in the scene.
         mesh: String,
     },
+    /// Whoever asked wants it no more.
+    #[error("preparing was given up")]
+    GivenUp,
 }
 
 /// How long a step of preparing took.
@@ -122,6 +125,18 @@ impl Preparer {
     /// # Errors
     /// When a mesh that the scene names was not handed over with it.
     pub fn prepare(&mut self, loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
+        self.prepare_unless(loaded, &|| false)
+    }
+
+    /// As [`Preparer::prepare`], given up as soon as `give_up` says so; what was made by then is kept for the next time.
+    ///
+    /// # Errors
+    /// As there, and [`PrepareError::GivenUp`].
+    pub fn prepare_unless(
+        &mut self,
+        loaded: Arc<LoadedScene>,
+        give_up: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Painting, PrepareError> {
         let mut clock = StepClock::new();
         let scene = &loaded.scene;
         let paper = presets::is_paper(scene);
@@ -157,6 +172,9 @@ impl Preparer {
         let inputs = surface_inputs(&loaded)?;
         kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
         clock.lap("surfaces");
+        if give_up() {
+            return self.given_up(scene, kept);
+        }
         let of_body: Vec<Arc<BodyReferences>> =
             (0..kept.len()).map(|object| Arc::new(references.of_body(object))).collect();
         let mut bodies: Vec<PreparedBody> = kept
@@ -197,14 +215,27 @@ impl Preparer {
             })
             .collect();
         kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.sample(&context, object));
+        if give_up() {
+            return self.given_up(scene, kept);
+        }
         kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.pose(object));
         clock.lap("sampling");
         if matches!(solver, Solver::Horn | Solver::HornExact) {
             kept.par_iter_mut().for_each(KeptObject::find_neighbours);
             clock.lap("neighbours");
         }
-        kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.solve_field(&context, object));
+        if give_up() {
+            return self.given_up(scene, kept);
+        }
+        kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| {
+            if !give_up() {
+                kept.solve_field(&context, object);
+            }
+        });
         clock.lap("field");
+        if give_up() {
+            return self.given_up(scene, kept);
+        }
         let coats: Vec<Vec<Arc<Coat>>> =
             kept.par_iter_mut().zip(&objects).map(|(kept, &object)| kept.bake(&context, object)).collect();
         let coats: Vec<Arc<Coat>> = coats.into_iter().flatten().collect();
@@ -241,6 +272,12 @@ impl Preparer {
 }
 
 impl Preparer {
+    /// Each step is kept with its inputs, so that those that are done need not be done again.
+    fn given_up(&mut self, scene: &Scene, kept: Vec<KeptObject>) -> Result<Painting, PrepareError> {
+        self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
+        Err(PrepareError::GivenUp)
+    }
+
     fn order(&mut self, coats: &[Arc<Coat>], rules: &[RegionRule]) -> Arc<Vec<OrderEntry>> {
         let inputs = OrderInputs::new(coats, rules);
         let kept = self.order.take().filter(|(before, _)| *before == inputs);

@@ -47,7 +47,11 @@ impl EditorApp {
             }
             Ask::Recapture(frame) => self.sheets.recapture = Some(frame),
             Ask::StopWork(WorkKind::Reading) => self.stop_reading(),
-            Ask::StopWork(_) => {}
+            Ask::StopWork(WorkKind::Preparing) => {
+                self.studio.stop_preparing();
+                self.toast("Preparing was stopped: the picture is the one before", None, false);
+            }
+            Ask::StopWork(WorkKind::Rendering) => {}
             Ask::Welcome => self.sheets.welcome = true,
         }
     }

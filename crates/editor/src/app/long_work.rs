@@ -168,6 +168,31 @@ impl EditorApp {
         }
     }
 
+    /// What runs beside the window, as the status line shows it; the rightmost first.
+    pub(super) fn works(&self, ctx: &Context) -> Vec<Work> {
+        let mut works: Vec<Work> = self.render.work().into_iter().collect();
+        works.extend(self.long.work());
+        if let Some(waited) = self.studio.preparing_for() {
+            match SHOWN_AFTER.checked_sub(waited).filter(|rest| !rest.is_zero()) {
+                Some(rest) => ctx.request_repaint_after(rest),
+                None => {
+                    let words = format!("Preparing {}\u{2026}", self.what_is_painted());
+                    works.push(Work { words, share: None, kind: WorkKind::Preparing });
+                }
+            }
+        }
+        works
+    }
+
+    /// The only object by its name, or the scene.
+    fn what_is_painted(&self) -> String {
+        let document = self.editor.document();
+        match &document.scene().objects[..] {
+            [only] => only.name.clone(),
+            _ => document.name().trim_end_matches(".ron").to_owned(),
+        }
+    }
+
     /// Ends what is being read; the document is as it was.
     pub(super) fn stop_reading(&mut self) {
         if let Some(reading) = &self.long.reading {

@@ -31,7 +31,6 @@ use impasto_scene::problem::Report;
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
-use crate::panels::work::Work;
 use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
@@ -202,7 +201,7 @@ impl EditorApp {
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
-        let works: Vec<Work> = self.long.work().into_iter().chain(self.render.work()).collect();
+        let works = self.works(ui.ctx());
         let shown = Shown {
             document: self.editor.document(),
             session: &self.editor.session,

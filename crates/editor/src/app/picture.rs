@@ -1,7 +1,7 @@
 //! The thread that draws, seen from the window: what it is asked for, and what it has to tell.
 
 use std::collections::VecDeque;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use egui::{Context, Rect};
 use impasto_editor_model::editor::Editor;
@@ -35,6 +35,8 @@ pub(super) struct Studio {
     asked: Option<(u64, Vec<ViewJob>)>,
     /// Whether the newest scene is prepared.
     prepared: u64,
+    /// The scene that is being prepared, and since when.
+    preparing: Option<(u64, Instant)>,
     layout: Layout,
     strokes: usize,
     strokes_of: Vec<(String, usize)>,
@@ -59,6 +61,7 @@ impl Studio {
             trouble,
             asked: None,
             prepared: 0,
+            preparing: None,
             layout: Layout::single(
                 Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(950.0, 650.0)),
                 (16, 9),
@@ -74,6 +77,7 @@ impl Studio {
     pub(super) fn forget(&mut self) {
         self.pictures.clear();
         self.asked = None;
+        self.preparing = None;
     }
 
     pub(super) fn driver(&self) -> &str {
@@ -98,6 +102,19 @@ impl Studio {
         let newest = self.came.back()?;
         let recent = self.came.iter().filter(|at| newest.duration_since(**at).as_secs_f64() < SPAN_S).count();
         (newest.elapsed().as_secs_f64() < SPAN_S && recent > 1).then_some(recent as f64)
+    }
+
+    /// How long a scene has been prepared, as long as it is.
+    pub(super) fn preparing_for(&self) -> Option<Duration> {
+        self.preparing.map(|(_, since)| since.elapsed())
+    }
+
+    /// Gives up preparing; the pictures that are shown stay.
+    pub(super) fn stop_preparing(&mut self) {
+        self.preparing = None;
+        if let Some(worker) = &self.worker {
+            worker.stop_preparing();
+        }
     }
 
     /// What the viewport shows, for picking and tools.
@@ -131,6 +148,7 @@ impl Studio {
                 }
                 Report::Prepared(painting, serial) => {
                     self.prepared = serial;
+                    self.preparing = self.preparing.filter(|(awaited, _)| *awaited != serial);
                     editor.prepared(*painting);
                 }
                 Report::Picture(picture) => {
@@ -154,7 +172,10 @@ impl Studio {
                     }
                     self.pictures.take(ctx, picture);
                 }
-                Report::Failed(words) => self.trouble = Some(words),
+                Report::Failed(words) => {
+                    self.preparing = None;
+                    self.trouble = Some(words);
+                }
             }
         }
         news
@@ -194,6 +215,9 @@ impl Studio {
             let loaded = std::sync::Arc::clone(loaded);
             let ahead = editor.time().playback.upcoming().map(|next| self.views(editor, next));
             let views = job.1.clone();
+            if version != self.prepared && self.preparing.is_none_or(|(awaited, _)| awaited != version) {
+                self.preparing = Some((version, Instant::now()));
+            }
             worker.play(Job { loaded, serial: version, views }, ahead.unwrap_or_default());
         }
         self.asked = Some(job);

@@ -114,9 +114,9 @@ fn head(ui: &mut Ui, runs: bool) -> Option<RenderAsk> {
 /// A row with its label at the left.
 fn labelled<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-    within(ui, rect, row(), |ui| {
-        ui.label(RichText::new(label).font(type_face::body()).color(Tokens::of(ui).weak));
-    });
+    // The control itself is found by its name.
+    let colour = Tokens::of(ui).weak;
+    ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, label, type_face::body(), colour);
     within(ui, rect.with_min_x(rect.left() + LABEL), row(), |ui| {
         ui.spacing_mut().item_spacing.x = measure::GAP;
         contents(ui)
@@ -150,7 +150,7 @@ fn text(ui: &mut Ui, (name, wide): (&str, f32), typed: &mut String, wrong: bool)
         .font(type_face::number())
         .text_color(tokens.text)
         .frame(frame.inner_margin(Margin::symmetric(8, 4)))
-        .desired_width(wide - 16.0);
+        .desired_width(wide);
     let response = ui.add(edit);
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(Role::TextInput, ui.is_enabled(), name);
@@ -221,7 +221,7 @@ fn size(ui: &mut Ui, shown: &RenderShown<'_>, settings: &mut RenderSettings) {
 fn files(ui: &mut Ui, settings: &mut RenderSettings, fault: Option<&Fault>) -> Option<RenderAsk> {
     labelled(ui, "Files", |ui| {
         let wrong = fault.is_some_and(|fault| fault.field == Field::Output);
-        let wide = ui.available_width() - 92.0;
+        let wide = ui.available_width() - 88.0;
         text(ui, ("Output files", wide), &mut settings.output, wrong);
         let browse = Button::new("Browse\u{2026}").name("Browse for output files");
         browse.show(ui).clicked().then_some(RenderAsk::Browse)

@@ -1,4 +1,4 @@
-use egui::{Area, Context, CornerRadius, Frame, Id, Key, Margin, Modal, RichText, Ui};
+use egui::{Area, Color32, Context, CornerRadius, Frame, Id, Key, Margin, Modal, RichText, Ui};
 
 use super::Button;
 use crate::theme::{Theme, Tokens, measure, type_face};
@@ -22,7 +22,14 @@ pub type DialogResponse = Option<usize>;
 /// Shows a question over everything. Returns the verb that was chosen.
 pub fn dialog(ctx: &Context, asked: &Dialog<'_>) -> DialogResponse {
     let mut chosen = None;
-    sheet(ctx, asked.title, 432.0, |ui| {
+    let wide = ctx.fonts_mut(|fonts| {
+        let mut width = |verb: &&str| {
+            fonts.layout_no_wrap((*verb).to_owned(), type_face::head(), Color32::WHITE).size().x
+        };
+        let verbs = asked.verbs.iter().map(|verb| width(verb) + 32.0 + measure::GAP);
+        verbs.sum::<f32>() + 2.0 * measure::SHEET_PADDING
+    });
+    sheet(ctx, asked.title, wide.max(432.0), |ui| {
         let tokens = Tokens::of(ui);
         ui.label(RichText::new(asked.title).font(type_face::title()).color(tokens.text));
         ui.add_space(4.0);

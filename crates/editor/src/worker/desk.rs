@@ -21,6 +21,8 @@ pub(super) struct Desk {
     tray: Mutex<Tray>,
     /// The ticket of the last job that was put down; `u64::MAX` once closed.
     newest: AtomicU64,
+    /// The ticket of the last job whose preparing was stopped.
+    stopped: AtomicU64,
 }
 
 #[derive(Default)]
@@ -72,6 +74,17 @@ impl Desk {
     /// Whether a later job lies on the desk, or the desk is closed.
     pub(super) fn is_stale(&self, order: &Order) -> bool {
         self.newest.load(Ordering::Acquire) != order.ticket
+    }
+
+    /// The job that was put down last is not to be prepared to its end.
+    pub(super) fn stop_preparing(&self) {
+        self.stopped.store(self.newest.load(Ordering::Acquire), Ordering::Release);
+    }
+
+    /// Whether preparing this job is given up: it was stopped, or the desk is closed.
+    pub(super) fn gives_up(&self, order: &Order) -> bool {
+        let is_closed = self.newest.load(Ordering::Acquire) == u64::MAX;
+        is_closed || self.stopped.load(Ordering::Acquire) >= order.ticket
     }
 
     /// Waits until a job is this old. Returns whether no later one came.

@@ -11,7 +11,9 @@ use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
-use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Quality, Recall, StrokeColors};
+use impasto_painting::{
+    Frame, FrameOptions, Painting, PrepareError, Preparer, Quality, Recall, StrokeColors,
+};
 
 use super::ahead::Ahead;
 use super::desk::{Desk, Order};
@@ -110,7 +112,7 @@ impl Studio {
     }
 
     fn work(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) {
-        let Some(painting) = self.prepare(order, tell) else { return };
+        let Some(painting) = self.prepare(order, desk, tell) else { return };
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
         let wanted: Vec<usize> =
@@ -150,17 +152,18 @@ impl Studio {
         }
     }
 
-    fn prepare(&mut self, order: &Order, tell: Tell<'_>) -> Option<Painting> {
+    fn prepare(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) -> Option<Painting> {
         let serial = order.job.serial;
         if let Some((painting, _)) = self.prepared.as_ref().filter(|(_, prepared)| *prepared == serial) {
             return Some(painting.clone());
         }
-        match self.preparer.prepare(Arc::clone(&order.job.loaded)) {
+        match self.preparer.prepare_unless(Arc::clone(&order.job.loaded), &|| desk.gives_up(order)) {
             Ok(painting) => {
                 self.prepared = Some((painting.clone(), serial));
                 tell(Report::Prepared(Box::new(painting.clone()), serial));
                 Some(painting)
             }
+            Err(PrepareError::GivenUp) => None,
             Err(error) => {
                 tell(Report::Failed(error.to_string()));
                 None
