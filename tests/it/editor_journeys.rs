@@ -13,6 +13,11 @@ use crate::editor_window::{folder, read};
 const FRAME_FIELD: [&str; 2] = ["182", "573"];
 const OPEN_A_MESH: [&str; 2] = ["378", "560"];
 
+/// In the render sheet.
+const THIS_FRAME: [&str; 2] = ["515", "330"];
+const HALF: [&str; 2] = ["650", "364"];
+const RENDER: [&str; 2] = ["862", "514"];
+
 /// Middles of the brushes and of the length in the inspector of a region.
 const SECOND_BRUSH: [&str; 2] = ["1089", "529"];
 const LENGTH: [&str; 2] = ["1170", "607"];
@@ -122,7 +127,29 @@ fn from_a_mesh_to_a_saved_film() {
     editor.keys(&["Return"]);
     editor.wait_for_title("my film.ron - Impasto");
     editor.keep_picture("9_saved");
+
+    editor.keys(&["F12"]);
+    screen.hand(&["sleep", "1"]);
+    click(&screen, THIS_FRAME);
+    click(&screen, HALF);
+    editor.keep_picture("10_render");
+    click(&screen, RENDER);
+    let picture = wait_for("a picture in out/", || {
+        let mut files =
+            std::fs::read_dir(folder.path().join("out")).ok()?.flatten().map(|entry| entry.path());
+        files.find(|path| path.extension().is_some_and(|extension| extension == "png"))
+    });
+    screen.hand(&["sleep", "1"]);
+    editor.keep_picture("11_rendered");
+    editor.keys(&["Escape"]);
+    screen.hand(&["sleep", "0.5"]);
     assert_eq!(editor.quit(), Some(0));
+    let frame = picture.file_stem().unwrap().to_string_lossy().rsplit('_').next().unwrap().to_owned();
+    let mut command = Command::new(impasto());
+    command.args(["render", "my film.ron", "--frames", &frame, "--size", "640x360", "-o", "again.png"]);
+    assert!(command.current_dir(folder.path()).status().unwrap().success());
+    let [window, again] = [picture, folder.path().join("again.png")].map(|path| std::fs::read(path).unwrap());
+    assert!(window == again, "the window renders what the command line does");
 
     let scene = read(folder.path(), "my film.ron");
     checked(folder.path(), "my film.ron");
