@@ -223,11 +223,7 @@ impl Editor {
 
     /// Takes the painting that was prepared of what is shown.
     pub fn prepared(&mut self, painting: Painting) {
-        let morphs = motion::morphs_at(painting.scene(), self.session.frame);
-        let count = painting.scene().objects.len();
-        let bodies: Vec<_> =
-            (0..count).map(|object| Arc::clone(painting.surface(object))).zip(morphs).collect();
-        self.picker.update(&bodies);
+        self.picker.follow(&painting, self.session.frame);
         self.painting = Some(painting);
         // What lies under a resting pointer is another.
         self.has_rested = false;

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::sampling::Particle;
+use impasto_painting::Painting;
 use impasto_painting::frame::BodySurface;
+use impasto_scene::motion;
 
 mod surface;
 #[cfg(test)]
@@ -17,10 +19,12 @@ pub use surface::SurfacePoint;
 pub use view::{Ray, View};
 
 /// Finds surfaces under rays. Keeps a tree per object and builds those anew whose surface changed.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Picker {
     /// One per object, in the order of the scene.
     trees: Vec<Arc<SurfaceTree>>,
+    /// Trees that were built elsewhere, for the next update.
+    offered: Vec<Arc<SurfaceTree>>,
 }
 
 /// Where a ray meets the scene.
@@ -53,13 +57,15 @@ impl Picker {
     /// one). Returns how many trees had to be built.
     pub fn update(&mut self, bodies: &[(Arc<BodySurface>, f64)]) -> usize {
         let kept = std::mem::take(&mut self.trees);
+        let offered = std::mem::take(&mut self.offered);
         let mut built = 0;
         self.trees = bodies
             .iter()
             .enumerate()
             .map(|(index, (surface, morph))| {
                 // The usual place first: an object added or removed moves the others.
-                let known = kept.get(index).into_iter().chain(&kept).find(|tree| tree.is_of(surface, *morph));
+                let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
+                let known = all.into_iter().find(|tree| tree.is_of(surface, *morph));
                 known.map_or_else(
                     || {
                         built += 1;
@@ -70,6 +76,19 @@ impl Picker {
             })
             .collect();
         built
+    }
+
+    /// As [`Picker::update`], with the surfaces of a painting as they are at a frame.
+    pub fn follow(&mut self, painting: &Painting, frame: f64) -> usize {
+        let morphs = motion::morphs_at(painting.scene(), frame);
+        let surfaces = (0..morphs.len()).map(|object| Arc::clone(painting.surface(object)));
+        self.update(&surfaces.zip(morphs).collect::<Vec<_>>())
+    }
+
+    /// Takes the trees of another picker, so that the next update need not build them: a large surface takes its time, and
+    /// another thread may have it.
+    pub fn learn(&mut self, other: Self) {
+        self.offered = other.trees;
     }
 
     /// The nearest visible surface on a ray, whichever of its sides is met. `poses` are the objects' `world_from_model`.

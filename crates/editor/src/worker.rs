@@ -9,6 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use egui::ColorImage;
+use impasto_editor_model::picking::Picker;
 use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{ContextReport, Driver};
 use impasto_painting::Painting;
@@ -66,8 +67,8 @@ impl ViewJob {
 pub enum Report {
     /// The driver that draws.
     Opened(ContextReport),
-    /// A scene is prepared: hairs and picking may use it. With its serial.
-    Prepared(Box<Painting>, u64),
+    /// A scene is prepared: hairs and picking may use it, with what picking needs of it. With its serial.
+    Prepared(Box<(Painting, Picker)>, u64),
     /// A picture.
     Picture(Picture),
     /// What went wrong, in words for people. The thread goes on.

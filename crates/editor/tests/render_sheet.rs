@@ -9,11 +9,15 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use headless::Headless;
 use impasto_editor::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
+use impasto_editor::panels::work::{Work, WorkKind};
+use impasto_editor::panels::{Ask, Numbers, Shown, status_line};
 use impasto_editor::theme::{self, Theme};
-use impasto_editor_model::Document;
+use impasto_editor_model::keymap::{Action, Preset};
 use impasto_editor_model::render_settings::{
     Outcome, RenderDriver, RenderProgress, RenderSettings, Stage, Which,
 };
+use impasto_editor_model::timeline::TimeHand;
+use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
 
 struct Page {
@@ -195,4 +199,57 @@ fn while_frames_come_they_can_be_stopped_or_left_alone() {
     assert!(harness.query_by_label("Stop").is_none() && is_enabled(&harness, "Open folder"));
     click(&mut harness, "Start rendering");
     assert_eq!(asked(&mut harness), [RenderAsk::Render]);
+}
+
+/// The status line with what runs beside the window.
+struct Line {
+    document: Document,
+    works: Vec<Work>,
+    asked: Vec<Ask>,
+}
+
+#[test]
+fn what_takes_its_time_stands_in_the_status_line_and_can_be_stopped() {
+    let work = |words: &str, share, kind| Work { words: words.to_owned(), share, kind };
+    let line = Line {
+        document: Document::empty(Path::new("/pictures/pears")),
+        works: vec![
+            work("Rendering 47 of 120", Some(0.39), WorkKind::Rendering),
+            work("Importing bunny.obj\u{2026}", None, WorkKind::Reading),
+            work("Preparing bunny\u{2026}", None, WorkKind::Preparing),
+        ],
+        asked: Vec::new(),
+    };
+    let page = |ui: &mut egui::Ui, line: &mut Line| {
+        let shown = Shown {
+            document: &line.document,
+            session: &Session::default(),
+            time: &TimeHand::default(),
+            painting: None,
+            keys: Preset::Blender,
+            status: "[Drag] comb",
+            numbers: Numbers { strokes: 5774, works: &line.works, ..Numbers::default() },
+            recent: &[],
+            likely_meshes: &[],
+        };
+        status_line::status_line(ui, &shown, &mut line.asked);
+    };
+    let mut harness = Harness::builder()
+        .with_size(vec2(1280.0, 60.0))
+        .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
+        .build_ui_state(page, line);
+    // What goes to and fro never rests.
+    harness.run_steps(4);
+    for name in ["Rendering 47 of 120", "Stop: importing bunny.obj", "Stop: preparing bunny"] {
+        harness.get_by_label(name).click();
+        harness.run_steps(4);
+    }
+    let asked = &harness.state().asked;
+    assert!(
+        matches!(
+            asked[..],
+            [Ask::Act(Action::Render), Ask::StopWork(WorkKind::Reading), Ask::StopWork(WorkKind::Preparing)]
+        ),
+        "{asked:?}"
+    );
 }

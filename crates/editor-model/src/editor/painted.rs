@@ -4,8 +4,17 @@ use impasto_core::sampling::Particle;
 use impasto_painting::{Painting, SurfacePlace};
 use impasto_scene::motion::CameraPose;
 
-use crate::picking::Hit;
+use super::Editor;
+use crate::picking::{Hit, Picker};
 use crate::tools::{Painted, Shown};
+
+impl Editor {
+    /// As [`Editor::prepared`], with what a picker on another thread has built of it.
+    pub fn prepared_with(&mut self, painting: Painting, picker: Picker) {
+        self.picker.learn(picker);
+        self.prepared(painting);
+    }
+}
 
 /// A painting as a camera sees it; none before the first is prepared.
 pub(super) struct Seen<'a> {

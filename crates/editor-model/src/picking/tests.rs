@@ -256,3 +256,21 @@ fn a_pixel_its_ray_and_back() {
         }
     }
 }
+
+#[test]
+fn what_another_picker_has_built_is_not_built_again() {
+    let bodies = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
+    let mut there = Picker::default();
+    assert_eq!(there.update(&bodies), 1);
+    let mut here = Picker::default();
+    here.learn(there.clone());
+    assert_eq!(here.update(&bodies), 0);
+    let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: -DVec3::Z };
+    let hits = [&there, &here].map(|picker| picker.pick(&ray, &[DAffine3::IDENTITY], |_| true));
+    assert!(hits[0].is_some() && hits[0] == hits[1]);
+    // Of another surface it is of no use.
+    let other = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
+    let mut elsewhere = Picker::default();
+    elsewhere.learn(there);
+    assert_eq!(elsewhere.update(&other), 1);
+}

@@ -146,10 +146,11 @@ impl Studio {
                     let name = report.renderer.split(" (").next().unwrap_or(&report.renderer);
                     name.clone_into(&mut self.driver);
                 }
-                Report::Prepared(painting, serial) => {
+                Report::Prepared(prepared, serial) => {
+                    let (painting, picker) = *prepared;
                     self.prepared = serial;
                     self.preparing = self.preparing.filter(|(awaited, _)| *awaited != serial);
-                    editor.prepared(*painting);
+                    editor.prepared_with(painting, picker);
                 }
                 Report::Picture(picture) => {
                     self.trouble = None;

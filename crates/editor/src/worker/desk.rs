@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use impasto_editor_model::picking::Picker;
 use impasto_gl_render::context::ContextReport;
 use impasto_painting::Painting;
 
@@ -35,7 +36,7 @@ struct Orders {
 #[derive(Default)]
 struct Tray {
     opened: Option<ContextReport>,
-    prepared: Option<(Box<Painting>, u64)>,
+    prepared: Option<(Box<(Painting, Picker)>, u64)>,
     pictures: BTreeMap<usize, Picture>,
     failures: Vec<String>,
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::ColorImage;
+use impasto_editor_model::picking::Picker;
 use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
@@ -56,6 +57,8 @@ type Tell<'a> = &'a dyn Fn(Report);
 
 struct Studio {
     preparer: Preparer,
+    /// Builds what the window needs to pick.
+    picker: Picker,
     prepared: Option<(Painting, u64)>,
     /// `None` where no driver was found: then scenes are prepared, and nothing is drawn.
     renderer: Option<Renderer>,
@@ -101,6 +104,7 @@ impl Studio {
         };
         Self {
             preparer: Preparer::default(),
+            picker: Picker::default(),
             prepared: None,
             renderer,
             drawn: Vec::new(),
@@ -160,7 +164,9 @@ impl Studio {
         match self.preparer.prepare_unless(Arc::clone(&order.job.loaded), &|| desk.gives_up(order)) {
             Ok(painting) => {
                 self.prepared = Some((painting.clone(), serial));
-                tell(Report::Prepared(Box::new(painting.clone()), serial));
+                let frame = order.job.views.first().map_or(0.0, |view| view.frame);
+                self.picker.follow(&painting, frame);
+                tell(Report::Prepared(Box::new((painting.clone(), self.picker.clone())), serial));
                 Some(painting)
             }
             Err(PrepareError::GivenUp) => None,
