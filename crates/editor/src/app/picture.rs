@@ -166,10 +166,10 @@ impl Studio {
                             self.strokes_of = names.zip(picture.strokes_of.iter().copied()).collect();
                         }
                     }
-                    if picture.index + 1 == self.layout.framings().len() {
-                        if editor.shown_frame(picture.view.frame) {
-                            news = Some(News::NextOfFilm);
-                        }
+                    if picture.index + 1 == self.layout.framings().len()
+                        && editor.shown_frame(picture.view.frame)
+                    {
+                        news = Some(News::NextOfFilm);
                     }
                     self.pictures.take(ctx, picture);
                 }
