@@ -166,9 +166,8 @@ impl Studio {
                             self.strokes_of = names.zip(picture.strokes_of.iter().copied()).collect();
                         }
                     }
-                    if picture.index + 1 == self.layout.framings().len()
-                        && editor.shown_frame(picture.view.frame)
-                    {
+                    let is_last = picture.index + 1 == self.layout.framings().len();
+                    if is_last && editor.shown_frame(picture.view.frame) {
                         news = Some(News::NextOfFilm);
                     }
                     self.pictures.take(ctx, picture);
