@@ -76,6 +76,8 @@ fn build_object(document: &mut Document, wanted: &Object) {
 fn build(document: &mut Document, wanted: &Scene) {
     run(document, Command::Scene(SceneEdit::SetSeed(wanted.seed)));
     run(document, Command::Scene(SceneEdit::SetBackground(wanted.background)));
+    // A new scene may have the wanted range already.
+    run(document, Command::Time(Time::SetRange(0, 1)));
     run(document, Command::Time(Time::SetRange(wanted.timeline.first, wanted.timeline.last)));
     let lights = document.scene().lights.iter().map(|light| Item::Light(light.name.clone())).collect();
     run(document, Command::Edit(Edit::Delete(lights)));

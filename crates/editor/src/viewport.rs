@@ -137,12 +137,14 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     if let (Some(now), Some(framing)) = (&input.now, layout.framings().get(1)) {
         draw_marks(ui, framing, (now.camera, now.marks));
         layout::titles(&painter, layout, (now, input), tokens);
-    } else if input.through_shot {
+    } else if input.through_shot && !input.empty {
         overlay::shot_border(&painter, area, first.shot(), tokens.app);
     }
 
     let mut events = ViewportEvents::default();
-    chips::show(ui, area, input, &mut events);
+    if !input.empty {
+        chips::show(ui, area, input, &mut events);
+    }
     let mut held = ui.data_mut(|data| data.get_temp::<pointer::Held>(id)).unwrap_or_default();
     let layer = response.layer_id;
     let ctx = ui.ctx().clone();
@@ -159,6 +161,9 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
         let font = type_face::title();
         let words = "Drop an OBJ here, or open a scene";
         painter.text(area.center(), egui::Align2::CENTER_CENTER, words, font, tokens.weak);
+    } else if input.pictures.of(0).is_none() && input.trouble.is_none() {
+        let font = type_face::title();
+        painter.text(area.center(), egui::Align2::CENTER_CENTER, "Painting\u{2026}", font, tokens.weak);
     }
     if let Some(words) = input.trouble {
         trouble(&painter, area, words, tokens);
