@@ -161,9 +161,6 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
         let font = type_face::title();
         let words = "Drop an OBJ here, or open a scene";
         painter.text(area.center(), egui::Align2::CENTER_CENTER, words, font, tokens.weak);
-    } else if input.pictures.of(0).is_none() && input.trouble.is_none() {
-        let font = type_face::title();
-        painter.text(area.center(), egui::Align2::CENTER_CENTER, "Painting\u{2026}", font, tokens.weak);
     }
     if let Some(words) = input.trouble {
         trouble(&painter, area, words, tokens);

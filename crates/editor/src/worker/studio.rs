@@ -30,9 +30,7 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
         desk.report(report);
         wake();
     };
-    // A driver takes its time to open: that begins before there is anything to draw. One that breaks is asked again, and told
-    // of, when there is.
-    let mut studio = catch_unwind(AssertUnwindSafe(|| Studio::open(driver, &tell))).ok();
+    let mut studio = None;
     while let Some(order) = desk.take() {
         let worked = catch_unwind(AssertUnwindSafe(|| {
             let studio = studio.get_or_insert_with(|| Studio::open(driver, &tell));
