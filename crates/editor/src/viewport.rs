@@ -125,7 +125,9 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
         info
     });
     let painter = ui.painter().with_clip_rect(area);
-    let ground = if input.now.is_some() { tokens.field } else { tokens.app };
+    // In the light theme fields are white, and brighter than any picture.
+    let is_dark = ui.visuals().dark_mode;
+    let ground = if input.now.is_some() && is_dark { tokens.field } else { tokens.app };
     painter.rect_filled(area, 0.0, ground);
     for (index, framing) in layout.framings().iter().enumerate() {
         if let Some((texture, ..)) = input.pictures.of(index) {

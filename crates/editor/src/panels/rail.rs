@@ -1,6 +1,7 @@
 //! The tools of the mode, at the left of the viewport.
 
-use egui::{Panel, Ui, vec2};
+use egui::scroll_area::ScrollBarVisibility;
+use egui::{Panel, ScrollArea, Ui, vec2};
 use impasto_editor_model::session::{Mode, Tool};
 
 use super::tool_names::face;
@@ -19,21 +20,26 @@ const PAINT: &[&[Tool]] = &[
 pub fn rail(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::left("rail").exact_size(measure::RAIL).resizable(false).frame(frame).show(ui, |ui| {
-        ui.add_space(6.0);
-        ui.vertical_centered(|ui| {
-            ui.spacing_mut().item_spacing.y = 2.0;
-            let groups = if shown.session.mode == Mode::Paint { PAINT } else { POSING };
-            for (index, group) in groups.iter().enumerate() {
-                if index > 0 {
-                    let (rect, _) = ui.allocate_exact_size(vec2(30.0, 9.0), egui::Sense::hover());
-                    ui.painter().hline(rect.x_range(), rect.center().y, (1.0, Tokens::of(ui).div));
-                }
-                for tool in *group {
-                    button(ui, (shown, *tool), asks);
-                }
-            }
+        // Over open lanes a low window has no room for all of them.
+        ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(ui, |ui| {
+            ui.add_space(6.0);
+            ui.vertical_centered(|ui| tools(ui, shown, asks));
         });
     });
+}
+
+fn tools(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    let groups = if shown.session.mode == Mode::Paint { PAINT } else { POSING };
+    for (index, group) in groups.iter().enumerate() {
+        if index > 0 {
+            let (rect, _) = ui.allocate_exact_size(vec2(30.0, 9.0), egui::Sense::hover());
+            ui.painter().hline(rect.x_range(), rect.center().y, (1.0, Tokens::of(ui).div));
+        }
+        for tool in *group {
+            button(ui, (shown, *tool), asks);
+        }
+    }
 }
 
 fn button(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), asks: &mut Vec<Ask>) {

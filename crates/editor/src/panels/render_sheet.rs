@@ -213,7 +213,7 @@ fn size(ui: &mut Ui, shown: &RenderShown<'_>, settings: &mut RenderSettings) {
         let own = scene.size.1;
         if settings.size_px[1] != own {
             let finer = settings.size_px[1] > own;
-            weak(ui, if finer { "same painting, finer" } else { "same painting, coarser" });
+            weak(ui, if finer { "finer" } else { "coarser" });
         }
     });
 }

@@ -26,6 +26,23 @@ const MOST_HELD: Duration = Duration::from_millis(100);
 /// While an app holds back, moves of the pointer are handed to it at most this often.
 const HELD_PASS: Duration = Duration::from_millis(30);
 
+/// Why a frame is due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Due {
+    /// Something happened, or the window system has lost what it showed.
+    Now,
+    /// A timer of the page: it is shown where it looks otherwise than before.
+    ByTimer,
+}
+
+/// What the window shows.
+#[derive(PartialEq)]
+struct Page {
+    shapes: Vec<egui::epaint::ClippedShape>,
+    scale: f32,
+    size: [u32; 2],
+}
+
 /// What reaches the loop from outside the window system.
 #[derive(Debug)]
 pub(super) enum Happening {
@@ -98,6 +115,7 @@ struct OpenWindow<A> {
     last_start: Instant,
     last_shown: Instant,
     last_took: Duration,
+    shown: Option<Page>,
     /// Whether the last pass was held back.
     holds: bool,
 }
@@ -149,9 +167,10 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
             last_start: Instant::now(),
             last_shown: Instant::now(),
             last_took: Duration::ZERO,
+            shown: None,
             holds: false,
         };
-        open.frame()?;
+        open.frame(Due::Now)?;
         open.window.set_visible(true);
         open.window.request_redraw();
         self.open = Some(open);
@@ -163,10 +182,10 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
         event_loop.exit();
     }
 
-    fn frame(&mut self, event_loop: &ActiveEventLoop) {
+    fn frame(&mut self, event_loop: &ActiveEventLoop, due: Due) {
         let Some(open) = &mut self.open else { return };
         self.next = None;
-        match open.frame() {
+        match open.frame(due) {
             Ok(close) if close => event_loop.exit(),
             Ok(_) => (),
             Err(error) => self.fail(event_loop, error),
@@ -203,10 +222,9 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
         }
     }
 
-    fn new_events(&mut self, _event_loop: &ActiveEventLoop, cause: StartCause) {
-        if let (StartCause::ResumeTimeReached { .. }, Some(open)) = (cause, &self.open) {
-            self.next = None;
-            open.window.request_redraw();
+    fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: StartCause) {
+        if let StartCause::ResumeTimeReached { .. } = cause {
+            self.frame(event_loop, Due::ByTimer);
         }
     }
 
@@ -240,7 +258,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _id: WindowId, event: WindowEvent) {
         if matches!(event, WindowEvent::RedrawRequested) {
-            self.frame(event_loop);
+            self.frame(event_loop, Due::Now);
             return;
         }
         let Some(open) = &mut self.open else { return };
@@ -293,7 +311,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
 
 impl<A: App> OpenWindow<A> {
     /// Runs the passes that are due and shows the last. True where the app wants to close.
-    fn frame(&mut self) -> Result<bool, WindowError> {
+    fn frame(&mut self, due: Due) -> Result<bool, WindowError> {
         self.last_start = Instant::now();
         let broken = |reason| WindowError::Broken(format!("OpenGL: {reason}"));
         self.gl.make_current().map_err(broken)?;
@@ -339,6 +357,14 @@ impl<A: App> OpenWindow<A> {
             return Ok(close);
         }
         self.holds = false;
+        // Somebody looked at a clock and found nothing to show.
+        let size = self.window.inner_size();
+        let page = Page { shapes: shapes.clone(), scale, size: size.into() };
+        let is_shown = self.textures.is_empty() && self.shown.as_ref() == Some(&page);
+        if due == Due::ByTimer && is_shown {
+            return Ok(close);
+        }
+        self.shown = Some(page);
         self.paint(&ctx.tessellate(shapes, scale), scale);
         self.gl.show().map_err(broken)?;
         self.last_shown = Instant::now();

@@ -31,10 +31,12 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
         wake();
     };
     let mut studio = None;
-    while let Some(order) = desk.take() {
+    let mut work = |order: Option<&Order>| {
         let worked = catch_unwind(AssertUnwindSafe(|| {
             let studio = studio.get_or_insert_with(|| Studio::open(driver, &tell));
-            studio.work(&order, desk, &tell);
+            if let Some(order) = order {
+                studio.work(order, desk, &tell);
+            }
         }));
         if let Err(panic) = worked {
             tell(Report::Failed(format!("the picture could not be made: {}", words(panic.as_ref()))));
@@ -42,6 +44,11 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
             // A broken driver may break again when it is let go.
             let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
         }
+    };
+    // A driver takes its time to open: that begins before there is anything to draw.
+    work(None);
+    while let Some(order) = desk.take() {
+        work(Some(&order));
     }
     let _ = catch_unwind(AssertUnwindSafe(|| drop(studio)));
     desk.end();

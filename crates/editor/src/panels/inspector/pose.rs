@@ -9,13 +9,16 @@ use impasto_scene::motion;
 
 use super::Asker;
 use super::number::Number;
-use super::parts::{axes, row, section};
+use super::parts::{axes, section};
 use super::region::decimals;
 use crate::panels::Ask;
 use crate::widgets::{self, Button};
 
 /// Width of the label before three fields.
 pub(super) const NARROW_LABEL: f32 = 48.0;
+
+/// Width of the label before the three eases.
+const EASE_LABEL: f32 = 64.0;
 
 /// The numbers of an object's pose: in Animate they key this frame, else they shift the whole motion.
 pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
@@ -116,7 +119,8 @@ pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Op
             let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
             asker.asks.push(Ask::Session(Box::new(session)));
         }
-        row(ui, "Ease out", |ui| {
+        // The label leaves the column its width.
+        super::parts::row_with(ui, ("Ease out", EASE_LABEL), |ui| {
             let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
             let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);
             if widgets::segmented_of(ui, "Ease", &["Smooth", "Linear", "Hold"], &mut chosen).changed() {

@@ -58,7 +58,7 @@ pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         });
         ruler::over(ui, right, across, shown);
         let lying = Lying {
-            area: Rect::from_x_y_ranges(right.x_range(), rows.y_range()),
+            area: Rect::from_x_y_ranges(right.x_range(), rows.top()..=rows.bottom() - ruler::PIN),
             top: first,
             lane: lane_height,
             across,
@@ -84,7 +84,9 @@ fn rows_of(
     (shown, asks): (&Shown<'_>, &mut Vec<Ask>),
 ) -> f32 {
     ui.spacing_mut().item_spacing.y = 0.0;
-    let area = ScrollArea::vertical().id_salt("lanes").auto_shrink(false);
+    // Below the rows there is room for the reference's pin, which would hide a key.
+    let high = ui.available_height() - ruler::PIN;
+    let area = ScrollArea::vertical().id_salt("lanes").auto_shrink(false).max_height(high);
     // Whatever is selected anew is brought into view.
     let active = shown.document.selection().active().cloned();
     let id = ui.scope_id().with("selected lane");

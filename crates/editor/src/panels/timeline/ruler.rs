@@ -11,6 +11,9 @@ use crate::icons;
 use crate::panels::{Ask, Shown};
 use crate::theme::{Tokens, measure, type_face};
 
+/// Height of the strip below the lanes in which the reference's pin stands.
+pub(super) const PIN: f32 = 24.0;
+
 /// Height of the ruler.
 pub(super) const HEIGHT: f32 = 28.0;
 /// Labels stand at least so far apart, points.
@@ -108,7 +111,7 @@ pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &Shown<'_>) {
     let painter = ui.painter().with_clip_rect(rect);
     let reference = across.x(motion::referred_to(scene, &scene.reference).1);
     painter.vline(reference, rect.top() + HEIGHT - 8.0..=rect.bottom(), (2.0, tokens.viridian));
-    let pin = pos2(reference, rect.bottom() - 12.0);
+    let pin = pos2(reference, rect.bottom() - 0.5 * PIN);
     painter.circle_filled(pin, 9.0, tokens.panel);
     let font = type_face::icon(14.0);
     painter.text(pin, Align2::CENTER_CENTER, icons::REFERENCE.glyph(), font, tokens.viridian);

@@ -202,7 +202,7 @@ fn rename_row(ui: &mut Ui, row: &Row, mut typed: String, asks: &mut Vec<Ask>) ->
 fn words_below(ui: &mut Ui, rows: &[Row], state: &ColumnState, empty: bool) {
     let words = match &state.search {
         Some(text) if rows.is_empty() => format!("Nothing is named \u{201c}{}\u{201d}.", text.trim()),
-        _ if empty => "Nothing here yet. Drop an OBJ anywhere, or press +".to_owned(),
+        _ if empty => "No objects yet. Drop an OBJ anywhere, or press +".to_owned(),
         _ => return,
     };
     let weak = Tokens::of(ui).weak;
