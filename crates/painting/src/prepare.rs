@@ -139,56 +139,32 @@ impl Preparer {
     ) -> Result<Painting, PrepareError> {
         let mut clock = StepClock::new();
         let scene = &loaded.scene;
-        let paper = presets::is_paper(scene);
-        let settings = match &scene.style {
-            Style::RotatingStrokes(settings) => settings.clone(),
-            Style::Reference => RotatingStrokes::default(),
-        };
-        let solver = if paper { Solver::HornExact } else { settings.solver };
-        let style = match scene.style {
-            Style::RotatingStrokes(_) => FrameStyle::RotatingStrokes,
-            Style::Reference => FrameStyle::Reference,
-        };
-        let rules = Arc::new(regions::rules(scene));
-        let brushes = self.brushes(&loaded, &rules);
-        clock.lap("brushes");
-        let references = Arc::new(scene_references(scene));
-        let reference_morphs =
-            Arc::new(motion::morphs_at(scene, motion::referred_to(scene, &scene.reference).1));
-        let views = views_in_advance(scene);
-        let context = Context {
-            scene,
-            rules: &rules,
-            views: &views,
-            brushes: &brushes,
-            solver,
-            paper,
-            underpainting: settings.underpainting && !paper,
-            orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
-        };
-
-        let mut kept: Vec<KeptObject> =
-            scene.objects.iter().map(|object| self.kept.remove(&object.name).unwrap_or_default()).collect();
         let inputs = surface_inputs(&loaded)?;
+        let mut kept = self.take_kept(scene);
         kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
+        let plain = plain(&loaded, &kept);
         clock.lap("surfaces");
+        let brushes = self.brushes(&loaded, &plain.rules);
+        clock.lap("brushes");
         if give_up() {
             return self.given_up(scene, kept);
         }
+        let Painting { rules, references, reference_morphs, solver, .. } = &plain;
+        let views = views_in_advance(scene);
+        let paper = presets::is_paper(scene);
+        let context = Context {
+            scene,
+            rules,
+            views: &views,
+            brushes: &brushes,
+            solver: *solver,
+            paper,
+            underpainting: settings(scene).underpainting && !paper,
+            orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
+        };
         let of_body: Vec<Arc<BodyReferences>> =
             (0..kept.len()).map(|object| Arc::new(references.of_body(object))).collect();
-        let mut bodies: Vec<PreparedBody> = kept
-            .iter()
-            .zip(&of_body)
-            .zip(&scene.objects)
-            .map(|((kept, references), object)| PreparedBody {
-                hidden: object.hidden,
-                surface: kept.surface(),
-                caps: kept.parts().caps(&references.own().map),
-                field: None,
-                regions: Arc::default(),
-            })
-            .collect();
+        let mut bodies = plain.bodies.clone();
         let regions: Vec<Arc<BodyRegions>> = inputs
             .iter()
             .zip(&bodies)
@@ -243,39 +219,40 @@ impl Preparer {
             body.field = kept.field();
         }
         clock.lap("lift");
-        let order = self.order(&coats, &rules);
+        let order = self.order(&coats, rules);
         clock.lap("order");
-        let bounds: Vec<_> = kept.iter().map(KeptObject::bounds).collect();
-        self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
+        self.keep(scene, kept);
+        Ok(Painting { bodies, coats, brushes, order, steps: clock.steps, ..plain })
+    }
 
-        let shadow_bounds = lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice()));
-        clock.lap("bounds");
-        let (palettes, palette_of_rule) = regions::palettes(&rules);
-        Ok(Painting {
-            loaded: Arc::clone(&loaded),
-            bodies,
-            coats,
-            palettes: Arc::new(palettes),
-            palette_of_rule,
-            brushes,
-            finish: FinishRule::new(scene, &settings, &references.own().view),
-            rules,
-            order,
-            references,
-            reference_morphs,
-            solver,
-            style,
-            shadow_bounds,
-            steps: clock.steps,
-        })
+    /// The scene without a stroke: what its style `Reference` shows, there long before the strokes are.
+    ///
+    /// # Errors
+    /// When a mesh that the scene names was not handed over with it.
+    pub fn prepare_plain(&mut self, loaded: &Arc<LoadedScene>) -> Result<Painting, PrepareError> {
+        let inputs = surface_inputs(loaded)?;
+        let mut kept = self.take_kept(&loaded.scene);
+        kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
+        let plain = plain(loaded, &kept).in_style(FrameStyle::Reference);
+        self.keep(&loaded.scene, kept);
+        Ok(plain)
     }
 }
 
 impl Preparer {
     /// Each step is kept with its inputs, so that those that are done need not be done again.
     fn given_up(&mut self, scene: &Scene, kept: Vec<KeptObject>) -> Result<Painting, PrepareError> {
-        self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
+        self.keep(scene, kept);
         Err(PrepareError::GivenUp)
+    }
+
+    fn take_kept(&mut self, scene: &Scene) -> Vec<KeptObject> {
+        let mut kept = |name: &String| self.kept.remove(name).unwrap_or_default();
+        scene.objects.iter().map(|object| kept(&object.name)).collect()
+    }
+
+    fn keep(&mut self, scene: &Scene, kept: Vec<KeptObject>) {
+        self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
     }
 
     fn order(&mut self, coats: &[Arc<Coat>], rules: &[RegionRule]) -> Arc<Vec<OrderEntry>> {
@@ -364,6 +341,53 @@ impl Painting {
 
     fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
         self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
+    }
+}
+
+fn settings(scene: &Scene) -> RotatingStrokes {
+    match &scene.style {
+        Style::RotatingStrokes(settings) => settings.clone(),
+        Style::Reference => RotatingStrokes::default(),
+    }
+}
+
+/// All that a painting has but for particles, of objects whose surfaces are built.
+fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
+    let scene = &loaded.scene;
+    let settings = settings(scene);
+    let rules = regions::rules(scene);
+    let (palettes, palette_of_rule) = regions::palettes(&rules);
+    let references = scene_references(scene);
+    let bodies = kept.iter().zip(&scene.objects).enumerate();
+    let bodies = bodies.map(|(index, (kept, object))| PreparedBody {
+        hidden: object.hidden,
+        surface: kept.surface(),
+        caps: kept.parts().caps(&references.of_body(index).own().map),
+        field: None,
+        regions: Arc::default(),
+    });
+    let bounds: Vec<_> = kept.iter().map(KeptObject::bounds).collect();
+    let views = views_in_advance(scene);
+    let reference_morphs = motion::morphs_at(scene, motion::referred_to(scene, &scene.reference).1);
+    Painting {
+        loaded: Arc::clone(loaded),
+        bodies: bodies.collect(),
+        coats: Vec::new(),
+        palettes: Arc::new(palettes),
+        palette_of_rule,
+        brushes: Arc::default(),
+        finish: FinishRule::new(scene, &settings, &references.own().view),
+        rules: Arc::new(rules),
+        order: Arc::default(),
+        reference_morphs: Arc::new(reference_morphs),
+        references: Arc::new(references),
+        solver: if presets::is_paper(scene) { Solver::HornExact } else { settings.solver },
+        style: match scene.style {
+            Style::RotatingStrokes(_) => FrameStyle::RotatingStrokes,
+            Style::Reference => FrameStyle::Reference,
+        },
+        shadow_bounds: lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice())),
+        steps: Vec::new(),
     }
 }
 

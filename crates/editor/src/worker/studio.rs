@@ -15,6 +15,7 @@ use impasto_painting::frame::FrameStyle;
 use impasto_painting::{
     Frame, FrameOptions, Painting, PrepareError, Preparer, Quality, Recall, StrokeColors,
 };
+use impasto_scene::mesh_file::MeshFile;
 
 use super::ahead::Ahead;
 use super::desk::{Desk, Order};
@@ -123,9 +124,12 @@ impl Studio {
     }
 
     fn work(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) {
-        let Some(painting) = self.prepare(order, desk, tell) else { return };
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
+        if self.is_new(order) {
+            self.glimpse(order, tell);
+        }
+        let Some(painting) = self.prepare(order, desk, tell) else { return };
         let wanted: Vec<usize> =
             (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
@@ -160,6 +164,42 @@ impl Studio {
             if !self.draw(&painting, (order, index), &manner, tell) {
                 return;
             }
+        }
+    }
+
+    /// Whether nothing of the scene was there before.
+    fn is_new(&self, order: &Order) -> bool {
+        let known = |mesh: &Arc<MeshFile>| {
+            let before = self.prepared.iter().flat_map(|(painting, _)| painting.loaded().meshes.values());
+            before.into_iter().any(|before| Arc::ptr_eq(before, mesh))
+        };
+        !order.job.loaded.meshes.values().any(known)
+    }
+
+    /// Something to look at until the strokes are prepared: the scene as it is lit, in few pixels. What goes wrong here goes
+    /// wrong again in its turn, and is told then.
+    fn glimpse(&mut self, order: &Order, tell: Tell<'_>) {
+        let Some(renderer) = &mut self.renderer else { return };
+        let Ok(plain) = self.preparer.prepare_plain(&order.job.loaded) else { return };
+        for (index, view) in order.job.views.iter().enumerate() {
+            if view.size_px.contains(&0) {
+                continue;
+            }
+            let began = Instant::now();
+            let size_px = self.draft_size.of(view.size_px);
+            let manner = Manner { size_px, exact: false, give_up: &|| false };
+            let frame = plain.bare(&view.camera, view.frame, &options(view, &manner));
+            let Ok(picture) = renderer.render(&frame) else { return };
+            tell(Report::Picture(Picture {
+                index,
+                view: view.clone(),
+                serial: order.job.serial,
+                image: Arc::new(image(picture)),
+                exact: false,
+                strokes: 0,
+                strokes_of: Vec::new(),
+                seconds: began.elapsed().as_secs_f64(),
+            }));
         }
     }
 
@@ -318,9 +358,10 @@ fn render(
             (frame, picture)
         }
     };
-    let image = |picture: impasto_gl_render::Picture| {
-        // Pictures of the window have a ground: they are opaque.
-        ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
-    };
     (frame, picture.map(|picture| picture.map(image)))
+}
+
+/// Pictures of the window have a ground: they are opaque.
+fn image(picture: impasto_gl_render::Picture) -> ColorImage {
+    ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
 }

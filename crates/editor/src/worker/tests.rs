@@ -127,6 +127,28 @@ fn at_rest_comes_what_a_file_would_get() {
     }
 }
 
+#[test]
+fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
+    let loaded = scene();
+    let worker = worker();
+    let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: vec![view(&loaded, 3.0)] };
+    worker.0.show(job(1));
+    let told = until(&worker, |report| matches!(report, Report::Picture(_)));
+    assert!(!told.iter().any(|report| matches!(report, Report::Prepared(..))));
+    let glimpse = pictures(&told)[0];
+    assert!(!glimpse.exact && glimpse.strokes == 0);
+    let small = ViewJob { size_px: glimpse.image.size.map(|side| side as u32), ..view(&loaded, 3.0) };
+    // A draft's shadows have hard edges.
+    let (seen, exact) = (bytes(glimpse), rendered(&loaded, &small, Some(FrameStyle::Reference)));
+    let differs: usize = seen.iter().zip(&exact).map(|(one, other)| usize::from(one.abs_diff(*other))).sum();
+    assert!(differs < 2 * seen.len(), "{differs} over {} bytes", seen.len());
+    until(&worker, is_exact);
+    // An edit leaves the meshes as they were: the strokes stay in the picture.
+    worker.0.show(job(2));
+    let told = until(&worker, is_exact);
+    assert!(pictures(&told).iter().all(|picture| picture.strokes > 0));
+}
+
 /// A viewport that is higher than the shot shows the shot in its middle as a file would get it, strokes and all.
 #[test]
 fn a_wider_picture_holds_the_shot() {
@@ -163,7 +185,7 @@ fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
     }
     let told = until(
         &worker,
-        |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame),
+        |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame && picture.strokes > 0),
     );
     // The job that was worked on, if any, and the last one: the others never reached the thread.
     assert!(pictures(&told).len() <= 13);
@@ -186,7 +208,7 @@ fn a_film_comes_frame_by_frame_with_the_next_computed_ahead() {
         worker.0.play(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![now.clone()] }, vec![next]);
         let told = until(
             &worker,
-            |report| matches!(report, Report::Picture(picture) if picture.view.frame == now.frame),
+            |report| matches!(report, Report::Picture(picture) if picture.view.frame == now.frame && picture.strokes > 0),
         );
         assert!(pictures(&told).iter().all(|picture| picture.view == now), "frame {frame}");
     }
