@@ -44,7 +44,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 /// The files that the editor writes; the folder is gone after.
 fn rendered(plan: RenderPlan) -> BTreeMap<String, Vec<u8>> {
     let folder = plan.folder().to_owned();
-    let rendering = Rendering::start(plan, || ()).unwrap();
+    let rendering = Rendering::start(plan, Default::default(), || ()).unwrap();
     assert!(rendering.wait(Duration::from_secs(300)));
     assert_eq!(rendering.progress().outcome, Some(Outcome::Done));
     let files = files(&folder);

@@ -136,6 +136,9 @@ pub(crate) struct EditArguments {
     /// What draws the paintings; the preferences say when left out.
     #[arg(long, value_enum)]
     pub(crate) driver: Option<EditDriver>,
+    /// A folder of shaders that stand in for the program's own, read again whenever they change.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) shaders: Option<PathBuf>,
     /// Ask for files in the window, never by the desktop's dialogs.
     #[arg(long, hide = true)]
     pub(crate) in_app_dialogs: bool,
@@ -161,6 +164,9 @@ pub(crate) struct RenderArguments {
     /// Which library to take OpenGL from.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) driver: DriverChoice,
+    /// A folder of shaders that stand in for the program's own.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) shaders: Option<PathBuf>,
     /// No ground under the paint: PNG with transparency.
     #[arg(long)]
     pub(crate) alpha: bool,

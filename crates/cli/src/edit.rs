@@ -16,7 +16,13 @@ pub(crate) fn run(arguments: &EditArguments) -> Result<(), Failure> {
     });
     let dialogs = if arguments.in_app_dialogs { Source::InApp } else { Source::Desktop };
     let tell: Option<fn(&str)> = arguments.tell.then_some(|words| eprintln!("impasto edit: {words}"));
-    let options = EditOptions { path: arguments.scene.clone(), driver, dialogs, tell };
+    let options = EditOptions {
+        path: arguments.scene.clone(),
+        driver,
+        dialogs,
+        shaders: arguments.shaders.clone(),
+        tell,
+    };
     impasto_editor::run(&options).map_err(|error| match error {
         EditError::Refused(words) => Failure::Refused(words),
         EditError::Window(error) => Failure::NoWindow(error.to_string()),

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use impasto_editor::files::shader_folder::ShaderFolder;
 use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
@@ -111,7 +112,11 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let scene_name =
         loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let renderer = session::open_renderer(arguments.driver, verbose)?;
+    let mut renderer = session::open_renderer(arguments.driver, verbose)?;
+    if let Some(folder) = &arguments.shaders {
+        let (_, texts) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
+        renderer.replace_shaders(&texts)?;
+    }
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     // A second signal while the frame is finishing changes nothing.

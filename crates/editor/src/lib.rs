@@ -16,6 +16,7 @@ pub mod worker;
 use files::dialogs::Source;
 use files::incoming;
 use files::preferences::{self, DriverChoice, Loaded, Preferences};
+use files::shader_folder::ShaderFolder;
 
 /// What `impasto edit` was told.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +27,8 @@ pub struct EditOptions {
     pub driver: Option<DriverChoice>,
     /// Whose file dialogs.
     pub dialogs: Source,
+    /// A folder of shaders that stand in for the program's own.
+    pub shaders: Option<PathBuf>,
     /// Hears what the window shows, each time that its exact pictures are there.
     pub tell: Option<fn(&str)>,
 }
@@ -56,6 +59,8 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
             }
         }
     }
+    let shaders =
+        options.shaders.as_deref().map(ShaderFolder::open).transpose().map_err(EditError::Refused)?;
     let loaded = match preferences::config_folder() {
         Some(folder) => preferences::load(&folder),
         None => Loaded { preferences: Preferences::default(), note: None },
@@ -64,5 +69,5 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
         window::force_software();
     }
     let dialogs = window::Options::default();
-    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, loaded, opened))?)
+    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, (loaded, shaders), opened))?)
 }

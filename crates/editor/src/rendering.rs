@@ -18,7 +18,7 @@ use impasto_editor_model::render_settings::{
 };
 use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_gl_render::context::{self, Driver, OpenOptions};
-use impasto_gl_render::{Picture, Renderer};
+use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareError, Preparer};
 
 #[cfg(test)]
@@ -52,11 +52,15 @@ struct Board {
 }
 
 impl Rendering {
-    /// Starts. `wake` is called on the thread whenever there is something new to show.
+    /// Starts, with shaders that stand in for the program's own. `wake` is called on the thread whenever there is something new to show.
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start(plan: RenderPlan, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+    pub fn start(
+        plan: RenderPlan,
+        shaders: ShaderTexts,
+        wake: impl Fn() + Send + 'static,
+    ) -> std::io::Result<Self> {
         let progress = RenderProgress { total: plan.frames.count(), ..RenderProgress::default() };
         let shared = Arc::new(Shared {
             stop: AtomicBool::new(false),
@@ -66,7 +70,7 @@ impl Rendering {
         });
         let (theirs, orders) = (Arc::clone(&shared), plan.clone());
         let thread = std::thread::Builder::new().name("rendering".to_owned()).spawn(move || {
-            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, &orders, &wake)));
+            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, (&orders, &shaders), &wake)));
             let outcome = match outcome {
                 Ok(Ok(outcome)) => outcome,
                 Ok(Err(words)) => Outcome::Failed(words),
@@ -155,7 +159,11 @@ fn words(panic: &(dyn Any + Send)) -> String {
 }
 
 /// Renders what is ordered; what ends it early is told with its frame and file.
-fn run(shared: &Shared, plan: &RenderPlan, wake: &dyn Fn()) -> Result<Outcome, String> {
+fn run(
+    shared: &Shared,
+    (plan, shaders): (&RenderPlan, &ShaderTexts),
+    wake: &dyn Fn(),
+) -> Result<Outcome, String> {
     plan.ready().map_err(|error| error.to_string())?;
     let driver = match plan.driver {
         RenderDriver::Automatic => Driver::Auto,
@@ -164,6 +172,9 @@ fn run(shared: &Shared, plan: &RenderPlan, wake: &dyn Fn()) -> Result<Outcome, S
     };
     let context = context::open(driver, &OpenOptions::default()).map_err(|error| error.to_string())?;
     let mut renderer = Renderer::new(context).map_err(|error| error.to_string())?;
+    if !shaders.is_empty() {
+        renderer.replace_shaders(shaders).map_err(|error| error.to_string())?;
+    }
     if shared.is_stopped() {
         return Ok(Outcome::Stopped);
     }

@@ -11,6 +11,7 @@ use std::time::Duration;
 use egui::ColorImage;
 use impasto_editor_model::picking::Picker;
 use impasto_editor_model::session::Shading;
+use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::{ContextReport, Driver};
 use impasto_painting::Painting;
 use impasto_scene::loaded::LoadedScene;
@@ -124,6 +125,12 @@ impl Worker {
     /// As [`Worker::show`], of a film that plays: `ahead` are the same views as they will likely be asked for next.
     pub fn play(&self, job: Job, ahead: Vec<ViewJob>) {
         self.desk.put(job, ahead);
+    }
+
+    /// From the next job on, everything is drawn with these shaders; where one of them is broken that is told, and what there was
+    /// goes on.
+    pub fn replace_shaders(&self, texts: ShaderTexts) {
+        self.desk.put_shaders(texts);
     }
 
     /// Gives up preparing what is to be shown now: what was shown before stays, until something else is to be shown.

@@ -19,3 +19,4 @@ mod watch;
 pub use gl::GlError;
 pub use motion::MotionPixels;
 pub use renderer::{Cost, PassTime, Picture, ReferencePixels, RenderError, Renderer, ResolvedStroke};
+pub use shader_files::ShaderTexts;

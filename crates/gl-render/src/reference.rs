@@ -275,9 +275,8 @@ impl ReferencePass {
         watch.passed("openness")?;
 
         self.gpu.begin_pass(&targets.light_pass, DrawState::default());
-        if frame.quality == Quality::Draft && self.draft_light.is_none() {
-            let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
-            self.draft_light = Some(Program::new(&self.gpu, &[SHARED, REFERENCE], &source)?);
+        if frame.quality == Quality::Draft {
+            self.ready_drafts()?;
         }
         let light = match (frame.quality, &self.draft_light) {
             (Quality::Draft, Some(light)) => light,
@@ -292,6 +291,15 @@ impl ReferencePass {
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
         Ok(lights)
+    }
+
+    /// Makes what drafts need, unless it is there.
+    pub(crate) fn ready_drafts(&mut self) -> Result<(), GlError> {
+        if self.draft_light.is_none() {
+            let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
+            self.draft_light = Some(Program::new(&self.gpu, &[SHARED, REFERENCE], &source)?);
+        }
+        Ok(())
     }
 
     /// The bodies of a frame with their surfaces on the GPU.

@@ -10,6 +10,7 @@ use crate::context::{Context, ContextReport};
 use crate::gl::{Filter, Format, Framebuffer, GlError, Halt, Texture};
 use crate::motion::{MotionPass, MotionPixels};
 use crate::reference::{LightSetup, ReferencePass, ReferenceTargets, targets_of_size};
+use crate::shader_files::ShaderTexts;
 use crate::styles::{self, RotatingStrokes, Style, StyleInput};
 use crate::watch::Watch;
 
@@ -108,6 +109,39 @@ impl Renderer {
             last_style: FrameStyle::Reference,
             context,
         })
+    }
+
+    /// Draws with these shader texts in place of the program's own from now on. Where one of them is broken, everything stays as
+    /// it was.
+    ///
+    /// # Errors
+    /// The driver's words, with the file and the line.
+    pub fn replace_shaders(&mut self, texts: &ShaderTexts) -> Result<(), RenderError> {
+        let gpu = self.context.gpu().clone();
+        gpu.make_current()?;
+        let before = gpu.set_shaders(texts.clone());
+        let styles = std::iter::once(FrameStyle::RotatingStrokes).chain(self.styles.keys().copied());
+        let made = (|| {
+            let mut reference = ReferencePass::new(&gpu)?;
+            reference.ready_drafts()?;
+            let mut opened = HashMap::new();
+            for style in styles {
+                let mut made = styles::open(&gpu, style)?;
+                made.ready_drafts()?;
+                opened.insert(style, made);
+            }
+            Ok::<_, GlError>((reference, opened))
+        })();
+        match made {
+            Ok((reference, styles)) => {
+                (self.reference, self.styles, self.motion) = (reference, styles, None);
+                Ok(())
+            }
+            Err(error) => {
+                gpu.set_shaders(before);
+                Err(error.into())
+            }
+        }
     }
 
     /// The driver in use.

@@ -1,5 +1,7 @@
 //! The shader files, part of the binary, so that an install cannot lose them.
 
+use std::collections::BTreeMap;
+
 use crate::gl::ShaderFile;
 
 macro_rules! shader_files {
@@ -7,6 +9,38 @@ macro_rules! shader_files {
         &[$(ShaderFile { path: $path, text: include_str!(concat!("../../../shaders/", $path)) }),*]
     };
 }
+
+/// Texts that stand in for shader files of the program: for whoever works on a look of their own.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ShaderTexts(BTreeMap<&'static str, String>);
+
+impl ShaderTexts {
+    /// Every path that a text may stand at, below the folder of shaders.
+    pub fn paths() -> impl Iterator<Item = &'static str> {
+        ALL.iter().flat_map(|group| group.iter()).map(|file| file.path)
+    }
+
+    /// Puts a text in place of the file at a path; whether the program has such a file.
+    pub fn put(&mut self, path: &str, text: String) -> bool {
+        let known = Self::paths().find(|known| *known == path);
+        if let Some(known) = known {
+            self.0.insert(known, text);
+        }
+        known.is_some()
+    }
+
+    /// Whether all files are the program's own.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(crate) fn get(&self, path: &str) -> Option<&str> {
+        self.0.get(path).map(String::as_str)
+    }
+}
+
+/// All of them.
+const ALL: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES];
 
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] = shader_files![
@@ -43,3 +77,32 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/spread.frag",
     "rotating_strokes/encode.frag",
 ];
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use super::*;
+
+    #[test]
+    fn every_file_of_the_folder_is_part_of_the_program_and_none_else() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders");
+        let groups = std::fs::read_dir(&folder).unwrap().map(|group| group.unwrap().path());
+        let files = groups.flat_map(|group| std::fs::read_dir(group).unwrap());
+        let paths = files.map(|file| file.unwrap().path());
+        let there: BTreeSet<String> = paths
+            .map(|path| path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"))
+            .collect();
+        let known: BTreeSet<String> = ShaderTexts::paths().map(str::to_owned).collect();
+        assert_eq!(there, known);
+    }
+
+    #[test]
+    fn a_text_stands_only_where_a_file_is() {
+        let mut texts = ShaderTexts::default();
+        assert!(!texts.put("shared/nowhere.glsl", String::new()) && texts.is_empty());
+        assert!(texts.put("shared/encode.glsl", "text".to_owned()));
+        assert_eq!(texts.get("shared/encode.glsl"), Some("text"));
+    }
+}

@@ -16,6 +16,7 @@ mod motion_marks;
 mod picture;
 mod render_flow;
 mod safe_keeping;
+mod shader_flow;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -26,11 +27,13 @@ use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
 use impasto_editor_model::keymap::{Digits, Keymap, Preset};
 use impasto_editor_model::session::Mode;
+use impasto_gl_render::ShaderTexts;
 use impasto_scene::problem::Report;
 
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
+use crate::files::shader_folder::ShaderFolder;
 use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
@@ -42,6 +45,7 @@ use marks::MarkCache;
 use picture::{News, Studio};
 use render_flow::RenderFlow;
 use safe_keeping::SafeKeeping;
+use shader_flow::ShaderFlow;
 
 /// A line at the bottom stays so long; what was refused, too.
 const TOAST: Duration = Duration::from_secs(4);
@@ -55,6 +59,7 @@ pub(crate) struct EditorApp {
     safe: SafeKeeping,
     render: RenderFlow,
     long: LongWork,
+    shaders: ShaderFlow,
     preferences: Preferences,
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
@@ -92,7 +97,11 @@ struct Folds {
 
 impl EditorApp {
     /// An app with what the command line named, or with an empty scene.
-    pub(crate) fn new(options: &EditOptions, loaded: Loaded, opened: &Opened) -> Self {
+    pub(crate) fn new(
+        options: &EditOptions,
+        (loaded, shaders): (Loaded, Option<(ShaderFolder, ShaderTexts)>),
+        opened: &Opened,
+    ) -> Self {
         let preferences = loaded.preferences;
         let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
         let mut app = Self {
@@ -103,6 +112,7 @@ impl EditorApp {
             safe: SafeKeeping::new(),
             render: RenderFlow::new(opened.waker.clone()),
             long: LongWork::new(opened.waker.clone()),
+            shaders: ShaderFlow::default(),
             sheets: Sheets {
                 welcome: preferences.show_welcome && options.path.is_none(),
                 ..Sheets::default()
@@ -116,6 +126,7 @@ impl EditorApp {
             likely_meshes: LikelyMeshes::default(),
         };
         app.keymap();
+        app.use_shaders(shaders);
         opened.ctx.add_plugin(window::FocusRules);
         theme::apply(&opened.ctx, app.preferences.theme, app.preferences.scale);
         if let Some(note) = loaded.note {
@@ -357,6 +368,7 @@ impl window::App for EditorApp {
         }
         self.render_sheets(&ctx);
         self.keep_safe(&ctx);
+        self.look_at_shaders(&ctx);
         self.lines(&ctx);
         self.tell_rest(&ctx);
     }

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use egui::{Context, Rect};
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::picking::View;
+use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
 use impasto_scene::motion::{self, CameraPose};
 
@@ -107,6 +108,14 @@ impl Studio {
     /// How long a scene has been prepared, as long as it is.
     pub(super) fn preparing_for(&self) -> Option<Duration> {
         self.preparing.map(|(_, since)| since.elapsed())
+    }
+
+    /// Draws with these shaders from now on.
+    pub(super) fn replace_shaders(&mut self, texts: ShaderTexts) {
+        if let Some(worker) = &self.worker {
+            worker.replace_shaders(texts);
+        }
+        self.asked = None;
     }
 
     /// Gives up preparing; the pictures that are shown stay.

@@ -7,6 +7,7 @@ use egui::{Context, TextureHandle, TextureOptions};
 use impasto_editor_model::render_settings::{
     Outcome, RenderPlan, RenderProgress, RenderSettings, shell_words,
 };
+use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
 use crate::files::dialogs::Ask as FileAsk;
@@ -86,12 +87,12 @@ impl RenderFlow {
         Some(Work { words, share: Some(progress.share() as f32), kind: WorkKind::Rendering })
     }
 
-    fn begin(&mut self, plan: RenderPlan) -> Result<(), String> {
+    fn begin(&mut self, plan: RenderPlan, shaders: ShaderTexts) -> Result<(), String> {
         let waker = self.waker.clone();
         // What ran before is over: its files are written.
         self.running = None;
         self.picture = None;
-        let running = Rendering::start(plan, move || waker.wake());
+        let running = Rendering::start(plan, shaders, move || waker.wake());
         self.running = Some(running.map_err(|error| format!("No thread to render with: {error}"))?);
         self.told = false;
         Ok(())
@@ -207,7 +208,7 @@ impl EditorApp {
     }
 
     fn begin_rendering(&mut self, plan: RenderPlan) {
-        if let Err(words) = self.render.begin(plan) {
+        if let Err(words) = self.render.begin(plan, self.shaders.texts()) {
             self.toast(words, None, true);
         }
     }
@@ -246,7 +247,8 @@ impl EditorApp {
         match command {
             None => {}
             Some(Err(words)) => self.toast(words, None, true),
-            Some(Ok(words)) => {
+            Some(Ok(mut words)) => {
+                words.extend(self.shaders.arguments());
                 ctx.copy_text(shell_words("impasto", &words));
                 let note = if self.editor.document().is_edited() {
                     "Copied. It renders the file as it was saved last, without what was edited since"

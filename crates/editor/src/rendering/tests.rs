@@ -41,7 +41,7 @@ fn frames_are_written_and_those_that_are_there_can_stay() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("f_01.png"), "mine").unwrap();
     let plan = plan(folder.path(), "0-2").keeping();
-    let rendering = Rendering::start(plan, || ()).unwrap();
+    let rendering = Rendering::start(plan, Default::default(), || ()).unwrap();
     assert!(rendering.wait(LONG));
     let progress = rendering.progress();
     assert_eq!((&progress.outcome, progress.written, progress.kept), (&Some(Outcome::Done), 2, 1));
@@ -56,7 +56,7 @@ fn frames_are_written_and_those_that_are_there_can_stay() {
 #[test]
 fn what_is_stopped_leaves_whole_frames_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
-    let rendering = Rendering::start(plan(folder.path(), "0-99999"), || ()).unwrap();
+    let rendering = Rendering::start(plan(folder.path(), "0-99999"), Default::default(), || ()).unwrap();
     while rendering.progress().written < 2 && !rendering.is_over() {
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -74,7 +74,7 @@ fn an_error_names_frame_and_file_and_leaves_the_frames_before() {
     let folder = tempfile::tempdir().unwrap();
     // Nothing can take the place of a folder.
     std::fs::create_dir_all(folder.path().join("f_01.png/in the way")).unwrap();
-    let rendering = Rendering::start(plan(folder.path(), "0-2"), || ()).unwrap();
+    let rendering = Rendering::start(plan(folder.path(), "0-2"), Default::default(), || ()).unwrap();
     assert!(rendering.wait(LONG));
     let Some(Outcome::Failed(words)) = rendering.progress().outcome else { panic!("it cannot go well") };
     let path = folder.path().join("f_01.png").display().to_string();
@@ -87,7 +87,8 @@ fn an_error_names_frame_and_file_and_leaves_the_frames_before() {
 fn a_folder_that_cannot_be_is_told_before_anything_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("file"), "").unwrap();
-    let rendering = Rendering::start(plan(&folder.path().join("file"), "0"), || ()).unwrap();
+    let rendering =
+        Rendering::start(plan(&folder.path().join("file"), "0"), Default::default(), || ()).unwrap();
     assert!(rendering.wait(LONG));
     let Some(Outcome::Failed(words)) = rendering.progress().outcome else { panic!("it cannot go well") };
     assert!(words.contains("cannot write into"), "{words}");

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use impasto_editor_model::picking::Picker;
+use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::ContextReport;
 use impasto_painting::Painting;
 
@@ -31,6 +32,8 @@ struct Orders {
     job: Option<Order>,
     closed: bool,
     ended: bool,
+    /// What stands in for the program's own shaders, and how often that was said.
+    shaders: (Arc<ShaderTexts>, u64),
 }
 
 #[derive(Default)]
@@ -60,6 +63,17 @@ impl Desk {
         orders.job = Some(Order { job, came: Instant::now(), ahead, ticket });
         self.newest.store(ticket, Ordering::Release);
         self.changed.notify_all();
+    }
+
+    pub(super) fn put_shaders(&self, texts: ShaderTexts) {
+        let mut orders = lock(&self.orders);
+        orders.shaders = (Arc::new(texts), orders.shaders.1 + 1);
+    }
+
+    /// What shaders are to be drawn with, where that is another than the one of this number; with its own number.
+    pub(super) fn shaders_after(&self, number: u64) -> Option<(Arc<ShaderTexts>, u64)> {
+        let (texts, latest) = lock(&self.orders).shaders.clone();
+        (latest != number).then_some((texts, latest))
     }
 
     /// Waits for the next job; `None` once closed.

@@ -70,6 +70,8 @@ struct Studio {
     prepared: Option<(Painting, u64)>,
     /// `None` where no driver was found: then scenes are prepared, and nothing is drawn.
     renderer: Option<Renderer>,
+    /// The number of the shaders that it draws with.
+    shaders: u64,
     /// What was last drawn of each view.
     drawn: Vec<Option<Drawn>>,
     draft_size: DraftSize,
@@ -115,6 +117,7 @@ impl Studio {
             picker: Picker::default(),
             prepared: None,
             renderer,
+            shaders: 0,
             drawn: Vec::new(),
             draft_size: DraftSize::default(),
             turn: 0,
@@ -124,6 +127,7 @@ impl Studio {
     }
 
     fn work(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) {
+        self.take_shaders(desk, tell);
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
         if self.is_new(order) {
@@ -164,6 +168,17 @@ impl Studio {
             if !self.draw(&painting, (order, index), &manner, tell) {
                 return;
             }
+        }
+    }
+
+    /// Draws with other shaders from now on, where there are any.
+    fn take_shaders(&mut self, desk: &Desk, tell: Tell<'_>) {
+        let Some(renderer) = &mut self.renderer else { return };
+        let Some((texts, number)) = desk.shaders_after(self.shaders) else { return };
+        self.shaders = number;
+        match renderer.replace_shaders(&texts) {
+            Ok(()) => self.drawn.clear(),
+            Err(error) => tell(Report::Failed(error.to_string())),
         }
     }
 

@@ -281,3 +281,25 @@ fn closing_in_the_midst_of_work_is_quick() {
     drop(worker);
     assert!(began.elapsed() < CLOSING);
 }
+
+#[test]
+fn other_shaders_draw_the_same_scene_anew_and_broken_ones_are_told() {
+    let loaded = scene();
+    let worker = worker();
+    let job = || Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, 3.0)] };
+    let texts = |text: &str| {
+        let mut texts = ShaderTexts::default();
+        assert!(texts.put("shared/encode.frag", text.to_owned()));
+        assert!(texts.put("rotating_strokes/encode.frag", text.to_owned()));
+        texts
+    };
+    worker.0.show(job());
+    let before = bytes(pictures(&until(&worker, is_exact)).last().unwrap());
+    worker.0.replace_shaders(texts("broken"));
+    worker.0.show(job());
+    let told = until(&worker, |report| matches!(report, Report::Failed(_)));
+    assert!(pictures(&told).is_empty(), "the last good picture stays");
+    worker.0.replace_shaders(ShaderTexts::default());
+    worker.0.show(job());
+    assert!(bytes(pictures(&until(&worker, is_exact)).last().unwrap()) == before);
+}

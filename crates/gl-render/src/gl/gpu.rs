@@ -9,6 +9,7 @@ use glow::HasContext as _;
 
 use super::GlError;
 use crate::context::{DriverMessages, Platform};
+use crate::shader_files::ShaderTexts;
 
 /// A context, shared by everything that was made in it; it goes away after the last of them.
 #[derive(Clone)]
@@ -21,6 +22,7 @@ struct Shared {
     clock: RefCell<Option<PassClock>>,
     messages: Option<DriverMessages>,
     limits: Limits,
+    shaders: RefCell<ShaderTexts>,
     platform: Box<dyn Platform>,
 }
 
@@ -76,7 +78,17 @@ impl Gpu {
         messages: Option<DriverMessages>,
         limits: Limits,
     ) -> Self {
-        Self { shared: Rc::new(Shared { gl, clock: RefCell::new(None), messages, limits, platform }) }
+        let (clock, shaders) = (RefCell::new(None), RefCell::default());
+        Self { shared: Rc::new(Shared { gl, clock, messages, limits, shaders, platform }) }
+    }
+
+    /// Texts that programs made from now on have in place of the program's own; returns those before.
+    pub(crate) fn set_shaders(&self, texts: ShaderTexts) -> ShaderTexts {
+        self.shared.shaders.replace(texts)
+    }
+
+    pub(super) fn shaders(&self) -> std::cell::Ref<'_, ShaderTexts> {
+        self.shared.shaders.borrow()
     }
 
     pub(super) fn gl(&self) -> &glow::Context {

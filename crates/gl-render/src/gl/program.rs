@@ -5,7 +5,7 @@ use std::cell::Cell;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use glow::HasContext as _;
 
-use super::shader_text::{Expanded, expand};
+use super::shader_text::{Expanded, Sources, expand};
 use super::{GlError, Gpu, ShaderFile, Texture};
 
 /// What a program is made of.
@@ -29,6 +29,8 @@ pub(crate) struct Program {
     id: glow::Program,
     name: String,
     uniforms: Vec<Uniform>,
+    /// Shaders of one's own may leave out what the program's own use.
+    lenient: bool,
 }
 
 struct Uniform {
@@ -71,11 +73,13 @@ impl Program {
         let gl = gpu.gl();
         // SAFETY: the context is current.
         let id = unsafe { gl.create_program() }.map_err(fault)?;
-        let mut program = Self { gpu: gpu.clone(), id, name: name.clone(), uniforms: Vec::new() };
+        let lenient = !gpu.shaders().is_empty();
+        let mut program = Self { gpu: gpu.clone(), id, name: name.clone(), uniforms: Vec::new(), lenient };
         let stages = [(glow::VERTEX_SHADER, Some(source.vertex)), (glow::FRAGMENT_SHADER, source.fragment)];
         for (stage, path) in stages {
             if let Some(path) = path {
-                let expanded = expand(files, path, source.defined).map_err(fault)?;
+                let sources = Sources { files, replaced: &gpu.shaders() };
+                let expanded = expand(sources, path, source.defined).map_err(fault)?;
                 program.attach(stage, &expanded).map_err(fault)?;
             }
         }
@@ -147,7 +151,7 @@ impl Program {
         if let Some(uniform) = unknown {
             return Err(self.fault(&uniform.name, "is not known to the Rust side"));
         }
-        let unused = known.iter().find(|name| self.find(name).is_none());
+        let unused = known.iter().find(|name| !self.lenient && self.find(name).is_none());
         unused.map_or(Ok(()), |name| Err(self.fault(name, "is not used by the shader")))
     }
 
@@ -197,6 +201,7 @@ impl Bound<'_> {
                 self.send(&uniform.location, value);
             }
             Some(_) => self.keep(name, "has another type in the shader"),
+            None if self.program.lenient => {}
             None => self.keep(name, "does not exist"),
         }
         self
@@ -215,6 +220,7 @@ impl Bound<'_> {
                     gl.bind_sampler(unit, None);
                 }
             }
+            None if self.program.lenient && self.program.find(name).is_none() => {}
             None => self.keep(name, "is not a sampler of the shader"),
         }
         self

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::shader_files::ShaderTexts;
+
 /// A shader file that is part of the program.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShaderFile {
@@ -19,19 +21,27 @@ pub(super) struct Expanded {
     paths: Vec<&'static str>,
 }
 
+/// Files, and texts that stand in for some of them.
+#[derive(Clone, Copy)]
+pub(super) struct Sources<'a> {
+    pub files: &'a [&'a [ShaderFile]],
+    pub replaced: &'a ShaderTexts,
+}
+
 /// Puts every `#include "path"` in, each file once, after `#define`s of these names. Paths start at `shaders/`.
-pub(super) fn expand(files: &[&[ShaderFile]], path: &str, defined: &[&str]) -> Result<Expanded, String> {
+pub(super) fn expand(sources: Sources<'_>, path: &str, defined: &[&str]) -> Result<Expanded, String> {
     let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
     for name in defined {
         // Writing to a String cannot fail.
         let _ = writeln!(expanded.text, "#define {name}");
     }
-    append(files, path, &mut expanded)?;
+    append(sources, path, &mut expanded)?;
     Ok(expanded)
 }
 
-fn append(files: &[&[ShaderFile]], path: &str, into: &mut Expanded) -> Result<(), String> {
-    let file = files
+fn append(sources: Sources<'_>, path: &str, into: &mut Expanded) -> Result<(), String> {
+    let file = sources
+        .files
         .iter()
         .flat_map(|group| group.iter())
         .find(|file| file.path == path)
@@ -46,10 +56,11 @@ fn append(files: &[&[ShaderFile]], path: &str, into: &mut Expanded) -> Result<()
         let _ = writeln!(into.text, "#line {line} {number}");
     };
     mark(into, 1);
-    for (index, line) in file.text.lines().enumerate() {
+    let text = sources.replaced.get(path).unwrap_or(file.text);
+    for (index, line) in text.lines().enumerate() {
         match included(line) {
             Some(inner) => {
-                append(files, inner, into).map_err(|fault| format!("{path}:{}: {fault}", index + 1))?;
+                append(sources, inner, into).map_err(|fault| format!("{path}:{}: {fault}", index + 1))?;
                 mark(into, index + 2);
             }
             None => {
@@ -98,6 +109,10 @@ mod tests {
         ShaderFile { path: "b.glsl", text: "inner\n" },
         ShaderFile { path: "lost.frag", text: "\n#include \"nowhere.glsl\"\n" },
     ];
+
+    fn expand(files: &[&[ShaderFile]], path: &str, defined: &[&str]) -> Result<Expanded, String> {
+        super::expand(Sources { files, replaced: &ShaderTexts::default() }, path, defined)
+    }
 
     #[test]
     fn a_file_is_included_once_and_lines_stay_true() {

@@ -29,6 +29,11 @@ pub(crate) trait Style {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt>;
 
+    /// Makes at once what drafts need, which otherwise waits for the first of them.
+    fn ready_drafts(&mut self) -> Result<(), GlError> {
+        Ok(())
+    }
+
     /// For styles of strokes, what was painted.
     fn as_strokes(&self) -> Option<&RotatingStrokes> {
         None

@@ -319,6 +319,13 @@ impl RotatingStrokes {
 }
 
 impl Style for RotatingStrokes {
+    fn ready_drafts(&mut self) -> Result<(), GlError> {
+        if self.draft.is_none() {
+            self.draft = Some(StrokePrograms::new(&self.gpu, Quality::Draft)?);
+        }
+        Ok(())
+    }
+
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
@@ -333,8 +340,8 @@ impl Style for RotatingStrokes {
         if !self.targets.as_ref().is_some_and(fits) {
             self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
         }
-        if frame.quality == Quality::Draft && self.draft.is_none() {
-            self.draft = Some(StrokePrograms::new(&self.gpu, Quality::Draft)?);
+        if frame.quality == Quality::Draft {
+            self.ready_drafts()?;
         }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
         self.find_detail(input, watch)?;
