@@ -5,6 +5,7 @@ mod hand;
 mod lanes;
 mod ruler;
 pub(super) mod transport;
+mod zoom;
 
 use egui::{Color32, Panel, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use impasto_editor_model::Session;
@@ -45,11 +46,12 @@ pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 
         let scene = shown.document.scene();
         let (names, right) = below.split_left_right_at_x(below.left() + names);
-        let across = ruler::across(scene, right);
-        ruler::ground(ui, right, (across, &shown.document.shown().scene));
-        ui.painter().vline(names.right(), names.y_range(), (1.0, Tokens::of(ui).div));
         let (top, rows) = below.split_top_bottom_at_y(below.top() + ruler::HEIGHT);
         let on_ruler = Rect::from_x_y_ranges(right.x_range(), top.y_range());
+        let whole = ruler::across(scene, right);
+        let across = zoom::seen(ui, (right, on_ruler), whole, shown.session.frame);
+        ruler::ground(ui, right, (across, &shown.document.shown().scene));
+        ui.painter().vline(names.right(), names.y_range(), (1.0, Tokens::of(ui).div));
         ruler::ruler(ui, on_ruler, across, (shown, asks));
 
         let lanes = timeline::lanes(scene);

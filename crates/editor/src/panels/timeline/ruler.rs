@@ -36,8 +36,10 @@ pub(super) fn ground(ui: &Ui, rect: Rect, (across, scene): (Across, &Scene)) {
     let tokens = Tokens::of(ui);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| across.x(frame as f64));
     ui.painter().rect_filled(rect, 0.0, tokens.app);
-    let lit = Rect::from_x_y_ranges(first..=last.max(first + 1.0), rect.y_range());
-    ui.painter().rect_filled(lit.intersect(rect), 0.0, tokens.panel);
+    let lit = Rect::from_x_y_ranges(first..=last.max(first + 1.0), rect.y_range()).intersect(rect);
+    if lit.is_positive() {
+        ui.painter().rect_filled(lit, 0.0, tokens.panel);
+    }
 }
 
 /// The ruler, which scrubs; at the ends of the range, its grips.
@@ -73,6 +75,9 @@ fn grips(ui: &mut Ui, rect: Rect, across: Across, (shown, asks): (&Shown<'_>, &m
         let x = across.x(frame as f64);
         // Outside of the range, so that the first and the last frame can be scrubbed to.
         let at = pos2(x + side * 8.0, rect.bottom() - 8.0);
+        if !rect.contains(at) {
+            continue;
+        }
         let hit = Rect::from_center_size(at, vec2(12.0, 16.0));
         let response = ui.interact(hit, ui.scope_id().with(salt), Sense::drag());
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
