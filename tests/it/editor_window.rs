@@ -12,6 +12,18 @@ use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
 
 /// A folder with the apple, alone and of fewer particles that it is soon painted, whose strokes lie just as they are directed.
 pub(crate) fn folder() -> tempfile::TempDir {
+    let (folder, alone) = apple_alone(12_000);
+    let strokes = "    strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0),\n";
+    let exact = alone.replacen("    regions: [\n", &format!("{strokes}    regions: [\n"), 1);
+    std::fs::write(folder.path().join("apple.ron"), exact).unwrap();
+    let scene = read(folder.path(), "apple.ron");
+    assert_eq!((scene.objects.len(), scene.objects[0].particles), (1, Some(12_000)));
+    assert_eq!(scene.strokes.contour, Some(0.0));
+    folder
+}
+
+/// A folder with the shipped apple's mesh, and the text of its scene without the wall and with so many particles.
+pub(crate) fn apple_alone(particles: usize) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let scenes = root().join("scenes");
     std::fs::create_dir(folder.path().join("meshes")).unwrap();
@@ -20,18 +32,9 @@ pub(crate) fn folder() -> tempfile::TempDir {
         std::fs::copy(scenes.join(&name), folder.path().join(&name)).unwrap();
     }
     let shipped = std::fs::read_to_string(scenes.join("apple.ron")).unwrap();
-    let strokes = "    strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0),\n";
+    assert!(shipped.contains("particles: 45658"));
     let alone: String = shipped.split_inclusive('\n').filter(|line| !line.contains("\"wall\"")).collect();
-    let exact = alone.replacen("    regions: [\n", &format!("{strokes}    regions: [\n"), 1).replacen(
-        "particles: 45658",
-        "particles: 12000",
-        1,
-    );
-    std::fs::write(folder.path().join("apple.ron"), exact).unwrap();
-    let scene = read(folder.path(), "apple.ron");
-    assert_eq!((scene.objects.len(), scene.objects[0].particles), (1, Some(12_000)));
-    assert_eq!(scene.strokes.contour, Some(0.0));
-    folder
+    (folder, alone.replacen("particles: 45658", &format!("particles: {particles}"), 1))
 }
 
 pub(crate) fn read(folder: &Path, file: &str) -> Scene {
