@@ -28,7 +28,7 @@ pub use mending::{Repair, Row};
 pub use opening::Source;
 
 /// A document that is edited.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Document {
     loaded: Arc<LoadedScene>,
     preview: Option<Arc<LoadedScene>>,

@@ -36,7 +36,7 @@ use crate::timeline::{KeysEvent, TimeHand};
 use crate::tools::{Hand, ToolOutput};
 use crate::transform::{Operation, Transforming};
 
-pub use mending::Mend;
+pub use mending::{Mend, Mended, Took};
 pub use pointer::{PointerEvent, PointerKind};
 
 /// What only the window can do.

@@ -3,7 +3,7 @@
 use impasto_scene::problem::Report;
 
 use super::Editor;
-use crate::document::{SaveError, Step};
+use crate::document::{Document, SaveError, Step};
 use crate::refusal::Refusal;
 use crate::watch::News;
 
@@ -22,19 +22,70 @@ pub enum Mend {
     ReadAgain,
 }
 
+/// What came of reading files anew, on a thread of its own or not; [`Editor::take`] makes it the document.
+pub struct Mended {
+    document: Document,
+    result: Result<Step, Refusal>,
+    /// What the document was when it began.
+    version_of: (u64, bool),
+    /// What is said of it where it went well, and nobody asked for it.
+    unasked: Option<String>,
+}
+
+/// Whether something is still of use when it is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Took {
+    /// It is the document now; whether anything changed.
+    In(bool),
+    /// The document was edited or saved meanwhile: it was dropped.
+    Late,
+}
+
 impl Editor {
     /// Does something about what is wrong. Whether anything changed.
     pub fn mend(&mut self, mend: &Mend) -> bool {
-        let first = |report: Report| Refusal::of(&report);
-        let result = match mend {
-            Mend::Fix(loss) => self.document.fix_problem(*loss),
-            Mend::FixCertain => self.document.fix_certain(),
-            Mend::Snap(region, guide) => self.document.snap_guide(region, *guide),
-            Mend::ReadText(text) => self.document.read_text(text),
-            Mend::ReadAgain => self.document.read_again().map_err(first),
-        };
+        let mended = self.mending(mend.clone())();
+        self.take(mended) == Took::In(true)
+    }
+
+    /// As [`Editor::mend`], for any thread: it may read many files.
+    pub fn mending(&self, mend: Mend) -> impl FnOnce() -> Mended + Send + use<> {
+        let mut document = self.document.clone();
+        move || {
+            let version_of = version_of(&document);
+            let result = match mend {
+                Mend::Fix(loss) => document.fix_problem(loss),
+                Mend::FixCertain => document.fix_certain(),
+                Mend::Snap(region, guide) => document.snap_guide(&region, guide),
+                Mend::ReadText(text) => document.read_text(&text),
+                Mend::ReadAgain => document.read_again().map_err(|report: Report| Refusal::of(&report)),
+            };
+            Mended { document, result, version_of, unasked: None }
+        }
+    }
+
+    /// Makes it the document, unless that is another by now.
+    pub fn take(&mut self, mended: Mended) -> Took {
+        if version_of(&self.document) != mended.version_of {
+            return Took::Late;
+        }
+        let selection = self.document.selection().clone();
+        self.document = mended.document;
+        if *self.document.selection() != selection {
+            self.document.select(selection);
+        }
         self.version += 1;
-        self.told(result)
+        Took::In(match (mended.unasked, mended.result) {
+            (None, result) => self.told(result),
+            (Some(words), Ok(_)) => {
+                self.say(words);
+                true
+            }
+            (Some(_), Err(refusal)) => {
+                self.refuse(&refusal);
+                false
+            }
+        })
     }
 
     /// Saves in the place of what somebody else wrote.
@@ -47,33 +98,96 @@ impl Editor {
         Ok(())
     }
 
-    /// Takes in what changed on the disk, where that drops no edit: view, selection and mode stay. False where the user has
-    /// to be asked.
-    pub fn take_in(&mut self, news: News) -> bool {
-        let name = self.document.name();
-        let kept = |error: String| {
-            Refusal::new(format!("{name} changed on disk; what was read last stays: {error}"))
-        };
-        let result = match news {
-            News::Scene if self.document.is_edited() => return false,
-            // What is being mended by another hand shows what is left to mend.
-            News::Scene if self.document.source().is_some() => {
-                self.document.read_again().map_err(|report| kept(Refusal::of(&report).0))
-            }
-            News::Scene => self.document.reload().map_err(|report| kept(Refusal::of(&report).0)),
-            News::Files => match self.document.source().map(|source| source.text.clone()) {
-                Some(text) => self.document.read_text(&text),
-                None => {
-                    let nothing = Step { text: String::new(), note: None };
-                    self.document.read_files_again().map(|()| nothing).map_err(|refusal| kept(refusal.0))
-                }
-            },
-        };
-        self.version += 1;
-        match result {
-            Ok(_) => self.say(format!("{name} changed on disk, and was read again")),
-            Err(refusal) => self.refuse(&refusal),
+    /// Takes in what changed on the disk, where that drops no edit: view, selection and mode stay. For any thread, since it may
+    /// read many files; none where the user has to be asked.
+    pub fn taking_in(&self, news: News) -> Option<impl FnOnce() -> Mended + Send + use<>> {
+        if news == News::Scene && self.document.is_edited() {
+            return None;
         }
-        true
+        let mut document = self.document.clone();
+        Some(move || {
+            let (name, version_of) = (document.name(), version_of(&document));
+            let result = take_in(&mut document, news).map_err(|refusal| {
+                Refusal::new(format!("{name} changed on disk; what was read last stays: {}", refusal.0))
+            });
+            let unasked = Some(format!("{name} changed on disk, and was read again"));
+            Mended { document, result, version_of, unasked }
+        })
+    }
+}
+
+fn version_of(document: &Document) -> (u64, bool) {
+    (document.revision(), document.is_edited())
+}
+
+fn take_in(document: &mut Document, news: News) -> Result<Step, Refusal> {
+    let first = |report: Report| Refusal::of(&report);
+    match (news, document.source().map(|source| source.text.clone())) {
+        // What is being mended by another hand shows what is left to mend.
+        (News::Scene, Some(_)) => document.read_again().map_err(first),
+        (News::Scene, None) => document.reload().map_err(first),
+        (News::Files, Some(text)) => document.read_text(&text),
+        (News::Files, None) => document.read_files_again().map(|()| Step { text: String::new(), note: None }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+    use crate::command::{Command, SceneEdit};
+
+    const SCENE: &str = "(version: 1, camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]), \
+        objects: [(name: \"leaf\", mesh: \"leaf.obj\")])";
+    const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+
+    fn editor(folder: &Path) -> Editor {
+        fs::write(folder.join("s.ron"), SCENE).expect("written");
+        fs::write(folder.join("leaf.obj"), QUAD).expect("written");
+        Editor::new(Document::open(&folder.join("s.ron"), &Default::default()).expect("opens"))
+    }
+
+    fn seed(editor: &mut Editor, seed: u32) {
+        assert!(editor.run(&Command::Scene(SceneEdit::SetSeed(seed))));
+    }
+
+    fn triangles(editor: &Editor) -> usize {
+        editor.document().loaded().meshes["leaf.obj"].mesh.triangles.len()
+    }
+
+    #[test]
+    fn a_mesh_is_read_beside_the_work_that_goes_on_and_late_news_are_begun_anew() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut editor = editor(folder.path());
+        fs::write(folder.path().join("leaf.obj"), QUAD.replace("f 1", "v 2 2 2\nf 2 3 4\nf 1"))
+            .expect("written");
+        let late = editor.taking_in(News::Files).expect("nothing is lost by it");
+        seed(&mut editor, 7);
+        let late = std::thread::spawn(late).join().expect("read");
+        assert_eq!(editor.take(late), Took::Late);
+        assert_eq!((triangles(&editor), editor.document().scene().seed), (1, 7), "the edit stays");
+        let again = editor.taking_in(News::Files).expect("edits of the scene are not lost by it");
+        assert_eq!(editor.take(again()), Took::In(true));
+        assert_eq!((triangles(&editor), editor.document().scene().seed), (2, 7));
+    }
+
+    #[test]
+    fn a_scene_that_was_edited_here_and_there_is_asked_about_and_a_save_makes_what_was_read_late() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut editor = editor(folder.path());
+        seed(&mut editor, 7);
+        assert!(editor.taking_in(News::Scene).is_none());
+        let again = editor.mending(Mend::ReadAgain)();
+        editor.save(None).expect("saved");
+        assert_eq!(editor.take(again), Took::Late);
+        assert_eq!(editor.document().scene().seed, 7);
+        // Dropped by choice, and brought back.
+        seed(&mut editor, 8);
+        assert!(editor.mend(&Mend::ReadAgain));
+        assert_eq!(editor.document().scene().seed, 7);
+        assert!(editor.document.undo().is_some());
+        assert_eq!(editor.document().scene().seed, 8);
     }
 }

@@ -33,7 +33,7 @@ impl EditorApp {
                 }
             }
             Ask::Timeline(event) => self.editor.timeline(event),
-            Ask::Mend(mend) => drop(self.editor.mend(&mend)),
+            Ask::Mend(mend) => self.mend(mend),
             Ask::SaveCopy => {
                 let start = self.editor.document().suggested_copy();
                 self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
@@ -72,7 +72,7 @@ impl EditorApp {
                     self.files.dialogs.open(ctx, FileAsk::SaveCopy, &start);
                 }
                 Request::Quit => self.quit_asking(),
-                Request::Revert => drop(self.editor.mend(&Mend::ReadAgain)),
+                Request::Revert => self.mend(Mend::ReadAgain),
                 Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),
                 Request::Palette => self.sheets.palette = true,
                 Request::Shortcuts => self.sheets.shortcuts = true,

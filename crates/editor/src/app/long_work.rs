@@ -9,6 +9,8 @@ use std::time::{Duration, Instant};
 use egui::Context;
 use impasto_editor_model::Document;
 use impasto_editor_model::command::{Arrange, Command};
+use impasto_editor_model::editor::{Mend, Mended, Took};
+use impasto_editor_model::watch::News;
 use impasto_scene::load::{LoadOptions, load_mesh};
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::problem::Report;
@@ -37,6 +39,8 @@ pub(super) enum MeshFor {
 enum Came {
     Opened(PathBuf, Result<Box<Document>, Report>),
     Mesh(MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
+    /// The document's own files, anew; where others changed them, what.
+    Mended(Option<News>, Box<Mended>),
 }
 
 struct Reading {
@@ -133,6 +137,39 @@ impl EditorApp {
         }
     }
 
+    /// Does something about what is wrong with the document.
+    pub(super) fn mend(&mut self, mend: Mend) {
+        if let Some(reading) = &self.long.reading {
+            let words = format!("{} Stop it first, or wait", reading.words);
+            return self.toast(words, None, true);
+        }
+        let words = format!("Reading {}\u{2026}", self.editor.document().name());
+        let mending = self.editor.mending(mend);
+        let came =
+            self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
+        if let Some((came, reading)) = came {
+            self.take_read(came, &reading);
+        }
+    }
+
+    /// Takes in what others changed. Whether it could be begun: else the user has to be asked.
+    pub(super) fn take_in(&mut self, news: News) -> bool {
+        let Some(taking_in) = self.editor.taking_in(news) else { return false };
+        let words = format!("Reading {}\u{2026}", self.editor.document().name());
+        let came = self
+            .long
+            .read(words, self.editor.document(), move || Came::Mended(Some(news), Box::new(taking_in())));
+        if let Some((came, reading)) = came {
+            self.take_read(came, &reading);
+        }
+        true
+    }
+
+    /// Whether files are being read.
+    pub(super) fn is_reading(&self) -> bool {
+        self.long.reading.is_some()
+    }
+
     /// Does this, after what is being read.
     pub(super) fn take_step(&mut self, step: Step) {
         if self.long.reading.is_some() {
@@ -215,7 +252,17 @@ impl EditorApp {
                 }
                 self.opened(&path, opened.map(|document| *document));
             }
-            Came::Mesh(..) if document.folder() != reading.folder => {}
+            Came::Mended(..) | Came::Mesh(..) if document.folder() != reading.folder => {}
+            Came::Mended(news, mended) => match (self.editor.take(*mended), news) {
+                (Took::In(_), None) => {}
+                (Took::In(_), Some(_)) => self.sheets.problems |= self.editor.document().loss_count() > 0,
+                (Took::Late, Some(news)) => self.changed_outside(news),
+                (Took::Late, None) => {
+                    let words =
+                        format!("{} was edited meanwhile: nothing was read", self.editor.document().name());
+                    self.toast(words, None, true);
+                }
+            },
             Came::Mesh(what_for, Ok((adopted, file))) => {
                 if !adopted.copied.is_empty() {
                     self.toast(format!("Copied {} beside the scene", adopted.name), None, false);

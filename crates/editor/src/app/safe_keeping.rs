@@ -134,7 +134,7 @@ impl EditorApp {
             ctx.request_repaint_after(LOOK);
         }
         let has_files = document.file().is_some() || !document.loaded().meshes.is_empty();
-        if has_files && !self.editor.is_moving() && self.safe.asks.is_none() {
+        if has_files && !self.editor.is_moving() && self.safe.asks.is_none() && !self.is_reading() {
             if Instant::now() >= self.safe.next_look {
                 self.safe.next_look = Instant::now() + LOOK;
                 if let Some(news) = self.safe.watch.look(self.editor.document()) {
@@ -153,12 +153,11 @@ impl EditorApp {
         }
     }
 
-    fn changed_outside(&mut self, news: News) {
+    pub(super) fn changed_outside(&mut self, news: News) {
         self.keep_before_risk();
-        if !self.editor.take_in(news) {
+        if !self.take_in(news) {
             self.safe.asks = Some(About::Changed);
         }
-        self.sheets.problems |= self.editor.document().loss_count() > 0;
     }
 
     /// Says why a save did not go, or asks what is to be done.
@@ -182,7 +181,7 @@ impl EditorApp {
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
         self.safe.asks = None;
         match answer {
-            Answer::ReadAgain => drop(self.editor.mend(&impasto_editor_model::editor::Mend::ReadAgain)),
+            Answer::ReadAgain => self.mend(impasto_editor_model::editor::Mend::ReadAgain),
             Answer::SaveOver => {
                 let saved = self.editor.save_over();
                 self.saved(saved);
