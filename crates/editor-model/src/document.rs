@@ -97,7 +97,11 @@ impl Document {
         }
         let file = is_scene.then(|| path.to_owned());
         let stamp = stamp.filter(|_| is_scene);
-        Ok(Self { stamp, ..Self::of(loaded, file, options.clone()) })
+        // What was asked for is what is at hand.
+        let mesh = loaded.scene.objects.first().filter(|_| !is_scene);
+        let selection =
+            mesh.map_or_else(Selection::default, |object| Selection::only(Item::Object(object.name.clone())));
+        Ok(Self { stamp, selection, ..Self::of(loaded, file, options.clone()) })
     }
 
     fn of(loaded: LoadedScene, file: Option<PathBuf>, options: LoadOptions) -> Self {

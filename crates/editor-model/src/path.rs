@@ -165,6 +165,9 @@ impl SurfacePath {
         let mut path = self.clone();
         let steps = path.curve.finish();
         path.walk(&steps, pick);
+        if let Some(&hand) = steps.last().filter(|_| path.sampled_px != path.pieces[0][0].at_px) {
+            path.catch_up(hand, pick);
+        }
         path
     }
 
@@ -230,6 +233,16 @@ impl SurfacePath {
             });
         }
         guides
+    }
+
+    /// A gesture ends where the hand let go, not a string's length before.
+    fn catch_up(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+        let from = self.tip;
+        let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
+        let steps: Vec<DVec2> =
+            (1..=count).map(|step| from.lerp(hand, f64::from(step) / f64::from(count))).collect();
+        self.string_px = 0.0;
+        self.walk(&steps, pick);
     }
 
     /// Pulls the string along steps of the pointer.

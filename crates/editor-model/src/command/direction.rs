@@ -137,6 +137,7 @@ impl Directions {
                     return Err(Refusal::new("Nothing to paint here: the ring must lie on an object"));
                 }
                 let edited = unlocked_region(scene, &name)?;
+                let is_first = *gesture == Gesture::Comb && edited.guides.is_empty();
                 edited.guides.extend(guides.iter().cloned());
                 let item = match gesture {
                     Gesture::Curve => Item::Guide(name.clone(), edited.guides.len() - 1),
@@ -148,7 +149,12 @@ impl Directions {
                     Gesture::Smear => format!("Smear {name}"),
                     Gesture::Curve => "Draw guide".to_owned(),
                 };
-                Ok(Done::new(text).selecting(Selection::only(item)))
+                let done = Done::new(text).selecting(Selection::only(item));
+                Ok(match is_first {
+                    true => done
+                        .noting(format!("The first stroke turns all of {name}; the next ones share it out")),
+                    false => done,
+                })
             }
             Self::Erase { region, guides } => {
                 unlocked_region(scene, region)?.guides.clone_from(guides);

@@ -225,7 +225,10 @@ fn a_string_steadies_a_trembling_hand() {
     let spread = |steady: f64| {
         let path =
             drag(&trembling, &PathSettings { steady, ..SETTINGS }, &mut |at_px| on_plane(&front(), at_px));
-        let inner = &path.pieces()[0][20..];
+        // It ends where the hand let go: the string is let out at last, over its own length.
+        let points = &path.pieces()[0];
+        assert!(points.last().unwrap().at_px.distance(*trembling.last().unwrap()) <= STEP_PX);
+        let inner = &points[20..points.len() - (steady * LONGEST_STRING_PX) as usize - 4];
         inner.iter().map(|point| (point.at_px.y - 180.0).abs()).fold(0.0, f64::max)
     };
     let (free, steadied) = (spread(0.0), spread(0.5));

@@ -93,7 +93,8 @@ pub(super) fn keys(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_
     let middle = rect.center().y;
     if lane.keys.is_empty() {
         let at = pos2(row.across.left + 8.0, middle);
-        let words = "no keys, press I";
+        let is_auto = shown.session.auto_key && !lane.locked;
+        let words = if is_auto { "no keys: move it, or press I" } else { "no keys, press I" };
         ui.painter().text(at, Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
