@@ -17,6 +17,7 @@ mod guides;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;
+mod inverse_bilinear;
 mod measure;
 mod paint;
 mod progressive_order;

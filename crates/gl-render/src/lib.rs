@@ -8,6 +8,8 @@
 
 pub mod context;
 mod gl;
+#[cfg(test)]
+mod inverse_bilinear_twin;
 mod meshes;
 mod motion;
 mod reference;

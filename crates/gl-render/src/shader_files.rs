@@ -15,6 +15,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/encode.frag",
     "shared/lens.glsl",
     "shared/oklab.glsl",
+    "shared/inverse_bilinear.glsl",
 ];
 
 /// The reference pass, and how its surfaces move from one picture to another.
