@@ -1,8 +1,10 @@
 //! Inverse bilinear interpolation: the maths against the formula of its source, and tapered and bent strokes as they are drawn.
 
-use glam::DVec2;
+use glam::{DMat3, DVec2};
 use impasto_core::hash;
 use impasto_core::inverse_bilinear::{FARTHEST, bilinear, inverse_bilinear};
+
+mod strokes;
 
 fn chance(index: u32, which: u32) -> f64 {
     f64::from(hash::unit(hash::combine(index, which)))
@@ -149,4 +151,70 @@ fn no_quad_and_no_point_gives_more_than_a_bounded_number() {
         let found = inverse_bilinear(at(4), [at(0), at(1), at(2), at(3)]);
         assert!(found.abs().max_element() <= FARTHEST, "{:?}: {found}", [at(0), at(1), at(2), at(3), at(4)]);
     }
+}
+
+/// (u, v) as two triangles have it that share the diagonal from p₁ to p₂: affine in each.
+fn on_two_triangles(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
+    let affine = |corner: DVec2, along: DVec2, across: DVec2| {
+        let area = along.perp_dot(across);
+        let off = point - corner;
+        DVec2::new(off.perp_dot(across) / area, along.perp_dot(off) / area)
+    };
+    if (p2 - p1).perp_dot(point - p1) * (p2 - p1).perp_dot(p0 - p1) >= 0.0 {
+        affine(p0, p1 - p0, p2 - p0)
+    } else {
+        1.0 - affine(p3, p2 - p3, p1 - p3)
+    }
+}
+
+/// (u, v) as the projective map through the four corners has it.
+fn projective(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
+    // Heckbert: from the unit square to the quad, then turned round.
+    let (sum, d1, d2) = (p0 - p1 + p3 - p2, p1 - p3, p2 - p3);
+    let area = d1.perp_dot(d2);
+    let (g, h) = (sum.perp_dot(d2) / area, d1.perp_dot(sum) / area);
+    let forth = DMat3::from_cols((p1 - p0 + p1 * g).extend(g), (p2 - p0 + p2 * h).extend(h), p0.extend(1.0));
+    let at = forth.inverse() * point.extend(1.0);
+    at.truncate() / at.z
+}
+
+type Map = fn(DVec2, [DVec2; 4]) -> DVec2;
+
+/// How much the change of (u, v) per pixel differs on either side of the middle of the diagonal from p₁ to p₂.
+fn jump_over_the_diagonal(map: Map, corners: [DVec2; 4]) -> f64 {
+    let middle = corners[1].lerp(corners[2], 0.4);
+    let side = (corners[2] - corners[1]).perp().normalize() * 1e-3;
+    let change = |at: DVec2, step: DVec2| (map(at + step, corners) - map(at, corners)) / step.length();
+    let size = corners[1].distance(corners[2]);
+    (change(middle, side) + change(middle, -side)).length() * size
+}
+
+const SQUARE: [DVec2; 4] =
+    [DVec2::new(0.0, 0.0), DVec2::new(100.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 100.0)];
+/// Scaled, turned and sheared.
+const SHEARED: [DVec2; 4] =
+    [DVec2::new(5.0, 9.0), DVec2::new(90.0, 50.0), DVec2::new(-30.0, 70.0), DVec2::new(55.0, 111.0)];
+/// One corner of the square moved.
+const MOVED: [DVec2; 4] =
+    [DVec2::new(0.0, 0.0), DVec2::new(100.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 40.0)];
+
+#[test]
+fn two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() {
+    for corners in [SQUARE, SHEARED] {
+        assert!(jump_over_the_diagonal(on_two_triangles, corners) < 1e-6);
+        assert!(jump_over_the_diagonal(inverse_bilinear, corners) < 1e-6);
+    }
+    let theirs = jump_over_the_diagonal(on_two_triangles, MOVED);
+    let ours = jump_over_the_diagonal(inverse_bilinear, MOVED);
+    println!("moved corner: {theirs:.3} on two triangles, {ours:.6} on the quad");
+    assert!(theirs > 0.5 && ours < 1e-3 * theirs, "{theirs} {ours}");
+}
+
+#[test]
+fn the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
+    assert!(jump_over_the_diagonal(projective, MOVED) < 1e-3);
+    // A quarter along the bottom edge; a neighbour below knows nothing of this quad's other corners.
+    let quarter = MOVED[0].lerp(MOVED[1], 0.25);
+    assert!((projective(quarter, MOVED).x - 0.25).abs() > 0.05, "{}", projective(quarter, MOVED));
+    assert!((inverse_bilinear(quarter, MOVED).x - 0.25).abs() < 1e-12);
 }
