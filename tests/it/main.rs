@@ -18,6 +18,7 @@ mod horn;
 mod hostile_directions;
 mod hostile_scenes;
 mod inverse_bilinear;
+mod light_billboards;
 mod measure;
 mod paint;
 mod progressive_order;

@@ -31,6 +31,10 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/motion.frag",
 ];
 
+/// Lights as icons that face the camera.
+pub(crate) const LIGHT_BILLBOARDS: &[ShaderFile] =
+    shader_files!["light_billboards/billboard.vert", "light_billboards/billboard.frag",];
+
 /// Brush strokes.
 pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/layers.glsl",

@@ -27,6 +27,7 @@ fn view(loaded: &LoadedScene, frame: f64) -> ViewJob {
         size_px: SIZE_PX,
         shot_height_px: SIZE_PX[1] as f32,
         shading: Shading::Painted,
+        lights: Vec::new(),
         moving: false,
     }
 }
@@ -280,4 +281,30 @@ fn closing_in_the_midst_of_work_is_quick() {
     let began = Instant::now();
     drop(worker);
     assert!(began.elapsed() < CLOSING);
+}
+
+#[test]
+fn other_lights_over_the_same_picture_draw_no_stroke_again() {
+    let loaded = scene();
+    let worker = worker();
+    let bare = view(&loaded, 3.0);
+    let lamp = impasto_gl_render::LightBillboard {
+        position: glam::Vec3::new(0.0, 0.5, 0.0),
+        icon: impasto_gl_render::BillboardIcon::Point,
+        size: BillboardSize::Pixels(12.0),
+        ink: [1.0; 4],
+    };
+    let lit = ViewJob { lights: vec![lamp], ..bare.clone() };
+    let show = |view: &ViewJob| {
+        worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view.clone()] });
+        until(&worker, is_exact)
+    };
+    let first = show(&bare);
+    let first = pictures(&first).last().map(|picture| (bytes(picture), picture.strokes)).unwrap();
+    let told = show(&lit);
+    let [over] = &pictures(&told)[..] else { panic!("one picture, and no draft of it") };
+    assert!(over.view == lit && over.strokes == first.1 && bytes(over) != first.0);
+    let told = show(&bare);
+    let [again] = &pictures(&told)[..] else { panic!("one picture, and no draft of it") };
+    assert!(bytes(again) == first.0);
 }
