@@ -25,7 +25,7 @@ const KINDS: [Kind; 4] = [Kind::General, Kind::Trapezoid, Kind::Parallelogram, K
 fn convex(index: u32, kind: Kind) -> [DVec2; 4] {
     let between = |which: u32, low: f64, high: f64| low + (high - low) * chance(index, which);
     let corner_deg = if kind == Kind::Rectangle { 90.0 } else { between(3, 10.0, 170.0) };
-    let winding = if index % 2 == 0 { 1.0 } else { -1.0 };
+    let winding = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
     let along = DVec2::from_angle(between(0, 0.0, std::f64::consts::TAU));
     let b1 = along * between(1, 1.0, 1000.0);
     let b2 = along.rotate(DVec2::from_angle(winding * corner_deg.to_radians())) * between(2, 1.0, 1000.0);

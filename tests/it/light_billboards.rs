@@ -155,6 +155,31 @@ fn a_light_at_the_eye_or_behind_it_is_not_drawn() {
 }
 
 #[test]
+fn a_ring_is_a_whole_thin_line_round_its_middle() {
+    let mut renderer = renderer(Driver::Egl);
+    let frame = frame();
+    let bare = renderer.render(&frame).unwrap();
+    let center = Vec3::new(0.9, 0.1, 0.0);
+    let ring =
+        LightBillboard { icon: BillboardIcon::Ring, size: BillboardSize::Pixels(60.0), ..lamp(center) };
+    renderer.set_billboards(&[ring]);
+    let picture = renderer.render(&frame).unwrap();
+    let middle = shown_at(&frame, center);
+    // How far out the line lies, all the way round.
+    let changed = |at: [f32; 2]| {
+        let index = (at[1] as usize * SIZE_PX[0] as usize + at[0] as usize) * 4;
+        (0..3).map(|c| u32::from(picture.rgba8[index + c].abs_diff(bare.rgba8[index + c]))).sum::<u32>()
+    };
+    for step in 0..720 {
+        let (sin, cos) = (step as f32 * 0.5).to_radians().sin_cos();
+        let at = |radius: f32| [middle[0] + radius * cos, middle[1] + radius * sin];
+        let most = (0..9).map(|k| changed(at(55.0 + k as f32))).max().unwrap();
+        assert!(most > 100, "a gap at {} degrees: {most}", step as f32 * 0.5);
+        assert_eq!(changed(at(48.0)) + changed(at(66.0)), 0, "{} degrees", step as f32 * 0.5);
+    }
+}
+
+#[test]
 fn icons_come_and_go_without_the_picture_being_drawn_again() {
     let (mut egl, mut osmesa) = (renderer(Driver::Egl), renderer(Driver::Osmesa));
     assert_eq!(egl.with_other_billboards().unwrap(), None, "nothing was drawn yet");

@@ -79,7 +79,7 @@ fn convex(index: u32) -> Question {
     let between = |which: u32, low: f64, high: f64| low + (high - low) * chance(which);
     let turn = DVec2::from_angle(between(0, 0.0, std::f64::consts::TAU));
     let (length, other) = (between(1, 10.0, 300.0), between(2, 10.0, 300.0));
-    let winding = if index % 2 == 0 { 1.0 } else { -1.0 };
+    let winding = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
     let corner_deg = if index % 5 > 2 { 90.0 } else { between(3, 25.0, 155.0) };
     let b1 = turn * length;
     let b2 = turn.rotate(DVec2::from_angle(winding * corner_deg.to_radians()))

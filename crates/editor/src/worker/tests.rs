@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
-use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{self, OpenOptions};
+use impasto_gl_render::{BillboardIcon, Renderer};
 use impasto_painting::frame::FrameStyle;
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::load::{LoadOptions, load};
@@ -288,9 +288,9 @@ fn other_lights_over_the_same_picture_draw_no_stroke_again() {
     let loaded = scene();
     let worker = worker();
     let bare = view(&loaded, 3.0);
-    let lamp = impasto_gl_render::LightBillboard {
+    let lamp = LightBillboard {
         position: glam::Vec3::new(0.0, 0.5, 0.0),
-        icon: impasto_gl_render::BillboardIcon::Point,
+        icon: BillboardIcon::Point,
         size: BillboardSize::Pixels(12.0),
         ink: [1.0; 4],
     };

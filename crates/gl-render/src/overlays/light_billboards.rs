@@ -55,11 +55,9 @@ impl LightBillboard {
     /// eye, before the near plane or behind it, where there is nothing to be seen of it.
     pub fn corners(&self, view: &FrameView, height_px: u32) -> Option<[Vec3; 4]> {
         let depth = -view.view_from_world.transform_point3(self.position).z;
-        let px_per_unit = view.clip_from_view.y_axis.y * 0.5 * height_px as f32;
-        let units_per_px = if view.orthographic { 1.0 } else { depth } / px_per_unit;
         let half = match self.size {
             BillboardSize::World(half) => half,
-            BillboardSize::Pixels(half_px) => half_px * units_per_px,
+            BillboardSize::Pixels(half_px) => half_px * self.units_per_px(view, height_px),
         };
         if !(depth > view.near_far[0] && half.is_finite() && half > 0.0) {
             return None;
@@ -67,6 +65,20 @@ impl LightBillboard {
         let [right, up] = camera_axes(view).map(|axis| axis * half);
         let center = self.position;
         Some([center - right - up, center + right - up, center - right + up, center + right + up])
+    }
+
+    /// Half its side in pixels.
+    fn half_px(&self, view: &FrameView, height_px: u32) -> f32 {
+        match self.size {
+            BillboardSize::World(half) => half / self.units_per_px(view, height_px),
+            BillboardSize::Pixels(half_px) => half_px,
+        }
+    }
+
+    fn units_per_px(&self, view: &FrameView, height_px: u32) -> f32 {
+        let depth = -view.view_from_world.transform_point3(self.position).z;
+        let px_per_unit = view.clip_from_view.y_axis.y * 0.5 * height_px as f32;
+        if view.orthographic { 1.0 / px_per_unit } else { depth / px_per_unit }
     }
 }
 
@@ -90,12 +102,17 @@ const BILLBOARD: ProgramSource = ProgramSource {
         "icons",
         "depth_and_id",
         "icon",
+        "px",
+        "pieces",
         "ink",
         "depth",
         "softness",
     ],
     defined: &[],
 };
+
+/// Straight pieces of a ring.
+const RING_PIECES: u32 = 64;
 
 /// An icon goes behind something over this share of its depth.
 const SOFTNESS: f32 = 0.03;
@@ -144,6 +161,7 @@ impl LightBillboards {
         let [right, up] = camera_axes(view);
         self.gpu.begin_pass(output, DrawState { blend: Blend::Over, ..DrawState::default() });
         for (depth, billboard, corners) in seen {
+            let instances = if billboard.icon == BillboardIcon::Ring { RING_PIECES } else { 1 };
             let bound = self
                 .program
                 .bind()
@@ -157,10 +175,12 @@ impl LightBillboards {
                 .texture("icons", &self.icons)
                 .texture("depth_and_id", depth_and_id)
                 .set("icon", billboard.icon.layer())
+                .set("px", 1.0 / billboard.half_px(view, output.size_px()[1]))
+                .set("pieces", RING_PIECES as f32)
                 .set("ink", Vec4::from(billboard.ink))
                 .set("depth", depth)
                 .set("softness", SOFTNESS * depth);
-            self.gpu.draw(bound, &self.no_vertices, Vertices::Quads { instances: 1 })?;
+            self.gpu.draw(bound, &self.no_vertices, Vertices::Quads { instances })?;
         }
         Ok(())
     }
