@@ -1,4 +1,7 @@
 // Paint where the brush mark is, near its own body: colour and height in one go. Both are laid over what is there.
+#ifdef SHAPED
+#include "shared/inverse_bilinear.glsl"
+#endif
 in vec2 mark_at;
 in vec2 from_center_px;
 flat in vec4 paint;
@@ -7,6 +10,10 @@ flat in vec4 picked_up;
 flat in vec4 mark;
 flat in vec4 body;
 flat in vec2 own;
+#ifdef SHAPED
+flat in vec4 form;
+flat in float leaning;
+#endif
 
 uniform sampler2DArray brush_marks; // paint, height, tint
 uniform sampler2D depth_and_id;
@@ -44,11 +51,39 @@ float past_body(vec2 here, float tint) {
     return on_own;
 }
 
+#ifdef SHAPED
+// Px along a bent stroke and off its middle line, which is an arc.
+vec2 straightened(vec2 at_px) {
+    float per_px = form.w;
+    if (abs(per_px) < 1e-6) return at_px;
+    vec2 from_middle = vec2(per_px * at_px.x, 1.0 - per_px * at_px.y);
+    float off_px = (2.0 * at_px.y - per_px * dot(at_px, at_px)) / (1.0 + length(from_middle));
+    return vec2(atan(from_middle.x, from_middle.y) / per_px, off_px);
+}
+
+// Where a pixel lies on the mark: a bent stroke straightened is a trapezoid, its mark spread evenly between its sides.
+vec2 on_mark(vec2 at_px) {
+    vec2 start = vec2(leaning, 1.0) * form.y * (1.0 + form.z);
+    vec2 end = vec2(leaning, 1.0) * form.y * (1.0 - form.z);
+    vec2 half_along = vec2(form.x, 0.0);
+    return inverse_bilinear(straightened(at_px), -half_along - start, half_along - end, -half_along + start, half_along + end);
+}
+#endif
+
 void main() {
-    float u = mark_at.x;
-    vec2 at = vec2(u, 0.5 + (mark_at.y - 0.5) * body.w);
+    vec2 quad_at = mark_at;
+    float level = mark.y;
+#ifdef SHAPED
+    if (form.x > 0.0) {
+        quad_at = on_mark(mark_at);
+        if (any(lessThan(quad_at, vec2(0.0))) || any(greaterThan(quad_at, vec2(1.0)))) discard;
+        level = max(level - log2(max(1.0 + form.z * (1.0 - 2.0 * quad_at.x), 0.01)), 0.0);
+    }
+#endif
+    float u = quad_at.x;
+    vec2 at = vec2(u, 0.5 + (quad_at.y - 0.5) * body.w);
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
-    vec3 texel = textureLod(brush_marks, vec3(at, mark.x), mark.y).rgb;
+    vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;
     float alpha = smoothstep(paint.a - mark.z, paint.a + mark.z, texel.r);
     if (alpha <= 0.0) discard;
     float tint = texel.b * 2.0 - 1.0;

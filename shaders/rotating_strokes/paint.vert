@@ -4,10 +4,13 @@ layout(location = 0) in vec4 place;          // centre in px, depth, angle in ra
 layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bend; // world space, half widths
+layout(location = 4) in vec4 normal_and_bow; // world space, half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
 layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness
+#ifdef SHAPED
+layout(location = 8) in vec2 shape;          // taper, bend in radians
+#endif
 
 uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
@@ -15,14 +18,18 @@ uniform float mark_rows;         // texels across a mark
 uniform sampler2D below;         // the picture before this layer, premultiplied
 #endif
 
-out vec2 mark_at;
+out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
 out vec2 from_center_px;
 flat out vec4 paint;             // colour and the height at which the mark is cut off
 flat out vec3 half_mixed;        // what the other paint in the brush adds
 flat out vec4 picked_up;         // colour from below and how much of it
-flat out vec4 mark;              // its number, level of detail, half its soft edge, bend
+flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
+#ifdef SHAPED
+flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
+flat out float leaning;          // skew
+#endif
 
 const float MARGIN = 1.0 / 0.84;
 const float BYTE = 1.0 / 255.0;
@@ -37,6 +44,23 @@ vec4 paint_below(vec2 center_px, float spread_px) {
         sum += texelFetch(below, texel, 0);
     }
     return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
+}
+#endif
+
+#ifdef SHAPED
+// A corner of the box round a tapered and bent stroke, px along and across its middle.
+vec2 corner_of_box(vec2 corner, vec4 of, float skew) {
+    float wide = of.y * (1.0 + abs(of.z));
+    float reach = of.x + abs(skew) * wide;
+    float per_px = abs(of.w);
+    if (per_px < 1e-6) return corner * vec2(reach, wide);
+    float half_angle = min(per_px * reach, 3.14159265);
+    float radius = 1.0 / per_px;
+    float along = (radius + wide) * (half_angle < 1.57079633 ? sin(half_angle) : 1.0);
+    float rise = sin(0.5 * half_angle);
+    float inward = max(2.0 * radius * rise * rise + wide * abs(cos(half_angle)), wide);
+    float across = of.w > 0.0 ? mix(-wide, inward, corner.y * 0.5 + 0.5) : mix(-inward, wide, corner.y * 0.5 + 0.5);
+    return vec2(corner.x * along, across);
 }
 #endif
 
@@ -78,7 +102,19 @@ void main() {
     mark_at = corner * 0.5 + 0.5;
     // A constant level keeps the mark the same at every angle.
     float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
-    mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bend.w);
+#ifdef SHAPED
+    vec4 own_form = vec4(0.0);
+    if (shape != vec2(0.0)) {
+        own_form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / size.x);
+        mark_at = corner_of_box(corner, own_form, reach.w);
+        from_center_px = along * mark_at.x + vec2(-along.y, along.x) * mark_at.y;
+        // Where it is narrower, it is looked at more coarsely.
+        level = log2(mark_rows / (1.05 * size.y * MARGIN));
+    }
+    form = own_form;
+    leaning = reach.w;
+#endif
+    mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, (marks.w & 65536u) == 0u ? 1.0 : -1.0);
     own = vec2(place.z, float(marks.y));

@@ -11,7 +11,7 @@ layout(location = 0) in vec4 place;          // centre in px, depth, angle in ra
 layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo (sRGB bytes, A 0 where unlit), mark
 layout(location = 3) in uvec2 bytes;         // paint, mixing
-layout(location = 4) in vec4 normal_and_bend; // world space, half widths
+layout(location = 4) in vec4 normal_and_bow; // world space, half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 #include "rotating_strokes/surroundings.glsl"
 #include "rotating_strokes/mixing.glsl"
@@ -33,7 +33,7 @@ const float BLUR[6] = float[6](0.33, 0.20, 0.20, 0.22, 0.30, 0.25);
 
 // How far the centre can be seen: taps round it, each compared with where the stroke's own plane would be there.
 float seen(mat2 turn) {
-    vec3 n = mat3(view_from_world) * normal_and_bend.xyz;
+    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float unit = units_per_px(place.z);
     float slant = max(abs(n.z), 0.2);
     float radius_px = clamp(0.28 * sqrt(size.x * size.y), 3.0, 14.0 * max(px_scale, 1.0));
@@ -74,7 +74,7 @@ vec3 color_of_hidden() {
     if ((marks.z >> 24) == 0u) return albedo;
     LitPoint point;
     point.position = world_from_px(place.xy, place.z);
-    point.normal = normalize(normal_and_bend.xyz);
+    point.normal = normalize(normal_and_bow.xyz);
     point.towards_eye = towards_eye_from_px(place.xy);
     point.openness = 1.0;
     point.gloss = 0.0;

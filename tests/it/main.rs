@@ -17,6 +17,8 @@ mod guides;
 mod horn;
 mod hostile_directions;
 mod hostile_scenes;
+mod inverse_bilinear;
+mod light_billboards;
 mod measure;
 mod own_shaders;
 mod paint;

@@ -35,13 +35,14 @@ struct Row<'a> {
     b: f32,
     facing: f32,
     rank: f32,
+    taper: f32,
+    bend_deg: f32,
     /// In half widths, to the left; for drawing only.
     #[serde(skip)]
-    bend: f32,
+    bow: f32,
 }
 
-const HEADER: &str =
-    "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
+const HEADER: &str = "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank,taper,bend_deg";
 
 /// What regions are called where none is stated.
 const EVERYTHING_ELSE: &str = "everything else";
@@ -117,7 +118,9 @@ fn row<'a>(
         b,
         facing: source.facing,
         rank: source.rank,
-        bend: stroke.bend,
+        taper: stroke.taper,
+        bend_deg: stroke.bend_rad.to_degrees(),
+        bow: stroke.bow,
     }
 }
 
@@ -136,7 +139,7 @@ fn csv(rows: &[Row<'_>]) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
             row.id,
             quoted(row.object),
             quoted(row.region),
@@ -153,7 +156,9 @@ fn csv(rows: &[Row<'_>]) -> String {
             row.g,
             row.b,
             row.facing,
-            row.rank
+            row.rank,
+            row.taper,
+            row.bend_deg
         );
     }
     text
@@ -212,31 +217,42 @@ fn hex(color: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A stroke along +X round the origin: full at the start, tapering at the end, bent in the middle.
+/// A stroke along +X round the origin: full at the start, tapering at the end, bowed in the middle; then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
     // To the left of the stroke is up, which SVG counts negative; a cubic reaches three quarters of its handles.
-    let bend = -row.bend * w * 4.0 / 3.0;
-    let (upper, lower) = (bend - w, bend + w);
+    let bow = -row.bow * w * 4.0 / 3.0;
+    let (upper, lower) = (bow - w, bow + w);
+    let at = |x: f32, y: f32| {
+        let [x, y] = bent(row, [x, y]);
+        format!("{x:.2} {y:.2}")
+    };
+    let start = at(-0.92 * l, -w);
     format!(
-        "M{:.2} {:.2}C{:.2} {upper:.2} {:.2} {upper:.2} {:.2} {:.2}Q{l:.2} {:.2} {l:.2} 0Q{l:.2} {:.2} {:.2} {:.2}C{:.2} {lower:.2} {:.2} {lower:.2} {:.2} {w:.2}Q{:.2} 0 {:.2} {:.2}Z",
-        -0.92 * l,
-        -w,
-        -0.4 * l,
-        0.4 * l,
-        0.8 * l,
-        -0.8 * w,
-        -0.55 * w,
-        0.55 * w,
-        0.8 * l,
-        0.8 * w,
-        0.4 * l,
-        -0.4 * l,
-        -0.92 * l,
-        -1.04 * l,
-        -0.92 * l,
-        -w,
+        "M{start}C{} {} {}Q{} {}Q{} {}C{} {} {}Q{} {start}Z",
+        at(-0.4 * l, upper),
+        at(0.4 * l, upper),
+        at(0.8 * l, -0.8 * w),
+        at(l, -0.55 * w),
+        at(l, 0.0),
+        at(l, 0.55 * w),
+        at(0.8 * l, 0.8 * w),
+        at(0.4 * l, lower),
+        at(-0.4 * l, lower),
+        at(-0.92 * l, w),
+        at(-1.04 * l, 0.0),
     )
+}
+
+/// Where a point of a straight stroke of even width lies once it is tapered and bent; Y down.
+fn bent(row: &Row<'_>, [x, y]: [f32; 2]) -> [f32; 2] {
+    let y = y * (1.0 - row.taper * 2.0 * x / row.length_px);
+    if row.bend_deg == 0.0 {
+        return [x, y];
+    }
+    let radius_px = row.length_px / row.bend_deg.to_radians();
+    let (sin, cos) = (x / radius_px).sin_cos();
+    [(radius_px + y) * sin, y * cos - radius_px * (1.0 - cos)]
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@ pub mod direction;
 pub mod flood;
 pub mod hash;
 pub mod horn_exact;
+pub mod inverse_bilinear;
 pub mod lift;
 pub mod mesh;
 pub mod nearest;

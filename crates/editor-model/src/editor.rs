@@ -7,6 +7,7 @@
 //! ```
 
 mod actions;
+mod lights;
 mod mending;
 mod objects;
 mod painted;
@@ -26,7 +27,6 @@ use impasto_scene::motion::{self, CameraPose};
 use crate::camera_rig::Looking;
 use crate::command::Command;
 use crate::document::{Document, Step};
-use crate::gizmo::Gizmo;
 use crate::keymap::{Key, Keymap, Modifiers, Navigation, Scope};
 use crate::picking::{Picker, View};
 use crate::refusal::Refusal;
@@ -34,8 +34,9 @@ use crate::selection::{Item, Selection};
 use crate::session::{Mode, Session, Tool};
 use crate::timeline::{KeysEvent, TimeHand};
 use crate::tools::{Hand, ToolOutput};
-use crate::transform::{Operation, Transforming};
+use crate::transform::Transforming;
 
+pub use lights::LightPlace;
 pub use mending::{Mend, Mended, Took};
 pub use pointer::{PointerEvent, PointerKind};
 
@@ -103,6 +104,8 @@ pub enum Offer {
 struct TransformDrag {
     machine: Transforming,
     objects: Vec<String>,
+    /// A light in their place.
+    light: Option<String>,
     /// Begun by a press: ends with its release.
     held: bool,
 }
@@ -269,22 +272,6 @@ impl Editor {
     /// What the tool has to show: rings, needle, lines.
     pub fn tool_output(&self) -> &ToolOutput {
         &self.output
-    }
-
-    /// The handles round the selected object, in Arrange and Animate.
-    pub fn gizmo(&self, view: &View) -> Option<Gizmo> {
-        let operation = match self.session.tool() {
-            Tool::Move | Tool::Select => Operation::Move,
-            Tool::Turn => Operation::Turn,
-            Tool::Scale => Operation::Scale,
-            _ => return None,
-        };
-        // A comparison shows the reference, where nothing stands as it does now.
-        let poses = self.session.mode != Mode::Paint && !self.session.compare;
-        let is_shown = poses && !self.is_navigating() && !self.time.playback.is_playing();
-        let object = self.active_object().filter(|_| is_shown)?;
-        let pose = *self.poses().get(object)?;
-        Some(Gizmo::new(operation, self.session.options.axes, pose, view))
     }
 
     /// Index of the object that is selected last.

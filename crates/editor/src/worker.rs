@@ -13,6 +13,7 @@ use impasto_editor_model::picking::Picker;
 use impasto_editor_model::session::Shading;
 use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::{ContextReport, Driver};
+use impasto_gl_render::{BillboardSize, LightBillboard};
 use impasto_painting::Painting;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::CameraPose;
@@ -53,6 +54,8 @@ pub struct ViewJob {
     pub shot_height_px: f32,
     /// What is shown of the scene.
     pub shading: Shading,
+    /// Lights that are shown over the picture; sizes in pixels are those of the exact picture.
+    pub lights: Vec<LightBillboard>,
     /// Whether more of its kind will follow at once (a hand is on it): then a draft is enough.
     pub moving: bool,
 }
@@ -61,6 +64,23 @@ impl ViewJob {
     /// Whether both look the same: a hand that is on it changes nothing that is seen.
     pub fn looks_like(&self, other: &Self) -> bool {
         *self == Self { moving: self.moving, ..other.clone() }
+    }
+
+    /// Whether both look the same but for the lights over them.
+    pub(crate) fn differs_in_lights_alone(&self, other: &Self) -> bool {
+        *self == Self { moving: self.moving, lights: self.lights.clone(), ..other.clone() }
+    }
+
+    /// The lights in a picture of fewer pixels.
+    pub(crate) fn lights_in(&self, size_px: [u32; 2]) -> Vec<LightBillboard> {
+        let share = size_px[1] as f32 / self.size_px[1].max(1) as f32;
+        let sized = |light: &LightBillboard| match light.size {
+            BillboardSize::Pixels(half_px) => {
+                LightBillboard { size: BillboardSize::Pixels(half_px * share), ..*light }
+            }
+            BillboardSize::World(_) => *light,
+        };
+        self.lights.iter().map(sized).collect()
     }
 }
 

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use impasto_painting::Frame;
-use impasto_painting::frame::{FrameStyle, Strokes};
+use impasto_painting::frame::{FrameStyle, FrameView, Strokes};
 
 use crate::context::{Context, ContextReport};
-use crate::gl::{Filter, Format, Framebuffer, GlError, Halt, Texture};
+use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, Texture};
 use crate::motion::{MotionPass, MotionPixels};
+use crate::overlays::light_billboards::{LightBillboard, LightBillboards};
 use crate::reference::{LightSetup, ReferencePass, ReferenceTargets, targets_of_size};
 use crate::shader_files::ShaderTexts;
 use crate::styles::{self, RotatingStrokes, Style, StyleInput};
@@ -88,6 +89,13 @@ pub struct Renderer {
     motion: Option<MotionPass>,
     targets: Option<ReferenceTargets>,
     output: Option<Framebuffer>,
+    /// The picture in `output`, once it is whole.
+    last_view: Option<FrameView>,
+    billboards: Vec<LightBillboard>,
+    /// Made when there is the first to draw.
+    billboards_pass: Option<LightBillboards>,
+    /// A picture with billboards over it.
+    with_billboards: Option<Framebuffer>,
     last_style: FrameStyle,
     context: Context,
 }
@@ -106,6 +114,10 @@ impl Renderer {
             motion: None,
             targets: None,
             output: None,
+            last_view: None,
+            billboards: Vec::new(),
+            billboards_pass: None,
+            with_billboards: None,
             last_style: FrameStyle::Reference,
             context,
         })
@@ -130,11 +142,12 @@ impl Renderer {
                 made.ready_drafts()?;
                 opened.insert(style, made);
             }
-            Ok::<_, GlError>((reference, opened))
+            Ok::<_, GlError>((reference, opened, LightBillboards::new(&gpu)?))
         })();
         match made {
-            Ok((reference, styles)) => {
+            Ok((reference, styles, billboards)) => {
                 (self.reference, self.styles, self.motion) = (reference, styles, None);
+                (self.billboards_pass, self.last_view) = (Some(billboards), None);
                 Ok(())
             }
             Err(error) => {
@@ -208,7 +221,54 @@ impl Renderer {
         }
     }
 
+    /// Lights that are drawn over every picture from now on: for windows, not for files. None at first.
+    pub fn set_billboards(&mut self, billboards: &[LightBillboard]) {
+        self.billboards.clear();
+        self.billboards.extend_from_slice(billboards);
+    }
+
+    /// The picture that was drawn last, with the lights over it that were set since; `None` where there is none, or it was
+    /// given up.
+    ///
+    /// # Errors
+    /// As [`Renderer::render`].
+    pub fn with_other_billboards(&mut self) -> Result<Option<Picture>, RenderError> {
+        self.context.gpu().make_current()?;
+        let Some(view) = self.last_view else { return Ok(None) };
+        Ok(Some(self.read_output(&view)?))
+    }
+
+    /// Reads the finished picture, billboards over it.
+    fn read_output(&mut self, view: &FrameView) -> Result<Picture, GlError> {
+        let gpu = self.context.gpu().clone();
+        let output = self.output.as_ref().expect("a picture was drawn before");
+        let size_px = output.size_px();
+        let mut shown = output;
+        if !self.billboards.is_empty() {
+            let over = match self.with_billboards.take() {
+                Some(over) if over.size_px() == size_px => over,
+                _ => output_target(&gpu, size_px)?,
+            };
+            let over = self.with_billboards.insert(over);
+            output.copy_to(over);
+            let pass = match self.billboards_pass.take() {
+                Some(pass) => pass,
+                None => LightBillboards::new(&gpu)?,
+            };
+            let pass = self.billboards_pass.insert(pass);
+            let reference = self.targets.as_ref().expect("the reference picture was drawn before");
+            pass.draw(&self.billboards, view, (over, &reference.depth_and_id))?;
+            gpu.lap("billboards");
+            shown = over;
+        }
+        let rgba8 = top_row_first(&shown.read_bytes(0), size_px[0] as usize * 4);
+        gpu.lap("read back");
+        gpu.complaints()?;
+        Ok(Picture { size_px, rgba8 })
+    }
+
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
+        self.last_view = None;
         let targets = targets_of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
         self.reference.draw(frame, targets, watch)
@@ -225,10 +285,7 @@ impl Renderer {
         let reference = self.targets.as_ref().expect("the reference picture was drawn before");
         let output = match self.output.take() {
             Some(output) if output.size_px() == frame.size_px => output,
-            _ => {
-                let color = Rc::new(Texture::target(gpu, Format::Rgba8, frame.size_px, Filter::Nearest)?);
-                Framebuffer::new(gpu, &[&color], None)?
-            }
+            _ => output_target(gpu, frame.size_px)?,
         };
         let output = self.output.insert(output);
         self.last_style = frame.style;
@@ -237,10 +294,8 @@ impl Renderer {
             std::collections::hash_map::Entry::Vacant(entry) => entry.insert(styles::open(gpu, frame.style)?),
         };
         style.draw(&StyleInput { frame, reference, lights }, output, watch)?;
-        let rgba8 = top_row_first(&output.read_bytes(0), frame.size_px[0] as usize * 4);
-        gpu.lap("read back");
-        gpu.complaints()?;
-        Ok(Picture { size_px: frame.size_px, rgba8 })
+        self.last_view = Some(frame.view);
+        Ok(self.read_output(&frame.view)?)
     }
 
     /// As [`Renderer::render`], with what it cost. Waits for the driver after each, so the whole is slower.
@@ -324,6 +379,12 @@ impl Renderer {
         }
         self.styles.get(&self.last_style)?.as_strokes()
     }
+}
+
+/// What a finished picture is drawn into.
+fn output_target(gpu: &Gpu, size_px: [u32; 2]) -> Result<Framebuffer, GlError> {
+    let color = Rc::new(Texture::target(gpu, Format::Rgba8, size_px, Filter::Nearest)?);
+    Framebuffer::new(gpu, &[&color], None)
 }
 
 /// A picture that nobody could give up.

@@ -40,7 +40,7 @@ impl ShaderTexts {
 }
 
 /// All of them.
-const ALL: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES];
+const ALL: &[&[ShaderFile]] = &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES];
 
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] = shader_files![
@@ -49,6 +49,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/encode.frag",
     "shared/lens.glsl",
     "shared/oklab.glsl",
+    "shared/inverse_bilinear.glsl",
 ];
 
 /// The reference pass, and how its surfaces move from one picture to another.
@@ -63,6 +64,10 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/motion.vert",
     "reference/motion.frag",
 ];
+
+/// Lights as icons that face the camera.
+pub(crate) const LIGHT_BILLBOARDS: &[ShaderFile] =
+    shader_files!["light_billboards/billboard.vert", "light_billboards/billboard.frag",];
 
 /// Brush strokes.
 pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![

@@ -39,7 +39,7 @@ impl Painting {
             };
             let by_order = !by_polygon && rule.strokes.size_follow <= 0.0;
             Some(Gate {
-                reach_px: (layer.length_px + layer.width_px) * px_scale,
+                reach_px: (layer.length_px + layer.width_px * (1.0 + rule.strokes.taper.abs())) * px_scale,
                 most_per_area: body
                     .caps
                     .iter()

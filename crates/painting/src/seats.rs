@@ -19,11 +19,12 @@ pub(crate) const ANGLE_JITTER: u32 = 1;
 pub(crate) const LENGTH_JITTER: u32 = 2;
 pub(crate) const WIDTH_JITTER: u32 = 3;
 pub(crate) const SIZE_JITTER: u32 = 4;
-pub(crate) const BEND: u32 = 5;
+pub(crate) const BOW: u32 = 5;
 pub(crate) const THICKNESS_JITTER: u32 = 6;
 pub(crate) const DRYNESS_JITTER: u32 = 7;
 const RANK_BREAKING: u32 = 8;
 const FAMILY: u32 = 9;
+pub(crate) const BEND: u32 = 10;
 
 /// One cycle of slow noise, pixels of a picture 720 high at the reference pose: of angle and hue, of a backdrop's angle, of
 /// edges.

@@ -15,7 +15,7 @@ use crate::counts::most_wanted;
 use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::order::OrderEntry;
 use crate::seats::{
-    BEND, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
+    BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
 
 /// Deviations of length and width beside that of the whole size, as shares of it.
@@ -25,9 +25,12 @@ const WIDTH_SHARE: f32 = 0.75;
 /// Deviation of a stroke's thickness, as a share of it.
 const THICKNESS_DEVIATION: f32 = 0.2;
 
-/// Deviation of the bend in half widths, where angles have their usual jitter.
-const BEND_DEVIATION: f32 = 0.35;
-const MOST_BEND: f32 = 0.9;
+/// Deviation of the bow in half widths, where angles have their usual jitter.
+const BOW_DEVIATION: f32 = 0.35;
+const MOST_BOW: f32 = 0.9;
+
+/// Deviation of how far strokes bend beside that of their size, as a share of it.
+const BEND_SHARE: f32 = 1.5;
 
 /// Of the edges' slow noise, how far it carries paint past its body.
 const EDGE_SWING: f32 = 0.6;
@@ -99,9 +102,13 @@ impl Look<'_> {
             }
             Rotation::On | Rotation::Off | Rotation::Random => flat,
         };
-        let (sin, cos) = angle_rad.sin_cos();
+        let (taper, bend_rad) = shape(coat.kind, strokes);
+        // Wherever it bends to.
+        let (sin, cos) = if bend_rad == 0.0 { angle_rad.sin_cos() } else { (1.0, 1.0) };
+        let most_width_px = width_px * (1.0 + taper.abs());
         let reach_px = |along: f32, across: f32| {
-            (0.5 * QUAD * (along.abs() * length_px + across.abs() * width_px)) + 0.5 * length_px * along.abs()
+            (0.5 * QUAD * (along.abs() * length_px + across.abs() * most_width_px))
+                + 0.5 * length_px * along.abs()
         };
         let outside = |at: f32, half: f32, reach: f32| at.abs() > half + reach;
         if outside(solved.x_px[index], self.half_px[0], reach_px(cos, sin))
@@ -132,12 +139,17 @@ impl Look<'_> {
                 .normalize_or_zero()
                 .as_vec3()
                 .to_array(),
-            bend: (BEND_DEVIATION * jitter_share * hash::normal(seen.bits(index, BEND)))
-                .clamp(-MOST_BEND, MOST_BEND),
+            bow: (BOW_DEVIATION * jitter_share * hash::normal(seen.bits(index, BOW)))
+                .clamp(-MOST_BOW, MOST_BOW),
             overrun_px: self.overrun_px(strokes.edges, layer.overrun, drift[1]),
             drift,
             skew,
+            taper,
+            bend_rad: 0.0,
         };
+        let most_rad = stroke.most_bend_rad();
+        let bend_rad = (bend_rad * chance.bend(strokes.size_jitter)).clamp(-most_rad, most_rad);
+        let stroke = Stroke { bend_rad, ..stroke };
         let count = coat.sampled.particles.len() as f32;
         let source = StrokeSource {
             place,
@@ -203,6 +215,11 @@ fn trust_srgb8(kappa: f32) -> u32 {
     u32::from(Stroke::AS_IT_IS) << 24 | byte(2) << 16 | byte(1) << 8 | byte(0)
 }
 
+/// Taper and bend of a layer's strokes. What lies under all others is there to cover: it stays broad and straight.
+fn shape(kind: LayerKind, strokes: &ResolvedStrokes) -> (f32, f32) {
+    if kind == LayerKind::Underpainting { (0.0, 0.0) } else { (strokes.taper, strokes.bend_rad) }
+}
+
 /// Scumble lies in patches: how much of it, for slow noise of mean 0 and deviation 1.
 fn patch(noise: f32) -> f32 {
     smoothstep(0.5 + 0.45 * noise).max(0.02)
@@ -260,6 +277,11 @@ impl Chance<'_> {
             length * (size + jitter * LENGTH_SHARE * self.normal(LENGTH_JITTER)).exp(),
             width * (size + jitter * WIDTH_SHARE * self.normal(WIDTH_JITTER)).exp(),
         ]
+    }
+
+    /// How much more than others it bends.
+    fn bend(&self, jitter: f32) -> f32 {
+        (BEND_SHARE * jitter * self.normal(BEND)).exp()
     }
 
     fn paint(&self, layer: &ResolvedLayer, lively: bool) -> Paint {

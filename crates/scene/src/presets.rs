@@ -62,6 +62,10 @@ pub struct ResolvedStrokes {
     pub offset: f32,
     /// How far strokes grow with their surface, 0..=1.
     pub size_follow: f32,
+    /// How much narrower strokes are at their end than at their start, −1..=1.
+    pub taper: f32,
+    /// How far strokes turn to their left from start to end, radians.
+    pub bend_rad: f32,
     /// Standard deviation of the angle from stroke to stroke, radians.
     pub angle_jitter_rad: f32,
     /// Standard deviation of the slow swing of the angle, radians.
@@ -188,6 +192,8 @@ impl ResolvedStrokes {
         replace(&mut self.flatness, settings.flatness);
         replace(&mut self.offset, settings.offset);
         replace(&mut self.size_follow, settings.size_follow);
+        replace(&mut self.taper, settings.taper);
+        replace(&mut self.bend_rad, settings.bend_deg.map(f64::to_radians));
         replace(&mut self.angle_jitter_rad, settings.angle_jitter_deg.map(f64::to_radians));
         replace(&mut self.swing_rad, settings.swing_deg.map(f64::to_radians));
         replace(&mut self.contour, settings.contour);

@@ -207,6 +207,8 @@ fn strokes(settings: &StrokeSettings) -> Value {
         .maybe("flatness", settings.flatness.map(number))
         .maybe("offset", settings.offset.map(number))
         .maybe("size_follow", settings.size_follow.map(number))
+        .maybe("taper", settings.taper.map(number))
+        .maybe("bend_deg", settings.bend_deg.map(number))
         .maybe("angle_jitter_deg", settings.angle_jitter_deg.map(number))
         .maybe("swing_deg", settings.swing_deg.map(number))
         .maybe("contour", settings.contour.map(number))

@@ -45,6 +45,14 @@ const fn sweep(
     Picture { name, view, own_size: false, columns, panels }
 }
 
+const fn of_the_sky(
+    name: &'static str,
+    panels: &'static [&'static [(&'static str, &'static str)]],
+) -> Picture {
+    let view = View::Scene { scene: "meadow", frame: 0, crop: Some([820, 0, 360, 270]) };
+    Picture { name, view, own_size: false, columns: 3, panels }
+}
+
 /// The source paper's rule.
 const PAPER: &[(&str, &str)] = &[("strokes.preset", "paper")];
 
@@ -59,6 +67,23 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("simple_objects", "simple_objects", 0),
     whole("fish", "fish", 0),
     whole("falling_log", "falling_log", 12),
+    whole("meadow", "meadow", 0),
+    of_the_sky(
+        "stroke_taper",
+        &[
+            &[("regions.sky.strokes.taper", "0")],
+            &[("regions.sky.strokes.taper", "0.6")],
+            &[("regions.sky.strokes.taper", "1")],
+        ],
+    ),
+    of_the_sky(
+        "stroke_bend",
+        &[
+            &[("regions.sky.strokes.bend_deg", "0")],
+            &[("regions.sky.strokes.bend_deg", "-45")],
+            &[("regions.sky.strokes.bend_deg", "-110")],
+        ],
+    ),
     // A globe and a deer, combed, all the way round.
     Picture {
         columns: 2,

@@ -7,19 +7,23 @@ use super::finding::Finding;
 /// What every technique has: what it is, where, and how the files' paths begin or are called.
 const PLACES: &[(&str, &str, &str)] = &[
     ("a shader folder", "shaders/", "/"),
-    ("a style", "crates/gl-render/src/styles/", ".rs"),
+    ("a style", STYLES, ".rs"),
     ("a page", "docs/techniques/", ".md"),
 ];
+const STYLES: &str = "crates/gl-render/src/styles/";
+/// What lies over a picture in a window has its file here, and no style.
+const OVERLAYS: &str = "crates/gl-render/src/overlays/";
 const TESTS: (&str, &str, &str) = ("a test module", "tests/it/", ".rs");
 
 /// Names in those places that are no technique's.
-const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference", "paint"];
+const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference", "paint", "inverse_bilinear"];
 
 /// Techniques that lack one of their places.
 pub fn check(files: &[String]) -> Vec<Finding> {
     let mut words: BTreeMap<String, &String> = BTreeMap::new();
     for file in files {
         let found = PLACES.iter().find_map(|(_, folder, end)| word(file, folder, end));
+        let found = found.or_else(|| word(file, OVERLAYS, ".rs"));
         if let Some(word) = found.filter(|word| !NO_TECHNIQUES.contains(word)) {
             words.entry(word.to_owned()).or_insert(file);
         }
@@ -27,7 +31,9 @@ pub fn check(files: &[String]) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (technique, first_seen) in words {
         for (what, folder, end) in PLACES.iter().chain([&TESTS]) {
-            let there = files.iter().any(|file| word(file, folder, end) == Some(technique.as_str()));
+            let is_in =
+                |folder: &str| files.iter().any(|file| word(file, folder, end) == Some(technique.as_str()));
+            let there = is_in(folder) || *folder == STYLES && is_in(OVERLAYS);
             if !there {
                 let what = format!("the technique `{technique}` has no {}", what.trim_start_matches("a "));
                 let what = format!("{what}: {folder}{technique}{}", end.trim_end_matches('/'));

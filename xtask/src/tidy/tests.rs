@@ -72,6 +72,10 @@ fn half_a_technique_is_named() {
         files.remove(missing);
         found(&files, expected);
     }
+    // What lies over a picture is no style.
+    let mut overlay = whole.to_vec();
+    overlay[1].0 = "crates/gl-render/src/overlays/sumi_e.rs";
+    assert_eq!(verdict(&overlay), Ok(()));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Moving, turning and scaling objects.
+//! Moving, turning and scaling objects; moving lights.
 
 use std::sync::Arc;
 
@@ -7,12 +7,13 @@ use impasto_scene::document::ObjectKey;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion;
 
-use super::{Busy, Editor, TransformDrag};
+use super::{Busy, Editor, TransformDrag, lights};
 use crate::command::{Arrange, Command, Pose, Shift, Time};
 use crate::euler;
+use crate::gizmo::Gizmo;
 use crate::picking::View;
 use crate::refusal::Refusal;
-use crate::session::Mode;
+use crate::session::{Mode, Tool};
 use crate::transform::{
     Constraint, Operation, TransformDelta, TransformEvent, TransformStart, TransformStep, Transforming,
 };
@@ -31,6 +32,19 @@ impl Editor {
         (at_px, held): (DVec2, bool),
         view: &View,
     ) -> bool {
+        if let Some((light, position)) = self.active_light() {
+            let (name, kind) = (light.name.clone(), light.kind);
+            if let Some(words) = lights::refusal(kind, operation) {
+                self.refuse(&Refusal::new(words));
+                return false;
+            }
+            let pose = DAffine3::from_translation(position);
+            let machine = self.machine((operation, constraint), (name.clone(), pose), at_px, view);
+            let light = Some(name);
+            self.busy =
+                Busy::Transforming(Box::new(TransformDrag { machine, objects: Vec::new(), light, held }));
+            return true;
+        }
         let Some(object) = self.active_object() else {
             self.refuse(&Refusal::new("Select an object first"));
             return false;
@@ -47,19 +61,47 @@ impl Editor {
             [_] => scene.objects[object].name.clone(),
             several => format!("{} objects", several.len()),
         };
-        let start = TransformStart {
-            name,
-            world_from_model: self.poses()[object],
-            view: view.clone(),
-            at_px,
-            space: self.session.options.axes,
-        };
-        let machine = match constraint {
+        let pose = self.poses()[object];
+        let machine = self.machine((operation, constraint), (name, pose), at_px, view);
+        self.busy = Busy::Transforming(Box::new(TransformDrag { machine, objects, light: None, held }));
+        true
+    }
+
+    fn machine(
+        &self,
+        (operation, constraint): (Operation, Option<Constraint>),
+        (name, world_from_model): (String, DAffine3),
+        at_px: DVec2,
+        view: &View,
+    ) -> Transforming {
+        let space = self.session.options.axes;
+        let start = TransformStart { name, world_from_model, view: view.clone(), at_px, space };
+        match constraint {
             Some(constraint) => Transforming::held(operation, constraint, start),
             None => Transforming::new(operation, start),
+        }
+    }
+
+    /// The handles round the selected object, in Arrange and Animate; in Arrange, round the selected light.
+    pub fn gizmo(&self, view: &View) -> Option<Gizmo> {
+        let operation = match self.session.tool() {
+            Tool::Move | Tool::Select => Operation::Move,
+            Tool::Turn => Operation::Turn,
+            Tool::Scale => Operation::Scale,
+            _ => return None,
         };
-        self.busy = Busy::Transforming(Box::new(TransformDrag { machine, objects, held }));
-        true
+        // A comparison shows the reference, where nothing stands as it does now.
+        let poses = self.session.mode != Mode::Paint && !self.session.compare;
+        let is_shown = poses && !self.is_navigating() && !self.time.playback.is_playing();
+        if !is_shown {
+            return None;
+        }
+        let light = self.active_light().filter(|(light, _)| lights::refusal(light.kind, operation).is_none());
+        let pose = match light {
+            Some((_, position)) => DAffine3::from_translation(position),
+            None => *self.poses().get(self.active_object()?)?,
+        };
+        Some(Gizmo::new(operation, self.session.options.axes, pose, view))
     }
 
     /// Hands an event to the transform under way.
@@ -91,6 +133,9 @@ impl Editor {
     /// The command that a transform comes to: in Arrange the whole motion moves, in Animate the pose at this frame.
     fn transform_command(&self, delta: TransformDelta) -> Option<Command> {
         let Busy::Transforming(drag) = &self.busy else { return None };
+        if let Some(light) = &drag.light {
+            return self.light_command(light, delta, drag.machine.world_from_space());
+        }
         // A pose that is not keyed is what the hand sees.
         let loose = self.time.loose_scene().map(|loaded| &loaded.scene);
         let scene = loose.unwrap_or(self.document.scene());

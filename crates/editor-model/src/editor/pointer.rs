@@ -118,6 +118,7 @@ impl Editor {
                     let from_px = *from_px;
                     self.busy = Busy::Idle;
                     let operation = match self.session.tool() {
+                        _ if self.active_light().is_some() => Operation::Move,
                         Tool::Turn => Operation::Turn,
                         Tool::Scale => Operation::Scale,
                         _ => Operation::Move,
@@ -179,14 +180,17 @@ impl Editor {
             self.begin_transform(begun, (event.at_px, true), view);
             return;
         }
-        let hit = self.hit(event.at_px, view);
-        let Some(hit) = hit else {
+        let object = || {
+            let hit = self.hit(event.at_px, view)?;
+            Some(Item::Object(self.document.shown().scene.objects[hit.object].name.clone()))
+        };
+        // Icons lie over everything.
+        let Some(item) = self.light_at(event.at_px, view).or_else(object) else {
             if !event.held.shift {
                 self.document.select(Selection::default());
             }
             return;
         };
-        let item = Item::Object(self.document.shown().scene.objects[hit.object].name.clone());
         let mut selection = self.document.selection().clone();
         if event.held.shift || event.held.ctrl {
             selection.toggle(item);

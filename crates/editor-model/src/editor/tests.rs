@@ -10,6 +10,7 @@ use crate::command::{Arrange, Edit, Regions};
 use crate::keymap::{Action, Button};
 use crate::session::Axes;
 
+mod lights;
 mod time;
 
 const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);

@@ -6,7 +6,7 @@ use egui::{Color32, Ui};
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::sampling::Particle;
 use impasto_editor_model::Item;
-use impasto_editor_model::editor::Editor;
+use impasto_editor_model::editor::{Editor, LightPlace};
 use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::picking::View;
 use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
@@ -332,29 +332,17 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
         .collect()
 }
 
-/// Lights and, seen from elsewhere, the shot camera.
+/// Where suns shine and, seen from elsewhere, the shot camera.
 fn stand_ins(editor: &Editor, scene: &Scene) -> Vec<(StandIn, bool)> {
     let selection = editor.document().selection();
-    let middle = editor
-        .picker()
-        .bounds_in_world(0..scene.objects.len(), &editor.poses())
-        .map_or(DVec3::ZERO, |[low, high]| (low + high) * 0.5);
-    let mut all: Vec<(StandIn, bool)> = scene
-        .lights
-        .iter()
-        .filter_map(|light| {
-            let selected = selection.contains(&Item::Light(light.name.clone()));
-            let stand_in = match light.kind {
-                LightKind::Point => StandIn::Point { at: DVec3::from(light.position?) },
-                LightKind::Sun => {
-                    let direction = DVec3::from(light.direction?).normalize_or(DVec3::NEG_Y);
-                    StandIn::Sun { at: middle - direction * 2.0, direction }
-                }
-                LightKind::Ambient => return None,
-            };
-            Some((stand_in, selected))
-        })
-        .collect();
+    let sun = |place: &LightPlace| {
+        let light = &scene.lights[place.index];
+        let direction = DVec3::from(light.direction.filter(|_| light.kind == LightKind::Sun)?);
+        let direction = direction.normalize_or(DVec3::NEG_Y);
+        let selected = selection.contains(&Item::Light(light.name.clone()));
+        Some((StandIn::Sun { at: place.position, direction }, selected))
+    };
+    let mut all: Vec<(StandIn, bool)> = editor.light_places().iter().filter_map(sun).collect();
     let shot = editor.shot();
     if editor.camera() != shot {
         let view = View {

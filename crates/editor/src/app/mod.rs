@@ -10,6 +10,7 @@ mod file_flow;
 mod foreseen;
 mod keys;
 mod last_seen;
+mod lights;
 mod long_work;
 mod marks;
 mod motion_marks;

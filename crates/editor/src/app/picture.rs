@@ -10,6 +10,7 @@ use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
 use impasto_scene::motion::{self, CameraPose};
 
+use super::lights;
 use crate::files::preferences::DriverChoice;
 use crate::viewport::{Framing, Layout, Pictures};
 use crate::window::Waker;
@@ -249,6 +250,7 @@ impl Studio {
             size_px: framing.size_px(),
             shot_height_px: framing.shot_height_px(),
             shading,
+            lights: lights::billboards(editor, framing),
             moving,
         };
         self.layout.framings().iter().zip(seen).map(view).collect()

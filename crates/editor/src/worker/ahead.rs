@@ -83,6 +83,7 @@ mod tests {
             size_px: [160, 90],
             shot_height_px: 90.0,
             shading: Shading::Painted,
+            lights: Vec::new(),
             moving: true,
         };
         let manner = |side| Manner { size_px: [side, 45], exact: false, give_up: &|| false };

@@ -75,6 +75,8 @@ struct Studio {
     /// What was last drawn of each view.
     drawn: Vec<Option<Drawn>>,
     draft_size: DraftSize,
+    /// Which of the views the driver still has.
+    on_driver: Option<usize>,
     /// Counts the pictures.
     turn: u32,
     /// What the last exact picture took.
@@ -87,6 +89,8 @@ struct Drawn {
     view: ViewJob,
     serial: u64,
     exact: bool,
+    /// How many strokes it has, and how many of each region.
+    strokes: (usize, Vec<usize>),
     /// Its strokes; none where the picture has no strokes.
     recall: Option<Arc<Recall>>,
 }
@@ -120,6 +124,7 @@ impl Studio {
             shaders: 0,
             drawn: Vec::new(),
             draft_size: DraftSize::default(),
+            on_driver: None,
             turn: 0,
             exact_s: None,
             ahead: Ahead::default(),
@@ -136,6 +141,7 @@ impl Studio {
         let Some(painting) = self.prepare(order, desk, tell) else { return };
         let wanted: Vec<usize> =
             (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
+        wanted.iter().for_each(|&index| self.relight(order, index, tell));
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
         let drafts: Vec<usize> = drafts.collect();
         if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
@@ -204,6 +210,8 @@ impl Studio {
             let size_px = self.draft_size.of(view.size_px);
             let manner = Manner { size_px, exact: false, give_up: &|| false };
             let frame = plain.bare(&view.camera, view.frame, &options(view, &manner));
+            self.on_driver = None;
+            renderer.set_billboards(&view.lights_in(size_px));
             let Ok(picture) = renderer.render(&frame) else { return };
             tell(Report::Picture(Picture {
                 index,
@@ -239,6 +247,34 @@ impl Studio {
         }
     }
 
+    /// Where a picture that is there needs other lights over it and nothing else, it gets those.
+    fn relight(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
+        let (view, serial) = (&order.job.views[index], order.job.serial);
+        let (Some(renderer), Some(drawn)) = (&mut self.renderer, &mut self.drawn[index]) else { return };
+        let is_there = self.on_driver == Some(index) && drawn.serial == serial && drawn.exact;
+        if !is_there || drawn.view.looks_like(view) || !drawn.view.differs_in_lights_alone(view) {
+            return;
+        }
+        let began = Instant::now();
+        renderer.set_billboards(&view.lights);
+        // What goes wrong here is told when the whole is drawn again.
+        let Ok(Some(picture)) = renderer.with_other_billboards() else { return };
+        drawn.view = view.clone();
+        let (strokes, strokes_of) = drawn.strokes.clone();
+        let (image, seconds) = (Arc::new(image(picture)), began.elapsed().as_secs_f64());
+        let view = view.clone();
+        tell(Report::Picture(Picture {
+            index,
+            view,
+            serial,
+            image,
+            exact: true,
+            strokes,
+            strokes_of,
+            seconds,
+        }));
+    }
+
     fn shows(&self, order: &Order, index: usize) -> bool {
         let drawn = self.drawn[index].as_ref();
         drawn.is_some_and(|drawn| drawn.shows(&order.job.views[index], order.job.serial))
@@ -267,6 +303,8 @@ impl Studio {
             self.ahead.begin((painting, serial), next, (manner, recall.clone()));
         }
         let recall = recall.as_deref();
+        self.on_driver = None;
+        renderer.set_billboards(&view.lights_in(manner.size_px));
         let (frame, picture) = render(renderer, (painting, &view, frame), manner, recall);
         let strokes = frame.strokes.len();
         let strokes_of = counted(&frame, painting.scene().regions.len());
@@ -288,7 +326,9 @@ impl Studio {
         let is_there = |index: usize| resolved.get(index).is_some_and(|stroke| stroke.alpha > 0.0);
         let recall = (strokes > 0).then(|| Arc::new(Recall::of(painting, &frame, is_there, self.turn)));
         let exact = manner.exact;
-        self.drawn[index] = Some(Drawn { view: view.clone(), serial, exact, recall });
+        self.on_driver = Some(index);
+        self.drawn[index] =
+            Some(Drawn { view: view.clone(), serial, exact, strokes: (strokes, strokes_of.clone()), recall });
         let image = Arc::new(picture);
         tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
         true

@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
 
-use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{self, OpenOptions};
+use impasto_gl_render::{BillboardIcon, Renderer};
 use impasto_painting::frame::FrameStyle;
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::load::{LoadOptions, load};
@@ -27,6 +27,7 @@ fn view(loaded: &LoadedScene, frame: f64) -> ViewJob {
         size_px: SIZE_PX,
         shot_height_px: SIZE_PX[1] as f32,
         shading: Shading::Painted,
+        lights: Vec::new(),
         moving: false,
     }
 }
@@ -302,4 +303,30 @@ fn other_shaders_draw_the_same_scene_anew_and_broken_ones_are_told() {
     worker.0.replace_shaders(ShaderTexts::default());
     worker.0.show(job());
     assert!(bytes(pictures(&until(&worker, is_exact)).last().unwrap()) == before);
+}
+
+#[test]
+fn other_lights_over_the_same_picture_draw_no_stroke_again() {
+    let loaded = scene();
+    let worker = worker();
+    let bare = view(&loaded, 3.0);
+    let lamp = LightBillboard {
+        position: glam::Vec3::new(0.0, 0.5, 0.0),
+        icon: BillboardIcon::Point,
+        size: BillboardSize::Pixels(12.0),
+        ink: [1.0; 4],
+    };
+    let lit = ViewJob { lights: vec![lamp], ..bare.clone() };
+    let show = |view: &ViewJob| {
+        worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view.clone()] });
+        until(&worker, is_exact)
+    };
+    let first = show(&bare);
+    let first = pictures(&first).last().map(|picture| (bytes(picture), picture.strokes)).unwrap();
+    let told = show(&lit);
+    let [over] = &pictures(&told)[..] else { panic!("one picture, and no draft of it") };
+    assert!(over.view == lit && over.strokes == first.1 && bytes(over) != first.0);
+    let told = show(&bare);
+    let [again] = &pictures(&told)[..] else { panic!("one picture, and no draft of it") };
+    assert!(bytes(again) == first.0);
 }

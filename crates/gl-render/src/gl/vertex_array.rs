@@ -5,6 +5,7 @@ use glow::HasContext as _;
 use super::{Buffer, GlError, Gpu};
 
 /// One input of a vertex shader.
+#[derive(Clone, Copy)]
 pub(crate) struct Attribute<'a> {
     pub location: u32,
     pub buffer: &'a Buffer,

@@ -211,21 +211,42 @@ impl RotatingStrokes {
         if input.frame.quality == Quality::Exact && strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
             targets.paint_pass.copy_to(&targets.below_pass);
         }
+        let shaped = strokes.iter().any(Stroke::is_shaped);
         let mut first = layer.first;
         let most_px = if watch.may_stop() { PIECE_PX } else { f32::INFINITY };
         for count in pieces(strokes, most_px) {
-            self.paint_piece(input, LayerRun { first, count, ..layer })?;
+            self.paint_piece(input, LayerRun { first, count, ..layer }, shaped)?;
             watch.passed(layer.kind.name())?;
             first += count;
         }
         Ok(())
     }
 
-    fn paint_piece(&self, input: &StyleInput<'_>, layer: LayerRun) -> Result<(), GlError> {
+    fn paint_piece(
+        &self,
+        input: &StyleInput<'_>,
+        layer: LayerRun,
+        shaped_strokes: bool,
+    ) -> Result<(), GlError> {
         let (Some(targets), Some(marks)) = (&self.targets, &self.marks) else { return Ok(()) };
         let frame = input.frame;
         let first = layer.first as i32;
+        let programs = self.programs(frame.quality);
         let mut inputs = stroke_inputs(&self.strokes, first, true);
+        // A layer without shaped strokes is drawn as if there were none.
+        let program = match &programs.shaped_paint {
+            Some(shaped) if shaped_strokes => {
+                inputs.push(Attribute {
+                    location: 8,
+                    components: 2,
+                    offset_bytes: first * size_of::<Stroke>() as i32
+                        + std::mem::offset_of!(Stroke, taper) as i32,
+                    ..inputs[0]
+                });
+                shaped
+            }
+            _ => &programs.paint,
+        };
         for (location, offset) in [(6, 0), (7, 16)] {
             inputs.push(Attribute {
                 location,
@@ -242,7 +263,7 @@ impl RotatingStrokes {
         self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let mut bound = lens
-            .set(self.programs(frame.quality).paint.bind(), &["size_px", "orthographic"])
+            .set(program.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
             .set("mark_rows", brush::SIZE[1] as f32)
             .texture("brush_marks", &marks.texture)
@@ -342,6 +363,13 @@ impl Style for RotatingStrokes {
         }
         if frame.quality == Quality::Draft {
             self.ready_drafts()?;
+        }
+        if frame.strokes.iter().any(Stroke::is_shaped) {
+            let programs = match (frame.quality, &mut self.draft) {
+                (Quality::Draft, Some(draft)) => draft,
+                _ => &mut self.exact,
+            };
+            programs.make_shaped(&self.gpu, frame.quality)?;
         }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
         self.find_detail(input, watch)?;

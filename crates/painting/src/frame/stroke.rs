@@ -41,14 +41,19 @@ pub struct Stroke {
     pub mixing: Mixing,
     /// Unit surface normal in world space.
     pub normal_in_world: [f32; 3],
-    /// How far the stroke bends to its left in the middle, in half widths.
-    pub bend: f32,
+    /// How far the mark bows to its left in the middle, in half widths.
+    pub bow: f32,
     /// How far paint may run past its own body, output pixels; at or over [`Stroke::FREE`], as far as it likes.
     pub overrun_px: f32,
     /// Slow drifts over the surface, of hue and of how firm the body's edge is; mean 0, standard deviation 1.
     pub drift: [f32; 2],
     /// How far the stroke's far side is pushed along it, as a share of its width; 0 for a billboard.
     pub skew: f32,
+    /// How much narrower the stroke is at its end than at its start, −1..=1; `width_px` is its mean width.
+    pub taper: f32,
+    /// How far the stroke turns to its left from start to end, radians; in its middle it has its angle. At most
+    /// [`Stroke::most_bend_rad`] either way.
+    pub bend_rad: f32,
 }
 
 /// What the paint of a stroke is like, a byte each.
@@ -108,6 +113,18 @@ impl Stroke {
 
     /// The A of a stroke that has its own colour.
     pub const AS_IT_IS: u8 = 128;
+
+    /// The most that a stroke can bend, radians: half a turn, and less where its inner edge would reach the middle of the arc.
+    pub fn most_bend_rad(&self) -> f32 {
+        const CLOSEST: f32 = 0.9;
+        let half_quad_px = 0.5 * self.width_px * (1.0 + self.taper.abs()) / impasto_core::brush::FILL;
+        (CLOSEST * self.length_px / half_quad_px.max(1e-6)).min(std::f32::consts::PI)
+    }
+
+    /// Whether its quad is no plain rectangle.
+    pub fn is_shaped(&self) -> bool {
+        self.taper != 0.0 || self.bend_rad != 0.0
+    }
 
     /// How much of the stroke is there, 0..=1, where its layer is wanted in full and nothing hides it. The resolve shader
     /// computes the same.

@@ -103,6 +103,11 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
             findings.number(&path(field), value, 0.0..=most);
         }
     }
+    for (field, value, most) in [("taper", settings.taper, 1.0), ("bend_deg", settings.bend_deg, 180.0)] {
+        if let Some(value) = value {
+            findings.number(&path(field), value, -most..=most);
+        }
+    }
     if let Some(offset) = settings.offset {
         findings.number(&path("offset"), offset, -limits::MAX_LENGTH..=limits::MAX_LENGTH);
     }

@@ -182,6 +182,9 @@ fn stroke_settings_have_ranges_and_known_names() {
         "scale: 0",
         "swing_deg: -1",
         "contour: 1.5",
+        "taper: 1.01",
+        "taper: NaN",
+        "bend_deg: -181",
         "color_jitter: 11",
         "temperature: NaN",
         "grading: 2",
@@ -193,7 +196,7 @@ fn stroke_settings_have_ranges_and_known_names() {
         assert_finds(&format!("strokes: ({settings})"), &[(Error, &format!("strokes.{field}"))]);
     }
     assert_finds(
-        "strokes: (length_px: 4096, width_px: 0.5, coverage: 20, flatness: 0, preset: \"impressionist\")",
+        "strokes: (length_px: 4096, width_px: 0.5, coverage: 20, flatness: 0, taper: -1, bend_deg: 180, preset: \"impressionist\")",
         &[],
     );
 }

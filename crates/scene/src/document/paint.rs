@@ -26,6 +26,12 @@ pub struct StrokeSettings {
     pub offset: Option<f64>,
     /// How far strokes grow and shrink with their surface: 0 keeps their size in pixels, 1 keeps it on the surface.
     pub size_follow: Option<f64>,
+    /// How much narrower strokes are at their end than at their start, −1..=1: their width goes from 1 + taper times the mean
+    /// one to 1 − taper times.
+    pub taper: Option<f64>,
+    /// How far strokes turn to their left from start to end, degrees, −180..=180; in the middle they keep their direction. Differs
+    /// from stroke to stroke as sizes do.
+    pub bend_deg: Option<f64>,
     /// Standard deviation of the angle from stroke to stroke, degrees.
     pub angle_jitter_deg: Option<f64>,
     /// Standard deviation of a slow swing of the angle over the surface, degrees.

@@ -315,7 +315,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter"
         | "swing_deg" | "contour" | "color_jitter" | "temperature" | "grading" | "opacity" | "thickness"
         | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" | "offset" | "size_follow"
-        | "radius" | "strength" => "one number, as in 2.5",
+        | "radius" | "strength" | "taper" | "bend_deg" => "one number, as in 2.5",
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
             "three numbers, as in (0, 1.5, -2)"
         }

@@ -230,6 +230,8 @@ impl ResolvedStrokes {
             flatness: 1.0,
             offset: 0.0,
             size_follow: 0.0,
+            taper: 0.0,
+            bend_rad: 0.0,
             angle_jitter_rad: preset.angle_jitter_deg.to_radians(),
             swing_rad: preset.swing_deg.to_radians(),
             contour: 0.0,

@@ -147,7 +147,7 @@ fn any_layer() -> impl Strategy<Value = LayerSettings> {
 }
 
 fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
-    let numbers = prop::collection::vec(proptest::option::of(number()), 14);
+    let numbers = prop::collection::vec(proptest::option::of(number()), 16);
     let edges = prop_oneof![Just(Edges::Clip), number().prop_map(Edges::Overrun), Just(Edges::Free)];
     let lists = (
         proptest::option::of(prop::collection::vec(any_color(), 0..3)),
@@ -173,6 +173,8 @@ fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
             grading: numbers[11],
             offset: numbers[12],
             size_follow: numbers[13],
+            taper: numbers[14],
+            bend_deg: numbers[15],
             palette,
             layer,
             layers,

@@ -9,17 +9,12 @@ use crate::theme::type_face;
 /// What has no surface of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StandIn {
-    /// A parallel light, drawn at a place; it shines along a direction, world space.
+    /// A parallel light: a line along its direction, world space. Its icon is a part of the picture.
     Sun {
         /// Where its icon is.
         at: DVec3,
         /// Where its light goes, unit.
         direction: DVec3,
-    },
-    /// A light at a place.
-    Point {
-        /// Where.
-        at: DVec3,
     },
     /// The shot camera.
     Camera {
@@ -37,10 +32,8 @@ pub fn stand_ins(sheet: &Sheet<'_>, all: &[(StandIn, bool)]) {
         match stand_in {
             StandIn::Sun { at, direction } => {
                 let reach = 44.0 / sheet.view.px_per_unit(at);
-                segment(sheet, [at, at + direction * reach], colour);
-                icon(sheet, at, icons::LIGHT, colour);
+                segment(sheet, [at + direction * (reach * 0.4), at + direction * reach], colour);
             }
-            StandIn::Point { at } => icon(sheet, at, icons::LIGHT, colour),
             StandIn::Camera { eye, corners } => {
                 for index in 0..4 {
                     segment(sheet, [eye, corners[index]], colour);

@@ -10,6 +10,8 @@ use crate::shader_files::{REFERENCE, ROTATING_STROKES, SHARED};
 pub(super) struct StrokePrograms {
     pub(super) resolve: Program,
     pub(super) paint: Program,
+    /// For tapered and bent strokes; made when the first of them is painted.
+    pub(super) shaped_paint: Option<Program>,
     pub(super) encode: Program,
 }
 
@@ -24,7 +26,21 @@ impl StrokePrograms {
             ],
         }
         .map(|source| Program::new(gpu, FILES, &source));
-        Ok(Self { resolve: resolve?, paint: paint?, encode: encode? })
+        Ok(Self { resolve: resolve?, paint: paint?, shaped_paint: None, encode: encode? })
+    }
+
+    /// Makes what tapered and bent strokes need.
+    pub(super) fn make_shaped(&mut self, gpu: &Gpu, quality: Quality) -> Result<(), GlError> {
+        if self.shaped_paint.is_none() {
+            let source = match quality {
+                Quality::Exact => ProgramSource { defined: SHAPED, ..PAINT },
+                Quality::Draft => {
+                    ProgramSource { defined: SHAPED_DRAFT, uniforms: DRAFT_PAINT_UNIFORMS, ..PAINT }
+                }
+            };
+            self.shaped_paint = Some(Program::new(gpu, FILES, &source)?);
+        }
+        Ok(())
     }
 }
 
@@ -33,6 +49,8 @@ pub(super) const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES
 
 /// What the shaders of a draft find defined.
 const DRAFT: &[&str] = &["DRAFT"];
+const SHAPED: &[&str] = &["SHAPED"];
+const SHAPED_DRAFT: &[&str] = &["SHAPED", "DRAFT"];
 
 const DRAFT_PAINT_UNIFORMS: &[&str] =
     &["size_px", "mark_rows", "brush_marks", "depth_and_id", "units_per_px_at_1", "orthographic"];

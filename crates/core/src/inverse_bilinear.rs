@@ -1,0 +1,52 @@
+//! Where a point lies in a quadrilateral: the inverse of bilinear interpolation.
+//!
+//! With q = p − p₀, b₁ = p₁ − p₀, b₂ = p₂ − p₀, b₃ = p₀ − p₁ − p₂ + p₃ (how far the quad is from a parallelogram) and the
+//! wedge a∧b = a.x b.y − a.y b.x, a point p = p₀ + b₁u + b₂v + b₃uv has
+//!
+//!     A v² + B v + C = 0,   A = b₂∧b₃,   B = b₃∧q − b₁∧b₂,   C = b₁∧q
+//!     v = 2C / (−B + s √(B² − 4AC)),   u = (q − b₂v) / (b₁ + b₃v)
+//!
+//! s is the sign of the quad's area, on a convex quad that of b₁∧b₂. This form of the root holds where A is 0 (rectangles,
+//! parallelograms, trapezoids) and for either winding; where its denominator is a difference of like numbers, the same root
+//! is taken as (−B − s√) / 2A. u is found from the component whose denominator is larger. `shaders/shared/inverse_bilinear.glsl`
+//! computes the same in 32 bits.
+
+use glam::DVec2;
+
+/// Neither coordinate of [`inverse_bilinear`] is farther from 0.
+pub const FARTHEST: f64 = 1e4;
+
+/// The point at (u, v) of a quad whose corners are at (0, 0), (1, 0), (0, 1) and (1, 1), in this order.
+pub fn bilinear(at: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
+    p0.lerp(p1, at.x).lerp(p2.lerp(p3, at.x), at.y)
+}
+
+/// (u, v) of a point in a quad whose corners are at (0, 0), (1, 0), (0, 1) and (1, 1), in this order, wound either way; within
+/// 0..=1 inside of it.
+///
+/// A concave quad lies in a fold over itself: a point inside has the (u, v) of the side that is wound as the whole is. Points
+/// that no (u, v) reaches, points far outside, and quads of no area give numbers of no meaning, at most [`FARTHEST`] from 0 and
+/// never NaN, for coordinates up to 1e30.
+pub fn inverse_bilinear(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
+    let (q, b1, b2, b3) = (point - p0, p1 - p0, p2 - p0, p0 - p1 - p2 + p3);
+    let a = b2.perp_dot(b3);
+    let b = b3.perp_dot(q) - b1.perp_dot(b2);
+    let c = b1.perp_dot(q);
+    let sign = if (p3 - p0).perp_dot(p2 - p1) < 0.0 { -1.0 } else { 1.0 };
+    let root = sign * (b * b - 4.0 * a * c).max(0.0).sqrt();
+    let v = if sign * b > 0.0 { ratio(-b - root, 2.0 * a) } else { ratio(2.0 * c, root - b) };
+    let (over, under) = (q - b2 * v, b1 + b3 * v);
+    let u = if under.x.abs() > under.y.abs() { ratio(over.x, under.x) } else { ratio(over.y, under.y) };
+    DVec2::new(u, v)
+}
+
+/// over / under, at most [`FARTHEST`] from 0; 0 / 0 is 0.
+fn ratio(over: f64, under: f64) -> f64 {
+    if over.abs() < under.abs() * FARTHEST {
+        over / under
+    } else if over == 0.0 {
+        0.0
+    } else {
+        FARTHEST.copysign(over) * 1.0_f64.copysign(under)
+    }
+}

@@ -1,0 +1,119 @@
+//! Lights as things of the viewport: where their icons stand, which one is under the pointer, and how one is moved.
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+use impasto_scene::document::{Light, LightKind};
+
+use super::Editor;
+use crate::command::{Arrange, Command};
+use crate::euler;
+use crate::picking::View;
+use crate::selection::Item;
+use crate::session::Mode;
+use crate::transform::{Operation, TransformDelta};
+
+/// A light that comes from nowhere has its icon so far from the middle of the scene, world units.
+const AWAY: f64 = 2.0;
+
+/// A pointer so near to the middle of an icon is on it, pixels.
+const REACH_PX: f64 = 14.0;
+
+/// Where a light has its icon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightPlace {
+    /// Index in the scene.
+    pub index: usize,
+    /// World space: where a lamp stands; for a sun, where it comes from; for a sky, above the scene.
+    pub position: DVec3,
+}
+
+impl Editor {
+    /// Where the lights of what is shown have their icons; none outside of Arrange, or while two pictures are compared.
+    pub fn light_places(&self) -> Vec<LightPlace> {
+        if self.session.mode != Mode::Arrange || self.session.compare {
+            return Vec::new();
+        }
+        let middle = self.middle();
+        let lights = self.document.shown().scene.lights.iter().enumerate();
+        lights
+            .filter_map(|(index, light)| Some(LightPlace { index, position: place_of(light, middle)? }))
+            .collect()
+    }
+
+    /// The middle of all that stands in the scene.
+    fn middle(&self) -> DVec3 {
+        let objects = 0..self.document.shown().scene.objects.len();
+        let bounds = self.picker.bounds_in_world(objects, &self.poses());
+        bounds.map_or(DVec3::ZERO, |[low, high]| (low + high) * 0.5)
+    }
+
+    /// The light whose icon is under the pointer; of several, the nearest to the eye.
+    pub(super) fn light_at(&self, at_px: DVec2, view: &View) -> Option<Item> {
+        let is_under = |place: &LightPlace| {
+            view.project(place.position).is_some_and(|icon_px| icon_px.distance(at_px) <= REACH_PX)
+        };
+        let nearest = self
+            .light_places()
+            .into_iter()
+            .filter(is_under)
+            .min_by(|a, b| view.depth(a.position).total_cmp(&view.depth(b.position)))?;
+        Some(Item::Light(self.document.shown().scene.lights[nearest.index].name.clone()))
+    }
+
+    /// The selected light as it is shown, with its place.
+    pub(super) fn active_light(&self) -> Option<(&Light, DVec3)> {
+        let Some(Item::Light(name)) = self.document.selection().active() else { return None };
+        let lights = &self.document.shown().scene.lights;
+        let places = self.light_places();
+        let found = places.iter().find(|place| lights[place.index].name == *name)?;
+        Some((&lights[found.index], found.position))
+    }
+
+    /// What moving or turning a light comes to; `axes` are those that the delta counts in.
+    pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
+        // From where it was when the hand took it.
+        let light = self.document.scene().lights.iter().find(|light| light.name == name)?;
+        let middle = self.middle();
+        let tidy = |at: DVec3| at.map(euler::tidy).to_array();
+        let moved = match (light.kind, delta) {
+            (LightKind::Point, TransformDelta::Move(by)) => {
+                let position = DVec3::from(light.position?) + axes * by;
+                Light { position: Some(tidy(position)), ..light.clone() }
+            }
+            (LightKind::Sun, TransformDelta::Move(by)) => {
+                // It goes round the scene and keeps its distance.
+                let direction = (middle - place_of(light, middle)? - axes * by).try_normalize()?;
+                Light { direction: Some(tidy(direction)), ..light.clone() }
+            }
+            (LightKind::Sun, TransformDelta::Turn { axis, angle_rad }) => {
+                let turn = DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad);
+                let direction = turn * DVec3::from(light.direction?).try_normalize()?;
+                Light { direction: Some(tidy(direction)), ..light.clone() }
+            }
+            _ => return None,
+        };
+        let what = if light.kind == LightKind::Sun { "direction" } else { "place" };
+        Some(Command::Arrange(Arrange::SetLight {
+            name: name.to_owned(),
+            light: moved,
+            what: what.to_owned(),
+        }))
+    }
+}
+
+/// Why an operation does not go with a kind of light.
+pub(super) fn refusal(kind: LightKind, operation: Operation) -> Option<&'static str> {
+    match (kind, operation) {
+        (LightKind::Ambient, _) => Some("A sky comes from all around: it has no place"),
+        (_, Operation::Move) | (LightKind::Sun, Operation::Turn) => None,
+        (_, Operation::Turn) => Some("A lamp shines all round: it can only be moved"),
+        (_, Operation::Scale) => Some("A light has no size: its intensity is in the inspector"),
+    }
+}
+
+fn place_of(light: &Light, middle: DVec3) -> Option<DVec3> {
+    Some(match light.kind {
+        LightKind::Point => DVec3::from(light.position?),
+        LightKind::Sun => middle - DVec3::from(light.direction?).normalize_or(DVec3::NEG_Y) * AWAY,
+        LightKind::Ambient => middle + DVec3::Y * (0.75 * AWAY),
+    })
+}

@@ -1,0 +1,62 @@
+//! Lights as they are shown over the picture.
+
+use impasto_editor_model::Item;
+use impasto_editor_model::editor::Editor;
+use impasto_gl_render::{BillboardIcon, BillboardSize, LightBillboard};
+use impasto_scene::document::{Color, Light, LightKind};
+
+use crate::theme;
+use crate::viewport::Framing;
+
+/// Half the side of an icon, and the radius of the ring round a selected one, points.
+const ICON: f32 = 14.0;
+const SELECTED: f32 = 17.0;
+
+/// An icon in a dark colour still has this much white, to be seen.
+const LEAST_WHITE: f32 = 0.25;
+
+/// How much of the ring shows at which a lamp is as bright as a sun of intensity 1.
+const RANGE_ALPHA: f32 = 0.8;
+
+/// The lights of what is shown: an icon in the light's colour; of a selected lamp, how far it reaches.
+pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboard> {
+    let lights = &editor.document().shown().scene.lights;
+    let px_per_point = framing.size_px()[1] as f32 / framing.viewport().height();
+    let mut all = Vec::new();
+    for place in editor.light_places() {
+        let light = &lights[place.index];
+        let position = place.position.as_vec3();
+        let icon = match light.kind {
+            LightKind::Sun => BillboardIcon::Sun,
+            LightKind::Point => BillboardIcon::Point,
+            LightKind::Ambient => BillboardIcon::Ambient,
+        };
+        let size = BillboardSize::Pixels(ICON * px_per_point);
+        all.push(LightBillboard { position, icon, size, ink: ink(light.color) });
+        if editor.document().selection().contains(&Item::Light(light.name.clone())) {
+            let ring = |size: BillboardSize, ink: [f32; 4]| LightBillboard {
+                position,
+                icon: BillboardIcon::Ring,
+                size,
+                ink,
+            };
+            let accent = theme::DARK.accent_text.to_array().map(|channel| f32::from(channel) / 255.0);
+            all.push(ring(BillboardSize::Pixels(SELECTED * px_per_point), accent));
+            if let Some(range) = range(light) {
+                let [r, g, b, _] = ink(light.color);
+                all.push(ring(BillboardSize::World(range), [r, g, b, RANGE_ALPHA]));
+            }
+        }
+    }
+    all
+}
+
+fn ink(Color(color): Color) -> [f32; 4] {
+    let [r, g, b] = color.map(|channel| channel + (1.0 - channel) * LEAST_WHITE);
+    [r, g, b, 1.0]
+}
+
+/// How far from it a lamp lights a facing surface as a sun of intensity 1 does, world units.
+fn range(light: &Light) -> Option<f32> {
+    (light.kind == LightKind::Point && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)
+}

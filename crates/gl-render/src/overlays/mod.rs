@@ -1,0 +1,3 @@
+//! What may lie over a finished picture in a window, and never in a file.
+
+pub(crate) mod light_billboards;
