@@ -43,3 +43,20 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/spread.frag",
     "rotating_strokes/encode.frag",
 ];
+
+/// Ink on paper.
+pub(crate) const SUMI_E: &[ShaderFile] = shader_files![
+    "sumi_e/ramp.glsl",
+    "sumi_e/paper.glsl",
+    "sumi_e/surface.vert",
+    "sumi_e/silhouette.frag",
+    "sumi_e/low_pass.frag",
+    "sumi_e/interior.frag",
+    "sumi_e/mix.frag",
+    "sumi_e/wash.frag",
+    "sumi_e/soften.frag",
+    "sumi_e/resolve.vert",
+    "sumi_e/paint.vert",
+    "sumi_e/paint.frag",
+    "sumi_e/lay.frag",
+];

@@ -8,13 +8,13 @@ use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
-use impasto_scene::document::Solver;
+use impasto_scene::document::{InkDrawing, InkRule, Solver, Style};
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
-use crate::frame::{Frame, FrameBody, LayerRun, Quality, Stroke, StrokeSource, Strokes};
+use crate::frame::{Frame, FrameBody, FrameStyle, LayerRun, Quality, Stroke, StrokeSource, Strokes};
 use crate::gate::Gate;
 use crate::lights;
 use crate::order::OrderEntry;
@@ -161,6 +161,10 @@ impl Painting {
             palettes: Arc::clone(&self.palettes),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style,
+            sumi_e: match &scene.style {
+                Style::SumiE(ink) => Some(Arc::new(ink.clone())),
+                Style::RotatingStrokes(_) | Style::Reference => None,
+            },
             quality: options.quality,
         }
     }
@@ -176,6 +180,17 @@ impl Painting {
     ) -> Strokes {
         let look = self.look(camera, frame, options, |_| true);
         Look { recall: recall.filter(|recall| recall.is_of(self)), ..look }.strokes()
+    }
+
+    /// Whether anything is painted in strokes.
+    fn has_strokes(&self) -> bool {
+        match (self.style, &self.scene().style) {
+            (FrameStyle::RotatingStrokes, _) => true,
+            (FrameStyle::SumiE, Style::SumiE(ink)) => {
+                ink.rule == InkRule::Painter && ink.drawing != InkDrawing::Wash
+            }
+            (FrameStyle::SumiE | FrameStyle::Reference, _) => false,
+        }
     }
 
     fn px_scale(&self, options: &FrameOptions) -> f32 {
@@ -256,7 +271,7 @@ impl<'a> Look<'a> {
 
 impl Look<'_> {
     fn strokes(&self) -> Strokes {
-        if self.painting.style != crate::frame::FrameStyle::RotatingStrokes {
+        if !self.painting.has_strokes() {
             return Strokes::default();
         }
         let order = &self.painting.order;
