@@ -25,21 +25,25 @@ vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     vec4 far = texture(wide, gl_FragCoord.xy / size_px + shift * bleed);
     // The front of the ink is ragged, and behind it it is even.
     float front = smoothstep(0.10, 0.42, far.a + 0.55 * here.y + 0.5 * slow.x);
-    float drinks = bleed * smoothstep(-0.06, 0.16, slow.x + 0.2 * here.x);
+    float red = clamp(near.b / max(near.a, 1e-3), 0.0, 1.0);
+    float drinks = min(1.5 * bleed, 1.0) * (1.0 - 0.6 * red) * smoothstep(-0.06, 0.16, slow.x + 0.2 * here.x);
     vec4 run = mix(near, far * front, drinks);
     // The line is lost and found.
-    float found = clamp(0.72 + 2.4 * slow.y, 0.2, 1.0);
-    float dark = 1.0 - (1.0 - run.g) * (1.0 - amounts.w * found * run.r);
+    float found = clamp(0.70 + 3.4 * slow.y, 0.12, 1.0);
+    float dark = 1.0 - (1.0 - run.g * (1.25 - 0.25 * run.g)) * (1.0 - amounts.w * found * run.r);
     // Pigment gathers where the water ends, and settles into the tooth.
     float edge = clamp(4.0 * near.a * (1.0 - near.a), 0.0, 1.0);
-    dark *= 1.0 + 0.22 * edge * (1.0 - drinks);
+    float tide = 4.0 * front * (1.0 - front) * far.a;
+    dark *= 1.0 + 0.25 * edge * (1.0 - drinks) + 0.45 * tide * drinks;
     dark *= 1.0 + fibre_strength * (1.1 * here.z + 0.8 * here.y + 0.9 * here.x);
     // Where the brush was dry the tooth stays white.
     float tooth = here.z + 0.7 * here.y + 1.1 * slow.z;
     dark *= 1.0 - wetness.z * 0.75 * smoothstep(0.02, 0.16, tooth) * smoothstep(0.9, 0.3, run.r);
-    float red = clamp(run.b / max(run.a, 1e-3), 0.0, 1.0);
-    dark = mix(dark, max(dark, 0.75 * run.b), red);
-    return clamp(dark * amounts.z, 0.0, MOST_INK) * (1.0 - mix(ink, seal, red));
+    red = clamp(run.b / max(run.a, 1e-3), 0.0, 1.0);
+    dark = mix(dark, max(dark, 0.44 * run.b + 0.5 * run.g), red);
+    // Under strokes there is less of it; the seal is pressed on.
+    dark *= mix(amounts.x, 1.0, red * red) * amounts.z;
+    return clamp(dark, 0.0, MOST_INK) * (1.0 - mix(ink, seal, red));
 }
 
 vec3 strokes_at(vec3 here) {
@@ -57,7 +61,7 @@ void main() {
     vec3 here = felt(at);
     // The same clouds at other scales, slow enough to tell one part of an outline from the next.
     vec3 slow = vec3(felt(at * 0.53 + 0.17).x, felt(at * 0.41 + 0.59).x, felt(at * 0.71 + 0.83).x);
-    vec3 washed = amounts.x > 0.0 ? amounts.x * wash_at(at, here, slow) : vec3(0.0);
+    vec3 washed = amounts.x > 0.0 ? wash_at(at, here, slow) : vec3(0.0);
     vec3 drawn = amounts.y > 0.0 ? amounts.y * strokes_at(here) : vec3(0.0);
     vec3 through = (1.0 - washed) * (1.0 - drawn);
     if (ground.a > 0.0) {

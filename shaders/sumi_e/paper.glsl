@@ -14,8 +14,8 @@ vec3 felt(vec2 at) {
 }
 
 vec3 bare_paper(vec3 felt) {
-    float tone = 0.10 * felt.x + 0.13 * felt.y + 0.05 * felt.z;
+    float tone = 0.045 * felt.x + 0.15 * felt.y + 0.06 * felt.z;
     // Where pulp lies thick the paper is a little warmer.
-    vec3 warmth = vec3(0.0, -0.01, -0.04) * felt.x;
+    vec3 warmth = vec3(0.0, -0.004, -0.018) * felt.x;
     return clamp(paper * (1.0 + fibre_strength * (tone + warmth)), 0.0, 1.0);
 }

@@ -117,7 +117,8 @@ void main() {
     fitted = vec4(place.xy, 0.0, 0.0);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     float there = presence(size.w);
-    if (there <= LEAST) return;
+    // What no light falls on is printed, not brushed.
+    if (there <= LEAST || (marks.z >> 24) == 0u) return;
 
     vec3 found = ink_round(along);
     float rim = found.r, tone = found.g, red = clamp(found.b, 0.0, 1.0);
@@ -126,20 +127,20 @@ void main() {
     if (kind == BODY) {
         // The lightest tone is the paper itself.
         there *= max(smoothstep(0.10, 0.34, tone), red);
-        dark = tone * 0.92;
+        dark = tone * (1.3 - 0.3 * tone);
     } else if (kind == FORM) {
         there *= smoothstep(0.45, 0.85, rim) * lost;
-        dark = max(0.62, tone) + 0.22 * (rim - 0.5);
+        dark = max(0.74, tone) + 0.22 * (rim - 0.5);
     } else if (kind == SCUMBLE) {
         there *= smoothstep(0.16, 0.42, tone) * smoothstep(0.3, 0.8, lost);
-        dark = tone + 0.16;
+        dark = tone + 0.2;
     } else if (kind == ACCENTS) {
         there *= smoothstep(0.62, 0.85, max(tone, 0.9 * rim)) * lost;
         dark = 0.95;
     } else {
         return;
     }
-    dark = mix(dark, max(dark, 0.8), red);
+    dark = mix(dark, max(dark, 0.58 + 0.4 * tone), red);
     if (there > LEAST) there *= seen(turn);
     if (there <= LEAST) return;
     dark = clamp(dark * (1.0 + 0.17 * normal_from(marks.x, 1u)), 0.0, 1.0);

@@ -44,7 +44,7 @@ void main() {
     vec4 surface = texelFetch(albedo_and_lit, at, 0);
     vec3 lab = oklab_from_linear(surface.rgb);
     float light = 0.5 + 0.5 * dot(n, to_light);
-    light = surface.a > 0.0 ? light + own_tone * 1.15 * (lab.x - 0.66) : lab.x;
+    light = surface.a > 0.0 ? light + own_tone * 1.7 * (lab.x - 0.68) : lab.x;
     float ink = 1.0 - tone_at(clamp(light, 0.0, 1.0));
 
     float chroma = length(lab.yz);

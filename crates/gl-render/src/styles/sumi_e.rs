@@ -36,7 +36,7 @@ const RAMP: u32 = 256;
 const LINE_PX: f32 = 1.6;
 
 /// How much of the wash lies under strokes.
-const WASH_UNDER_STROKES: f32 = 0.5;
+const WASH_UNDER_STROKES: f32 = 0.6;
 
 /// The style.
 pub(crate) struct SumiE {
@@ -197,7 +197,10 @@ impl SumiE {
             .set("ink", Vec3::from(settings.ink.0))
             .set("seal", Vec3::from(settings.seal.0))
             .set("amounts", Vec4::new(of_wash, of_strokes, density, silhouette))
-            .set("wetness", Vec4::new(bleed, settings.bleed_px as f32 * frame.px_scale, dryness, frame.px_scale))
+            .set(
+                "wetness",
+                Vec4::new(bleed, settings.bleed_px as f32 * frame.px_scale, dryness, frame.px_scale),
+            )
             .set("size_px", size_px);
         gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("lay")

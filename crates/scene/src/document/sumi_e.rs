@@ -92,7 +92,7 @@ impl Default for SumiE {
             light: InkLight::default(),
             // The source's, which is left-handed, with Z turned round.
             to_light: [0.96, 0.64, 1.08],
-            tones: [0.16, 0.46, 0.72, 0.96],
+            tones: [0.07, 0.36, 0.68, 0.96],
             softness: 0.08,
             silhouette_from: 0.3,
             silhouette_to: 0.7,

@@ -90,7 +90,8 @@ mod tests {
     fn the_tile_repeats_and_neither_darkens_nor_lightens_the_paper() {
         let tile = tile();
         let side = SIDE as usize;
-        let texel = |x: usize, y: usize, channel: usize| f32::from(tile[(y * side + x) * 4 + channel]) - 128.0;
+        let texel =
+            |x: usize, y: usize, channel: usize| f32::from(tile[(y * side + x) * 4 + channel]) - 128.0;
         for channel in 0..3 {
             let sum: f32 = (0..side * side).map(|index| texel(index % side, index / side, channel)).sum();
             let mean = sum / (side * side) as f32;
