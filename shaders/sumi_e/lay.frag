@@ -35,7 +35,7 @@ vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     float edge = clamp(4.0 * near.a * (1.0 - near.a), 0.0, 1.0);
     float tide = 4.0 * front * (1.0 - front) * far.a;
     dark *= 1.0 + 0.25 * edge * (1.0 - drinks) + 0.45 * tide * drinks;
-    dark *= 1.0 + fibre_strength * (1.1 * here.z + 0.8 * here.y + 0.9 * here.x);
+    dark *= 1.0 + fibre_strength * (0.4 * here.z + 0.5 * here.y + 1.1 * here.x);
     // Where the brush was dry the tooth stays white.
     float tooth = here.z + 0.7 * here.y + 1.1 * slow.z;
     dark *= 1.0 - wetness.z * 0.75 * smoothstep(0.02, 0.16, tooth) * smoothstep(0.9, 0.3, run.r);
@@ -49,7 +49,7 @@ vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
 vec3 strokes_at(vec3 here) {
     vec2 creep = (0.8 * here.yz + 0.4 * here.x) * 1.6 * wetness.w / size_px;
     vec4 gone_over = texture(strokes, gl_FragCoord.xy / size_px + creep);
-    vec3 dark = gone_over.rgb * (1.0 + fibre_strength * (0.9 * here.z + 0.5 * here.y));
+    vec3 dark = gone_over.rgb * (1.0 + fibre_strength * (0.35 * here.z + 0.4 * here.y + 0.4 * here.x));
     // Where strokes cross they are darker.
     float highest = max(max(gone_over.r, gone_over.g), gone_over.b);
     dark *= 1.0 + 0.45 * max(gone_over.a - 0.5 * highest, 0.0);

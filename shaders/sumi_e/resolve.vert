@@ -9,6 +9,7 @@ layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue
 
 uniform mat4 view_from_world;
 uniform sampler2D depth_and_id;
+uniform sampler2D shares;        // of each body: how much of its ink is laid
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D pigments;      // a row for each palette, display values, w 1 where there is one
 uniform vec3 ink;
@@ -119,6 +120,7 @@ void main() {
     float there = presence(size.w);
     // What no light falls on is printed, not brushed.
     if (there <= LEAST || (marks.z >> 24) == 0u) return;
+    if (texelFetch(shares, ivec2(int(marks.y) - 1, 0), 0).r == 0.0) return;
 
     vec3 found = ink_round(along);
     float rim = found.r, tone = found.g, red = clamp(found.b, 0.0, 1.0);

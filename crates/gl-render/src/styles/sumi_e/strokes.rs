@@ -91,11 +91,13 @@ impl InkStrokes {
         self.resolved.reserve((self.count * RESOLVED_BYTES).max(RESOLVED_BYTES))?;
         self.points.set(&stroke_inputs(&self.strokes, 0, false), None);
         let pigments = pigments(&self.gpu, frame)?;
+        let shares = super::shares(&self.gpu, frame)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
         for layer in &frame.layers {
             let bound = lens
                 .set(programs.resolve.bind(), &LENS_UNIFORMS[1..])
                 .texture("depth_and_id", &input.reference.depth_and_id)
+                .texture("shares", &shares)
                 .texture("soft", &targets.soft)
                 .texture("pigments", &pigments)
                 .set("view_from_world", frame.view.view_from_world)
