@@ -15,6 +15,23 @@ const TWIGS: Look = Look { group: "twigs", material: "twig" };
 const LEAVES: Look = Look { group: "leaves", material: "leaf" };
 const PALE_LEAVES: Look = Look { group: "pale leaves", material: "pale leaf" };
 
+/// A twig: of which stalk, how far up, where its end lies from there, and which ways its leaves hang.
+struct Twig {
+    is_pale: bool,
+    along: f64,
+    by: [f64; 2],
+    angles: &'static [f64],
+}
+
+const TWIGS_OF: [Twig; 6] = [
+    Twig { is_pale: false, along: 0.72, by: [-0.46, 0.24], angles: &[-2.55, -2.15, -1.8, -1.35, -3.0] },
+    Twig { is_pale: false, along: 0.60, by: [0.46, 0.26], angles: &[-0.35, -0.85, -1.25, -1.7] },
+    Twig { is_pale: false, along: 0.47, by: [-0.36, 0.28], angles: &[-2.8, -2.3, -1.85] },
+    Twig { is_pale: false, along: 0.86, by: [0.40, 0.16], angles: &[-0.2, -0.7, -1.2, -1.65, 0.3] },
+    Twig { is_pale: true, along: 0.50, by: [0.28, 0.26], angles: &[-0.6, -1.1, -1.6] },
+    Twig { is_pale: true, along: 0.80, by: [-0.30, 0.22], angles: &[-2.6, -2.0, -1.5] },
+];
+
 /// Bamboo, 3 units high, before a plane Z = 0.
 pub fn bamboo() -> PolyMesh {
     let mut mesh = PolyMesh::new(
@@ -31,16 +48,9 @@ pub fn bamboo() -> PolyMesh {
     );
     let far = stalk(&mut mesh, [[0.52, -0.35, -0.35], [0.44, 1.2, -0.35], [0.52, 3.4, -0.35]], 0.052, FAR);
     let near = stalk(&mut mesh, [[-0.02, -0.35, 0.0], [0.12, 1.3, 0.0], [0.02, 3.4, 0.0]], 0.085, NEAR);
-    // Where a twig leaves its stalk, where it goes, how many leaves it has.
-    let twigs: [(&[DVec3], f64, [f64; 2], &[f64], bool); 6] = [
-        (&near, 0.72, [-0.46, 0.24], &[-2.55, -2.15, -1.8, -1.35, -3.0], false),
-        (&near, 0.60, [0.46, 0.26], &[-0.35, -0.85, -1.25, -1.7], false),
-        (&near, 0.47, [-0.36, 0.28], &[-2.8, -2.3, -1.85], false),
-        (&near, 0.86, [0.40, 0.16], &[-0.2, -0.7, -1.2, -1.65, 0.3], false),
-        (&far, 0.50, [0.28, 0.26], &[-0.6, -1.1, -1.6], true),
-        (&far, 0.80, [-0.30, 0.22], &[-2.6, -2.0, -1.5], true),
-    ];
-    for (number, (stem, along, [x, y], angles, is_pale)) in twigs.into_iter().enumerate() {
+    for (number, twig) in TWIGS_OF.into_iter().enumerate() {
+        let Twig { is_pale, along, by: [x, y], angles } = twig;
+        let stem = if is_pale { &far } else { &near };
         let (from, _) = place(stem, along);
         let to = from + DVec3::new(x, y, 0.12);
         let between = from.lerp(to, 0.5) + DVec3::new(0.0, 0.07, 0.03);

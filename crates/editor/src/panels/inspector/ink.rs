@@ -99,6 +99,7 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &InkNumber, [shown, st
     let name = match of.field {
         "silhouette_from" => "Rim from".to_owned(),
         "silhouette_to" => "Rim to".to_owned(),
+        "bleed_px" => "Bleed px".to_owned(),
         _ => sentence(words),
     };
     let limits = match of.field {
