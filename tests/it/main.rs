@@ -29,4 +29,5 @@ mod rotating_strokes;
 mod scenes_in_motion;
 mod shipped_scenes;
 mod steadiness;
+mod sumi_e;
 mod warm_prepare;

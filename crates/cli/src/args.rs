@@ -86,6 +86,9 @@ pub(crate) enum DriverChoice {
 pub(crate) enum StyleChoice {
     /// Brush strokes.
     RotatingStrokes,
+    /// Ink on paper.
+    #[value(name = "sumi_e", alias = "sumi-e")]
+    SumiE,
     /// The plain render that strokes take their colours from.
     Reference,
 }

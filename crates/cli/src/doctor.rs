@@ -158,6 +158,7 @@ fn test_frame() -> Frame {
         palettes: Arc::default(),
         finish: Finish::default(),
         style: FrameStyle::RotatingStrokes,
+        sumi_e: None,
         quality: Quality::Exact,
     }
 }

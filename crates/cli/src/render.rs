@@ -12,7 +12,7 @@ use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting, Rotation, StrokeColors};
-use impasto_scene::document::Style;
+use impasto_scene::document::{Style, SumiE};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice, StyleChoice};
@@ -86,10 +86,13 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     }
     match arguments.style {
         Some(StyleChoice::Reference) => loaded.scene.style = Style::Reference,
-        Some(StyleChoice::RotatingStrokes) if loaded.scene.style == Style::Reference => {
+        Some(StyleChoice::RotatingStrokes) if !matches!(loaded.scene.style, Style::RotatingStrokes(_)) => {
             loaded.scene.style = Style::default();
         }
-        Some(StyleChoice::RotatingStrokes) | None => {}
+        Some(StyleChoice::SumiE) if !matches!(loaded.scene.style, Style::SumiE(_)) => {
+            loaded.scene.style = Style::SumiE(SumiE::default());
+        }
+        Some(StyleChoice::RotatingStrokes | StyleChoice::SumiE) | None => {}
     }
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));

@@ -11,7 +11,7 @@ use impasto_editor_model::stroke_fields::STROKE_FIELDS;
 use impasto_editor_model::{Document, Item, Selection};
 use impasto_scene::document::{
     BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LightKind, MaterialOverride, ObjectKey, Region,
-    Scene, Seam, Selector, Sense, Style,
+    Scene, Seam, Selector, Sense, Style, SumiE,
 };
 use impasto_scene::load::LoadOptions;
 use impasto_scene::motion;
@@ -208,6 +208,9 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         37 => Command::Scene(match other % 4 {
             0 => SceneEdit::SetSize(640 + u32::from(which), 360),
             1 => SceneEdit::SetBackground(Color([0.2, 0.301, 0.4])),
+            2 if other % 8 == 2 => {
+                SceneEdit::SetStyle(Style::SumiE(SumiE::default()), "Style: ink".to_owned())
+            }
             2 => SceneEdit::SetStyle(Style::Reference, "Style: plain".to_owned()),
             _ => SceneEdit::SetStyle(Style::default(), "Style: strokes".to_owned()),
         }),

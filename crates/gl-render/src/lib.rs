@@ -10,6 +10,7 @@ pub mod context;
 mod gl;
 #[cfg(test)]
 mod inverse_bilinear_twin;
+mod marks;
 mod meshes;
 mod motion;
 mod overlays;

@@ -29,7 +29,7 @@ pub(crate) struct ReferenceTargets {
     pub(crate) normal: Rc<Texture>,
     pub(crate) depth_and_id: Rc<Texture>,
     pub(crate) glint: Rc<Texture>,
-    albedo: Rc<Texture>,
+    pub(crate) albedo: Rc<Texture>,
     openness: Rc<Texture>,
     surface_pass: Framebuffer,
     openness_pass: Framebuffer,

@@ -132,7 +132,7 @@ impl Renderer {
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
         let before = gpu.set_shaders(texts.clone());
-        let styles = std::iter::once(FrameStyle::RotatingStrokes).chain(self.styles.keys().copied());
+        let styles = [FrameStyle::RotatingStrokes, FrameStyle::SumiE, FrameStyle::Reference];
         let made = (|| {
             let mut reference = ReferencePass::new(&gpu)?;
             reference.ready_drafts()?;
@@ -282,6 +282,7 @@ impl Renderer {
         watch: &mut Watch<'_>,
     ) -> Result<Picture, Halt> {
         let gpu = &self.context.gpu().clone();
+        let bodies = self.reference.bodies(frame)?;
         let reference = self.targets.as_ref().expect("the reference picture was drawn before");
         let output = match self.output.take() {
             Some(output) if output.size_px() == frame.size_px => output,
@@ -293,7 +294,7 @@ impl Renderer {
             std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
             std::collections::hash_map::Entry::Vacant(entry) => entry.insert(styles::open(gpu, frame.style)?),
         };
-        style.draw(&StyleInput { frame, reference, lights }, output, watch)?;
+        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies }, output, watch)?;
         self.last_view = Some(frame.view);
         Ok(self.read_output(&frame.view)?)
     }
@@ -343,8 +344,10 @@ impl Renderer {
 
     /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.
     pub fn resolved_strokes(&self) -> Vec<ResolvedStroke> {
-        let Some(strokes) = self.strokes() else { return Vec::new() };
-        let resolved = strokes.read_resolved();
+        if self.context.gpu().make_current().is_err() {
+            return Vec::new();
+        }
+        let resolved = self.styles.get(&self.last_style).map_or_else(Vec::new, |style| style.read_resolved());
         resolved
             .into_iter()
             .map(|[r, g, b, alpha, x, y, ..]| ResolvedStroke {

@@ -40,7 +40,7 @@ impl ShaderTexts {
 }
 
 /// All of them.
-const ALL: &[&[ShaderFile]] = &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES];
+const ALL: &[&[ShaderFile]] = &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES, SUMI_E];
 
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] = shader_files![
@@ -81,6 +81,23 @@ pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/detail.frag",
     "rotating_strokes/spread.frag",
     "rotating_strokes/encode.frag",
+];
+
+/// Ink on paper.
+pub(crate) const SUMI_E: &[ShaderFile] = shader_files![
+    "sumi_e/ramp.glsl",
+    "sumi_e/paper.glsl",
+    "sumi_e/surface.vert",
+    "sumi_e/silhouette.frag",
+    "sumi_e/low_pass.frag",
+    "sumi_e/interior.frag",
+    "sumi_e/mix.frag",
+    "sumi_e/wash.frag",
+    "sumi_e/soften.frag",
+    "sumi_e/resolve.vert",
+    "sumi_e/paint.vert",
+    "sumi_e/paint.frag",
+    "sumi_e/lay.frag",
 ];
 
 #[cfg(test)]

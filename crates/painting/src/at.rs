@@ -8,13 +8,14 @@ use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
-use impasto_scene::document::Solver;
+use impasto_scene::document::{InkDrawing, InkRule, Solver, Style};
+use impasto_scene::house_mesh;
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
-use crate::frame::{Frame, FrameBody, LayerRun, Quality, Stroke, StrokeSource, Strokes};
+use crate::frame::{Frame, FrameBody, FrameStyle, LayerRun, Quality, Stroke, StrokeSource, Strokes};
 use crate::gate::Gate;
 use crate::lights;
 use crate::order::OrderEntry;
@@ -147,7 +148,9 @@ impl Painting {
                 .bodies
                 .iter()
                 .zip(poses.iter().zip(&morphs))
-                .map(|(body, (&pose, &morph))| FrameBody {
+                .zip(&scene.objects)
+                .map(|((body, (&pose, &morph)), object)| FrameBody {
+                    is_backdrop: object.mesh == house_mesh::BACKDROP,
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: morph as f32,
@@ -161,6 +164,10 @@ impl Painting {
             palettes: Arc::clone(&self.palettes),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style,
+            sumi_e: match &scene.style {
+                Style::SumiE(ink) => Some(Arc::new(ink.clone())),
+                Style::RotatingStrokes(_) | Style::Reference => None,
+            },
             quality: options.quality,
         }
     }
@@ -176,6 +183,17 @@ impl Painting {
     ) -> Strokes {
         let look = self.look(camera, frame, options, |_| true);
         Look { recall: recall.filter(|recall| recall.is_of(self)), ..look }.strokes()
+    }
+
+    /// Whether anything is painted in strokes.
+    fn has_strokes(&self) -> bool {
+        match (self.style, &self.scene().style) {
+            (FrameStyle::RotatingStrokes, _) => true,
+            (FrameStyle::SumiE, Style::SumiE(ink)) => {
+                ink.rule == InkRule::Painter && ink.drawing != InkDrawing::Wash
+            }
+            (FrameStyle::SumiE | FrameStyle::Reference, _) => false,
+        }
     }
 
     fn px_scale(&self, options: &FrameOptions) -> f32 {
@@ -256,7 +274,7 @@ impl<'a> Look<'a> {
 
 impl Look<'_> {
     fn strokes(&self) -> Strokes {
-        if self.painting.style != crate::frame::FrameStyle::RotatingStrokes {
+        if !self.painting.has_strokes() {
             return Strokes::default();
         }
         let order = &self.painting.order;

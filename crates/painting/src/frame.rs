@@ -11,6 +11,7 @@ use impasto_scene::morph::MorphTarget;
 
 mod stroke;
 
+pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, SumiE};
 pub use impasto_scene::presets::LayerKind;
 pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
 
@@ -43,6 +44,8 @@ pub struct Frame {
     pub finish: Finish,
     /// How to draw.
     pub style: FrameStyle,
+    /// The ink, where the style is [`FrameStyle::SumiE`].
+    pub sumi_e: Option<Arc<SumiE>>,
     /// How much care to take.
     pub quality: Quality,
 }
@@ -70,6 +73,8 @@ pub enum Quality {
 pub enum FrameStyle {
     /// Brush strokes over a ground.
     RotatingStrokes,
+    /// Ink on paper, as [`Frame::sumi_e`] says.
+    SumiE,
     /// The lit reference picture itself.
     Reference,
 }
@@ -127,6 +132,8 @@ pub struct PointLight {
 pub struct FrameBody {
     /// Not drawn, and casts no shadow; it keeps its id.
     pub hidden: bool,
+    /// Stands behind everything and is no part of the scene: ink leaves the paper bare there.
+    pub is_backdrop: bool,
     /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
     pub surface: Arc<BodySurface>,
     /// Pose: turned, moved, evenly scaled.

@@ -347,6 +347,11 @@ impl Painting {
 fn settings(scene: &Scene) -> RotatingStrokes {
     match &scene.style {
         Style::RotatingStrokes(settings) => settings.clone(),
+        Style::SumiE(ink) => RotatingStrokes {
+            underpainting: false,
+            canvas_follows: ink.paper_follows,
+            ..RotatingStrokes::default()
+        },
         Style::Reference => RotatingStrokes::default(),
     }
 }
@@ -384,6 +389,7 @@ fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
         solver: if presets::is_paper(scene) { Solver::HornExact } else { settings.solver },
         style: match scene.style {
             Style::RotatingStrokes(_) => FrameStyle::RotatingStrokes,
+            Style::SumiE(_) => FrameStyle::SumiE,
             Style::Reference => FrameStyle::Reference,
         },
         shadow_bounds: lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice())),

@@ -3,6 +3,7 @@
 
 mod paint;
 mod regions;
+mod sumi_e;
 
 use serde::Deserialize;
 
@@ -13,6 +14,7 @@ pub use regions::{
     Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, PatchRef, Region, Seam,
     Seed, Selector, Sense,
 };
+pub use sumi_e::{InkDrawing, InkLight, InkNumber, InkRule, SumiE};
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

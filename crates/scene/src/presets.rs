@@ -2,12 +2,15 @@
 
 mod table;
 
-use crate::document::{BrushMix, Color, Edges, LayerSettings, Scene, StrokeSettings};
+use crate::document::{BrushMix, Color, Edges, LayerSettings, Scene, StrokeSettings, Style};
 
 use table::{PRESETS, Preset};
 
 /// The preset of a scene that names none.
 pub const DEFAULT_PRESET: &str = "oil study";
+
+/// The preset of a scene in ink that names none.
+pub const INK_PRESET: &str = "ink";
 
 /// The source paper's own rule, whole: equal counts per polygon at random places, count by facing, one brush, the full
 /// neighbour sum in every frame, no jitter and no other layer. It holds for a scene, not for a region.
@@ -145,11 +148,13 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// The settings of region `region` of the scene; of everything that no region covers where it is `None`.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
-/// default preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
+/// default preset (in ink, the ink's). An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
     // Presets are meant for a picture 720 high.
     let size = scene.size.1 as f32 / 720.0;
-    let mut strokes = ResolvedStrokes::of_preset(&PRESETS[0], size);
+    let usual = if matches!(scene.style, Style::SumiE(_)) { INK_PRESET } else { DEFAULT_PRESET };
+    let usual = PRESETS.iter().find(|preset| preset.name == usual).unwrap_or(&PRESETS[0]);
+    let mut strokes = ResolvedStrokes::of_preset(usual, size);
     strokes.apply(&scene.strokes, size);
     if let Some(region) = region {
         strokes.apply(&scene.regions[region].strokes, size);

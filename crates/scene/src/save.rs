@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::document::{
     BrushMix, Camera, CameraKey, Color, Ease, Edges, LayerSettings, Lens, Light, MaterialOverride, Object,
-    ObjectKey, Reference, RotatingStrokes, Scale, Scene, StrokeSettings, Style, Timeline, Up,
+    ObjectKey, Reference, RotatingStrokes, Scale, Scene, StrokeSettings, Style, SumiE, Timeline, Up,
 };
 
 mod layout;
@@ -274,7 +274,28 @@ fn style(style: &Style) -> Value {
                 .unless(style.varnish == usual.varnish, "varnish", || number(style.varnish))
                 .named("RotatingStrokes")
         }
+        Style::SumiE(ink) => sumi_e(ink),
     }
+}
+
+fn sumi_e(ink: &SumiE) -> Value {
+    let usual = SumiE::default();
+    let start = Fields::new()
+        .with("rule", word(ink.rule))
+        .unless(ink.drawing == usual.drawing, "drawing", || word(ink.drawing))
+        .unless(ink.light == usual.light, "light", || word(ink.light))
+        .unless(ink.to_light == usual.to_light, "to_light", || vector(ink.to_light))
+        .unless(ink.tones == usual.tones, "tones", || Value::Tuple(ink.tones.map(number).to_vec()));
+    let numbers = SumiE::NUMBERS.iter().fold(start, |fields, of| {
+        let value = ink.value(of);
+        fields.unless(value == usual.value(of), of.field, || number(value))
+    });
+    numbers
+        .unless(ink.paper == usual.paper, "paper", || color(ink.paper))
+        .unless(ink.ink == usual.ink, "ink", || color(ink.ink))
+        .unless(ink.seal == usual.seal, "seal", || color(ink.seal))
+        .unless(ink.paper_follows == usual.paper_follows, "paper_follows", || word(ink.paper_follows))
+        .named("SumiE")
 }
 
 #[cfg(test)]

@@ -2,11 +2,12 @@
 //! name or a list, a style as its name with its fields.
 
 use std::fmt;
+use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
 
-use crate::document::{BrushMix, Color, RotatingStrokes, Scale, Style};
+use crate::document::{BrushMix, Color, RotatingStrokes, Scale, Style, SumiE};
 
 impl Color {
     /// Reads `#rgb` or `#rrggbb`; `None` for anything else.
@@ -111,16 +112,17 @@ impl<'de> Deserialize<'de> for Style {
         #[serde(variant_identifier)]
         enum Name {
             RotatingStrokes,
+            SumiE,
             Reference,
         }
-        struct FieldsVisitor;
-        impl<'de> Visitor<'de> for FieldsVisitor {
-            type Value = RotatingStrokes;
+        struct FieldsVisitor<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for FieldsVisitor<T> {
+            type Value = T;
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 formatter.write_str("the fields of a style, as in (relief: 0.5)")
             }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RotatingStrokes, A::Error> {
-                RotatingStrokes::deserialize(MapAccessDeserializer::new(map))
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map))
             }
         }
         struct StyleVisitor;
@@ -132,12 +134,15 @@ impl<'de> Deserialize<'de> for Style {
             fn visit_enum<A: EnumAccess<'de>>(self, style: A) -> Result<Style, A::Error> {
                 match style.variant()? {
                     (Name::RotatingStrokes, fields) => fields
-                        .struct_variant(RotatingStrokes::FIELDS, FieldsVisitor)
+                        .struct_variant(RotatingStrokes::FIELDS, FieldsVisitor(PhantomData))
                         .map(Style::RotatingStrokes),
+                    (Name::SumiE, fields) => {
+                        fields.struct_variant(SumiE::FIELDS, FieldsVisitor(PhantomData)).map(Style::SumiE)
+                    }
                     (Name::Reference, nothing) => nothing.unit_variant().map(|()| Style::Reference),
                 }
             }
         }
-        deserializer.deserialize_enum("Style", &["RotatingStrokes", "Reference"], StyleVisitor)
+        deserializer.deserialize_enum("Style", &["RotatingStrokes", "SumiE", "Reference"], StyleVisitor)
     }
 }

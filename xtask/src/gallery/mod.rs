@@ -2,6 +2,7 @@
 
 mod list;
 mod panel;
+mod sumi_e;
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,7 @@ use anyhow::{Context as _, bail};
 use crate::steps::{self, build_release, step};
 use crate::tidy::pictures::DOCS_LIMIT_BYTES;
 
-use list::{PICTURES, Picture, View};
+use list::{Picture, View};
 use panel::Panel;
 
 /// Size at which everything is rendered; crops count its pixels.
@@ -18,7 +19,7 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// Renders every picture into `docs/pictures/`, or those whose names are given.
 pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
-    if let Some(unknown) = only.iter().find(|name| PICTURES.iter().all(|picture| picture.name != **name)) {
+    if let Some(unknown) = only.iter().find(|name| pictures().all(|picture| picture.name != **name)) {
         bail!("there is no picture `{unknown}`; the list is in xtask/src/gallery/list.rs");
     }
     let impasto = step("build", || build_release(root))?;
@@ -26,11 +27,16 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
         Work { root, impasto: impasto.to_string_lossy().into_owned(), folder: root.join("out/gallery") };
     std::fs::create_dir_all(&work.folder)?;
     for picture in
-        PICTURES.iter().filter(|picture| only.is_empty() || only.iter().any(|name| name == picture.name))
+        pictures().filter(|picture| only.is_empty() || only.iter().any(|name| name == picture.name))
     {
         step(picture.name, || work.make(picture))?;
     }
     Ok(())
+}
+
+/// All that the gallery shows.
+fn pictures() -> impl Iterator<Item = &'static Picture> {
+    list::PICTURES.iter().chain(sumi_e::PICTURES)
 }
 
 struct Work<'a> {

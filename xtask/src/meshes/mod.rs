@@ -2,8 +2,11 @@
 
 mod apple;
 mod apple_fine;
+mod bamboo;
+mod blade;
 mod blocks;
 mod board;
+mod carp;
 mod cloth;
 mod cottage;
 mod curve;
@@ -19,6 +22,7 @@ mod orange;
 mod poly_mesh;
 mod puppet;
 mod room;
+mod seal;
 mod sky;
 mod surface_net;
 mod tree;
@@ -55,6 +59,8 @@ fn shipped() -> Vec<PolyMesh> {
     vec![
         apple::apple(),
         apple_fine::apple_fine(),
+        bamboo::bamboo(),
+        carp::carp(),
         cloth::cloth(),
         blocks::cube(),
         deer::deer(),
@@ -80,6 +86,7 @@ fn shipped() -> Vec<PolyMesh> {
         tree::poplar(),
         tree::tree(),
         hills::hills(),
+        seal::seal(),
         sky::sky(),
         valley::valley(),
         valley::water(),
@@ -118,7 +125,7 @@ mod tests {
     }
 
     /// Sheets that only ever show one side.
-    const OPEN: [&str; 6] = ["cloth", "hills", "sky", "valley", "wall", "water"];
+    const OPEN: [&str; 7] = ["cloth", "hills", "seal", "sky", "valley", "wall", "water"];
 
     /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
     #[test]

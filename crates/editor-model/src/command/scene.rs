@@ -8,6 +8,7 @@ use crate::refusal::Refusal;
 
 /// Size, style and backdrop.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "edits are made one at a time")]
 pub enum SceneEdit {
     /// Width and height in pixels for which stroke sizes are meant.
     SetSize(u32, u32),

@@ -55,4 +55,6 @@ fn the_column_looks_as_it_did() {
     ));
     all.extend(picture("column_camera_dark", (of("still_life.ron", Some(Item::Camera)), Theme::Dark), SIZE));
     all.extend(picture("column_scene_dark", (of("still_life.ron", None), Theme::Dark), SIZE));
+    let ink = of("sumi_e_carp.ron", None);
+    all.extend(picture("column_ink_light", (ink, Theme::Light), vec2(280.0, 1240.0)));
 }

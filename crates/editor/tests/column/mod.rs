@@ -1,6 +1,7 @@
 //! The right column with a document, driven by name.
 
 mod guides;
+mod ink;
 mod inspector;
 mod looks;
 mod missing;

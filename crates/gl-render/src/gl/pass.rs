@@ -13,6 +13,8 @@ pub(crate) enum Blend {
     Off,
     /// Premultiplied "over".
     Over,
+    /// The larger of each colour stays; alpha as in "over".
+    Largest,
 }
 
 /// Fixed state of a pass; everything else is set to its default each time, whoever used the context before.
@@ -59,7 +61,7 @@ impl Gpu {
             switch(off, false);
         }
         switch(glow::DEPTH_TEST, state.depth_test);
-        switch(glow::BLEND, state.blend == Blend::Over);
+        switch(glow::BLEND, state.blend != Blend::Off);
         switch(glow::POLYGON_OFFSET_FILL, state.depth_offset);
         // SAFETY: the context is current; the framebuffer was made in it.
         unsafe {
@@ -70,7 +72,8 @@ impl Gpu {
             gl.color_mask(true, true, true, true);
             gl.depth_mask(true);
             gl.depth_func(glow::LESS);
-            gl.blend_equation(glow::FUNC_ADD);
+            let of_color = if state.blend == Blend::Largest { glow::MAX } else { glow::FUNC_ADD };
+            gl.blend_equation_separate(of_color, glow::FUNC_ADD);
             gl.blend_func(glow::ONE, glow::ONE_MINUS_SRC_ALPHA);
             if state.depth_test {
                 gl.clear_depth_f32(1.0);

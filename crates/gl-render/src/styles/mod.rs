@@ -2,11 +2,15 @@
 
 mod reference;
 mod rotating_strokes;
+mod sumi_e;
+
+use std::rc::Rc;
 
 use impasto_painting::Frame;
-use impasto_painting::frame::FrameStyle;
+use impasto_painting::frame::{FrameBody, FrameStyle};
 
 use crate::gl::{Framebuffer, GlError, Gpu, Halt};
+use crate::meshes::MeshOnGpu;
 use crate::reference::{LightSetup, ReferenceTargets};
 use crate::watch::Watch;
 
@@ -17,6 +21,8 @@ pub(crate) struct StyleInput<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) reference: &'a ReferenceTargets,
     pub(crate) lights: &'a LightSetup,
+    /// The bodies of the frame with their surfaces.
+    pub(crate) bodies: &'a [(&'a FrameBody, Rc<MeshOnGpu>)],
 }
 
 /// A way of drawing a frame.
@@ -38,12 +44,18 @@ pub(crate) trait Style {
     fn as_strokes(&self) -> Option<&RotatingStrokes> {
         None
     }
+
+    /// Of every stroke of the last frame: colour and alpha, then its place, eight floats each.
+    fn read_resolved(&self) -> Vec<[f32; 8]> {
+        self.as_strokes().map_or_else(Vec::new, RotatingStrokes::read_resolved)
+    }
 }
 
 /// Makes a style ready.
 pub(crate) fn open(gpu: &Gpu, style: FrameStyle) -> Result<Box<dyn Style>, GlError> {
     Ok(match style {
         FrameStyle::RotatingStrokes => Box::new(RotatingStrokes::new(gpu)?),
+        FrameStyle::SumiE => Box::new(sumi_e::SumiE::new(gpu)?),
         FrameStyle::Reference => Box::new(reference::Reference::new(gpu)?),
     })
 }

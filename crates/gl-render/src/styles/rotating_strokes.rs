@@ -5,7 +5,6 @@
 //! stroke), paint (a billboard per stroke, one layer after the other), soften, encode.
 
 mod canvas;
-mod marks;
 mod programs;
 
 use std::rc::Rc;
@@ -20,9 +19,9 @@ use crate::gl::{
     Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
     Records, Texture, VertexArray, Vertices,
 };
+use crate::marks::Marks;
 use crate::reference::{LENS_UNIFORMS, LensSetup};
 use crate::watch::Watch;
-use marks::Marks;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 
 /// How much of a body's own colour its toned ground carries.

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::{Findings, did_you_mean, short, shown};
 use crate::document::{
-    BrushMix, Edges, LayerSettings, RotatingStrokes, Scene, Solver, StrokeSettings, Style,
+    BrushMix, Edges, LayerSettings, RotatingStrokes, Scene, Solver, StrokeSettings, Style, SumiE,
 };
 use crate::limits;
 use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};
@@ -17,9 +17,29 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
             findings.number(&format!("style.{field}"), value, 0.0..=limits::MAX_STRENGTH);
         }
     }
+    if let Style::SumiE(ink) = &scene.style {
+        check_ink(ink, findings);
+    }
     if let Some((_, field_path)) = brush_pictures(scene).get(limits::MAX_BRUSH_PICTURES) {
         let message = "too many pictures that serve as brushes".to_owned();
         findings.error(field_path.clone(), message, format!("use at most {}", limits::MAX_BRUSH_PICTURES));
+    }
+}
+
+/// Ranges of the ink, and what must go up: the tones, and where the silhouette begins and ends.
+fn check_ink(ink: &SumiE, findings: &mut Findings) {
+    for number in SumiE::NUMBERS {
+        findings.number(&format!("style.{}", number.field), ink.value(number), 0.0..=number.most);
+    }
+    findings.direction("style.to_light", ink.to_light);
+    let rises = ink.tones.windows(2).all(|pair| pair[0] <= pair[1]);
+    if !rises || ink.tones.iter().any(|tone| !(0.0..=1.0).contains(tone)) {
+        let message = "the four tones do not go from dark to light".to_owned();
+        findings.error("style.tones", message, "give four numbers from 0 to 1, none below the one before");
+    }
+    if ink.silhouette_from >= ink.silhouette_to {
+        let message = "the silhouette ends before it begins".to_owned();
+        findings.error("style.silhouette_from", message, "give a number below silhouette_to");
     }
 }
 
@@ -72,7 +92,7 @@ fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, find
         }) => {
             format!("the solver {solver:?}")
         }
-        Style::RotatingStrokes(_) | Style::Reference => return,
+        Style::RotatingStrokes(_) | Style::SumiE(_) | Style::Reference => return,
     };
     let message = format!("a flatness of {} does not go with {needs}", short(flatness));
     findings.error(format!("{strokes_path}.flatness"), message, "use the solver Tangent, or a flatness of 1");

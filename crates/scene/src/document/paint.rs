@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::Color;
+use super::{Color, SumiE};
 
 /// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -112,6 +112,8 @@ pub enum Edges {
 pub enum Style {
     /// Brush strokes that turn with what they lie on.
     RotatingStrokes(RotatingStrokes),
+    /// Ink on paper.
+    SumiE(SumiE),
     /// The plain render that strokes take their colours from.
     Reference,
 }

@@ -329,7 +329,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "falloff" => "Smooth, Linear or Flat",
         "morph" => "a mesh such as \"meshes/late.obj\" for an object, a number from 0 to 1 for a key",
         "scale" => "one number, or three as in (1, 2, 1)",
-        "background" | "color" | "ground" => "a colour, as in \"#b3262a\"",
+        "background" | "color" | "ground" | "paper" | "ink" | "seal" => "a colour, as in \"#b3262a\"",
         "name" | "mesh" | "group" | "parent" | "texture" | "preset" | "object" => {
             "text in quotes, as in \"apple\""
         }
@@ -338,7 +338,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "layers" => "a list of layers, as in [(name: \"scumble\", coverage: 0)]",
         "edges" => "Clip, Overrun(3) or Free",
         "canvas" => "Linen or Board",
-        "canvas_follows" => "Picture or Camera",
+        "canvas_follows" | "paper_follows" => "Picture or Camera",
         "mode" => "Comb or Smooth",
         "unlit" | "underpainting" | "hidden" | "locked" | "take_away" => "true or false",
         "keys" => "a list of keys, as in [(frame: 0, …), (frame: 24, …)]",
@@ -348,7 +348,11 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "lens" => "Perspective(fov_y_deg: 35) or Orthographic(height: 2)",
         "strokes" => "stroke settings, as in (length_px: 78, width_px: 25)",
         "material" => "a colour or a texture, as in (color: \"#b3262a\")",
-        "style" => "RotatingStrokes() or Reference",
+        "style" => "RotatingStrokes(), SumiE() or Reference",
+        "rule" => "Painter or Source",
+        "drawing" => "Both, Wash or Strokes",
+        "light" => "Scene or Eye",
+        "tones" => "four tones from dark to light, as in (0.15, 0.45, 0.7, 0.95)",
         "solver" => "Tangent, Horn or HornExact",
         "ease" => "Step, Linear or Smooth",
         "kind" => "Sun, Point or Ambient",

@@ -1,6 +1,6 @@
 //! The presets, as numbers. Pixels are those of a picture 720 high.
 
-use super::{DEFAULT_PRESET, PAPER_PRESET, ResolvedLayer, ResolvedStrokes};
+use super::{DEFAULT_PRESET, INK_PRESET, PAPER_PRESET, ResolvedLayer, ResolvedStrokes};
 use crate::document::Edges;
 
 /// A complete set of values under a name.
@@ -10,6 +10,7 @@ pub(super) struct Preset {
     layers: [Layer; 6],
     angle_jitter_deg: f32,
     swing_deg: f32,
+    contour: f32,
     size_jitter: f32,
     edges: Edges,
     color_jitter: f32,
@@ -97,13 +98,14 @@ const LIGHTS: Layer = Layer {
 };
 
 /// The default first.
-pub(super) const PRESETS: [Preset; 5] = [
+pub(super) const PRESETS: [Preset; 6] = [
     // A few large strokes for the masses, small ones only where something happens.
     Preset {
         name: DEFAULT_PRESET,
         layers: [UNDERPAINTING, BODY, FORM, SCUMBLE, ACCENTS, LIGHTS],
         angle_jitter_deg: 7.0,
         swing_deg: 6.0,
+        contour: 0.0,
         size_jitter: 0.16,
         edges: Edges::Overrun(3.0),
         color_jitter: 1.0,
@@ -131,6 +133,7 @@ pub(super) const PRESETS: [Preset; 5] = [
         ],
         angle_jitter_deg: 14.0,
         swing_deg: 9.0,
+        contour: 0.0,
         size_jitter: 0.2,
         edges: Edges::Overrun(4.0),
         color_jitter: 2.4,
@@ -158,6 +161,7 @@ pub(super) const PRESETS: [Preset; 5] = [
         ],
         angle_jitter_deg: 6.0,
         swing_deg: 6.0,
+        contour: 0.0,
         size_jitter: 0.16,
         edges: Edges::Overrun(4.0),
         color_jitter: 0.8,
@@ -184,11 +188,57 @@ pub(super) const PRESETS: [Preset; 5] = [
         ],
         angle_jitter_deg: 6.0,
         swing_deg: 6.0,
+        contour: 0.0,
         size_jitter: 0.16,
         edges: Edges::Overrun(1.5),
         color_jitter: 0.7,
         temperature: 1.0,
         grading: 1.0,
+    },
+    // Few strokes of a wet brush, some of a dry one, and a line where the form ends.
+    Preset {
+        name: INK_PRESET,
+        layers: [
+            Layer { coverage: 0.0, ..UNDERPAINTING },
+            Layer {
+                brushes: &[("round", 3), ("flat", 3), ("filbert", 2)],
+                size_px: [88.0, 27.0],
+                coverage: 1.1,
+                opacity: 0.9,
+                thickness: 0.0,
+                dryness: 0.16,
+                pickup: 0.0,
+                overrun: 1.6,
+            },
+            Layer {
+                brushes: &[("round", 4), ("rigger", 1)],
+                size_px: [66.0, 8.5],
+                coverage: 1.5,
+                thickness: 0.0,
+                dryness: 0.10,
+                pickup: 0.0,
+                ..FORM
+            },
+            Layer {
+                brushes: &[("dry", 1)],
+                coverage: 0.5,
+                opacity: 0.9,
+                thickness: 0.0,
+                dryness: 0.62,
+                pickup: 0.0,
+                ..SCUMBLE
+            },
+            Layer { coverage: 0.2, thickness: 0.0, pickup: 0.0, ..ACCENTS },
+            Layer { coverage: 0.0, ..LIGHTS },
+        ],
+        angle_jitter_deg: 5.0,
+        swing_deg: 5.0,
+        contour: 0.9,
+        size_jitter: 0.24,
+        edges: Edges::Overrun(4.0),
+        color_jitter: 1.0,
+        temperature: 0.0,
+        grading: 0.0,
     },
     Preset {
         name: PAPER_PRESET,
@@ -209,6 +259,7 @@ pub(super) const PRESETS: [Preset; 5] = [
         ],
         angle_jitter_deg: 0.0,
         swing_deg: 0.0,
+        contour: 0.0,
         size_jitter: 0.0,
         edges: Edges::Overrun(2.6),
         color_jitter: 0.0,
@@ -234,7 +285,7 @@ impl ResolvedStrokes {
             bend_rad: 0.0,
             angle_jitter_rad: preset.angle_jitter_deg.to_radians(),
             swing_rad: preset.swing_deg.to_radians(),
-            contour: 0.0,
+            contour: preset.contour,
             size_jitter: preset.size_jitter,
             edges: match preset.edges {
                 Edges::Overrun(px) => Edges::Overrun(px * f64::from(size)),

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::document::{
-    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch,
-    Region, Seam, Seed, Selector, Sense, Solver,
+    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView,
+    InkDrawing, InkLight, InkRule, Patch, Region, Seam, Seed, Selector, Sense, Solver,
 };
 use crate::load::parse;
 
@@ -200,7 +200,26 @@ fn any_style() -> impl Strategy<Value = Style> {
             })
         },
     );
-    prop_oneof![Just(Style::Reference), strokes]
+    let words = (
+        prop_oneof![Just(InkRule::Painter), Just(InkRule::Source)],
+        prop_oneof![Just(InkDrawing::Both), Just(InkDrawing::Wash), Just(InkDrawing::Strokes)],
+        prop_oneof![Just(InkLight::Scene), Just(InkLight::Eye)],
+        prop_oneof![Just(CanvasFollows::Picture), Just(CanvasFollows::Camera)],
+    );
+    let numbers = prop::collection::vec(number(), SumiE::NUMBERS.len() + 4);
+    let ink = (words, vector3(), numbers, (any_color(), any_color(), any_color())).prop_map(
+        |((rule, drawing, light, paper_follows), to_light, numbers, (paper, ink, seal))| {
+            let tones = [0, 1, 2, 3].map(|tone| numbers[tone]);
+            let usual = SumiE::default();
+            let mut style =
+                SumiE { rule, drawing, light, to_light, tones, paper, ink, seal, paper_follows, ..usual };
+            for (of, &value) in SumiE::NUMBERS.iter().zip(&numbers[4..]) {
+                *(of.of)(&mut style) = value;
+            }
+            Style::SumiE(style)
+        },
+    );
+    prop_oneof![Just(Style::Reference), strokes, ink]
 }
 
 fn any_guide() -> impl Strategy<Value = Guide> {

@@ -2,6 +2,7 @@
 
 mod camera;
 mod guides;
+mod ink;
 mod light;
 mod number;
 mod object;

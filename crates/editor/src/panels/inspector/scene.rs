@@ -2,12 +2,12 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit, Time};
-use impasto_scene::document::{Canvas, CanvasFollows, Reference, RotatingStrokes, Solver, Style};
+use impasto_scene::document::{Canvas, CanvasFollows, Reference, RotatingStrokes, Solver, Style, SumiE};
 use impasto_scene::limits::{MAX_SIDE_PX, MAX_STRENGTH};
 
 use super::number::Number;
 use super::parts::{head, note, pick, row, section, seen};
-use super::{Asker, strokes};
+use super::{Asker, ink, strokes};
 use crate::panels::Ask;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
@@ -84,16 +84,23 @@ fn time(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
 fn style(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     let [shown, stored] = [asker.scene(), asker.stored()].map(|scene| scene.style.clone());
     row(ui, "Style", |ui| {
-        let mut plain = usize::from(shown == Style::Reference);
-        if widgets::segmented_of(ui, "Style", &["Strokes", "Plain"], &mut plain).changed() {
-            let (style, words) = if plain == 1 {
-                (Style::Reference, "Style: plain")
-            } else {
-                (Style::default(), "Style: strokes")
+        let mut chosen = match shown {
+            Style::RotatingStrokes(_) => 0,
+            Style::SumiE(_) => 1,
+            Style::Reference => 2,
+        };
+        if widgets::segmented_of(ui, "Style", &["Strokes", "Ink", "Plain"], &mut chosen).changed() {
+            let (style, words) = match chosen {
+                0 => (Style::default(), "Style: strokes"),
+                1 => (Style::SumiE(SumiE::default()), "Style: ink"),
+                _ => (Style::Reference, "Style: plain"),
             };
             asker.ask(Command::Scene(SceneEdit::SetStyle(style, words.to_owned())));
         }
     });
+    if let (Style::SumiE(shown), Style::SumiE(stored)) = (&shown, &stored) {
+        ink::show(ui, asker, [shown, stored]);
+    }
     let (Style::RotatingStrokes(shown), Style::RotatingStrokes(stored)) = (shown, stored) else { return };
     let set = |style: RotatingStrokes, words: String| {
         Command::Scene(SceneEdit::SetStyle(Style::RotatingStrokes(style), words))

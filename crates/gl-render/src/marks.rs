@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use crate::gl::{Format, GlError, Gpu, Texture};
 
 /// The marks of the brushes of some frame, kept while frames use the same.
-pub(super) struct Marks {
+pub(crate) struct Marks {
     brushes: Arc<Brushes>,
-    pub(super) texture: Texture,
+    pub(crate) texture: Texture,
 }
 
 /// Paint, height, tint, unused.
@@ -19,7 +19,7 @@ type Texel = [u8; 4];
 
 impl Marks {
     /// Those of `brushes`; uploads them unless `kept` already are.
-    pub(super) fn of(gpu: &Gpu, kept: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
+    pub(crate) fn of(gpu: &Gpu, kept: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
         if let Some(kept) = kept
             && (Arc::ptr_eq(&kept.brushes, brushes)
                 || kept.brushes.names == brushes.names && kept.brushes == *brushes)

@@ -1,0 +1,75 @@
+//! The ink of a scene.
+
+use egui_kittest::kittest::Queryable as _;
+use impasto_scene::document::{InkRule, Style, SumiE};
+
+use super::{Column, assert_named, click, drag, harness, harness_of, type_in};
+
+fn ink_of(column: &Column) -> SumiE {
+    match &column.document.scene().style {
+        Style::SumiE(ink) => ink.clone(),
+        other => panic!("the style is {other:?}"),
+    }
+}
+
+#[test]
+fn ink_is_chosen_set_and_taken_back() {
+    let mut harness = harness("apple.ron", None);
+    click(&mut harness, "Style ink");
+    assert_eq!(ink_of(harness.state()), SumiE::default());
+    type_in(&mut harness, "Bleed", "0.9");
+    type_in(&mut harness, "Tone 2", "0.5");
+    let ink = ink_of(harness.state());
+    assert_eq!((ink.bleed, ink.tones[1]), (0.9, 0.5));
+    // A tone goes no lower than the one before it, and the rim ends behind its beginning.
+    type_in(&mut harness, "Tone 1", "0.9");
+    type_in(&mut harness, "Rim from", "0.95");
+    let ink = ink_of(harness.state());
+    assert!(ink.tones[0] <= ink.tones[1], "{:?}", ink.tones);
+    assert!(ink.silhouette_from < ink.silhouette_to, "{ink:?}");
+    let count = harness.state().document.undo_count();
+    drag(&mut harness, "Density", 20.0);
+    assert_eq!(harness.state().document.undo_count(), count + 1);
+    assert!(ink_of(harness.state()).density > 1.0);
+    click(&mut harness, "Rule source");
+    assert_eq!(ink_of(harness.state()).rule, InkRule::Source);
+    assert!(harness.query_by_label("Bleed").is_none(), "the source's rule knows no bleeding");
+    click(&mut harness, "Style plain");
+    assert_eq!(harness.state().document.scene().style, Style::Reference);
+    while harness.state().document.undo_count() > 0 {
+        harness.state_mut().document.undo();
+    }
+    assert!(matches!(harness.state().document.scene().style, Style::RotatingStrokes(_)));
+}
+
+#[test]
+fn every_number_of_the_ink_has_its_place() {
+    let mut column = Column::open("apple.ron");
+    column.apply(impasto_editor_model::command::Command::Scene(
+        impasto_editor_model::command::SceneEdit::SetStyle(Style::SumiE(SumiE::default()), String::new()),
+    ));
+    let harness = harness_of(column, impasto_editor::theme::Theme::Dark, egui::vec2(280.0, 1400.0));
+    let names = [
+        "Density",
+        "Silhouette",
+        "Rim from",
+        "Rim to",
+        "Softness",
+        "Own tone",
+        "Blur",
+        "Bleed",
+        "Bleed px",
+        "Dryness",
+        "Fibres",
+        "Accent",
+        "Tone 1",
+        "Tone 4",
+        "Paper colour",
+        "Ink colour",
+        "Seal colour",
+        "Drawing wash",
+        "Light eye",
+        "Paper follows camera",
+    ];
+    assert_named(&harness, &names);
+}

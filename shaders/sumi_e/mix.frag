@@ -1,0 +1,29 @@
+// Pass 4 of the source: what darkens adds up. Values are display values, as they are stored.
+#include "sumi_e/paper.glsl"
+uniform sampler2D interior;
+uniform sampler2D silhouette;
+uniform vec4 ground;             // alpha 0 where the paper is left out
+
+out vec4 mixed;
+
+// In Direct3D 9 a pixel of the screen lies where four texels meet: it is their mean, to the left of it and above. At the
+// picture's left and upper edge the interior is held, and the silhouette comes round from the other side.
+float at_corner(sampler2D picture, bool wraps) {
+    ivec2 size = textureSize(picture, 0);
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    float sum = 0.0;
+    for (int index = 0; index < 4; index++) {
+        ivec2 tap = at + ivec2(-(index & 1), index >> 1);
+        tap = wraps ? (tap + size) % size : clamp(tap, ivec2(0), size - 1);
+        sum += texelFetch(picture, tap, 0).r;
+    }
+    return sum * 0.25;
+}
+
+void main() {
+    vec3 c1 = vec3(at_corner(interior, false));
+    vec3 c2 = vec3(at_corner(silhouette, true));
+    vec3 c3 = ground.a > 0.0 ? bare_paper(felt(paper_at(gl_FragCoord.xy))) : vec3(1.0);
+    vec3 laid = 1.0 - clamp((1.0 - c1) + (1.0 - c2) + (1.0 - c3), 0.0, 1.0);
+    mixed = ground.a > 0.0 ? vec4(laid, 1.0) : vec4(vec3(0.0), 1.0 - laid.r);
+}

@@ -1,0 +1,59 @@
+// Ink where the brush mark is, near its own body. The darkest of what is laid stays; how often is counted in alpha.
+in vec2 mark_at;
+in vec2 from_center_px;
+flat in vec4 ink;
+flat in vec4 mark;
+flat in vec4 body;
+flat in vec2 own;
+
+uniform sampler2DArray brush_marks; // paint, height, tint
+uniform sampler2D depth_and_id;
+uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
+uniform float orthographic;
+
+out vec4 laid;
+
+// As in `core::brush`.
+const float FILL = 0.84;
+const float FREE = 1e6;
+
+vec2 surface_at(vec2 at_px) {
+    ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
+    return texelFetch(depth_and_id, texel, 0).xy;
+}
+
+// How much ink lies past the stroke's own body: a little, raggedly, and none over what stands in front.
+float past_body(vec2 here, float tint) {
+    float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
+    float away_px = length(from_center_px);
+    vec2 inward = -from_center_px / max(away_px, 1e-3);
+    float reach_px = body.z * (1.0 + 0.7 * tint);
+    if (here.y != 0.0 && here.x < own.x - bias) reach_px = 0.35;
+    float on_own = 0.0;
+    for (int index = 0; index < 4; index++) {
+        float back_px = clamp(reach_px + (float(index) - 1.5) * 0.7, 0.0, away_px);
+        on_own += surface_at(gl_FragCoord.xy + inward * back_px).y == own.y ? 0.25 : 0.0;
+    }
+    return on_own;
+}
+
+void main() {
+    float u = mark_at.x;
+    vec2 at = vec2(u, 0.5 + (mark_at.y - 0.5) * body.w);
+    at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
+    vec3 texel = textureLod(brush_marks, vec3(at, mark.x), mark.y).rgb;
+    // Fei bai: as the brush runs dry, its hairs part and the paper flies through.
+    float cut = mix(ink.a, 1.0 - 0.3 * (1.0 - ink.a), body.y * smoothstep(0.25, 1.0, u));
+    float alpha = smoothstep(cut - mark.z, cut + mark.z, texel.r);
+    if (alpha <= 0.0) discard;
+    float tint = texel.b * 2.0 - 1.0;
+    if (body.z < FREE) {
+        vec2 here = surface_at(gl_FragCoord.xy);
+        if (here.y != own.y) alpha *= past_body(here, tint);
+    }
+    // Pigment gathers at the edge; the brush gives less as it goes; hairs carry more and less.
+    float edge = 1.0 - smoothstep(0.0, 0.16, texel.r - cut);
+    float carried = (1.0 + 0.16 * edge) * mix(1.06, 0.78, u) * (1.0 + 0.20 * tint);
+    vec3 taken = ink.rgb * (carried * alpha * body.x);
+    laid = vec4(taken, 0.55 * max(max(taken.r, taken.g), taken.b));
+}
