@@ -13,19 +13,24 @@ const LENGTH: [f32; 2] = [14.0, 90.0];
 /// Clouds, fibres and tooth, each around 128; four bytes a texel, bottom row first.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
-    let fibres = fibres();
-    let mut texels = Vec::with_capacity(side * side * 4);
-    for y in 0..side {
-        for x in 0..side {
-            let at = [x as f32 / side as f32, y as f32 / side as f32];
-            let cloud = octaves(1, at, &[(4, 0.5), (8, 0.3), (16, 0.2)]);
-            let tooth = octaves(2, at, &[(128, 0.45), (256, 0.35)]) + 0.2 * lattice(3, x as u32, y as u32);
-            let values = [1.5 * cloud, fibres[y * side + x], 1.2 * tooth];
-            texels.extend(values.map(|value| (128.0 + 127.0 * value.clamp(-1.0, 0.99)).round() as u8));
-            texels.push(255);
-        }
-    }
-    texels
+    let noise = |at: usize| {
+        let (x, y) = (at % side, at / side);
+        let share = [x as f32 / side as f32, y as f32 / side as f32];
+        let cloud = octaves(1, share, &[(4, 0.5), (8, 0.3), (16, 0.2)]);
+        let tooth = octaves(2, share, &[(128, 0.45), (256, 0.35)]) + 0.2 * lattice(3, x as u32, y as u32);
+        [1.5 * cloud, 1.2 * tooth]
+    };
+    let [clouds, teeth]: [Vec<f32>; 2] =
+        [0, 1].map(|which| (0..side * side).map(|at| noise(at)[which]).collect());
+    let [clouds, fibres, teeth] = [clouds, fibres(), teeth].map(level);
+    let byte = |value: f32| (128.0 + 127.0 * value.clamp(-1.0, 0.99)).round() as u8;
+    (0..side * side).flat_map(|at| [byte(clouds[at]), byte(fibres[at]), byte(teeth[at]), 255]).collect()
+}
+
+/// The same values with their mean taken away.
+fn level(values: Vec<f32>) -> Vec<f32> {
+    let mean = values.iter().sum::<f32>() / values.len() as f32;
+    values.into_iter().map(|value| value - mean).collect()
 }
 
 /// A random number of a place of a lattice, −1..1.
@@ -95,7 +100,7 @@ mod tests {
         for channel in 0..3 {
             let sum: f32 = (0..side * side).map(|index| texel(index % side, index / side, channel)).sum();
             let mean = sum / (side * side) as f32;
-            assert!(mean.abs() < 6.0, "channel {channel}: {mean}");
+            assert!(mean.abs() < 1.5, "channel {channel}: {mean}");
             let step = |x: usize| -> f32 {
                 (0..side).map(|y| (texel(x, y, channel) - texel((x + 1) % side, y, channel)).abs()).sum()
             };
