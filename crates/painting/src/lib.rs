@@ -18,6 +18,7 @@ pub mod frame;
 mod gate;
 mod hairs;
 mod lights;
+mod noise_displace;
 mod order;
 mod paper;
 mod particle_count;
@@ -36,6 +37,7 @@ mod view;
 
 pub use at::{FrameOptions, Rotation, StrokeColors};
 pub use frame::{Frame, Quality};
+pub use noise_displace::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
 pub use hairs::{Hair, ShownDirection, SurfacePlace};
 pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};
 pub use recall::Recall;
