@@ -8,6 +8,7 @@
 
 pub mod context;
 mod gl;
+mod materials;
 mod meshes;
 mod motion;
 mod reference;

@@ -56,6 +56,11 @@ struct Vertex {
 }
 
 impl MeshOnGpu {
+    /// The middle of the box round the mesh, model space.
+    pub(crate) fn middle(&self) -> Vec3 {
+        self.bounds.map_or(Vec3::ZERO, |(low, high)| (low + high) * 0.5)
+    }
+
     /// Whether an eye (as in [`MeshOnGpu::front`]) is outside the box round the mesh, by a little more than nothing.
     pub(crate) fn is_outside(&self, eye_in_model: Vec4) -> bool {
         let Some((low, high)) = self.bounds else { return true };
@@ -153,7 +158,8 @@ impl MeshCache {
             .map(|index| Vertex {
                 position: mesh.positions[index].to_array(),
                 normal: mesh.normals[index].to_array(),
-                uv: mesh.uvs.get(index).copied().unwrap_or_default().to_array(),
+                // Without texture coordinates, noise lies along X and Y; nothing else looks at them.
+                uv: mesh.uvs.get(index).copied().unwrap_or(mesh.positions[index].truncate()).to_array(),
                 target_position: target_positions[index].to_array(),
                 target_normal: target_normals[index].to_array(),
             })

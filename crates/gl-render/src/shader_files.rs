@@ -17,6 +17,17 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/oklab.glsl",
 ];
 
+/// Bodies that noise displaces and colours.
+pub(crate) const NOISE_DISPLACE: &[ShaderFile] = shader_files![
+    "noise_displace/look.vert",
+    "noise_displace/look.frag",
+    "noise_displace/place.frag",
+    "noise_displace/ground.frag",
+    "noise_displace/gather.frag",
+    "noise_displace/spread.frag",
+    "noise_displace/bloom.frag",
+];
+
 /// The reference pass, and how its surfaces move from one picture to another.
 pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/lighting.glsl",
@@ -28,6 +39,7 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/light.frag",
     "reference/motion.vert",
     "reference/motion.frag",
+    "noise_displace/displace.glsl",
 ];
 
 /// Brush strokes.

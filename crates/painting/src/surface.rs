@@ -175,7 +175,7 @@ impl BodySurface {
     }
 
     /// Whether a surface that stands like this is as its mesh has it.
-    pub(crate) fn is_at_rest(&self, shape: &BodyShape) -> bool {
+    pub fn is_at_rest(&self, shape: &BodyShape) -> bool {
         (self.morph.is_none() || shape.morph == 0.0) && shape.displacing().is_none()
     }
 

@@ -2,12 +2,14 @@
 
 mod apple;
 mod apple_fine;
+mod blast;
 mod blocks;
 mod board;
 mod cloth;
 mod cottage;
 mod curve;
 mod deer;
+mod effects;
 mod fish;
 mod globe;
 mod head;
@@ -56,9 +58,15 @@ fn shipped() -> Vec<PolyMesh> {
         apple::apple(),
         apple_fine::apple_fine(),
         cloth::cloth(),
+        blast::blast_fire(),
+        blast::blast_smoke(),
+        blast::blast_sparks(),
         blocks::cube(),
         deer::deer(),
         head::bust(),
+        effects::ball(),
+        effects::floor(),
+        effects::mushroom_cloud(),
         fish::fish(),
         globe::globe(),
         head::head(),
@@ -118,7 +126,7 @@ mod tests {
     }
 
     /// Sheets that only ever show one side.
-    const OPEN: [&str; 6] = ["cloth", "hills", "sky", "valley", "wall", "water"];
+    const OPEN: [&str; 7] = ["cloth", "floor", "hills", "sky", "valley", "wall", "water"];
 
     /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
     #[test]

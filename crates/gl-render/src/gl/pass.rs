@@ -13,12 +13,16 @@ pub(crate) enum Blend {
     Off,
     /// Premultiplied "over".
     Over,
+    /// Premultiplied "under".
+    Under,
 }
 
 /// Fixed state of a pass; everything else is set to its default each time, whoever used the context before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrawState {
     pub depth_test: bool,
+    /// Depth is that of the pass before, and what is as near counts as nearer.
+    pub depth_kept: bool,
     pub blend: Blend,
     /// Clears every colour target to this.
     pub clear: Option<[f32; 4]>,
@@ -59,7 +63,7 @@ impl Gpu {
             switch(off, false);
         }
         switch(glow::DEPTH_TEST, state.depth_test);
-        switch(glow::BLEND, state.blend == Blend::Over);
+        switch(glow::BLEND, state.blend != Blend::Off);
         switch(glow::POLYGON_OFFSET_FILL, state.depth_offset);
         // SAFETY: the context is current; the framebuffer was made in it.
         unsafe {
@@ -69,10 +73,13 @@ impl Gpu {
             gl.polygon_offset(1.0, 2.0);
             gl.color_mask(true, true, true, true);
             gl.depth_mask(true);
-            gl.depth_func(glow::LESS);
+            gl.depth_func(if state.depth_kept { glow::LEQUAL } else { glow::LESS });
             gl.blend_equation(glow::FUNC_ADD);
-            gl.blend_func(glow::ONE, glow::ONE_MINUS_SRC_ALPHA);
-            if state.depth_test {
+            match state.blend {
+                Blend::Under => gl.blend_func(glow::ONE_MINUS_DST_ALPHA, glow::ONE),
+                Blend::Off | Blend::Over => gl.blend_func(glow::ONE, glow::ONE_MINUS_SRC_ALPHA),
+            }
+            if state.depth_test && !state.depth_kept {
                 gl.clear_depth_f32(1.0);
                 gl.clear(glow::DEPTH_BUFFER_BIT);
             }
