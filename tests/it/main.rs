@@ -18,6 +18,7 @@ mod horn;
 mod hostile_directions;
 mod hostile_scenes;
 mod measure;
+mod noise_displace;
 mod paint;
 mod progressive_order;
 mod recall;

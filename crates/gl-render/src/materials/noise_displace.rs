@@ -1,8 +1,9 @@
 //! Bodies that noise displaces and colours.
 //!
 //! Displaced vertices go through the reference pass's own programs with another vertex stage. Coloured bodies are drawn behind
-//! it, the farthest first. Targets: `glow`, two of a quarter of its size. Passes: ground (what is seen through), for each
-//! body place (depth and id) and look (colour, blended); then, where something glows, gather, spread (twice), bloom.
+//! it, the farthest first. Targets: `glow`, two of a quarter of its size. Passes: for each body place (depth and id) and look
+//! (colour, blended); ground (the background where nothing else is behind); where something glows, gather, spread (twice),
+//! bloom.
 
 mod bloom;
 mod programs;
@@ -49,6 +50,7 @@ pub(crate) struct NoiseDisplace {
 struct Targets {
     /// Of the reference picture that these go with.
     color: Rc<Texture>,
+    place: Rc<Texture>,
     glow: Rc<Texture>,
     place_pass: Framebuffer,
     look_pass: Framebuffer,
@@ -204,11 +206,6 @@ impl NoiseDisplace {
         let (Some(targets), Some(programs)) = (&self.targets, &self.programs) else { return Ok(()) };
         let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&targets.glow_pass, clear);
-        if frame.background.is_some() {
-            self.gpu.begin_pass(&targets.color_pass, DrawState { blend: Blend::Under, ..DrawState::default() });
-            let bound = programs.ground.bind().set("ground", ground(frame));
-            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        }
         let kept = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
         for &index in order {
             let (body, mesh) = &bodies[index];
@@ -227,6 +224,12 @@ impl NoiseDisplace {
                 let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
                 self.gpu.draw(bound, &mesh.array, vertices)?;
             }
+        }
+        if frame.background.is_some() {
+            self.gpu.begin_pass(&targets.color_pass, DrawState { blend: Blend::Under, ..DrawState::default() });
+            let bound = programs.ground.bind().set("ground", ground(frame));
+            let bound = bound.texture("depth_and_id", &targets.place);
+            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         }
         Ok(())
     }
@@ -299,6 +302,7 @@ impl Targets {
             look_pass: Framebuffer::new(gpu, &[&color, &reference.glint, &glow], Some(depth))?,
             glow_pass: Framebuffer::new(gpu, &[&glow], None)?,
             color_pass: Framebuffer::new(gpu, &[&color], None)?,
+            place: Rc::clone(place),
             glow,
             color,
         })

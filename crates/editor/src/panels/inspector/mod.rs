@@ -3,6 +3,7 @@
 mod camera;
 mod guides;
 mod light;
+mod noise;
 mod number;
 mod object;
 mod paint_layers;

@@ -68,7 +68,7 @@ impl Programs {
         Ok(Self {
             place: program(vertex, "noise_displace/place.frag", &place)?,
             look: program(vertex, "noise_displace/look.frag", &look)?,
-            ground: program("shared/screen.vert", "noise_displace/ground.frag", &["ground"])?,
+            ground: program("shared/screen.vert", "noise_displace/ground.frag", &["ground", "depth_and_id"])?,
         })
     }
 }
