@@ -19,7 +19,8 @@ pub(crate) struct MeshOnGpu {
     _indices: Buffer,
     /// Made when the first draft is drawn.
     front: RefCell<Option<FrontFaces>>,
-    bounds: Option<(Vec3, Vec3)>,
+    /// Least and greatest corner, model space.
+    pub(crate) bounds: Option<(Vec3, Vec3)>,
 }
 
 /// The triangles of a mesh that may show, looked for anew in each draft.
@@ -56,11 +57,6 @@ struct Vertex {
 }
 
 impl MeshOnGpu {
-    /// The middle of the box round the mesh, model space.
-    pub(crate) fn middle(&self) -> Vec3 {
-        self.bounds.map_or(Vec3::ZERO, |(low, high)| (low + high) * 0.5)
-    }
-
     /// Whether an eye (as in [`MeshOnGpu::front`]) is outside the box round the mesh, by a little more than nothing.
     pub(crate) fn is_outside(&self, eye_in_model: Vec4) -> bool {
         let Some((low, high)) = self.bounds else { return true };

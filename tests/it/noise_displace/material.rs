@@ -177,6 +177,26 @@ fn the_order_of_the_file_does_not_matter_to_what_is_seen_through() {
     assert!(picture(false) == picture(true));
 }
 
+#[test]
+fn what_is_within_another_body_is_seen_through_it() {
+    let ball = |name: &str, scale: f64, tint: [f32; 3], opacity: f64| {
+        let mut object = shapes::object(name, 100);
+        // The one within lies nearer by its middle.
+        object.keys =
+            vec![ObjectKey { translation: [0.0, 0.0, 0.1 - 0.1 * scale], scale, ..ObjectKey::at(0.0) }];
+        let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity, ..Default::default() };
+        object.material =
+            material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
+        object
+    };
+    let mut scene = sheet(SurfaceNoise::default());
+    scene.objects = vec![ball("outer", 0.9, [1.0, 0.0, 0.0], 0.5), ball("inner", 0.5, [0.0, 0.0, 1.0], 1.0)];
+    let painting = prepare(shapes::loaded(scene, [shapes::sphere(24, 12), shapes::sphere(24, 12)])).unwrap();
+    let picture = renderer(Driver::Egl).render(&painting.at(0.0, &FrameOptions::new([SIDE, SIDE]))).unwrap();
+    let pixel = &picture.rgba8[((48 * SIDE + 48) * 4) as usize..][..3];
+    assert!((linear(pixel[0]) - 0.5).abs() < 0.01 && (linear(pixel[2]) - 0.5).abs() < 0.01, "{pixel:?}");
+}
+
 /// The sheet with a texture of one grey.
 fn grey(surface: SurfaceNoise, grey: u8) -> Picture {
     let scene = sheet(SurfaceNoise { texture: Some("grey.png".to_owned()), ..surface });

@@ -20,11 +20,11 @@ const HEART: DVec3 = DVec3::new(0.0, 0.55, 0.0);
 
 /// The fire.
 pub fn blast_fire() -> PolyMesh {
-    let mut lobes = vec![Lobe { middle: HEART, radius: 0.42 }];
-    lobes.extend((0..22).map(|index| {
-        let out = golden(index, 22) * DVec3::new(1.0, 0.95, 0.9);
-        let radius = 0.15 + 0.11 * hash([index, 1, 5]).abs();
-        Lobe { middle: HEART + out * (0.38 + 0.1 * hash([index, 2, 5])), radius }
+    let mut lobes = vec![Lobe { middle: HEART, radius: 0.45 }];
+    lobes.extend((0..34).map(|index| {
+        let out = golden(index, 34) * DVec3::new(1.0, 0.95, 0.9);
+        let radius = 0.13 + 0.10 * hash([index, 1, 5]).abs();
+        Lobe { middle: HEART + out * (0.46 + 0.09 * hash([index, 2, 5])), radius }
     }));
     lobes.extend((0..9).map(|index| {
         let angle = TAU * (f64::from(index) + 0.3 * hash([index, 3, 5])) / 9.0;
@@ -37,14 +37,14 @@ pub fn blast_fire() -> PolyMesh {
 /// The smoke: a crown that is open to the front, where the fire shows.
 pub fn blast_smoke() -> PolyMesh {
     let mut lobes = Vec::new();
-    for index in 0..46 {
-        let way = golden(index, 46);
+    for index in 0..64 {
+        let way = golden(index, 64);
         let out = way * DVec3::new(0.92, 0.86, 0.6);
         let is_open = way.z > 0.25 && way.y < 0.72 || way.y < -0.25;
         if is_open {
             continue;
         }
-        let radius = 0.19 + 0.13 * hash([index, 1, 9]).abs();
+        let radius = 0.17 + 0.15 * hash([index, 1, 9]).abs();
         let reach = 0.78 + 0.16 * hash([index, 2, 9]);
         lobes.push(Lobe { middle: HEART + DVec3::new(0.0, 0.22, -0.12) + out * reach, radius });
     }
@@ -53,14 +53,18 @@ pub fn blast_smoke() -> PolyMesh {
 
 /// Splinters that fly off, thin and long.
 pub fn blast_sparks() -> PolyMesh {
-    const SPARKS: u32 = 44;
+    const SPARKS: u32 = 70;
     let about = "Splinters that fly off a blast; each is a thin body of its own.";
     let mut mesh = PolyMesh::new("blast_sparks", about, &[("ember", "#ffb54a")]);
     for index in 0..SPARKS {
         let way = golden(index, SPARKS);
+        // None flies at the eye.
+        if way.z > 0.45 {
+            continue;
+        }
         let way = DVec3::new(way.x, way.y.abs() * 1.1 + 0.05, way.z * 0.7).normalize();
-        let reach = 1.0 + 0.35 * hash([index, 1, 3]);
-        let (long, wide) = (0.07 + 0.05 * hash([index, 2, 3]).abs(), 0.011 + 0.006 * hash([index, 3, 3]));
+        let reach = 1.02 + 0.5 * hash([index, 1, 3]).abs();
+        let (long, wide) = (0.03 + 0.05 * hash([index, 2, 3]).abs(), 0.009 + 0.005 * hash([index, 3, 3]));
         let turn = DQuat::from_rotation_arc(DVec3::Y, way);
         mesh.lathe(
             [3, 5],
@@ -92,7 +96,7 @@ fn billow(
     palette: &'static [Pigment],
     lobes: &[Lobe],
 ) -> PolyMesh {
-    const MELT: f64 = 0.045;
+    const MELT: f64 = 0.018;
     let mut mesh = PolyMesh::new(name, about, palette);
     let field = |point: DVec3| {
         // The soft least of the distances to all lobes.

@@ -11,7 +11,7 @@ mod programs;
 use std::rc::Rc;
 use std::sync::{Arc, Weak};
 
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use impasto_core::noise_displace::{Along, Lookup, Tile, gaussian};
 use impasto_painting::Frame;
 use impasto_painting::frame::FrameBody;
@@ -269,10 +269,12 @@ impl NoiseDisplace {
     }
 }
 
-/// The bodies that are drawn here, by the depth of their middles; one that is wholly clear is not there.
+/// The bodies that are drawn here, by the depth of their middles, and what is within another before that; one that is wholly
+/// clear is not there.
 fn farthest_first(frame: &Frame, bodies: &[(&FrameBody, Rc<MeshOnGpu>)]) -> Vec<usize> {
     let depth = |(body, mesh): &(&FrameBody, Rc<MeshOnGpu>)| {
-        let middle = body.world_from_model.transform_point3(mesh.middle());
+        let (low, high) = mesh.bounds.unwrap_or_default();
+        let middle = body.world_from_model.transform_point3((low + high) * 0.5);
         -frame.view.view_from_world.transform_point3(middle).z
     };
     let is_there = |body: &FrameBody| {
@@ -285,7 +287,24 @@ fn farthest_first(frame: &Frame, bodies: &[(&FrameBody, Rc<MeshOnGpu>)]) -> Vec<
         .map(|(index, body)| (index, depth(body)))
         .collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
-    order.into_iter().map(|(index, _)| index).collect()
+    let mut sorted: Vec<usize> = Vec::with_capacity(order.len());
+    for (index, _) in order {
+        let outer = sorted.iter().position(|&other| is_within(&bodies[index], &bodies[other]));
+        sorted.insert(outer.unwrap_or(sorted.len()), index);
+    }
+    sorted
+}
+
+/// Whether the box round a body lies in that of another, as that stands.
+fn is_within(inner: &(&FrameBody, Rc<MeshOnGpu>), outer: &(&FrameBody, Rc<MeshOnGpu>)) -> bool {
+    let (Some((low, high)), Some(room)) = (inner.1.bounds, outer.1.bounds) else { return false };
+    let outer_from_inner = outer.0.world_from_model.inverse() * inner.0.world_from_model;
+    let slack = (room.1 - room.0) * 0.05;
+    (0..8).all(|corner| {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        let at = outer_from_inner.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
+        at.cmpge(room.0 - slack).all() && at.cmple(room.1 + slack).all()
+    })
 }
 
 fn rows(lookup: &Lookup) -> [Vec4; 2] {
