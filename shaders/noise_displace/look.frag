@@ -25,17 +25,18 @@ vec4 noise_at(vec2 at) {
 
 void main() {
     vec2 at = texture_at * tiling + tile_offset;
-    vec4 product = vec4(1.0);
+    // The product as a sum of logarithms: of many layers it is too small for a number.
+    vec4 product_ln2 = vec4(0.0);
     float way = first_way;
     for (int index = 1; index < layer_count; index++) {
         float share = float(index) / float(layer_count);
         vec2 along_x = vec2(travelled.x + speed * share, travelled.y) * way;
         vec2 along_y = vec2(travelled.y, travelled.x + speed * share) * way;
-        product *= noise_at(at + share + along_x);
-        product *= noise_at(at + share + along_y);
+        product_ln2 += log2(max(noise_at(at + share + along_x), 1e-30));
+        product_ln2 += log2(max(noise_at(at + share + along_y), 1e-30));
         way = -way;
     }
-    vec4 layered = clamp(pow(max(product, 0.0), vec4(exponent)), 0.0, 1.0) * tint;
+    vec4 layered = clamp(exp2(product_ln2 * exponent), 0.0, 1.0) * tint;
     float alpha = layered.a;
     color = vec4(layered.rgb * alpha, alpha);
     glint = vec4(0.0, 0.0, 0.0, alpha);

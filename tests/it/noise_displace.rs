@@ -238,7 +238,10 @@ fn light_falls_on_displaced_normals_where_that_is_asked_for() {
         (30..60).flat_map(steps).map(|(x, y)| (grey.at(x, y) - grey.at(x + 1, y)).abs()).sum::<f64>()
     };
     let (kept, displaced) = (spread(NoiseNormals::Kept), spread(NoiseNormals::Displaced));
-    assert!(displaced > 1.5 * kept, "{displaced} with the normals of the displaced surface, {kept} with those at rest");
+    assert!(
+        displaced > 1.5 * kept,
+        "{displaced} with the normals of the displaced surface, {kept} with those at rest"
+    );
 }
 
 #[test]
@@ -246,7 +249,8 @@ fn noise_that_moves_nothing_changes_no_pixel() {
     let noise = moved_by(VertexNoise { scale: 0.0, ..Default::default() });
     let plain = || {
         let mut scene = shapes::scene(vec![shapes::object("ball", 3000), shapes::object("cube", 3000)]);
-        scene.objects[1].keys = vec![ObjectKey { translation: [1.0, 0.2, 0.5], scale: 0.5, ..ObjectKey::at(0.0) }];
+        scene.objects[1].keys =
+            vec![ObjectKey { translation: [1.0, 0.2, 0.5], scale: 0.5, ..ObjectKey::at(0.0) }];
         scene
     };
     let mut beside = plain();
@@ -263,8 +267,10 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
     let picture = |scale: f64| {
         let mut scene = shapes::scene(vec![shapes::object("ball", 500), shapes::object("sheet", 500)]);
         scene.style = Style::Reference;
-        scene.objects[0].material = material(moved_by(VertexNoise { value: [0.4, 0.4], scale, ..Default::default() }));
-        scene.objects[0].keys = vec![ObjectKey { translation: [-0.3, 0.4, 1.6], scale: 0.4, ..ObjectKey::at(0.0) }];
+        scene.objects[0].material =
+            material(moved_by(VertexNoise { value: [0.4, 0.4], scale, ..Default::default() }));
+        scene.objects[0].keys =
+            vec![ObjectKey { translation: [-0.3, 0.4, 1.6], scale: 0.4, ..ObjectKey::at(0.0) }];
         scene.objects[1].keys = vec![ObjectKey { scale: 2.0, ..ObjectKey::at(0.0) }];
         let painting = prepare(shapes::loaded(scene, [shapes::sphere(48, 24), shapes::sheet(4)])).unwrap();
         let mut renderer = renderer(Driver::Egl);
@@ -274,11 +280,16 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
     let ((still, ids), (moved, ids_moved)) = (picture(0.0), picture(0.9));
     // On the sheet, which itself does not move, pixels that change are in the shadow.
     let on_sheet = (0..320 * 180).filter(|&index| ids[index] == 2 && ids_moved[index] == 2);
-    let changed = on_sheet.filter(|index| still.rgba8[index * 4].abs_diff(moved.rgba8[index * 4]) > 20).count();
+    let changed =
+        on_sheet.filter(|index| still.rgba8[index * 4].abs_diff(moved.rgba8[index * 4]) > 20).count();
     assert!(changed > 100, "{changed} pixels of shadow");
 }
 
-fn shared(mut loaded: impasto_scene::loaded::LoadedScene, name: &str, grey: [u8; 4]) -> Arc<impasto_scene::loaded::LoadedScene> {
+fn shared(
+    mut loaded: impasto_scene::loaded::LoadedScene,
+    name: &str,
+    grey: [u8; 4],
+) -> Arc<impasto_scene::loaded::LoadedScene> {
     let texture = impasto_scene::mesh_file::Texture { size_px: [4, 4], rgba8: vec![grey; 16] };
     loaded.textures.insert(name.to_owned(), Arc::new(texture));
     Arc::new(loaded)

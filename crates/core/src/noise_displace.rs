@@ -43,8 +43,7 @@ pub struct VertexNoise {
 impl PartialEq for VertexNoise {
     fn eq(&self, other: &Self) -> bool {
         (Arc::ptr_eq(&self.tile, &other.tile) || self.tile == other.tile)
-            && (self.scale, self.along, self.moves_normals)
-                == (other.scale, other.along, other.moves_normals)
+            && (self.scale, self.along, self.moves_normals) == (other.scale, other.along, other.moves_normals)
     }
 }
 

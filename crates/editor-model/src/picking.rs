@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::sampling::Particle;
-use impasto_painting::{BodyShape, Painting};
 use impasto_painting::frame::BodySurface;
+use impasto_painting::{BodyShape, Painting};
 
 mod surface;
 #[cfg(test)]

@@ -61,8 +61,7 @@ impl MotionPass {
         };
         let bodies = reference.bodies(now)?;
         reference.noise.prepare(now)?;
-        let state =
-            DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
+        let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&target, state);
         for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
             let body_then = then.bodies.get(index).unwrap_or(body);

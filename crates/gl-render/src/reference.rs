@@ -8,8 +8,8 @@ use impasto_painting::frame::{BodySurface, FrameBody, FrameView};
 use impasto_painting::{Frame, FrameNoise, Quality};
 
 use crate::gl::{
-    Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource,
-    Texture, VertexArray, Vertices,
+    Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture,
+    VertexArray, Vertices,
 };
 use crate::materials::noise_displace::{self, NoiseDisplace, Stage};
 use crate::meshes::{MeshCache, MeshOnGpu};
@@ -359,8 +359,7 @@ impl ReferencePass {
         bodies: &[(&FrameBody, Rc<MeshOnGpu>)],
         targets: &ReferenceTargets,
     ) -> Result<(), GlError> {
-        let state =
-            DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
+        let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&targets.surface_pass, state);
         let view = &frame.view;
         let eye = if view.orthographic {

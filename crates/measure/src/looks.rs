@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use impasto_scene::document::{
-    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, NoiseDisplace, RotatingStrokes, Scene, Solver,
-    StrokeSettings, Style,
+    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, NoiseDisplace, RotatingStrokes, Scene,
+    Solver, StrokeSettings, Style,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;

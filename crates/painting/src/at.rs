@@ -178,6 +178,9 @@ impl Painting {
         options: &FrameOptions,
         recall: Option<&Recall>,
     ) -> Strokes {
+        if self.style != crate::frame::FrameStyle::RotatingStrokes {
+            return Strokes::default();
+        }
         let look = self.look(camera, frame, options, |_| true);
         Look { recall: recall.filter(|recall| recall.is_of(self)), ..look }.strokes()
     }
@@ -279,9 +282,6 @@ impl<'a> Look<'a> {
 
 impl Look<'_> {
     fn strokes(&self) -> Strokes {
-        if self.painting.style != crate::frame::FrameStyle::RotatingStrokes {
-            return Strokes::default();
-        }
         let order = &self.painting.order;
         let chunk = |(number, entries): (usize, &[OrderEntry])| self.found(number * CHUNK, entries);
         let found: Vec<Found> = order.par_chunks(CHUNK).enumerate().map(chunk).collect();

@@ -37,7 +37,7 @@ mod view;
 
 pub use at::{FrameOptions, Rotation, StrokeColors};
 pub use frame::{Frame, Quality};
-pub use noise_displace::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
 pub use hairs::{Hair, ShownDirection, SurfacePlace};
+pub use noise_displace::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
 pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};
 pub use recall::Recall;

@@ -169,8 +169,9 @@ impl NoiseInputs {
             }
         };
         let tile = |index: usize, of_house: fn() -> Arc<Tile>| match &self.pictures[index] {
-            Some(picture) => before(index)
-                .unwrap_or_else(|| Arc::new(Tile::of_picture(picture.size_px, &picture.rgba8))),
+            Some(picture) => {
+                before(index).unwrap_or_else(|| Arc::new(Tile::of_picture(picture.size_px, &picture.rgba8)))
+            }
             None => of_house(),
         };
         let vertex = stated.vertex.as_ref().map(|vertex| VertexNoise {
@@ -217,9 +218,10 @@ pub(crate) fn displaced(
     (positions, normals): Vertices,
     (noise, lookup): (&VertexNoise, &Lookup),
 ) -> Vertices {
-    let moved = positions.par_iter().zip(&normals).with_min_len(1024).map(|(position, normal)| {
-        noise.displaced(position.as_dvec3(), normal.as_dvec3(), lookup).as_vec3()
-    });
+    let moved =
+        positions.par_iter().zip(&normals).with_min_len(1024).map(|(position, normal)| {
+            noise.displaced(position.as_dvec3(), normal.as_dvec3(), lookup).as_vec3()
+        });
     let moved: Vec<Vec3> = moved.collect();
     // Where texture coordinates part, a vertex is there twice; where the surface is hard, its normals differ.
     let bits = |index: usize| [positions[index], normals[index]].map(|v| v.to_array().map(f32::to_bits));

@@ -58,7 +58,13 @@ fn layers_are_those_of_the_sources_shader_on_either_driver() {
     let tint_linear = [255u8, 191, 102].map(linear);
     // Enlarged, so that no driver looks at a smaller level of the texture.
     let tiling = [0.22, 0.17];
-    for (layer_count, forward) in [(1, NoiseForward::Odd), (2, NoiseForward::Odd), (7, NoiseForward::Odd), (7, NoiseForward::Even), (22, NoiseForward::Odd)] {
+    for (layer_count, forward) in [
+        (1, NoiseForward::Odd),
+        (2, NoiseForward::Odd),
+        (7, NoiseForward::Odd),
+        (7, NoiseForward::Even),
+        (22, NoiseForward::Odd),
+    ] {
         let surface = SurfaceNoise {
             layer_count,
             forward,
@@ -159,10 +165,8 @@ fn the_order_of_the_file_does_not_matter_to_what_is_seen_through() {
     let glass = |name: &str, z: f64, tint: [f32; 3]| {
         let mut object = shapes::object(name, 100);
         object.keys = vec![ObjectKey { translation: [0.0, 0.0, z], ..ObjectKey::at(0.0) }];
-        let surface =
-            SurfaceNoise { layer_count: 1, tint: Color(tint), opacity: 0.5, ..Default::default() };
-        object.material =
-            material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
+        let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity: 0.5, ..Default::default() };
+        object.material = material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
         object
     };
     let picture = |turned: bool| {
@@ -185,8 +189,7 @@ fn what_is_within_another_body_is_seen_through_it() {
         object.keys =
             vec![ObjectKey { translation: [0.0, 0.0, 0.1 - 0.1 * scale], scale, ..ObjectKey::at(0.0) }];
         let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity, ..Default::default() };
-        object.material =
-            material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
+        object.material = material(NoiseDisplace { vertex: None, surface: Some(surface), period_secs: None });
         object
     };
     let mut scene = sheet(SurfaceNoise::default());
@@ -216,6 +219,9 @@ fn more_layers_are_darker_unless_the_mean_is_kept() {
         assert!((root - g.powf(2.0 * (k - 1.0) / k)).abs() < 0.01, "k {layer_count}: {root}");
         assert!((mean - g).abs() < 0.2 * g, "k {layer_count}: {mean}");
     }
+    // As many as there may be, the product itself is no number any more.
+    let most = moments(&grey(SurfaceNoise { layer_count: 64, ..Default::default() }, 60))[0];
+    assert!((most - (60.0 / 255.0_f64).powf(126.0 / 64.0)).abs() < 0.01, "{most}");
     // The same on noise, whose mean is a half.
     let of = |mix| {
         let surface = SurfaceNoise { layer_count: 10, mix, tiling: [0.8; 2], ..Default::default() };
@@ -243,7 +249,8 @@ fn many_layers_are_harder_and_other_patterns() {
 #[test]
 fn alpha_may_come_from_the_noise() {
     let see_through = |alpha| {
-        let mut scene = sheet(SurfaceNoise { alpha, layer_count: 2, tint: Color([0.0; 3]), ..Default::default() });
+        let mut scene =
+            sheet(SurfaceNoise { alpha, layer_count: 2, tint: Color([0.0; 3]), ..Default::default() });
         scene.background = Color([1.0; 3]);
         moments(&drawn(scene, 0.0, Driver::Egl))
     };

@@ -19,16 +19,14 @@ use super::seed::Vert;
 const SIZE_PX: [u32; 2] = [640, 360];
 const OPTIONS: FrameOptions = FrameOptions::new(SIZE_PX);
 const VALUE: [f64; 2] = [0.2, 0.16];
-const SCALE: f64 = 0.15;
+const SCALE: f64 = 0.1;
 
 fn scene(period_secs: Option<f64>) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("ball", 8000)]);
     scene.strokes.contour = Some(0.0);
     scene.timeline.last = 48;
-    let vertex =
-        VertexNoise { space: NoiseSpace::Local, value: VALUE, scale: SCALE, ..Default::default() };
-    scene.objects[0].material =
-        material(NoiseDisplace { vertex: Some(vertex), surface: None, period_secs });
+    let vertex = VertexNoise { space: NoiseSpace::Local, value: VALUE, scale: SCALE, ..Default::default() };
+    scene.objects[0].material = material(NoiseDisplace { vertex: Some(vertex), surface: None, period_secs });
     scene.regions =
         vec![Region { direction: Direction::Angle(20.0), ..Region::new("ball", Selector::Everything) }];
     scene
@@ -95,12 +93,14 @@ fn strokes_lie_where_the_surface_has_gone_and_turn_as_it_does() {
             // The turn of the picture of the surface there, by finite differences.
             const STEP: f64 = 1e-4;
             let [reference, now] = [0, 1].map(|side: usize| {
-                let along = |dv: f64, dw: f64| on_screen(side, v + dv, w + dw) - on_screen(side, v - dv, w - dw);
+                let along =
+                    |dv: f64, dw: f64| on_screen(side, v + dv, w + dw) - on_screen(side, v - dv, w - dw);
                 [along(STEP, 0.0), along(0.0, STEP)]
             });
             let [a, b] = reference;
             let [c, d] = now;
-            let columns = [c * b.y - d * a.y, d * a.x - c * b.x].map(|column| column / (a.x * b.y - b.x * a.y));
+            let columns =
+                [c * b.y - d * a.y, d * a.x - c * b.x].map(|column| column / (a.x * b.y - b.x * a.y));
             let turn = (columns[0].y - columns[1].x).atan2(columns[0].x + columns[1].y);
             turned_deg = turned_deg.max(turn.abs().to_degrees());
             let off = (angle - base - turn).rem_euclid(std::f64::consts::PI);
@@ -111,8 +111,10 @@ fn strokes_lie_where_the_surface_has_gone_and_turn_as_it_does() {
             values[values.len() * 95 / 100]
         };
         let (count, off_px, off_deg) = (off_px.len(), p95(&mut off_px), p95(&mut off_deg));
-        println!("frame {frame}: {count} strokes, p95 {off_px:.3} px and {off_deg:.3} degrees, turned by up to {turned_deg:.0}");
-        assert!(count > 300 && turned_deg > 3.0, "{count} strokes turned by up to {turned_deg}");
+        println!(
+            "frame {frame}: {count} strokes, p95 {off_px:.3} px and {off_deg:.3} degrees, turned by up to {turned_deg:.0}"
+        );
+        assert!(count > 300 && turned_deg > 2.0, "{count} strokes turned by up to {turned_deg}");
         assert!(off_px < 0.01, "frame {frame}: {off_px} px off the surface");
         assert!(off_deg <= 1.0, "frame {frame}: {off_deg} degrees off the surface's own turn");
     }
@@ -148,7 +150,8 @@ fn painted_strokes_are_seen_on_the_displaced_surface() {
             // Strokes that turn to the eye and lie on the outermost layer of the picture are not hidden by their own body.
             let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
             let range = body.first as usize..(body.first + body.count) as usize;
-            let open = range.filter(|&index| frame.sources[index].facing > 0.7 && frame.strokes[index].presence() > 0.9);
+            let open = range
+                .filter(|&index| frame.sources[index].facing > 0.7 && frame.strokes[index].presence() > 0.9);
             let (mut shown, mut all) = (0, 0);
             for index in open {
                 all += 1;

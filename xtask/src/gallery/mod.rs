@@ -1,6 +1,7 @@
 //! `cargo xtask gallery`: the pictures of the README and the docs, rendered anew. With names, only those.
 
 mod list;
+mod noise;
 mod panel;
 
 use std::path::{Path, PathBuf};
@@ -18,19 +19,24 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// Renders every picture into `docs/pictures/`, or those whose names are given.
 pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
-    if let Some(unknown) = only.iter().find(|name| PICTURES.iter().all(|picture| picture.name != **name)) {
-        bail!("there is no picture `{unknown}`; the list is in xtask/src/gallery/list.rs");
+    if let Some(unknown) = only.iter().find(|name| pictures().all(|picture| picture.name != **name)) {
+        bail!("there is no picture `{unknown}`; the lists are in xtask/src/gallery");
     }
     let impasto = step("build", || build_release(root))?;
     let work =
         Work { root, impasto: impasto.to_string_lossy().into_owned(), folder: root.join("out/gallery") };
     std::fs::create_dir_all(&work.folder)?;
     for picture in
-        PICTURES.iter().filter(|picture| only.is_empty() || only.iter().any(|name| name == picture.name))
+        pictures().filter(|picture| only.is_empty() || only.iter().any(|name| name == picture.name))
     {
         step(picture.name, || work.make(picture))?;
     }
     Ok(())
+}
+
+/// All pictures.
+fn pictures() -> impl Iterator<Item = &'static Picture> {
+    PICTURES.iter().chain(noise::PICTURES)
 }
 
 struct Work<'a> {

@@ -90,20 +90,13 @@ fn golden(index: u32, count: u32) -> DVec3 {
 }
 
 /// Lobes melted together, cut off at the ground.
-fn billow(
-    name: &'static str,
-    about: &'static str,
-    palette: &'static [Pigment],
-    lobes: &[Lobe],
-) -> PolyMesh {
+fn billow(name: &'static str, about: &'static str, palette: &'static [Pigment], lobes: &[Lobe]) -> PolyMesh {
     const MELT: f64 = 0.018;
     let mut mesh = PolyMesh::new(name, about, palette);
     let field = |point: DVec3| {
         // The soft least of the distances to all lobes.
-        let sum: f64 = lobes
-            .iter()
-            .map(|lobe| (-((point - lobe.middle).length() - lobe.radius) / MELT).exp())
-            .sum();
+        let sum: f64 =
+            lobes.iter().map(|lobe| (-((point - lobe.middle).length() - lobe.radius) / MELT).exp()).sum();
         let body = -MELT * sum.max(1e-300).ln();
         body.max(0.02 - point.y)
     };

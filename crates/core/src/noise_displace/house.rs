@@ -108,7 +108,10 @@ mod tests {
         for (tile, channels) in [(gaussian(), 3), (perlin(), 1)] {
             for channel in 0..channels {
                 let [mean, deviation] = moments(&tile, channel);
-                assert!((mean - 0.5).abs() < 0.005 && (deviation - DEVIATION).abs() < 0.02, "{mean} {deviation}");
+                assert!(
+                    (mean - 0.5).abs() < 0.005 && (deviation - DEVIATION).abs() < 0.02,
+                    "{mean} {deviation}"
+                );
             }
         }
     }

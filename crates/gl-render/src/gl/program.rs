@@ -65,7 +65,11 @@ value_from!(f32 => Float, i32 => Int, u32 => Uint, Vec2 => Vec2, Vec3 => Vec3, V
 
 impl Program {
     /// Compiles, links and compares the shader's uniforms with those that the Rust side knows.
-    pub(crate) fn new(gpu: &Gpu, files: &[&[ShaderFile]], source: &ProgramSource<'_>) -> Result<Self, GlError> {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        files: &[&[ShaderFile]],
+        source: &ProgramSource<'_>,
+    ) -> Result<Self, GlError> {
         let name = source.fragment.unwrap_or(source.vertex).to_owned();
         let fault = |log: String| GlError::Shader { program: name.clone(), log };
         let gl = gpu.gl();

@@ -126,9 +126,9 @@ impl NoiseDisplace {
         let Some((noise, variants)) = noise.zip(self.variants.as_ref()) else { return usual.bind() };
         let moves_normals = noise.noise.vertex.as_ref().is_some_and(|vertex| vertex.moves_normals);
         match stage {
-            Stage::Surface => self
-                .displace(variants.surface.bind(), noise)
-                .set("moves_normals", f32::from(moves_normals)),
+            Stage::Surface => {
+                self.displace(variants.surface.bind(), noise).set("moves_normals", f32::from(moves_normals))
+            }
             Stage::Shadow => self.displace(variants.shadow.bind(), noise),
             Stage::Motion => self.displace(variants.motion.bind(), noise),
         }
@@ -226,7 +226,8 @@ impl NoiseDisplace {
             }
         }
         if frame.background.is_some() {
-            self.gpu.begin_pass(&targets.color_pass, DrawState { blend: Blend::Under, ..DrawState::default() });
+            self.gpu
+                .begin_pass(&targets.color_pass, DrawState { blend: Blend::Under, ..DrawState::default() });
             let bound = programs.ground.bind().set("ground", ground(frame));
             let bound = bound.texture("depth_and_id", &targets.place);
             self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
@@ -277,9 +278,7 @@ fn farthest_first(frame: &Frame, bodies: &[(&FrameBody, Rc<MeshOnGpu>)]) -> Vec<
         let middle = body.world_from_model.transform_point3((low + high) * 0.5);
         -frame.view.view_from_world.transform_point3(middle).z
     };
-    let is_there = |body: &FrameBody| {
-        !body.hidden && layers(body).is_some_and(|layers| layers.opacity > 0.0)
-    };
+    let is_there = |body: &FrameBody| !body.hidden && layers(body).is_some_and(|layers| layers.opacity > 0.0);
     let mut order: Vec<(usize, f32)> = bodies
         .iter()
         .enumerate()

@@ -347,7 +347,9 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "camera" => "a lens and keys, as in (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
         "lens" => "Perspective(fov_y_deg: 35) or Orthographic(height: 2)",
         "strokes" => "stroke settings, as in (length_px: 78, width_px: 25)",
-        "noise_displace" => "noise of vertices and of the surface, as in (vertex: (scale: 0.1), surface: None)",
+        "noise_displace" => {
+            "noise of vertices and of the surface, as in (vertex: (scale: 0.1), surface: None)"
+        }
         "vertex" => "noise that moves vertices, as in (value: (0.1, 0.1), scale: 0.1), or None",
         "surface" => "noise that colours a surface, as in (layer_count: 4, tint: \"#ffb040\"), or None",
         "value" | "tiling" | "tile_offset" => "two numbers, as in (0.1, 0.1)",

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::document::{
-    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, NoiseDisplace, Patch,
-    Region, Seam, Seed, Selector, Sense, Solver, SurfaceNoise, VertexNoise,
+    Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView,
+    NoiseDisplace, Patch, Region, Seam, Seed, Selector, Sense, Solver, SurfaceNoise, VertexNoise,
 };
 use crate::load::parse;
 
@@ -89,7 +89,14 @@ fn noise_displace() -> impl Strategy<Value = NoiseDisplace> {
     let pairs = (pair(), pair(), pair());
     let numbers = [(); 7].map(|()| number());
     (names, pairs, numbers, one_of, proptest::option::of(number()), any::<[bool; 2]>()).prop_map(
-        |((of_vertex, of_surface, layer_count, tint), (value, tiling, tile_offset), numbers, flags, period, has)| {
+        |(
+            (of_vertex, of_surface, layer_count, tint),
+            (value, tiling, tile_offset),
+            numbers,
+            flags,
+            period,
+            has,
+        )| {
             let [scale, speed, intensity, opacity, bloom, threshold, _] = numbers;
             let vertex = VertexNoise {
                 texture: of_vertex,

@@ -6,9 +6,7 @@ use impasto_scene::document::{
     MaterialOverride, NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals,
     NoiseSpace, Object, SurfaceNoise, VertexNoise,
 };
-use impasto_scene::limits::{
-    MAX_NOISE_INTENSITY, MAX_STRENGTH, NOISE_LAYERS, NOISE_PERIOD_SECS, NOISE_RATE,
-};
+use impasto_scene::limits::{MAX_NOISE_INTENSITY, MAX_STRENGTH, NOISE_LAYERS, NOISE_PERIOD_SECS, NOISE_RATE};
 
 use super::Asker;
 use super::number::Number;
@@ -158,8 +156,7 @@ fn tint(
 ) {
     let usual = SurfaceNoise::default().tint;
     row(ui, "Tint", |ui| {
-        asker
-            .colour(ui, "Noise tint", seen(now.tint), |tint| set(SurfaceNoise { tint, ..was.clone() }));
+        asker.colour(ui, "Noise tint", seen(now.tint), |tint| set(SurfaceNoise { tint, ..was.clone() }));
         if now.tint != usual && reset(ui, "Noise tint") {
             asker.ask(set(SurfaceNoise { tint: usual, ..was.clone() }));
         }
@@ -236,8 +233,14 @@ fn surface_numbers() -> [Setting<SurfaceNoise>; 9] {
     let speed = "How fast the layers move against each other.";
     [
         Setting { number: number("Noise speed", speed, 1.0, [0.0, 10.0]), of: |noise| &mut noise.speed },
-        Setting { number: number("Noise tiling U", repeats, 1.0, [0.0, 8.0]), of: |noise| &mut noise.tiling[0] },
-        Setting { number: number("Noise tiling V", repeats, 1.0, [0.0, 8.0]), of: |noise| &mut noise.tiling[1] },
+        Setting {
+            number: number("Noise tiling U", repeats, 1.0, [0.0, 8.0]),
+            of: |noise| &mut noise.tiling[0],
+        },
+        Setting {
+            number: number("Noise tiling V", repeats, 1.0, [0.0, 8.0]),
+            of: |noise| &mut noise.tiling[1],
+        },
         Setting {
             number: number("Noise offset U", begins, 0.0, [0.0, 1.0]),
             of: |noise| &mut noise.tile_offset[0],
