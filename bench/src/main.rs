@@ -1,6 +1,7 @@
 //! Times of Impasto's steps, medians over several runs, beside a copy of memory that sets the floor.
 
 mod live;
+mod noise_displace;
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -20,9 +21,13 @@ fn main() {
     if std::env::args().any(|argument| argument == "live") {
         return live::run();
     }
+    if std::env::args().any(|argument| argument == "noise_displace") {
+        return noise_displace::run();
+    }
     sampling();
     solving();
     preparing();
+    noise_displace::run();
     live::run();
 }
 

@@ -20,6 +20,7 @@ mod hostile_scenes;
 mod inverse_bilinear;
 mod light_billboards;
 mod measure;
+mod noise_displace;
 mod own_shaders;
 mod paint;
 mod progressive_order;

@@ -22,6 +22,7 @@ pub mod mesh;
 pub mod nearest;
 pub mod neighbours;
 pub mod noise;
+pub mod noise_displace;
 pub mod parts;
 pub mod presence;
 pub mod sampling;

@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_core::sampling::Particle;
-use impasto_painting::Painting;
 use impasto_painting::frame::BodySurface;
-use impasto_scene::motion;
+use impasto_painting::{BodyShape, Painting};
 
 mod surface;
 #[cfg(test)]
@@ -53,23 +52,27 @@ pub struct Hit {
 }
 
 impl Picker {
-    /// Takes the objects' surfaces in the order of the scene, each with the share of its morph that is looked at (0 without
-    /// one). Returns how many trees had to be built.
-    pub fn update(&mut self, bodies: &[(Arc<BodySurface>, f64)]) -> usize {
+    /// Takes the objects' surfaces in the order of the scene, each as it stands (0 at rest; a share of its morph; or with its
+    /// noise). Returns how many trees had to be built.
+    pub fn update<S>(&mut self, bodies: &[(Arc<BodySurface>, S)]) -> usize
+    where
+        S: Clone + Into<BodyShape>,
+    {
         let kept = std::mem::take(&mut self.trees);
         let offered = std::mem::take(&mut self.offered);
         let mut built = 0;
         self.trees = bodies
             .iter()
             .enumerate()
-            .map(|(index, (surface, morph))| {
+            .map(|(index, (surface, shape))| {
+                let shape = shape.clone().into();
                 // The usual place first: an object added or removed moves the others.
                 let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
-                let known = all.into_iter().find(|tree| tree.is_of(surface, *morph));
+                let known = all.into_iter().find(|tree| tree.is_of(surface, &shape));
                 known.map_or_else(
                     || {
                         built += 1;
-                        Arc::new(SurfaceTree::new(Arc::clone(surface), *morph))
+                        Arc::new(SurfaceTree::new(Arc::clone(surface), shape.clone()))
                     },
                     Arc::clone,
                 )
@@ -80,9 +83,9 @@ impl Picker {
 
     /// As [`Picker::update`], with the surfaces of a painting as they are at a frame.
     pub fn follow(&mut self, painting: &Painting, frame: f64) -> usize {
-        let morphs = motion::morphs_at(painting.scene(), frame);
-        let surfaces = (0..morphs.len()).map(|object| Arc::clone(painting.surface(object)));
-        self.update(&surfaces.zip(morphs).collect::<Vec<_>>())
+        let shapes = painting.shapes_at(frame);
+        let surfaces = (0..shapes.len()).map(|object| Arc::clone(painting.surface(object)));
+        self.update(&surfaces.zip(shapes).collect::<Vec<_>>())
     }
 
     /// Takes the trees of another picker, so that the next update need not build them: a large surface takes its time, and

@@ -11,6 +11,7 @@ mod gl;
 #[cfg(test)]
 mod inverse_bilinear_twin;
 mod marks;
+mod materials;
 mod meshes;
 mod motion;
 mod overlays;

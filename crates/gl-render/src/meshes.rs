@@ -19,7 +19,8 @@ pub(crate) struct MeshOnGpu {
     _indices: Buffer,
     /// Made when the first draft is drawn.
     front: RefCell<Option<FrontFaces>>,
-    bounds: Option<(Vec3, Vec3)>,
+    /// Least and greatest corner, model space.
+    pub(crate) bounds: Option<(Vec3, Vec3)>,
 }
 
 /// The triangles of a mesh that may show, looked for anew in each draft.
@@ -153,7 +154,8 @@ impl MeshCache {
             .map(|index| Vertex {
                 position: mesh.positions[index].to_array(),
                 normal: mesh.normals[index].to_array(),
-                uv: mesh.uvs.get(index).copied().unwrap_or_default().to_array(),
+                // Without texture coordinates, noise lies along X and Y; nothing else looks at them.
+                uv: mesh.uvs.get(index).copied().unwrap_or(mesh.positions[index].truncate()).to_array(),
                 target_position: target_positions[index].to_array(),
                 target_normal: target_normals[index].to_array(),
             })

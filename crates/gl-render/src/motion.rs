@@ -7,7 +7,7 @@ use glam::UVec2;
 use impasto_painting::Frame;
 
 use crate::gl::{
-    Blend, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program, ProgramSource, Texture, Vertices,
+    DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program, ProgramSource, Texture, Vertices,
 };
 use crate::reference::ReferencePass;
 use crate::shader_files::{REFERENCE, SHARED};
@@ -60,15 +60,15 @@ impl MotionPass {
             }
         };
         let bodies = reference.bodies(now)?;
-        let state =
-            DrawState { depth_test: true, blend: Blend::Off, clear: Some([0.0; 4]), depth_offset: false };
+        reference.noise.prepare(now)?;
+        let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&target, state);
         for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
             let body_then = then.bodies.get(index).unwrap_or(body);
             for part in &mesh.parts {
-                let bound = self
-                    .program
-                    .bind()
+                let bound = reference
+                    .noise
+                    .bind_motion(&self.program, [body, body_then])
                     .set("world_from_model", body.world_from_model)
                     .set("world_from_model_then", body_then.world_from_model)
                     .set("morph", body.morph)
@@ -108,7 +108,7 @@ fn motion_pixels(size_px: [u32; 2], values: &[f32]) -> MotionPixels {
     motion
 }
 
-const SOURCE: ProgramSource = ProgramSource {
+pub(crate) const SOURCE: ProgramSource<'static> = ProgramSource {
     vertex: "reference/motion.vert",
     fragment: Some("reference/motion.frag"),
     captured: &[],

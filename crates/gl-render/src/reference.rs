@@ -5,12 +5,13 @@ use std::sync::{Arc, Weak};
 
 use glam::{Mat4, Vec3, Vec4};
 use impasto_painting::frame::{BodySurface, FrameBody, FrameView};
-use impasto_painting::{Frame, Quality};
+use impasto_painting::{Frame, FrameNoise, Quality};
 
 use crate::gl::{
-    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource,
-    Texture, VertexArray, Vertices,
+    Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture,
+    VertexArray, Vertices,
 };
+use crate::materials::noise_displace::{self, NoiseDisplace, Stage};
 use crate::meshes::{MeshCache, MeshOnGpu};
 use crate::shader_files::{REFERENCE, SHARED};
 use crate::watch::Watch;
@@ -29,6 +30,7 @@ pub(crate) struct ReferenceTargets {
     pub(crate) normal: Rc<Texture>,
     pub(crate) depth_and_id: Rc<Texture>,
     pub(crate) glint: Rc<Texture>,
+    pub(crate) depth: Rc<Texture>,
     pub(crate) albedo: Rc<Texture>,
     openness: Rc<Texture>,
     surface_pass: Framebuffer,
@@ -51,12 +53,13 @@ pub(crate) struct ReferencePass {
     /// What the shadow map shows.
     shadow_of: Option<Casters>,
     meshes: MeshCache,
+    pub(crate) noise: NoiseDisplace,
 }
 
 /// What a shadow map is drawn from.
 struct Casters {
-    /// Surface, pose and morph of every body. A surface's address is not used again while somebody remembers it.
-    bodies: Vec<(Weak<BodySurface>, Mat4, f32)>,
+    /// Surface, pose and shape of every body. A surface's address is not used again while somebody remembers it.
+    bodies: Vec<(Weak<BodySurface>, Mat4, f32, Option<FrameNoise>)>,
     shadow_from_world: Mat4,
 }
 
@@ -64,8 +67,10 @@ impl Casters {
     fn new(bodies: &[(&FrameBody, Rc<MeshOnGpu>)], shadow_from_world: Mat4) -> Self {
         let bodies = bodies
             .iter()
-            .filter(|(body, _)| !body.hidden)
-            .map(|(body, _)| (Arc::downgrade(&body.surface), body.world_from_model, body.morph))
+            .filter(|(body, _)| casts_shadow(body))
+            .map(|(body, _)| {
+                (Arc::downgrade(&body.surface), body.world_from_model, body.morph, body.noise.clone())
+            })
             .collect();
         Self { bodies, shadow_from_world }
     }
@@ -79,8 +84,12 @@ impl PartialEq for Casters {
                 .bodies
                 .iter()
                 .zip(&other.bodies)
-                .all(|(a, b)| a.0.ptr_eq(&b.0) && (a.1, a.2) == (b.1, b.2))
+                .all(|(a, b)| a.0.ptr_eq(&b.0) && (a.1, a.2, &a.3) == (b.1, b.2, &b.3))
     }
+}
+
+fn casts_shadow(body: &FrameBody) -> bool {
+    !body.hidden && !noise_displace::is_coloured(body)
 }
 
 /// The lights of a frame as shaders read them.
@@ -174,6 +183,7 @@ impl ReferenceTargets {
             light_pass: Framebuffer::new(gpu, &[&color, &glint], None)?,
             color,
             glint,
+            depth,
             normal,
             depth_and_id,
             albedo,
@@ -201,11 +211,7 @@ pub(crate) fn targets_of_size(
 
 impl ReferencePass {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let program = |vertex: &'static str, fragment: &'static str, uniforms: &'static [&'static str]| {
-            let source =
-                ProgramSource { vertex, fragment: Some(fragment), captured: &[], uniforms, defined: &[] };
-            Program::new(gpu, &[SHARED, REFERENCE], &source)
-        };
+        let program = |source: &ProgramSource<'_>| Program::new(gpu, &[SHARED, REFERENCE], source);
         let shadow_depth = Rc::new(Texture::target(
             gpu,
             Format::Depth32F,
@@ -214,39 +220,17 @@ impl ReferencePass {
         )?);
         Ok(Self {
             gpu: gpu.clone(),
-            shadow: program(
-                "reference/shadow.vert",
-                "reference/shadow.frag",
-                &["world_from_model", "morph", "shadow_from_world"],
-            )?,
-            surface: program(
-                "reference/surface.vert",
-                "reference/surface.frag",
-                &[
-                    "world_from_model",
-                    "morph",
-                    "view_from_world",
-                    "clip_from_view",
-                    "albedo",
-                    "albedo_texture",
-                    "is_lit",
-                    "body_id",
-                    "gloss",
-                    "eye",
-                ],
-            )?,
-            openness: program(
-                "shared/screen.vert",
-                "reference/openness.frag",
-                &["size_px", "px_per_unit_at_1", "orthographic", "normal", "depth_and_id", "view_from_world"],
-            )?,
-            light: Program::new(gpu, &[SHARED, REFERENCE], &LIGHT)?,
+            shadow: program(&SHADOW)?,
+            surface: program(&SURFACE)?,
+            openness: program(&OPENNESS)?,
+            light: program(&LIGHT)?,
             draft_light: None,
             screen: VertexArray::empty(gpu)?,
             shadow_pass: Framebuffer::new(gpu, &[], Some(&shadow_depth))?,
             shadow_depth,
             shadow_of: None,
             meshes: MeshCache::new(gpu)?,
+            noise: NoiseDisplace::new(gpu)?,
         })
     }
 
@@ -260,6 +244,7 @@ impl ReferencePass {
         let lens = LensSetup::new(&frame.view, frame.size_px);
         let bodies = self.bodies(frame)?;
         let lights = self.lights(frame)?;
+        self.noise.prepare(frame)?;
         self.draw_shadow(&bodies, &lights)?;
         watch.passed("shadow")?;
         self.draw_surfaces(frame, &bodies, targets)?;
@@ -290,6 +275,7 @@ impl ReferencePass {
             .texture("openness", &targets.openness);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("light")?;
+        self.noise.draw(frame, &bodies, targets, watch)?;
         Ok(lights)
     }
 
@@ -359,11 +345,11 @@ impl ReferencePass {
         }
         let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
         self.gpu.begin_pass(&self.shadow_pass, state);
-        for (body, mesh) in bodies.iter().filter(|(body, _)| !body.hidden) {
+        for (body, mesh) in bodies.iter().filter(|(body, _)| casts_shadow(body)) {
             for part in &mesh.parts {
                 let bound = self
-                    .shadow
-                    .bind()
+                    .noise
+                    .bind(&self.shadow, Stage::Shadow, body)
                     .set("world_from_model", body.world_from_model)
                     .set("morph", body.morph)
                     .set("shadow_from_world", lights.shadow_from_world);
@@ -381,8 +367,7 @@ impl ReferencePass {
         bodies: &[(&FrameBody, Rc<MeshOnGpu>)],
         targets: &ReferenceTargets,
     ) -> Result<(), GlError> {
-        let state =
-            DrawState { depth_test: true, blend: Blend::Off, clear: Some([0.0; 4]), depth_offset: false };
+        let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&targets.surface_pass, state);
         let view = &frame.view;
         let eye = if view.orthographic {
@@ -390,11 +375,12 @@ impl ReferencePass {
         } else {
             view.eye_in_world.extend(1.0)
         };
-        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
+        let is_here = |body: &FrameBody| !body.hidden && !noise_displace::is_coloured(body);
+        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| is_here(body)) {
             // In a draft half the triangles are enough; where the eye may be inside, or the surface is no more as its mesh has
             // it, all of them.
             let front = match frame.quality {
-                Quality::Draft if body.morph == 0.0 => {
+                Quality::Draft if body.morph == 0.0 && !noise_displace::is_displaced(body) => {
                     let eye = body.world_from_model.inverse() * eye;
                     let is_outside = mesh.is_outside(eye);
                     is_outside.then(|| mesh.front(&self.gpu, &body.surface, eye)).transpose()?
@@ -406,8 +392,8 @@ impl ReferencePass {
                 let albedo = material.map_or([0.8; 3], |material| material.albedo);
                 let is_lit = material.is_none_or(|material| !material.unlit);
                 let bound = self
-                    .surface
-                    .bind()
+                    .noise
+                    .bind(&self.surface, Stage::Surface, body)
                     .set("world_from_model", body.world_from_model)
                     .set("morph", body.morph)
                     .set("view_from_world", view.view_from_world)
@@ -440,7 +426,42 @@ fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
     Mat4::from_cols(row(right), row(above), row(-to_light), Vec4::W).transpose()
 }
 
-const LIGHT: ProgramSource = ProgramSource {
+pub(crate) const SHADOW: ProgramSource<'static> = ProgramSource {
+    vertex: "reference/shadow.vert",
+    fragment: Some("reference/shadow.frag"),
+    captured: &[],
+    uniforms: &["world_from_model", "morph", "shadow_from_world"],
+    defined: &[],
+};
+
+pub(crate) const SURFACE: ProgramSource<'static> = ProgramSource {
+    vertex: "reference/surface.vert",
+    fragment: Some("reference/surface.frag"),
+    captured: &[],
+    uniforms: &[
+        "world_from_model",
+        "morph",
+        "view_from_world",
+        "clip_from_view",
+        "albedo",
+        "albedo_texture",
+        "is_lit",
+        "body_id",
+        "gloss",
+        "eye",
+    ],
+    defined: &[],
+};
+
+const OPENNESS: ProgramSource<'static> = ProgramSource {
+    vertex: "shared/screen.vert",
+    fragment: Some("reference/openness.frag"),
+    captured: &[],
+    uniforms: &["size_px", "px_per_unit_at_1", "orthographic", "normal", "depth_and_id", "view_from_world"],
+    defined: &[],
+};
+
+const LIGHT: ProgramSource<'static> = ProgramSource {
     vertex: "shared/screen.vert",
     fragment: Some("reference/light.frag"),
     captured: &[],

@@ -40,7 +40,8 @@ impl ShaderTexts {
 }
 
 /// All of them.
-const ALL: &[&[ShaderFile]] = &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES, SUMI_E];
+const ALL: &[&[ShaderFile]] =
+    &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES, SUMI_E, NOISE_DISPLACE];
 
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] = shader_files![
@@ -50,6 +51,17 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/lens.glsl",
     "shared/oklab.glsl",
     "shared/inverse_bilinear.glsl",
+];
+
+/// Bodies that noise displaces and colours.
+pub(crate) const NOISE_DISPLACE: &[ShaderFile] = shader_files![
+    "noise_displace/look.vert",
+    "noise_displace/look.frag",
+    "noise_displace/place.frag",
+    "noise_displace/ground.frag",
+    "noise_displace/gather.frag",
+    "noise_displace/spread.frag",
+    "noise_displace/bloom.frag",
 ];
 
 /// The reference pass, and how its surfaces move from one picture to another.
@@ -63,6 +75,7 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/light.frag",
     "reference/motion.vert",
     "reference/motion.frag",
+    "noise_displace/displace.glsl",
 ];
 
 /// Lights as icons that face the camera.

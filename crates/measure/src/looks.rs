@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use impasto_scene::document::{
-    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, RotatingStrokes, Scene, Solver,
-    StrokeSettings, Style,
+    Canvas, Color, Direction, Edges, LayerSettings, MaterialOverride, NoiseDisplace, RotatingStrokes, Scene,
+    Solver, StrokeSettings, Style,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
@@ -216,7 +216,10 @@ fn flat(scene: &mut Scene) {
         strokes.layers.extend(LayerKind::ALL.map(|kind| LayerSettings { pickup: Some(0.0), ..layer(kind) }));
     });
     for (index, object) in scene.objects.iter_mut().enumerate() {
+        // What moves the surface stays; what colours it goes.
+        let noise = object.material.take().and_then(|material| material.noise_displace);
         object.material = Some(MaterialOverride {
+            noise_displace: noise.map(|noise| NoiseDisplace { surface: None, ..noise }),
             color: Some(flat_color(index)),
             texture: None,
             unlit: true,

@@ -2,6 +2,7 @@
 //! and the picture size.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
@@ -15,12 +16,16 @@ use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
-use crate::frame::{Frame, FrameBody, FrameStyle, LayerRun, Quality, Stroke, StrokeSource, Strokes};
+use crate::frame::{
+    BodySurface, Frame, FrameBody, FrameStyle, LayerRun, Quality, Stroke, StrokeSource, Strokes,
+};
 use crate::gate::Gate;
 use crate::lights;
+use crate::noise_displace::BodyShape;
 use crate::order::OrderEntry;
 use crate::prepare::Painting;
 use crate::recall::Recall;
+use crate::surface::Vertices;
 use crate::view::PictureView;
 
 /// How to see a painting.
@@ -137,7 +142,7 @@ impl Painting {
         let scene = self.scene();
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
-        let morphs = motion::morphs_at(scene, frame);
+        let shapes = self.shapes_at(frame);
         Frame {
             size_px: options.size_px,
             px_scale: self.px_scale(options),
@@ -147,13 +152,14 @@ impl Painting {
             bodies: self
                 .bodies
                 .iter()
-                .zip(poses.iter().zip(&morphs))
+                .zip(poses.iter().zip(shapes))
                 .zip(&scene.objects)
-                .map(|((body, (&pose, &morph)), object)| FrameBody {
+                .map(|((body, (&pose, shape)), object)| FrameBody {
                     is_backdrop: object.mesh == house_mesh::BACKDROP,
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
-                    morph: morph as f32,
+                    morph: shape.morph as f32,
+                    noise: shape.noise,
                     hidden: body.hidden,
                 })
                 .collect(),
@@ -181,6 +187,9 @@ impl Painting {
         options: &FrameOptions,
         recall: Option<&Recall>,
     ) -> Strokes {
+        if !self.has_strokes() {
+            return Strokes::default();
+        }
         let look = self.look(camera, frame, options, |_| true);
         Look { recall: recall.filter(|recall| recall.is_of(self)), ..look }.strokes()
     }
@@ -204,15 +213,13 @@ impl Painting {
         &'a self,
         coat: &'a Coat,
         view: &PictureView,
-        (world_from_model, morph): (DAffine3, f64),
+        (world_from_model, stands): (DAffine3, &Stands),
         px_scale: f32,
     ) -> SeenCoat<'a> {
         let map = view.screen_map(world_from_model);
-        let baked_at = self.reference_morphs[coat.object];
-        let baked = if coat.surface.morph.is_none() || morph == baked_at {
-            Cow::Borrowed(&coat.baked.baked)
-        } else {
-            Cow::Owned(coat.deformed(morph, baked_at))
+        let baked = match stands.vertices(&coat.surface, &self.reference_shapes[coat.object]) {
+            Some([before, now]) => Cow::Owned(coat.deformed(before, now)),
+            None => Cow::Borrowed(&coat.baked.baked),
         };
         let mut solved = SolvedParticles::default();
         solve(&baked, &map, &mut solved);
@@ -229,6 +236,25 @@ impl Painting {
         });
         let gates = self.gates(coat, px_scale, shown.is_some());
         SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views, gates }
+    }
+}
+
+/// How a body stands, with its vertices, which all its coats share.
+struct Stands {
+    shape: BodyShape,
+    /// When it was baked, and now.
+    vertices: OnceCell<[Vertices; 2]>,
+}
+
+impl Stands {
+    /// Where the vertices were when the coats were baked, and where they are; none where they have not moved.
+    fn vertices(&self, surface: &BodySurface, baked_at: &BodyShape) -> Option<&[Vertices; 2]> {
+        let rests = |shape: &BodyShape| surface.is_at_rest(shape);
+        if self.shape == *baked_at || (rests(&self.shape) && rests(baked_at)) {
+            return None;
+        }
+        let vertices = || [baked_at, &self.shape].map(|shape| surface.vertices_at(shape));
+        Some(self.vertices.get_or_init(vertices))
     }
 }
 
@@ -249,13 +275,15 @@ impl<'a> Look<'a> {
     pub(crate) fn new(
         painting: &'a Painting,
         (view, frame): (&PictureView, f64),
-        (poses, morphs): (&[DAffine3], &[f64]),
+        (poses, shapes): (&[DAffine3], Vec<BodyShape>),
         options: &FrameOptions,
         wanted: impl Fn(&Coat) -> bool,
     ) -> Self {
         let px_scale = painting.px_scale(options);
+        let stands = |shape| Stands { shape, vertices: OnceCell::new() };
+        let bodies: Vec<Stands> = shapes.into_iter().map(stands).collect();
         let seen = |coat: &'a Arc<Coat>| {
-            painting.see_coat(coat, view, (poses[coat.object], morphs[coat.object]), px_scale)
+            painting.see_coat(coat, view, (poses[coat.object], &bodies[coat.object]), px_scale)
         };
         Look {
             painting,
@@ -274,9 +302,6 @@ impl<'a> Look<'a> {
 
 impl Look<'_> {
     fn strokes(&self) -> Strokes {
-        if !self.painting.has_strokes() {
-            return Strokes::default();
-        }
         let order = &self.painting.order;
         let chunk = |(number, entries): (usize, &[OrderEntry])| self.found(number * CHUNK, entries);
         let found: Vec<Found> = order.par_chunks(CHUNK).enumerate().map(chunk).collect();

@@ -17,6 +17,7 @@ use crate::bake::{BakeInputs, BakedBody, Combed};
 use crate::counts::CountInputs;
 use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::frame::BodySurface;
+use crate::noise_displace::{BodyNoise, BodyShape, NoiseInputs};
 use crate::paper::PolygonCounts;
 use crate::particles::Particles;
 use crate::parts::{BodyParts, Cap};
@@ -55,6 +56,7 @@ pub(crate) struct Sampled {
 #[derive(Default)]
 pub(crate) struct KeptObject {
     surface: Option<(SurfaceInputs, KeptSurface)>,
+    noise: Option<(NoiseInputs, Option<Arc<BodyNoise>>)>,
     counts: Option<(CountInputs, [usize; LayerKind::ALL.len()])>,
     samples: Option<(SampleKey, Arc<FieldSamples>)>,
     field: Option<(Arc<FieldInputs>, Option<Arc<BodyField>>)>,
@@ -86,12 +88,12 @@ struct KeptStencils {
     stencils: Arc<Stencils>,
 }
 
-/// Particles and the surface that they ride, as it stands at this share of its morph.
+/// Particles and the surface that they ride, standing like this.
 #[derive(Clone)]
 struct PosedInputs {
     particles: Particles,
     surface: Arc<BodySurface>,
-    morph: f64,
+    shape: BodyShape,
 }
 
 impl PosedInputs {
@@ -99,7 +101,7 @@ impl PosedInputs {
     fn same(&self, other: &Self) -> bool {
         self.particles.same_order(&other.particles)
             && Arc::ptr_eq(&self.surface, &other.surface)
-            && self.morph == other.morph
+            && self.shape == other.shape
     }
 }
 
@@ -108,7 +110,7 @@ impl PosedInputs {
 struct SampleKey {
     surface: SurfaceInputs,
     name_hash: u32,
-    morph: f64,
+    shape: BodyShape,
 }
 
 #[derive(Clone, PartialEq)]
@@ -131,8 +133,8 @@ pub(crate) struct ObjectInputs<'a> {
     pub(crate) references: &'a Arc<BodyReferences>,
     /// Of each part.
     pub(crate) caps: &'a [Cap],
-    /// How far the body has turned into its morph in the reference pose.
-    pub(crate) morph: f64,
+    /// How the body stands in the reference pose.
+    pub(crate) shape: &'a BodyShape,
 }
 
 impl KeptObject {
@@ -149,6 +151,18 @@ impl KeptObject {
         }
     }
 
+    pub(crate) fn build_noise(&mut self, inputs: NoiseInputs) {
+        if self.noise.as_ref().is_none_or(|(before, _)| *before != inputs) {
+            let noise = inputs.build(self.noise.as_ref());
+            self.noise = Some((inputs, noise));
+        }
+    }
+
+    /// The noise that displaces and colours the object.
+    pub(crate) fn noise(&self) -> Option<Arc<BodyNoise>> {
+        self.noise.as_ref()?.1.clone()
+    }
+
     fn kept_surface(&self) -> &KeptSurface {
         &self.surface.as_ref().expect("the surface step ran before").1
     }
@@ -161,9 +175,10 @@ impl KeptObject {
         Arc::clone(&self.kept_surface().parts)
     }
 
-    /// Least and greatest corner of the box round the surface, whatever its morph.
+    /// Least and greatest corner of the box round the surface, whatever its morph and its noise.
     pub(crate) fn bounds(&self) -> Option<(Vec3, Vec3)> {
-        self.kept_surface().bounds
+        let reach = self.noise().map_or(0.0, |noise| noise.reach());
+        self.kept_surface().bounds.map(|(low, high)| (low - reach, high + reach))
     }
 
     /// Samples the particles of every coat.
@@ -190,14 +205,14 @@ impl KeptObject {
         let surface = self.surface();
         for coat in &mut self.coats {
             let particles = coat.sampled_now().particles.clone();
-            let now = PosedInputs { particles, surface: Arc::clone(&surface), morph: object.morph };
+            let now = PosedInputs { particles, surface: Arc::clone(&surface), shape: object.shape.clone() };
             let count = now.particles.len();
             let kept = coat.posed.take().filter(|(before, _)| before.same(&now));
             let posed = kept.and_then(|(_, posed)| posed.first(count)).unwrap_or_else(|| {
-                if surface.is_at_rest(object.morph) {
+                if surface.is_at_rest(object.shape) {
                     return now.particles.clone();
                 }
-                Particles::new(Arc::new(surface.posed(&now.particles, object.morph)), count)
+                Particles::new(Arc::new(surface.posed(&now.particles, object.shape)), count)
             });
             coat.posed = Some((now, posed));
         }
@@ -227,11 +242,11 @@ impl KeptObject {
         }
         let surface = self.surface();
         let name_hash = name_hash(context, object.index, LayerKind::Body);
-        let key = SampleKey { surface: object.surface.clone(), name_hash, morph: object.morph };
+        let key = SampleKey { surface: object.surface.clone(), name_hash, shape: object.shape.clone() };
         if self.samples.as_ref().is_none_or(|(before, _)| *before != key) {
             let sampled = Surface::with_sides(&surface.mesh, &surface.sides, |_| true);
             let samples = FieldSamples::new(&sampled, name_hash);
-            self.samples = Some((key, Arc::new(samples.posed(&surface, object.morph))));
+            self.samples = Some((key, Arc::new(samples.posed(&surface, object.shape))));
         }
         let samples = Arc::clone(&self.samples.as_ref().expect("it was just made").1);
         let inputs = FieldInputs {

@@ -6,14 +6,13 @@ use impasto_core::solve::BakedParticles;
 use rayon::prelude::*;
 
 use crate::coat::Coat;
+use crate::surface::Vertices;
 
 impl Coat {
-    /// The baked particles as they are when the surface has turned into its morph by `morph`, baked at `baked_at`: each rides
-    /// its triangle, and its lift is carried by what the triangle's edges and normal have done, `N'' = F N'`.
-    pub(crate) fn deformed(&self, morph: f64, baked_at: f64) -> BakedParticles {
+    /// The baked particles as they are when the vertices of the surface, which were there when they were baked, have moved:
+    /// each rides its triangle, and its lift is carried by what the triangle's edges and normal have done, `N'' = F N'`.
+    pub(crate) fn deformed(&self, before: &Vertices, now: &Vertices) -> BakedParticles {
         let mesh = &self.surface.mesh;
-        let before = self.surface.vertices_at(baked_at);
-        let now = self.surface.vertices_at(morph);
         let particles = &self.sampled.particles;
         let moved: Vec<(DVec3, DVec3, Lift)> = (0..particles.len())
             .into_par_iter()

@@ -11,6 +11,8 @@ use impasto_scene::morph::MorphTarget;
 
 mod stroke;
 
+use crate::noise_displace::FrameNoise;
+
 pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, SumiE};
 pub use impasto_scene::presets::LayerKind;
 pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
@@ -140,6 +142,8 @@ pub struct FrameBody {
     pub world_from_model: Mat4,
     /// How far the surface has turned into its morph, 0..=1.
     pub morph: f32,
+    /// The noise that displaces and colours it.
+    pub noise: Option<FrameNoise>,
 }
 
 /// A surface with its materials, in model space (static scale applied).

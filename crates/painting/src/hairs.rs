@@ -210,7 +210,7 @@ impl Painting {
     ) -> Look<'_> {
         let scene = self.scene();
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
-        let (poses, morphs) = (motion::poses_at(scene, frame), motion::morphs_at(scene, frame));
-        Look::new(self, (&view, frame), (&poses, &morphs), options, wanted)
+        let (poses, shapes) = (motion::poses_at(scene, frame), self.shapes_at(frame));
+        Look::new(self, (&view, frame), (&poses, shapes), options, wanted)
     }
 }

@@ -19,6 +19,7 @@ use crate::field::BodyField;
 use crate::finish::FinishRule;
 use crate::frame::{BodySurface, Brushes, FrameStyle};
 use crate::lights;
+use crate::noise_displace::{BodyNoise, BodyShape, NoiseInputs};
 use crate::order::{OrderEntry, OrderInputs};
 use crate::parts::Cap;
 use crate::references::{BodyReferences, ReferencePose, SceneReferences};
@@ -68,8 +69,10 @@ pub struct Painting {
     /// All particles in painting order.
     pub(crate) order: Arc<Vec<OrderEntry>>,
     pub(crate) references: Arc<SceneReferences>,
-    /// How far each object has turned into its morph in the reference pose.
-    pub(crate) reference_morphs: Arc<Vec<f64>>,
+    /// How each object stands in the reference pose.
+    pub(crate) reference_shapes: Arc<Vec<BodyShape>>,
+    /// Of each object.
+    pub(crate) noises: Vec<Option<Arc<BodyNoise>>>,
     pub(crate) solver: Solver,
     pub(crate) style: FrameStyle,
     pub(crate) shadow_bounds: (Vec3, f32),
@@ -141,7 +144,7 @@ impl Preparer {
         let scene = &loaded.scene;
         let inputs = surface_inputs(&loaded)?;
         let mut kept = self.take_kept(scene);
-        kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
+        build(&loaded, &mut kept, &inputs);
         let plain = plain(&loaded, &kept);
         clock.lap("surfaces");
         let brushes = self.brushes(&loaded, &plain.rules);
@@ -149,7 +152,7 @@ impl Preparer {
         if give_up() {
             return self.given_up(scene, kept);
         }
-        let Painting { rules, references, reference_morphs, solver, .. } = &plain;
+        let Painting { rules, references, reference_shapes, solver, .. } = &plain;
         let views = views_in_advance(scene);
         let paper = presets::is_paper(scene);
         let context = Context {
@@ -187,7 +190,7 @@ impl Preparer {
                 guides: &guides[index],
                 references: &of_body[index],
                 caps: &bodies[index].caps,
-                morph: reference_morphs[index],
+                shape: &reference_shapes[index],
             })
             .collect();
         kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.sample(&context, object));
@@ -232,7 +235,7 @@ impl Preparer {
     pub fn prepare_plain(&mut self, loaded: &Arc<LoadedScene>) -> Result<Painting, PrepareError> {
         let inputs = surface_inputs(loaded)?;
         let mut kept = self.take_kept(&loaded.scene);
-        kept.par_iter_mut().zip(&inputs).for_each(|(kept, inputs)| kept.build_surface(inputs));
+        build(loaded, &mut kept, &inputs);
         let plain = plain(loaded, &kept).in_style(FrameStyle::Reference);
         self.keep(&loaded.scene, kept);
         Ok(plain)
@@ -318,6 +321,11 @@ impl Painting {
         &self.bodies[object].surface
     }
 
+    /// How every object stands at a frame, in the order of the scene.
+    pub fn shapes_at(&self, frame: f64) -> Vec<BodyShape> {
+        shapes(self.scene(), &self.noises, frame)
+    }
+
     /// Index of the region that a place of an object's surface belongs to: `regions.len()` of the scene for none of them.
     pub fn region_at(&self, object: usize, place: &Particle) -> usize {
         usize::from(self.bodies[object].regions.of(place))
@@ -356,6 +364,28 @@ fn settings(scene: &Scene) -> RotatingStrokes {
     }
 }
 
+/// Builds the surfaces of all objects, and their noise.
+fn build(loaded: &LoadedScene, kept: &mut [KeptObject], inputs: &[SurfaceInputs]) {
+    kept.par_iter_mut().zip(inputs).zip(&loaded.scene.objects).for_each(|((kept, inputs), object)| {
+        kept.build_surface(inputs);
+        kept.build_noise(NoiseInputs::new(loaded, object));
+    });
+}
+
+/// How every object stands at a frame.
+fn shapes(scene: &Scene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<BodyShape> {
+    let morphs = motion::morphs_at(scene, frame);
+    if noises.iter().all(Option::is_none) {
+        return morphs.into_iter().map(BodyShape::from).collect();
+    }
+    let (poses, seconds) = (motion::poses_at(scene, frame), motion::seconds_at(scene, frame));
+    let shape = |(index, morph): (usize, f64)| BodyShape {
+        morph,
+        noise: noises[index].as_ref().map(|noise| noise.at(seconds[index], poses[index])),
+    };
+    morphs.into_iter().enumerate().map(shape).collect()
+}
+
 /// All that a painting has but for particles, of objects whose surfaces are built.
 fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
     let scene = &loaded.scene;
@@ -373,7 +403,8 @@ fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
     });
     let bounds: Vec<_> = kept.iter().map(KeptObject::bounds).collect();
     let views = views_in_advance(scene);
-    let reference_morphs = motion::morphs_at(scene, motion::referred_to(scene, &scene.reference).1);
+    let noises: Vec<Option<Arc<BodyNoise>>> = kept.iter().map(KeptObject::noise).collect();
+    let reference_shapes = shapes(scene, &noises, motion::referred_to(scene, &scene.reference).1);
     Painting {
         loaded: Arc::clone(loaded),
         bodies: bodies.collect(),
@@ -384,7 +415,8 @@ fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
         finish: FinishRule::new(scene, &settings, &references.own().view),
         rules: Arc::new(rules),
         order: Arc::default(),
-        reference_morphs: Arc::new(reference_morphs),
+        reference_shapes: Arc::new(reference_shapes),
+        noises,
         references: Arc::new(references),
         solver: if presets::is_paper(scene) { Solver::HornExact } else { settings.solver },
         style: match scene.style {

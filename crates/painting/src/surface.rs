@@ -14,6 +14,10 @@ use impasto_scene::morph::{self, MorphTarget};
 
 use crate::frame::{BodyMaterial, BodySurface};
 use crate::lights::linear;
+use crate::noise_displace::{self, BodyShape};
+
+/// Positions and normals, one each for every vertex of a mesh.
+pub(crate) type Vertices = (Vec<Vec3>, Vec<Vec3>);
 
 /// All that a body's surface depends on; while it stays equal, the surface is kept.
 #[derive(Clone, Debug)]
@@ -57,7 +61,8 @@ impl SurfaceInputs {
             group: object.group.clone(),
             scale: object.scale,
             up: object.up,
-            material: object.material.clone(),
+            // Noise has no say in what is sampled.
+            material: object.material.clone().map(|over| MaterialOverride { noise_displace: None, ..over }),
             texture: texture_name.and_then(|name| loaded.textures.get(name)).map(Arc::clone),
             morph: object.morph.as_ref().and_then(|name| loaded.meshes.get(name)).map(Arc::clone),
         })
@@ -139,8 +144,22 @@ fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
 }
 
 impl BodySurface {
+    /// Positions and normals of the vertices of a surface that stands like this.
+    pub(crate) fn vertices_at(&self, shape: &BodyShape) -> Vertices {
+        let (positions, normals) = self.morphed(shape.morph);
+        match shape.displacing() {
+            Some(displacing) => noise_displace::displaced(&self.mesh, (positions, normals), displacing),
+            None => (positions, normals),
+        }
+    }
+
+    /// Positions of the vertices of a surface that stands like this.
+    pub fn positions_at(&self, shape: &BodyShape) -> Vec<Vec3> {
+        if self.is_at_rest(shape) { self.mesh.positions.clone() } else { self.vertices_at(shape).0 }
+    }
+
     /// Positions and normals of the vertices at a share of the morph.
-    pub(crate) fn vertices_at(&self, morph: f64) -> (Vec<Vec3>, Vec<Vec3>) {
+    fn morphed(&self, morph: f64) -> Vertices {
         let Some(target) = &self.morph else {
             return (self.mesh.positions.clone(), self.mesh.normals.clone());
         };
@@ -155,14 +174,14 @@ impl BodySurface {
         )
     }
 
-    /// Whether the surface is as its mesh has it at a share of the morph.
-    pub(crate) fn is_at_rest(&self, morph: f64) -> bool {
-        self.morph.is_none() || morph == 0.0
+    /// Whether a surface that stands like this is as its mesh has it.
+    pub fn is_at_rest(&self, shape: &BodyShape) -> bool {
+        (self.morph.is_none() || shape.morph == 0.0) && shape.displacing().is_none()
     }
 
-    /// Particles of the mesh where they are at a share of the morph.
-    pub(crate) fn posed(&self, particles: &[Particle], morph: f64) -> Vec<Particle> {
-        let (positions, normals) = self.vertices_at(morph);
+    /// Particles of the mesh where they are on a surface that stands like this.
+    pub(crate) fn posed(&self, particles: &[Particle], shape: &BodyShape) -> Vec<Particle> {
+        let (positions, normals) = self.vertices_at(shape);
         particles.iter().map(|particle| particle.on(&self.mesh, &positions, &normals)).collect()
     }
 

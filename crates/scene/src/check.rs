@@ -12,6 +12,7 @@ use crate::mesh_file::MeshFile;
 use crate::problem::Severity;
 
 mod mesh_names;
+mod noise_displace;
 mod objects;
 mod on_meshes;
 mod regions;

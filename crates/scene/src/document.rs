@@ -1,12 +1,17 @@
 //! The scene document: every field of a scene file, with its default. Degrees, frames and sRGB colours, as a
 //! person writes them; nothing here is solved or resolved.
 
+mod noise_displace;
 mod paint;
 mod regions;
 mod sumi_e;
 
 use serde::Deserialize;
 
+pub use noise_displace::{
+    NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals, NoiseSpace, SurfaceNoise,
+    VertexNoise,
+};
 pub use paint::{
     BrushMix, Canvas, CanvasFollows, Edges, LayerSettings, RotatingStrokes, Solver, StrokeSettings, Style,
 };
@@ -305,6 +310,16 @@ pub struct MaterialOverride {
     pub unlit: bool,
     /// Strength of highlights, 0 matt .. 1 glazed; left out, what the mesh file says.
     pub gloss: Option<f64>,
+    /// Noise that moves its vertices and colours it.
+    pub noise_displace: Option<NoiseDisplace>,
+}
+
+impl MaterialOverride {
+    /// The picture files that it names, each with the field that names it.
+    pub fn textures(&self) -> impl Iterator<Item = (&String, &'static str)> {
+        let own = self.texture.as_ref().map(|name| (name, "texture"));
+        own.into_iter().chain(self.noise_displace.iter().flat_map(NoiseDisplace::textures))
+    }
 }
 
 /// One pose of an object in its parent's space.

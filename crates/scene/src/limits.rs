@@ -102,5 +102,17 @@ pub const MAX_FLOODS: usize = 256;
 /// Patches that all regions of a scene cover.
 pub const MAX_PATCHES: usize = 16_384;
 
+/// Numbers of a noise-displaced material that have no natural end.
+pub const NOISE_RATE: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
+
+/// Layers of a noise-displaced material: each but the first is looked up twice for every pixel.
+pub const NOISE_LAYERS: std::ops::RangeInclusive<f64> = 1.0..=64.0;
+
+/// Intensity and threshold of a noise-displaced material.
+pub const MAX_NOISE_INTENSITY: f64 = 1000.0;
+
+/// Period of a noise-displaced material, seconds.
+pub const NOISE_PERIOD_SECS: std::ops::RangeInclusive<f64> = 0.01..=1e6;
+
 /// Scale of a key.
 pub const KEY_SCALE: std::ops::RangeInclusive<f64> = 1e-3..=1e3;

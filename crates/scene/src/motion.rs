@@ -114,6 +114,12 @@ pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
     scene.objects.iter().map(weight).collect()
 }
 
+/// How many seconds have passed for every object since frame 0, in the order of the file: an object that holds its pose holds
+/// its time too.
+pub fn seconds_at(scene: &Scene, frame: f64) -> Vec<f64> {
+    scene.objects.iter().map(|object| held(scene, object, frame) / scene.timeline.fps).collect()
+}
+
 /// The frame whose pose an object holds.
 fn held(scene: &Scene, object: &Object, frame: f64) -> f64 {
     let first = scene.timeline.first as f64;

@@ -9,6 +9,7 @@ use crate::document::{
 };
 
 mod layout;
+mod noise_displace;
 mod regions;
 
 use layout::{Fields, Value, number, text};
@@ -182,6 +183,7 @@ fn material(material: &MaterialOverride) -> Value {
         .maybe("texture", material.texture.as_deref().map(text))
         .unless(!material.unlit, "unlit", || flag(true))
         .maybe("gloss", material.gloss.map(number))
+        .maybe("noise_displace", material.noise_displace.as_ref().map(noise_displace::noise_displace))
         .done()
 }
 

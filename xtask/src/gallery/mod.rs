@@ -1,6 +1,7 @@
 //! `cargo xtask gallery`: the pictures of the README and the docs, rendered anew. With names, only those.
 
 mod list;
+mod noise;
 mod panel;
 mod sumi_e;
 
@@ -20,7 +21,7 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 /// Renders every picture into `docs/pictures/`, or those whose names are given.
 pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
     if let Some(unknown) = only.iter().find(|name| pictures().all(|picture| picture.name != **name)) {
-        bail!("there is no picture `{unknown}`; the list is in xtask/src/gallery/list.rs");
+        bail!("there is no picture `{unknown}`; the lists are in xtask/src/gallery");
     }
     let impasto = step("build", || build_release(root))?;
     let work =
@@ -34,9 +35,9 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// All that the gallery shows.
+/// All pictures.
 fn pictures() -> impl Iterator<Item = &'static Picture> {
-    list::PICTURES.iter().chain(sumi_e::PICTURES)
+    list::PICTURES.iter().chain(noise::PICTURES).chain(sumi_e::PICTURES)
 }
 
 struct Work<'a> {

@@ -4,6 +4,7 @@ mod apple;
 mod apple_fine;
 mod bamboo;
 mod blade;
+mod blast;
 mod blocks;
 mod board;
 mod carp;
@@ -11,6 +12,7 @@ mod cloth;
 mod cottage;
 mod curve;
 mod deer;
+mod effects;
 mod fish;
 mod globe;
 mod head;
@@ -62,9 +64,15 @@ fn shipped() -> Vec<PolyMesh> {
         bamboo::bamboo(),
         carp::carp(),
         cloth::cloth(),
+        blast::blast_fire(),
+        blast::blast_smoke(),
+        blast::blast_sparks(),
         blocks::cube(),
         deer::deer(),
         head::bust(),
+        effects::ball(),
+        effects::floor(),
+        effects::mushroom_cloud(),
         fish::fish(),
         globe::globe(),
         head::head(),
@@ -125,7 +133,7 @@ mod tests {
     }
 
     /// Sheets that only ever show one side.
-    const OPEN: [&str; 7] = ["cloth", "hills", "seal", "sky", "valley", "wall", "water"];
+    const OPEN: [&str; 8] = ["cloth", "floor", "hills", "seal", "sky", "valley", "wall", "water"];
 
     /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
     #[test]

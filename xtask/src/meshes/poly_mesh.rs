@@ -1,9 +1,11 @@
 //! Polygon meshes while they are being made: surfaces woven from rows of points, written out as OBJ and MTL.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt::Write as _;
 
 use anyhow::{Context as _, ensure};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// What a face belongs to: an OBJ group, and a material of the mesh's palette.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +54,8 @@ pub struct PolyMesh {
     pub positions: Vec<DVec3>,
     /// The polygons, in the order in which they were made.
     pub faces: Vec<Face>,
+    /// Texture coordinates of each face's corners; none for a mesh without them.
+    pub uvs: Vec<Vec<DVec2>>,
     /// Whether the file gives one normal per point, so that no edge shows; else whoever reads it finds the creases.
     pub has_normals: bool,
 }
@@ -66,6 +70,7 @@ impl PolyMesh {
             shines: Vec::new(),
             positions: Vec::new(),
             faces: Vec::new(),
+            uvs: Vec::new(),
             has_normals: false,
         }
     }
@@ -210,6 +215,15 @@ impl PolyMesh {
                 writeln!(text, "vn {x} {y} {z}")?;
             }
         }
+        let uv_of = |uv: &DVec2| format!("{} {}", decimal(uv.x), decimal(uv.y));
+        let mut uv_numbers = HashMap::new();
+        for uv in self.uvs.iter().flatten() {
+            let next = uv_numbers.len() + 1;
+            if let Entry::Vacant(entry) = uv_numbers.entry(uv_of(uv)) {
+                writeln!(text, "vt {}", entry.key())?;
+                entry.insert(next);
+            }
+        }
         let mut groups = Vec::new();
         let mut looks = Vec::new();
         for face in &self.faces {
@@ -224,11 +238,17 @@ impl PolyMesh {
             writeln!(text, "g {group}")?;
             for look in looks.iter().filter(|look| look.group == group) {
                 writeln!(text, "usemtl {}", look.material)?;
-                for face in self.faces.iter().filter(|face| face.look == *look) {
+                let faces = self.faces.iter().enumerate();
+                for (index, face) in faces.filter(|(_, face)| face.look == *look) {
                     text.push('f');
-                    for corner in &face.corners {
+                    for (place, corner) in face.corners.iter().enumerate() {
                         write!(text, " {}", corner + 1)?;
-                        if self.has_normals {
+                        if let Some(uv) = self.uvs.get(index).and_then(|uvs| uvs.get(place)) {
+                            write!(text, "/{}", uv_numbers[&uv_of(uv)])?;
+                            if self.has_normals {
+                                write!(text, "/{}", corner + 1)?;
+                            }
+                        } else if self.has_normals {
                             write!(text, "//{}", corner + 1)?;
                         }
                     }

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 
 use super::finding::Finding;
 
-/// What every technique has: what it is, where, and how the files' paths begin or are called.
-const PLACES: &[(&str, &str, &str)] = &[
-    ("a shader folder", "shaders/", "/"),
+/// What every technique has: what it is, where (in one of these folders), and how the files' paths begin or are called.
+type Place = (&'static str, &'static [&'static str], &'static str);
+const PLACES: &[Place] = &[
+    ("a shader folder", &["shaders/"], "/"),
     ("a style", STYLES, ".rs"),
-    ("a page", "docs/techniques/", ".md"),
+    ("a page", &["docs/techniques/"], ".md"),
 ];
-const STYLES: &str = "crates/gl-render/src/styles/";
-/// What lies over a picture in a window has its file here, and no style.
-const OVERLAYS: &str = "crates/gl-render/src/overlays/";
-const TESTS: (&str, &str, &str) = ("a test module", "tests/it/", ".rs");
+/// Where a technique is drawn: a style, a material, or what lies over a picture in a window.
+const STYLES: &[&str] =
+    &["crates/gl-render/src/styles/", "crates/gl-render/src/materials/", "crates/gl-render/src/overlays/"];
+const TESTS: Place = ("a test module", &["tests/it/"], ".rs");
 
 /// Names in those places that are no technique's.
 const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference", "paint", "inverse_bilinear"];
@@ -22,27 +23,29 @@ const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference", "paint"
 pub fn check(files: &[String]) -> Vec<Finding> {
     let mut words: BTreeMap<String, &String> = BTreeMap::new();
     for file in files {
-        let found = PLACES.iter().find_map(|(_, folder, end)| word(file, folder, end));
-        let found = found.or_else(|| word(file, OVERLAYS, ".rs"));
+        let found = PLACES.iter().find_map(|(_, folders, end)| word_in(file, folders, end));
         if let Some(word) = found.filter(|word| !NO_TECHNIQUES.contains(word)) {
             words.entry(word.to_owned()).or_insert(file);
         }
     }
     let mut findings = Vec::new();
     for (technique, first_seen) in words {
-        for (what, folder, end) in PLACES.iter().chain([&TESTS]) {
-            let is_in =
-                |folder: &str| files.iter().any(|file| word(file, folder, end) == Some(technique.as_str()));
-            let there = is_in(folder) || *folder == STYLES && is_in(OVERLAYS);
+        for (what, folders, end) in PLACES.iter().chain([&TESTS]) {
+            let there = files.iter().any(|file| word_in(file, folders, end) == Some(technique.as_str()));
             if !there {
                 let what = format!("the technique `{technique}` has no {}", what.trim_start_matches("a "));
-                let what = format!("{what}: {folder}{technique}{}", end.trim_end_matches('/'));
+                let what = format!("{what}: {}{technique}{}", folders[0], end.trim_end_matches('/'));
                 let mend = "write it, or call every part of the technique by the same word";
                 findings.push(Finding::of_file(first_seen, what, mend));
             }
         }
     }
     findings
+}
+
+/// As [`word`], in any of these folders.
+fn word_in<'a>(file: &'a str, folders: &[&str], end: &str) -> Option<&'a str> {
+    folders.iter().find_map(|folder| word(file, folder, end))
 }
 
 /// The word that a file stands for in a place: `shaders/WORD/…`, `docs/techniques/WORD.md`; a module may be a folder.

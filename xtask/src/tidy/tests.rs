@@ -62,6 +62,9 @@ fn half_a_technique_is_named() {
         ("tests/it/sumi_e.rs", ""),
     ];
     assert_eq!(verdict(&whole), Ok(()));
+    let mut material = whole;
+    material[1].0 = "crates/gl-render/src/materials/sumi_e.rs";
+    assert_eq!(verdict(&material), Ok(()), "a technique may be a material");
     for (missing, expected) in [
         (0, "no shader folder: shaders/sumi_e"),
         (1, "no style: crates/gl-render/src/styles/sumi_e.rs"),

@@ -176,6 +176,10 @@ impl Arrange {
             Self::SetMaterial(name, material) => {
                 let material = material.clone().map(|mut material| {
                     material.color = material.color.map(in_file);
+                    let surface = material.noise_displace.as_mut().and_then(|noise| noise.surface.as_mut());
+                    if let Some(surface) = surface {
+                        surface.tint = in_file(surface.tint);
+                    }
                     material
                 });
                 unlocked_object(scene, name)?.material = material;

@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3, Vec3A};
 use impasto_core::TriangleMesh;
 use impasto_core::nearest::nearest_point;
 use impasto_core::shells::Side;
+use impasto_painting::BodyShape;
 use impasto_painting::frame::BodySurface;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -34,8 +35,8 @@ pub struct SurfacePoint {
 /// A surface with its tree.
 pub(super) struct SurfaceTree {
     surface: Arc<BodySurface>,
-    /// How far the surface has turned into its morph, 0..=1.
-    morph: f64,
+    /// How it stands.
+    shape: BodyShape,
     positions: Vec<Vec3>,
     /// Found when a back is first met: it takes as long as the tree.
     tree: Bvh2,
@@ -53,8 +54,8 @@ impl Boundable for TriangleBox {
 }
 
 impl SurfaceTree {
-    pub(super) fn new(surface: Arc<BodySurface>, morph: f64) -> Self {
-        let positions = moved(&surface, morph);
+    pub(super) fn new(surface: Arc<BodySurface>, shape: BodyShape) -> Self {
+        let positions = surface.positions_at(&shape);
         let mesh = &surface.mesh;
         let corners = |triangle: &[u32; 3]| triangle.map(|vertex| positions[vertex as usize]);
         let used = mesh.triangles.iter().flat_map(corners);
@@ -78,12 +79,13 @@ impl SurfaceTree {
         } else {
             build_bvh2(&boxes, BvhBuildParams::very_fast_build(), &mut Duration::default())
         };
-        Self { surface, morph, positions, tree, bounds }
+        Self { surface, shape, positions, tree, bounds }
     }
 
-    /// Whether it was built for this very surface at this share of its morph.
-    pub(super) fn is_of(&self, surface: &Arc<BodySurface>, morph: f64) -> bool {
-        Arc::ptr_eq(&self.surface, surface) && (surface.morph.is_none() || self.morph == morph)
+    /// Whether it was built for this very surface, standing like this.
+    pub(super) fn is_of(&self, surface: &Arc<BodySurface>, shape: &BodyShape) -> bool {
+        let rests = |shape: &BodyShape| surface.is_at_rest(shape);
+        Arc::ptr_eq(&self.surface, surface) && (self.shape == *shape || (rests(&self.shape) && rests(shape)))
     }
 
     pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
@@ -209,16 +211,6 @@ impl SurfaceTree {
         let position = blend(corners, barycentric);
         let front = looked_at(face_normal);
         (SurfacePoint { triangle, barycentric, position, normal, face_normal, flipped: sign < 0.0 }, front)
-    }
-}
-
-fn moved(surface: &BodySurface, morph: f64) -> Vec<Vec3> {
-    let from = &surface.mesh.positions;
-    match &surface.morph {
-        Some(target) if morph != 0.0 => {
-            from.iter().zip(&target.positions).map(|(from, to)| from.lerp(*to, morph as f32)).collect()
-        }
-        _ => from.clone(),
     }
 }
 

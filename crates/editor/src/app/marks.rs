@@ -243,11 +243,12 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
 pub(super) fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
     let scene = painting.scene();
     let poses = motion::poses_at(scene, frame);
-    let morphs = motion::morphs_at(scene, frame);
-    (0..scene.objects.len())
-        .map(|object| StandingBody {
+    let shapes = painting.shapes_at(frame);
+    let shapes = shapes.into_iter().enumerate();
+    shapes
+        .map(|(object, shape)| StandingBody {
             surface: Arc::clone(painting.surface(object)),
-            morph: morphs[object],
+            shape,
             world_from_model: poses[object],
             visible: !scene.objects[object].hidden,
         })

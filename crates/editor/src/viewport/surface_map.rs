@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec4};
 use impasto_core::ScreenMap;
 use impasto_editor_model::picking::View;
+use impasto_painting::BodyShape;
 use impasto_painting::frame::BodySurface;
 use impasto_scene::document::Lens;
 
@@ -39,8 +40,8 @@ const NOTHING: Face = Face { object: u32::MAX, triangle: u32::MAX };
 pub struct StandingBody {
     /// Its surface.
     pub surface: Arc<BodySurface>,
-    /// How far it has turned into its morph, 0..=1.
-    pub morph: f64,
+    /// Its shape.
+    pub shape: BodyShape,
     /// Its pose.
     pub world_from_model: DAffine3,
     /// Whether it shows.
@@ -51,8 +52,8 @@ pub struct StandingBody {
 impl PartialEq for StandingBody {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)
-            && (self.morph, self.world_from_model, self.visible)
-                == (other.morph, other.world_from_model, other.visible)
+            && (&self.shape, self.world_from_model, self.visible)
+                == (&other.shape, other.world_from_model, other.visible)
     }
 }
 
@@ -165,14 +166,11 @@ impl SurfaceMap {
 }
 
 fn corners(body: &StandingBody, map: &ScreenMap) -> Vec<Corner> {
-    let positions = &body.surface.mesh.positions;
-    let target = body.surface.morph.as_ref().filter(|_| body.morph != 0.0).map(|morph| &morph.positions);
-    let corner = |(index, &from): (usize, &glam::Vec3)| {
-        let moved = target.map_or(from, |to| from.lerp(to[index], body.morph as f32));
-        let p: DVec4 = moved.as_dvec3().extend(1.0);
+    let corner = |at: glam::Vec3| {
+        let p: DVec4 = at.as_dvec3().extend(1.0);
         Corner { place: [map.row_x.dot(p), map.row_y.dot(p), map.row_w.dot(p)], depth: map.row_depth.dot(p) }
     };
-    positions.iter().enumerate().map(corner).collect()
+    body.surface.positions_at(&body.shape).into_iter().map(corner).collect()
 }
 
 /// The part of a triangle before the near plane: none, three, or four corners.

@@ -356,3 +356,42 @@ fn guides_are_listed_selected_set_reordered_and_deleted() {
     let guides = &harness.state().region("apple").guides;
     assert_eq!(guides.iter().map(|guide| guide.points.len()).collect::<Vec<_>>(), [9]);
 }
+
+#[test]
+fn noise_of_a_material_is_set_and_reset() {
+    let mut harness = harness("still_life.ron", object("apple"));
+    let noise = |harness: &Harness<'_, Column>| {
+        let objects = &harness.state().document.scene().objects;
+        let apple = objects.iter().find(|object| object.name == "apple").expect("it is there");
+        apple.material.as_ref().and_then(|material| material.noise_displace.clone())
+    };
+    assert_eq!(noise(&harness), None);
+    click(&mut harness, "Material");
+    click(&mut harness, "Noise");
+    assert_eq!(noise(&harness), Some(Default::default()));
+    type_in(&mut harness, "Noise scale", "0.3");
+    type_in(&mut harness, "Noise rate Y", "0.75");
+    type_in(&mut harness, "Noise layers", "9");
+    type_in(&mut harness, "Noise intensity", "2.5");
+    pick(&mut harness, "Noise along", "Normals");
+    pick(&mut harness, "Noise mix", "Mean");
+    click(&mut harness, "Noise comes back");
+    type_in(&mut harness, "Noise period", "1.5");
+    let now = noise(&harness).expect("it is on");
+    let (vertex, surface) = (now.vertex.clone().expect("moves"), now.surface.clone().expect("colours"));
+    assert_eq!((vertex.scale, vertex.value, now.period_secs), (0.3, [0.1, 0.75], Some(1.5)));
+    assert_eq!((surface.layer_count, surface.intensity), (9, 2.5));
+    assert_eq!(vertex.along, impasto_scene::document::NoiseAlong::Normal);
+    assert_eq!(surface.mix, impasto_scene::document::NoiseMix::Mean);
+    type_in(&mut harness, "Noise layers", "900");
+    assert_eq!(noise(&harness).and_then(|noise| noise.surface).map(|surface| surface.layer_count), Some(9));
+    harness.key_press(Key::Escape);
+    harness.run();
+    click(&mut harness, "Reset Noise scale");
+    assert_eq!(noise(&harness).and_then(|noise| noise.vertex).map(|vertex| vertex.scale), Some(0.1));
+    click(&mut harness, "Noise colours the surface");
+    assert_eq!(noise(&harness).map(|noise| noise.surface), Some(None));
+    assert!(harness.query_by_label("Noise layers").is_none());
+    click(&mut harness, "Noise");
+    assert_eq!(noise(&harness), None);
+}

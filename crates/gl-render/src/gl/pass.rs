@@ -15,12 +15,16 @@ pub(crate) enum Blend {
     Over,
     /// The larger of each colour stays; alpha as in "over".
     Largest,
+    /// Premultiplied "under".
+    Under,
 }
 
 /// Fixed state of a pass; everything else is set to its default each time, whoever used the context before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrawState {
     pub depth_test: bool,
+    /// Depth is that of the pass before, and what is as near counts as nearer.
+    pub depth_kept: bool,
     pub blend: Blend,
     /// Clears every colour target to this.
     pub clear: Option<[f32; 4]>,
@@ -71,11 +75,16 @@ impl Gpu {
             gl.polygon_offset(1.0, 2.0);
             gl.color_mask(true, true, true, true);
             gl.depth_mask(true);
-            gl.depth_func(glow::LESS);
+            gl.depth_func(if state.depth_kept { glow::LEQUAL } else { glow::LESS });
             let of_color = if state.blend == Blend::Largest { glow::MAX } else { glow::FUNC_ADD };
             gl.blend_equation_separate(of_color, glow::FUNC_ADD);
-            gl.blend_func(glow::ONE, glow::ONE_MINUS_SRC_ALPHA);
-            if state.depth_test {
+            match state.blend {
+                Blend::Under => gl.blend_func(glow::ONE_MINUS_DST_ALPHA, glow::ONE),
+                Blend::Off | Blend::Over | Blend::Largest => {
+                    gl.blend_func(glow::ONE, glow::ONE_MINUS_SRC_ALPHA)
+                }
+            }
+            if state.depth_test && !state.depth_kept {
                 gl.clear_depth_f32(1.0);
                 gl.clear(glow::DEPTH_BUFFER_BIT);
             }

@@ -10,7 +10,7 @@ use super::{GlError, Gpu, ShaderFile, Texture};
 
 /// What a program is made of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ProgramSource {
+pub(crate) struct ProgramSource<'a> {
     /// Path of the vertex shader below `shaders/`.
     pub vertex: &'static str,
     /// Path of the fragment shader; none where only the vertex shader's results are kept.
@@ -18,7 +18,7 @@ pub(crate) struct ProgramSource {
     /// Outputs of the vertex shader that are captured.
     pub captured: &'static [&'static str],
     /// Every uniform that the Rust side sets.
-    pub uniforms: &'static [&'static str],
+    pub uniforms: &'a [&'static str],
     /// Names that the shaders find defined.
     pub defined: &'static [&'static str],
 }
@@ -67,7 +67,11 @@ value_from!(f32 => Float, i32 => Int, u32 => Uint, Vec2 => Vec2, Vec3 => Vec3, V
 
 impl Program {
     /// Compiles, links and compares the shader's uniforms with those that the Rust side knows.
-    pub(crate) fn new(gpu: &Gpu, files: &[&[ShaderFile]], source: &ProgramSource) -> Result<Self, GlError> {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        files: &[&[ShaderFile]],
+        source: &ProgramSource<'_>,
+    ) -> Result<Self, GlError> {
         let name = source.fragment.unwrap_or(source.vertex).to_owned();
         let fault = |log: String| GlError::Shader { program: name.clone(), log };
         let gl = gpu.gl();

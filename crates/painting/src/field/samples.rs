@@ -7,6 +7,7 @@ use impasto_core::neighbours::Points;
 use impasto_core::sampling::{self, Particle, Surface};
 
 use crate::frame::BodySurface;
+use crate::noise_displace::BodyShape;
 
 /// The samples of a body.
 #[derive(Debug)]
@@ -28,12 +29,12 @@ impl FieldSamples {
         }
     }
 
-    /// The samples where they are at a share of the body's morph.
-    pub(crate) fn posed(self, surface: &BodySurface, morph: f64) -> Self {
-        if surface.is_at_rest(morph) {
+    /// The samples where they are on a body that stands like this.
+    pub(crate) fn posed(self, surface: &BodySurface, shape: &BodyShape) -> Self {
+        if surface.is_at_rest(shape) {
             return self;
         }
-        let particles = surface.posed(&self.particles, morph);
+        let particles = surface.posed(&self.particles, shape);
         Self {
             positions: particles.iter().map(|particle| particle.position).collect(),
             normals: particles.iter().map(|particle| particle.normal).collect(),

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Findings, did_you_mean, short, shown};
+use super::{Findings, did_you_mean, noise_displace, short, shown};
 use crate::document::{Object, Scene};
 use crate::limits;
 
@@ -23,6 +23,9 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
     }
     if let Some(gloss) = object.material.as_ref().and_then(|material| material.gloss) {
         findings.number(&format!("{object_path}.material.gloss"), gloss, 0.0..=1.0);
+    }
+    if let Some(noise) = object.material.as_ref().and_then(|material| material.noise_displace.as_ref()) {
+        noise_displace::check(&format!("{object_path}.material"), noise, findings);
     }
     if let Some(morph) = &object.morph {
         findings.name(&format!("{object_path}.morph"), morph);

@@ -52,11 +52,8 @@ impl Files {
                 }
             }
         }
-        let texture_of = |object| {
-            let object: &crate::document::Object = object;
-            object.material.as_ref()?.texture.as_ref()
-        };
-        for (name, field_path) in first_uses(scene, texture_of, "material.texture") {
+        let mut seen = std::collections::HashSet::new();
+        for (name, field_path) in textures(scene).filter(|(name, _)| seen.insert(name.as_str())) {
             match (readers.texture)(name) {
                 Ok((texture, warnings)) => {
                     files.problems.extend(warnings);
@@ -76,6 +73,14 @@ impl Files {
         }
         files
     }
+}
+
+/// Each picture that materials name, with every field that names it, in the order of the file.
+pub(super) fn textures(scene: &Scene) -> impl Iterator<Item = (&String, String)> {
+    scene.objects.iter().enumerate().flat_map(|(index, object)| {
+        let textures = object.material.iter().flat_map(crate::document::MaterialOverride::textures);
+        textures.map(move |(name, field)| (name, format!("objects[{index}].material.{field}")))
+    })
 }
 
 /// Each name that objects give, with the field that gives it first, in the order of the file.

@@ -307,7 +307,7 @@ fn did_you_mean(name: &str) -> String {
 /// What a field holds, for people.
 fn what_goes_into(field: &str) -> Option<&'static str> {
     Some(match field {
-        "version" | "particles" | "seed" | "hold" => "a whole number, as in 7",
+        "version" | "particles" | "seed" | "hold" | "layer_count" => "a whole number, as in 7",
         "first" | "last" => "a whole frame number, as in 24",
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
@@ -315,7 +315,9 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter"
         | "swing_deg" | "contour" | "color_jitter" | "temperature" | "grading" | "opacity" | "thickness"
         | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" | "offset" | "size_follow"
-        | "radius" | "strength" | "taper" | "bend_deg" => "one number, as in 2.5",
+        | "radius" | "strength" | "taper" | "bend_deg" | "period_secs" | "speed" | "bloom" | "threshold" => {
+            "one number, as in 2.5"
+        }
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
             "three numbers, as in (0, 1.5, -2)"
         }
@@ -329,7 +331,9 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "falloff" => "Smooth, Linear or Flat",
         "morph" => "a mesh such as \"meshes/late.obj\" for an object, a number from 0 to 1 for a key",
         "scale" => "one number, or three as in (1, 2, 1)",
-        "background" | "color" | "ground" | "paper" | "ink" | "seal" => "a colour, as in \"#b3262a\"",
+        "background" | "color" | "ground" | "paper" | "ink" | "seal" | "tint" => {
+            "a colour, as in \"#b3262a\""
+        }
         "name" | "mesh" | "group" | "parent" | "texture" | "preset" | "object" => {
             "text in quotes, as in \"apple\""
         }
@@ -347,6 +351,18 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "camera" => "a lens and keys, as in (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
         "lens" => "Perspective(fov_y_deg: 35) or Orthographic(height: 2)",
         "strokes" => "stroke settings, as in (length_px: 78, width_px: 25)",
+        "noise_displace" => {
+            "noise of vertices and of the surface, as in (vertex: (scale: 0.1), surface: None)"
+        }
+        "vertex" => "noise that moves vertices, as in (value: (0.1, 0.1), scale: 0.1), or None",
+        "surface" => "noise that colours a surface, as in (layer_count: 4, tint: \"#ffb040\"), or None",
+        "value" | "tiling" | "tile_offset" => "two numbers, as in (0.1, 0.1)",
+        "space" => "World or Local",
+        "normals" => "Kept or Displaced",
+        "along" => "Channels or Normal",
+        "forward" => "Odd or Even",
+        "mix" => "Root or Mean",
+        "alpha" => "Texture or Grey",
         "material" => "a colour or a texture, as in (color: \"#b3262a\")",
         "style" => "RotatingStrokes(), SumiE() or Reference",
         "rule" => "Painter or Source",

@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::document::{
     Bend, Canvas, CanvasFollows, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView,
-    InkDrawing, InkLight, InkRule, Patch, Region, Seam, Seed, Selector, Sense, Solver,
+    InkDrawing, InkLight, InkRule, NoiseDisplace, Patch, Region, Seam, Seed, Selector, Sense, Solver,
+    SurfaceNoise, VertexNoise,
 };
 use crate::load::parse;
 
@@ -81,6 +82,73 @@ fn any_light() -> impl Strategy<Value = Light> {
     )
 }
 
+fn noise_displace() -> impl Strategy<Value = NoiseDisplace> {
+    use crate::document::{NoiseAlong, NoiseAlpha, NoiseForward, NoiseMix, NoiseNormals, NoiseSpace};
+    let pair = || (number(), number()).prop_map(|(x, y)| [x, y]);
+    let one_of = any::<[bool; 6]>();
+    let names = (proptest::option::of(name()), proptest::option::of(name()), any::<u32>(), any_color());
+    let pairs = (pair(), pair(), pair());
+    let numbers = [(); 7].map(|()| number());
+    (names, pairs, numbers, one_of, proptest::option::of(number()), any::<[bool; 2]>()).prop_map(
+        |(
+            (of_vertex, of_surface, layer_count, tint),
+            (value, tiling, tile_offset),
+            numbers,
+            flags,
+            period,
+            has,
+        )| {
+            let [scale, speed, intensity, opacity, bloom, threshold, _] = numbers;
+            let vertex = VertexNoise {
+                texture: of_vertex,
+                space: if flags[0] { NoiseSpace::Local } else { NoiseSpace::World },
+                value,
+                scale,
+                along: if flags[1] { NoiseAlong::Normal } else { NoiseAlong::Channels },
+                normals: if flags[2] { NoiseNormals::Displaced } else { NoiseNormals::Kept },
+            };
+            let surface = SurfaceNoise {
+                texture: of_surface,
+                layer_count,
+                speed,
+                tiling,
+                tile_offset,
+                forward: if flags[3] { NoiseForward::Even } else { NoiseForward::Odd },
+                mix: if flags[4] { NoiseMix::Mean } else { NoiseMix::Root },
+                tint,
+                intensity,
+                opacity,
+                alpha: if flags[5] { NoiseAlpha::Grey } else { NoiseAlpha::Texture },
+                bloom,
+                threshold,
+            };
+            NoiseDisplace {
+                vertex: has[0].then_some(vertex),
+                surface: has[1].then_some(surface),
+                period_secs: period,
+            }
+        },
+    )
+}
+
+#[test]
+fn a_noise_displaced_material_has_usual_values() {
+    let text = |material: &str| {
+        let scene = format!(
+            "(version: 1, camera: (keys: [(frame: 0, eye: (0, 0, 4), target: (0, 0, 0))]), objects: [(name: \"a\", mesh: \"a.obj\", material: {material})])"
+        );
+        parse(Path::new("a.ron"), &scene).unwrap()
+    };
+    let usual = text("(noise_displace: ())");
+    let noise = usual.objects[0].material.clone().unwrap().noise_displace.unwrap();
+    assert_eq!(noise, NoiseDisplace::default());
+    assert!(to_ron(&usual).contains("noise_displace: ()"));
+    let bare = text("(noise_displace: (surface: None, vertex: (scale: 0.25)))");
+    let written = to_ron(&bare);
+    assert!(written.contains("(noise_displace: (vertex: (scale: 0.25), surface: None))"), "{written}");
+    assert_eq!(parse(Path::new("a.ron"), &written).unwrap(), bare);
+}
+
 fn any_object() -> impl Strategy<Value = Object> {
     let key = (number(), vector3(), vector3(), number(), number(), ease()).prop_map(
         |(frame, translation, rotation_deg, scale, morph, ease)| ObjectKey {
@@ -97,8 +165,15 @@ fn any_object() -> impl Strategy<Value = Object> {
         proptest::option::of(name()),
         any::<bool>(),
         proptest::option::of(number()),
+        proptest::option::of(noise_displace()),
     )
-        .prop_map(|(color, texture, unlit, gloss)| MaterialOverride { color, texture, unlit, gloss });
+        .prop_map(|(color, texture, unlit, gloss, noise_displace)| MaterialOverride {
+            color,
+            texture,
+            unlit,
+            gloss,
+            noise_displace,
+        });
     let maybe_name = || proptest::option::of(name());
     let names = (name(), name(), maybe_name(), maybe_name(), maybe_name());
     let scale = prop_oneof![number().prop_map(|x| [x; 3]), vector3()].prop_map(Scale);

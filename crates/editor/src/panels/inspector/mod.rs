@@ -4,6 +4,7 @@ mod camera;
 mod guides;
 mod ink;
 mod light;
+mod noise;
 mod number;
 mod object;
 mod paint_layers;

@@ -10,7 +10,7 @@ use super::number::Number;
 use super::parts::{
     Look, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
 };
-use super::{Asker, pose};
+use super::{Asker, noise, pose};
 use crate::icons;
 use crate::panels::Ask;
 use crate::panels::status_line::grouped;
@@ -147,7 +147,8 @@ fn mesh_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object;
     });
 }
 
-fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
+fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, of_object: [&Object; 2]) {
+    let [object, stored] = of_object;
     let [shown, stored] = [object, stored].map(|object| object.material.clone().unwrap_or_default());
     let set = |material: MaterialOverride| {
         let material = (material != MaterialOverride::default()).then_some(material);
@@ -180,6 +181,7 @@ fn material(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 
     if widgets::checkbox(ui, "Without light or shadow", &mut unlit).changed() {
         asker.ask(set(MaterialOverride { unlit, ..stored.clone() }));
     }
+    noise::rows(ui, asker, of_object);
 }
 
 fn parent_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {

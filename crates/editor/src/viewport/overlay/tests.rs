@@ -139,7 +139,7 @@ fn what_the_map_shows_is_what_rays_meet() {
         .enumerate()
         .map(|(object, &world_from_model)| StandingBody {
             surface: Arc::clone(painting.surface(object)),
-            morph: 0.0,
+            shape: 0.0.into(),
             world_from_model,
             visible: true,
         })

@@ -57,7 +57,7 @@ const DRAFT_PAINT_UNIFORMS: &[&str] =
 
 const DRAFT_ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "ground", "wash", "finish"];
 
-const RESOLVE: ProgramSource = ProgramSource {
+const RESOLVE: ProgramSource<'static> = ProgramSource {
     vertex: "rotating_strokes/resolve.vert",
     fragment: None,
     captured: &["resolved", "fitted"],
@@ -86,7 +86,7 @@ const RESOLVE: ProgramSource = ProgramSource {
     defined: &[],
 };
 
-pub(super) const DETAIL: ProgramSource = ProgramSource {
+pub(super) const DETAIL: ProgramSource<'static> = ProgramSource {
     vertex: "shared/screen.vert",
     fragment: Some("rotating_strokes/detail.frag"),
     captured: &[],
@@ -94,7 +94,7 @@ pub(super) const DETAIL: ProgramSource = ProgramSource {
     defined: &[],
 };
 
-pub(super) const SPREAD: ProgramSource = ProgramSource {
+pub(super) const SPREAD: ProgramSource<'static> = ProgramSource {
     vertex: "shared/screen.vert",
     fragment: Some("rotating_strokes/spread.frag"),
     captured: &[],
@@ -102,7 +102,7 @@ pub(super) const SPREAD: ProgramSource = ProgramSource {
     defined: &[],
 };
 
-const PAINT: ProgramSource = ProgramSource {
+const PAINT: ProgramSource<'static> = ProgramSource {
     vertex: "rotating_strokes/paint.vert",
     fragment: Some("rotating_strokes/paint.frag"),
     captured: &[],
@@ -118,7 +118,7 @@ const PAINT: ProgramSource = ProgramSource {
     defined: &[],
 };
 
-pub(super) const SOFTEN: ProgramSource = ProgramSource {
+pub(super) const SOFTEN: ProgramSource<'static> = ProgramSource {
     vertex: "shared/screen.vert",
     fragment: Some("rotating_strokes/soften.frag"),
     captured: &[],
@@ -126,7 +126,7 @@ pub(super) const SOFTEN: ProgramSource = ProgramSource {
     defined: &[],
 };
 
-const ENCODE: ProgramSource = ProgramSource {
+const ENCODE: ProgramSource<'static> = ProgramSource {
     vertex: "shared/screen.vert",
     fragment: Some("rotating_strokes/encode.frag"),
     captured: &[],

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use super::fix::Fix;
 use super::{LoadOptions, Loss};
 use crate::check;
-use crate::document::{Object, PatchRef, Scene};
+use crate::document::{PatchRef, Scene};
 use crate::limits;
-use crate::load::files::{first_uses, retold};
+use crate::load::files::{first_uses, retold, textures};
 use crate::load::{folder_of, read_brush, read_mesh, read_texture};
 use crate::locate::Located;
 use crate::mesh_file::{Material, MeshFile, Texture};
@@ -91,12 +91,7 @@ impl<'a> Held<'a> {
                 Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
             }
         }
-        let texture_of =
-            |object: &'_ Object| object.material.as_ref().and_then(|material| material.texture.clone());
-        let textures: Vec<Option<String>> = scene.objects.iter().map(texture_of).collect();
-        for (index, name) in textures.iter().enumerate() {
-            let Some(name) = name else { continue };
-            let field_path = format!("objects[{index}].material.texture");
+        for (name, field_path) in textures(scene) {
             let read = self
                 .textures
                 .entry(name.clone())

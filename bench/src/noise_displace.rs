@@ -1,0 +1,83 @@
+//! The source's table 9: spheres with and without the noise-displaced material, in the plain render at 1024 × 1024. Here
+//! everything is drawn by the processor, so what counts is the ratio.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use impasto_gl_render::Renderer;
+use impasto_gl_render::context::{Driver, OpenOptions, open};
+use impasto_painting::{FrameOptions, Painting, prepare};
+use impasto_scene::document::{MaterialOverride, NoiseDisplace, ObjectKey, Scene, Style};
+use impasto_tests::shapes;
+
+/// Side of the picture, pixels.
+const SIDE_PX: u32 = 1024;
+
+/// As the source: five frames after a warm-up.
+const FRAMES: u32 = 5;
+
+/// So many spheres on a square, all of them in the picture.
+fn spheres(count: usize, noise: Option<&NoiseDisplace>) -> Painting {
+    let columns = (count as f64).sqrt().ceil() as usize;
+    let spacing = 2.2 / columns as f64;
+    let object = |index: usize| {
+        let at = |place: usize| (place as f64 - 0.5 * (columns - 1) as f64) * spacing;
+        let mut object = shapes::object(&format!("ball {index}"), 1);
+        object.mesh = "ball.obj".to_owned();
+        object.material = Some(MaterialOverride {
+            unlit: true,
+            noise_displace: noise.cloned(),
+            ..MaterialOverride::default()
+        });
+        object.keys = vec![ObjectKey {
+            translation: [at(index % columns), at(index / columns), 0.0],
+            scale: 0.4 * spacing,
+            ..ObjectKey::at(0.0)
+        }];
+        object
+    };
+    let mut scene: Scene = shapes::scene((0..count).map(object).collect());
+    scene.style = Style::Reference;
+    let loaded = shapes::loaded(scene, (0..count).map(|_| shapes::sphere(32, 16)));
+    prepare(Arc::clone(&loaded)).expect("the meshes are there")
+}
+
+/// Median seconds of describing a frame and of drawing it.
+fn frame_secs(renderer: &mut Renderer, painting: &Painting) -> [f64; 2] {
+    let options = FrameOptions::new([SIDE_PX; 2]);
+    let mut secs = [Vec::new(), Vec::new()];
+    for number in 0..FRAMES + 2 {
+        let start = Instant::now();
+        let frame = painting.at(f64::from(number), &options);
+        let described = start.elapsed().as_secs_f64();
+        renderer.render(&frame).expect("it is drawn");
+        let drawn = start.elapsed().as_secs_f64() - described;
+        if number >= 2 {
+            secs[0].push(described);
+            secs[1].push(drawn);
+        }
+    }
+    secs.map(|mut secs| {
+        secs.sort_by(f64::total_cmp);
+        secs[secs.len() / 2]
+    })
+}
+
+pub fn run() {
+    let context = open(Driver::Auto, &OpenOptions::default()).expect("a driver");
+    let mut renderer = Renderer::new(context).expect("shaders");
+    println!("spheres at {SIDE_PX} x {SIDE_PX}: without, with noise (milliseconds to describe and to draw), ratio");
+    for count in [1, 25, 100, 400] {
+        let noise = NoiseDisplace::default();
+        let [without, with] =
+            [None, Some(&noise)].map(|noise| frame_secs(&mut renderer, &spheres(count, noise)));
+        println!(
+            "  {count:3}: {:.2} + {:.1}, {:.2} + {:.1}, ratio {:.2}",
+            without[0] * 1e3,
+            without[1] * 1e3,
+            with[0] * 1e3,
+            with[1] * 1e3,
+            (with[0] + with[1]) / (without[0] + without[1])
+        );
+    }
+}

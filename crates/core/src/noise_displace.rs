@@ -1,0 +1,186 @@
+//! Vertices that a noise texture moves (Hong and Park 2021), and the textures that the house has for it.
+//!
+//! ```text
+//! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
+//! ```
+
+mod house;
+mod tile;
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
+
+pub use house::{gaussian, perlin};
+pub use tile::Tile;
+
+/// Seconds in which the noise travels once over its texture: Unity's `_Time.x` is seconds / 20.
+pub const SECONDS_PER_TILE: f64 = 20.0;
+
+/// What a vertex is moved along.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Along {
+    /// Each axis by a channel of the noise.
+    #[default]
+    Channels,
+    /// The normal, by the first channel.
+    Normal,
+}
+
+/// How the vertices of a body are moved.
+#[derive(Clone, Debug)]
+pub struct VertexNoise {
+    /// The noise, N.
+    pub tile: Arc<Tile>,
+    /// NS: from the lowest noise to the highest, model units.
+    pub scale: f64,
+    /// What they are moved along.
+    pub along: Along,
+    /// Light falls on the surface as it is moved, not as it is at rest.
+    pub moves_normals: bool,
+}
+
+impl PartialEq for VertexNoise {
+    fn eq(&self, other: &Self) -> bool {
+        (Arc::ptr_eq(&self.tile, &other.tile) || self.tile == other.tile)
+            && (self.scale, self.along, self.moves_normals) == (other.scale, other.along, other.moves_normals)
+    }
+}
+
+/// Where in the texture a point of a body looks, at one time: two affine functions of its place in model space, in
+/// lengths of the texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lookup {
+    /// Rows of a 2×4 matrix.
+    pub rows: [DVec4; 2],
+}
+
+impl Lookup {
+    /// `S·v·NV` and a shift; S is `world_from_model`, or nothing where the noise goes with the body. Whole textures are
+    /// left out of the shift, so that far away is as exact as near.
+    pub fn new(value: [f64; 2], world_from_model: Option<DAffine3>, shift: DVec2) -> Self {
+        let space = world_from_model.unwrap_or(DAffine3::IDENTITY);
+        let row = |axis: usize| {
+            let linear = space.matrix3.row(axis) * value[axis];
+            linear.extend((space.translation[axis] * value[axis] + shift[axis]).rem_euclid(1.0))
+        };
+        Self { rows: [row(0), row(1)] }
+    }
+
+    /// Where a point looks.
+    pub fn at(&self, position: DVec3) -> DVec2 {
+        let position = position.extend(1.0);
+        DVec2::new(self.rows[0].dot(position), self.rows[1].dot(position))
+    }
+}
+
+/// How far time has gone in lengths of the texture: along X, Unity's `_Time.x`. With a period it goes round a circle as
+/// fast, so that it is back after so many seconds, to the bit, whatever the period; at first it goes along X too.
+pub fn travelled(seconds: f64, period_secs: Option<f64>) -> DVec2 {
+    let Some(period_secs) = period_secs else { return DVec2::new(seconds / SECONDS_PER_TILE, 0.0) };
+    let radius = period_secs / SECONDS_PER_TILE / std::f64::consts::TAU;
+    let (sin, cos) = ((seconds / period_secs).rem_euclid(1.0) * std::f64::consts::TAU).sin_cos();
+    DVec2::new(sin, 1.0 - cos) * radius
+}
+
+/// The shift of the vertices' lookup: `(t, t)`, and round the same circle with a period.
+pub fn vertex_shift(travelled: DVec2) -> DVec2 {
+    DVec2::new(travelled.x - travelled.y, travelled.x + travelled.y)
+}
+
+impl VertexNoise {
+    /// Where a point of the surface goes.
+    pub fn displaced(&self, position: DVec3, normal: DVec3, lookup: &Lookup) -> DVec3 {
+        let noise = self.centred(lookup.at(position));
+        position
+            + match self.along {
+                Along::Channels => noise * self.scale,
+                Along::Normal => normal.normalize_or_zero() * (noise.x * self.scale),
+            }
+    }
+
+    /// The unit normal where the surface has gone: `cof(F) n`, F the derivative of [`VertexNoise::displaced`] over two texels;
+    /// along the normal, without the bend that the surface has at rest.
+    pub fn displaced_normal(&self, position: DVec3, normal: DVec3, lookup: &Lookup) -> DVec3 {
+        let normal = normal.normalize_or_zero();
+        let at = lookup.at(position);
+        let step = self.tile.texel();
+        let slope = |step: DVec2| {
+            let rise = (self.centred(at + step) - self.centred(at - step)) * self.scale;
+            rise / (2.0 * (step.x + step.y))
+        };
+        let (along_u, along_v) = (slope(DVec2::new(step.x, 0.0)), slope(DVec2::new(0.0, step.y)));
+        let [u, v] = lookup.rows.map(|row| row.truncate());
+        let (along_u, along_v) = match self.along {
+            Along::Channels => (along_u, along_v),
+            Along::Normal => (normal * along_u.x, normal * along_v.x),
+        };
+        // F = 1 + ∂d/∂u ⊗ ∇u + ∂d/∂v ⊗ ∇v.
+        let column = |axis: usize| DVec3::AXES[axis] + along_u * u[axis] + along_v * v[axis];
+        let moved = DMat3::from_cols(column(0), column(1), column(2));
+        let cofactor = DMat3::from_cols(
+            moved.y_axis.cross(moved.z_axis),
+            moved.z_axis.cross(moved.x_axis),
+            moved.x_axis.cross(moved.y_axis),
+        );
+        (cofactor * normal).normalize_or(normal)
+    }
+
+    /// `saturate(N) − ½`.
+    fn centred(&self, at: DVec2) -> DVec3 {
+        let [r, g, b, _] = self.tile.sample(at);
+        DVec3::new(r, g, b).clamp(DVec3::ZERO, DVec3::ONE) - 0.5
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn noise(along: Along) -> VertexNoise {
+        VertexNoise { tile: gaussian(), scale: 0.3, along, moves_normals: true }
+    }
+
+    #[test]
+    fn a_period_closes_and_begins_as_time_does() {
+        for period_secs in [0.5, 3.0, 40.0] {
+            let at = |seconds: f64| travelled(seconds, Some(period_secs));
+            assert_eq!(at(0.0), at(period_secs));
+            assert_eq!(at(0.25 * period_secs), at(7.25 * period_secs));
+            let step = 1e-6 * period_secs;
+            let speed = (at(step) - at(0.0)) / step * SECONDS_PER_TILE;
+            assert!((speed - DVec2::X).length() < 1e-4, "{speed}");
+        }
+        assert_eq!(travelled(5.0, None), DVec2::new(0.25, 0.0));
+        assert_eq!(vertex_shift(DVec2::new(0.25, 0.0)), DVec2::splat(0.25));
+    }
+
+    #[test]
+    fn far_away_is_as_exact_as_near() {
+        let near = Lookup::new([0.5, 0.5], Some(DAffine3::from_translation(DVec3::X)), DVec2::ZERO);
+        let far = DAffine3::from_translation(DVec3::new(2e6 + 1.0, 0.0, 0.0));
+        let far = Lookup::new([0.5, 0.5], Some(far), DVec2::ZERO);
+        assert_eq!(near, far);
+    }
+
+    #[test]
+    fn displaced_normals_are_those_of_the_displaced_surface() {
+        // A plane, so that it has no bend of its own.
+        let lookup = Lookup::new([0.31, 0.27], None, DVec2::new(0.13, 0.4));
+        for along in [Along::Channels, Along::Normal] {
+            let noise = noise(along);
+            let step = 1.0 / 128.0 / 0.3;
+            let mut worst = 0.0_f64;
+            for index in 0..500 {
+                let at = DVec3::new(f64::from(index) * 0.0137, f64::from(index) * 0.0071 - 2.0, 0.3);
+                let moved = |by: DVec3| noise.displaced(at + by, DVec3::Z, &lookup);
+                let along_x = moved(DVec3::X * step) - moved(DVec3::X * -step);
+                let along_y = moved(DVec3::Y * step) - moved(DVec3::Y * -step);
+                let expected = along_x.cross(along_y).normalize();
+                let found = noise.displaced_normal(at, DVec3::Z, &lookup);
+                worst = worst.max(expected.angle_between(found).to_degrees());
+            }
+            assert!(worst < 2.0, "{along:?}: off by {worst} degrees");
+        }
+    }
+}

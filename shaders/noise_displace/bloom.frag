@@ -1,0 +1,10 @@
+// The spread glow, added to the picture: it is light, and covers nothing.
+uniform sampler2D gathered;
+
+out vec4 color;
+
+void main() {
+    // Four pixels of the picture to one of the glow, counted from the first.
+    vec2 at = gl_FragCoord.xy / (4.0 * vec2(textureSize(gathered, 0)));
+    color = vec4(texture(gathered, at).rgb, 0.0);
+}

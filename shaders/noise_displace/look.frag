@@ -1,0 +1,46 @@
+// Layers of one texture that move against each other, multiplied: T = Π X·Y, then the root, then the tint.
+in vec2 texture_at;
+
+uniform sampler2D layer_noise;   // repeats
+uniform int layer_count;         // k
+uniform vec2 tiling;
+uniform vec2 tile_offset;
+uniform vec2 travelled;          // how far time has gone, times the speed
+uniform float speed;
+uniform float first_way;         // 1: the first layer goes forward
+uniform float exponent;
+uniform vec4 tint;               // linear, may be brighter than 1; A the opacity
+uniform float alpha_is_grey;
+uniform float bloom;
+uniform float threshold;
+
+layout(location = 0) out vec4 color;    // premultiplied, display-linear
+layout(location = 1) out vec4 glint;    // none of its own: it covers what lies behind
+layout(location = 2) out vec4 glow;     // premultiplied
+
+vec4 noise_at(vec2 at) {
+    vec4 texel = texture(layer_noise, at);
+    return vec4(texel.rgb, mix(texel.a, texel.r, alpha_is_grey));
+}
+
+void main() {
+    vec2 at = texture_at * tiling + tile_offset;
+    // The product as a sum of logarithms: of many layers it is too small for a number.
+    vec4 product_ln2 = vec4(0.0);
+    float way = first_way;
+    for (int index = 1; index < layer_count; index++) {
+        float share = float(index) / float(layer_count);
+        vec2 along_x = vec2(travelled.x + speed * share, travelled.y) * way;
+        vec2 along_y = vec2(travelled.y, travelled.x + speed * share) * way;
+        product_ln2 += log2(max(noise_at(at + share + along_x), 1e-30));
+        product_ln2 += log2(max(noise_at(at + share + along_y), 1e-30));
+        way = -way;
+    }
+    vec4 layered = clamp(exp2(product_ln2 * exponent), 0.0, 1.0) * tint;
+    float alpha = layered.a;
+    color = vec4(layered.rgb * alpha, alpha);
+    glint = vec4(0.0, 0.0, 0.0, alpha);
+    float brightest = max(layered.r, max(layered.g, layered.b));
+    float beyond = max(brightest - threshold, 0.0) / max(brightest, 1e-6);
+    glow = vec4(layered.rgb * (beyond * bloom * alpha), alpha);
+}
