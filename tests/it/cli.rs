@@ -207,8 +207,7 @@ fn strokes_are_listed_as_they_are_drawn() {
     let folder = Folder::new();
     let csv = |frame: &str| words(&folder.run(&["strokes", "scene.ron", "--frame", frame]).stdout);
     let (before, after) = (csv("0"), csv("2"));
-    let header =
-        "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank";
+    let header = "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank,taper,bend_deg";
     assert_eq!(before.lines().next(), Some(header));
     assert!(before.lines().nth(1).unwrap().contains("\"cube, \"\"big\"\"\""));
     let (before, after) = (angles(&before), angles(&after));

@@ -225,7 +225,7 @@ fn outline(row: &Row<'_>) -> String {
     let (upper, lower) = (bow - w, bow + w);
     let at = |x: f32, y: f32| {
         let [x, y] = bent(row, [x, y]);
-        format!("{x:.2} {y:.2}")
+        if y == 0.0 { format!("{x:.2} 0") } else { format!("{x:.2} {y:.2}") }
     };
     let start = at(-0.92 * l, -w);
     format!(
@@ -263,5 +263,39 @@ mod tests {
     fn names_with_commas_and_quotes_are_quoted() {
         assert_eq!(quoted("plain"), "plain");
         assert_eq!(quoted("a,\"b\""), "\"a,\"\"b\"\"\"");
+    }
+
+    #[test]
+    fn an_outline_is_tapered_and_bends_to_the_left() {
+        let row = |taper: f32, bend_deg: f32| Row {
+            id: 0,
+            object: "",
+            region: "",
+            layer: "",
+            x_px: 0.0,
+            y_px: 0.0,
+            depth: 1.0,
+            angle_deg: 0.0,
+            length_px: 100.0,
+            width_px: 10.0,
+            alpha: 1.0,
+            kappa: 1.0,
+            r: 0.0,
+            g: 0.0,
+            b: 0.0,
+            facing: 1.0,
+            rank: 0.5,
+            taper,
+            bend_deg,
+            bow: 0.0,
+        };
+        assert_eq!(bent(&row(0.0, 0.0), [30.0, 4.0]), [30.0, 4.0]);
+        assert_eq!(bent(&row(1.0, 0.0), [50.0, 4.0]), [50.0, 0.0]);
+        assert_eq!(bent(&row(1.0, 0.0), [-50.0, 4.0]), [-50.0, 8.0]);
+        // An eighth of a circle of this radius; up is left, and counts negative.
+        let radius = 100.0 / std::f32::consts::FRAC_PI_2;
+        let [x, y] = bent(&row(0.0, 90.0), [50.0, 0.0]);
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        assert!((x - radius * half).abs() < 1e-3 && (y + radius * (1.0 - half)).abs() < 1e-3, "{x} {y}");
     }
 }

@@ -454,8 +454,9 @@ impl Editor {
         if self.document.scene().objects.is_empty() {
             return "Drop an OBJ or a scene anywhere in the window".to_owned();
         }
-        let object =
-            self.active_object().map(|object| self.document.shown().scene.objects[object].name.clone());
+        let light = self.active_light().map(|(light, _)| light.name.clone());
+        let object = || Some(self.document.shown().scene.objects[self.active_object()?].name.clone());
+        let object = light.or_else(object);
         let object = object.as_deref().unwrap_or("an object");
         match self.session.mode {
             Mode::Arrange => match self.session.tool() {

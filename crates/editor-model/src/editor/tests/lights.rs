@@ -51,6 +51,7 @@ fn a_click_on_an_icon_selects_its_light_and_one_beside_it_does_not() {
     click(&mut editor, at_px + DVec2::new(5.0, -8.0));
     assert_eq!(selected(&editor), Some("lamp"));
     assert!(editor.gizmo(&view(&editor)).is_some_and(|gizmo| !gizmo.handles().is_empty()));
+    assert!(editor.status().starts_with("[Drag] move lamp "), "{}", editor.status());
 }
 
 #[test]
