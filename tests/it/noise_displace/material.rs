@@ -2,8 +2,8 @@
 
 use glam::Vec2;
 use impasto_core::noise_displace::perlin;
-use impasto_gl_render::Picture;
 use impasto_gl_render::context::Driver;
+use impasto_gl_render::{Picture, Renderer};
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::document::{
     Color, Light, LightKind, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, ObjectKey, Scene, Style,
@@ -29,9 +29,9 @@ fn sheet(surface: SurfaceNoise) -> Scene {
     scene
 }
 
-fn drawn(scene: Scene, frame: f64, driver: Driver) -> Picture {
+fn drawn(scene: Scene, frame: f64, renderer: &mut Renderer) -> Picture {
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(4)])).unwrap();
-    renderer(driver).render(&painting.at(frame, &FrameOptions::new([SIDE, SIDE]))).unwrap()
+    renderer.render(&painting.at(frame, &FrameOptions::new([SIDE, SIDE]))).unwrap()
 }
 
 fn srgb(linear: f64) -> f64 {
@@ -56,6 +56,7 @@ fn moments(picture: &Picture) -> [f64; 2] {
 fn layers_are_those_of_the_sources_shader_on_either_driver() {
     let tint = Color([1.0, 0.75, 0.4]);
     let tint_linear = [255u8, 191, 102].map(linear);
+    let mut renderers = [Driver::Egl, Driver::Osmesa].map(|driver| (driver, renderer(driver)));
     // Enlarged, so that no driver looks at a smaller level of the texture.
     let tiling = [0.22, 0.17];
     for (layer_count, forward) in [
@@ -82,8 +83,8 @@ fn layers_are_those_of_the_sources_shader_on_either_driver() {
             time_x: 31.0 / 24.0 / 20.0,
             reverse_factor: if forward == NoiseForward::Odd { -1.0 } else { 1.0 },
         };
-        for driver in [Driver::Egl, Driver::Osmesa] {
-            let picture = drawn(sheet(surface.clone()), 31.0, driver);
+        for (driver, renderer) in &mut renderers {
+            let picture = drawn(sheet(surface.clone()), 31.0, renderer);
             let mut worst = 0.0_f64;
             for (index, pixel) in picture.rgba8.chunks_exact(4).enumerate() {
                 let (x, y) = (index as u32 % SIDE, index as u32 / SIDE);
@@ -103,8 +104,9 @@ fn layers_are_those_of_the_sources_shader_on_either_driver() {
 
 #[test]
 fn directions_are_turned_round() {
-    let of = |forward, frame| {
-        drawn(sheet(SurfaceNoise { forward, layer_count: 3, ..Default::default() }), frame, Driver::Egl)
+    let mut renderer = renderer(Driver::Egl);
+    let mut of = |forward, frame| {
+        drawn(sheet(SurfaceNoise { forward, layer_count: 3, ..Default::default() }), frame, &mut renderer)
     };
     assert!(of(NoiseForward::Odd, 24.0) != of(NoiseForward::Even, 24.0));
     assert!(of(NoiseForward::Odd, 24.0) != of(NoiseForward::Odd, 0.0), "time moves them");
@@ -112,8 +114,9 @@ fn directions_are_turned_round() {
 
 #[test]
 fn one_layer_is_the_tint_alone_and_light_changes_nothing() {
+    let mut renderer = renderer(Driver::Egl);
     let surface = SurfaceNoise { layer_count: 1, tint: Color([0.8, 0.4, 0.2]), ..Default::default() };
-    let flat = drawn(sheet(surface.clone()), 5.0, Driver::Egl);
+    let flat = drawn(sheet(surface.clone()), 5.0, &mut renderer);
     assert!(flat.rgba8.chunks_exact(4).all(|pixel| pixel == [204, 102, 51, 255]), "{:?}", &flat.rgba8[..4]);
     let mut dark = sheet(SurfaceNoise { layer_count: 4, ..surface.clone() });
     dark.lights = vec![Light {
@@ -125,8 +128,8 @@ fn one_layer_is_the_tint_alone_and_light_changes_nothing() {
         ground: None,
         intensity: 0.1,
     }];
-    let lit = drawn(sheet(SurfaceNoise { layer_count: 4, ..surface }), 5.0, Driver::Egl);
-    assert!(lit == drawn(dark, 5.0, Driver::Egl), "light falls on what shines by itself");
+    let lit = drawn(sheet(SurfaceNoise { layer_count: 4, ..surface }), 5.0, &mut renderer);
+    assert!(lit == drawn(dark, 5.0, &mut renderer), "light falls on what shines by itself");
 }
 
 #[test]
@@ -201,41 +204,46 @@ fn what_is_within_another_body_is_seen_through_it() {
 }
 
 /// The sheet with a texture of one grey.
-fn grey(surface: SurfaceNoise, grey: u8) -> Picture {
+fn grey(surface: SurfaceNoise, grey: u8, renderer: &mut Renderer) -> Picture {
     let scene = sheet(SurfaceNoise { texture: Some("grey.png".to_owned()), ..surface });
     let loaded = shapes::loaded(scene, [shapes::sheet(4)]);
     let loaded = shared(LoadedScene::clone(&loaded), "grey.png", [grey, grey, grey, 255]);
     let painting = prepare(loaded).unwrap();
-    renderer(Driver::Egl).render(&painting.at(0.0, &FrameOptions::new([SIDE, SIDE]))).unwrap()
+    renderer.render(&painting.at(0.0, &FrameOptions::new([SIDE, SIDE]))).unwrap()
 }
 
 #[test]
 fn more_layers_are_darker_unless_the_mean_is_kept() {
+    let mut renderer = renderer(Driver::Egl);
     let g = 128.0 / 255.0_f64;
     for layer_count in [2, 4, 10, 22] {
-        let of = |mix| moments(&grey(SurfaceNoise { layer_count, mix, ..Default::default() }, 128))[0];
+        let mut of = |mix| {
+            moments(&grey(SurfaceNoise { layer_count, mix, ..Default::default() }, 128, &mut renderer))[0]
+        };
         let k = f64::from(layer_count);
         let (root, mean) = (of(NoiseMix::Root), of(NoiseMix::Mean));
         assert!((root - g.powf(2.0 * (k - 1.0) / k)).abs() < 0.01, "k {layer_count}: {root}");
         assert!((mean - g).abs() < 0.2 * g, "k {layer_count}: {mean}");
     }
     // As many as there may be, the product itself is no number any more.
-    let most = moments(&grey(SurfaceNoise { layer_count: 64, ..Default::default() }, 60))[0];
+    let most = moments(&grey(SurfaceNoise { layer_count: 64, ..Default::default() }, 60, &mut renderer))[0];
     assert!((most - (60.0 / 255.0_f64).powf(126.0 / 64.0)).abs() < 0.01, "{most}");
     // The same on noise, whose mean is a half.
-    let of = |mix| {
+    let mut of = |mix| {
         let surface = SurfaceNoise { layer_count: 10, mix, tiling: [0.8; 2], ..Default::default() };
-        moments(&drawn(sheet(surface), 0.0, Driver::Egl))[0]
+        moments(&drawn(sheet(surface), 0.0, &mut renderer))[0]
     };
-    assert!((of(NoiseMix::Mean) - 0.5).abs() < 0.1, "{}", of(NoiseMix::Mean));
-    assert!(of(NoiseMix::Root) < 0.7 * of(NoiseMix::Mean));
+    let (root, mean) = (of(NoiseMix::Root), of(NoiseMix::Mean));
+    assert!((mean - 0.5).abs() < 0.1, "{mean}");
+    assert!(root < 0.7 * mean, "{root} against {mean}");
 }
 
 #[test]
 fn many_layers_are_harder_and_other_patterns() {
+    let mut renderer = renderer(Driver::Egl);
     let contrast = |layer_count: u32| {
         let surface = SurfaceNoise { layer_count, tiling: [0.8; 2], ..Default::default() };
-        let picture = drawn(sheet(surface), 0.0, Driver::Egl);
+        let picture = drawn(sheet(surface), 0.0, &mut renderer);
         let [mean, deviation] = moments(&picture);
         (deviation / mean, picture)
     };
@@ -248,11 +256,12 @@ fn many_layers_are_harder_and_other_patterns() {
 
 #[test]
 fn alpha_may_come_from_the_noise() {
-    let see_through = |alpha| {
+    let mut renderer = renderer(Driver::Egl);
+    let mut see_through = |alpha| {
         let mut scene =
             sheet(SurfaceNoise { alpha, layer_count: 2, tint: Color([0.0; 3]), ..Default::default() });
         scene.background = Color([1.0; 3]);
-        moments(&drawn(scene, 0.0, Driver::Egl))
+        moments(&drawn(scene, 0.0, &mut renderer))
     };
     assert!(see_through(NoiseAlpha::Texture)[0] < 0.01, "the texture is opaque");
     let [mean, deviation] = see_through(NoiseAlpha::Grey);
@@ -261,12 +270,13 @@ fn alpha_may_come_from_the_noise() {
 
 #[test]
 fn what_shines_glows_round_about() {
-    let picture = |bloom: f64| {
+    let mut renderer = renderer(Driver::Egl);
+    let mut picture = |bloom: f64| {
         let surface = SurfaceNoise { layer_count: 1, intensity: 4.0, bloom, ..Default::default() };
         let mut scene = sheet(surface);
         scene.background = Color([0.0; 3]);
         scene.objects[0].keys = vec![ObjectKey { scale: 0.3, ..ObjectKey::at(0.0) }];
-        drawn(scene, 0.0, Driver::Egl)
+        drawn(scene, 0.0, &mut renderer)
     };
     let beside = |picture: &Picture| picture.rgba8[((48 * SIDE + 31) * 4) as usize];
     let far = |picture: &Picture| picture.rgba8[((48 * SIDE + 2) * 4) as usize];
@@ -277,5 +287,5 @@ fn what_shines_glows_round_about() {
     let mut scene = sheet(dull);
     scene.background = Color([0.0; 3]);
     scene.objects[0].keys = vec![ObjectKey { scale: 0.3, ..ObjectKey::at(0.0) }];
-    assert_eq!(beside(&drawn(scene, 0.0, Driver::Egl)), 0, "below the threshold nothing glows");
+    assert_eq!(beside(&drawn(scene, 0.0, &mut renderer)), 0, "below the threshold nothing glows");
 }

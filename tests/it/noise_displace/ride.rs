@@ -139,6 +139,25 @@ fn nothing_pops_over_a_loop_and_it_closes_to_the_bit() {
 }
 
 #[test]
+fn what_is_prepared_after_an_edit_is_what_is_prepared_from_nothing() {
+    let with_scale = |scale: f64| {
+        let mut scene = scene(None);
+        let noise = scene.objects[0].material.as_mut().and_then(|material| material.noise_displace.as_mut());
+        if let Some(vertex) = noise.and_then(|noise| noise.vertex.as_mut()) {
+            vertex.scale = scale;
+        }
+        scene
+    };
+    let first = shapes::loaded(with_scale(0.1), [shapes::sphere(48, 24)]);
+    let second = impasto_scene::loaded::LoadedScene { scene: with_scale(0.3), ..(*first).clone() };
+    let mut preparer = impasto_painting::Preparer::default();
+    let before = preparer.prepare(first).unwrap().at(9.0, &OPTIONS).strokes;
+    let warm = preparer.prepare(second.clone().into()).unwrap().at(9.0, &OPTIONS).strokes;
+    assert!(warm == prepare(second.into()).unwrap().at(9.0, &OPTIONS).strokes);
+    assert!(warm != before);
+}
+
+#[test]
 fn painted_strokes_are_seen_on_the_displaced_surface() {
     let painting = painted(scene(Some(2.0)));
     for driver in [Driver::Egl, Driver::Osmesa] {
