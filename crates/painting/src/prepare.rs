@@ -7,7 +7,7 @@ use std::time::Instant;
 use glam::{DAffine3, Vec3};
 use impasto_core::direction::singularities::Singularity;
 use impasto_core::sampling::Particle;
-use impasto_scene::document::{Lens, Reference, RotatingStrokes, Scene, Solver, Style};
+use impasto_scene::document::{Lens, RotatingStrokes, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::LayerKind;
 use impasto_scene::{motion, presets};
@@ -22,7 +22,7 @@ use crate::lights;
 use crate::noise_displace::{BodyNoise, BodyShape, NoiseInputs};
 use crate::order::{OrderEntry, OrderInputs};
 use crate::parts::Cap;
-use crate::references::{BodyReferences, ReferencePose, SceneReferences};
+use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
@@ -392,7 +392,7 @@ fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
     let settings = settings(scene);
     let rules = regions::rules(scene);
     let (palettes, palette_of_rule) = regions::palettes(&rules);
-    let references = scene_references(scene);
+    let references = SceneReferences::of(scene);
     let bodies = kept.iter().zip(&scene.objects).enumerate();
     let bodies = bodies.map(|(index, (kept, object))| PreparedBody {
         hidden: object.hidden,
@@ -440,33 +440,6 @@ fn surface_inputs(loaded: &LoadedScene) -> Result<Vec<SurfaceInputs>, PrepareErr
             })
         })
         .collect()
-}
-
-/// The scene's own reference, the further ones, and those of regions.
-fn scene_references(scene: &Scene) -> SceneReferences {
-    let pose = |reference: &Reference| {
-        let (camera, frame) = motion::referred_to(scene, reference);
-        let size_px = [scene.size.0, scene.size.1];
-        ReferencePose { view: PictureView { pose: camera, size_px }, poses: motion::poses_at(scene, frame) }
-    };
-    let own = std::iter::once(&scene.reference);
-    let mut poses: Vec<ReferencePose> = own.chain(&scene.further_references).map(pose).collect();
-    let mut of_rule = Vec::with_capacity(scene.regions.len() + 1);
-    for region in &scene.regions {
-        of_rule.push(match &region.reference {
-            Some(reference) => {
-                let stated = pose(reference);
-                let known = poses.iter().position(|known| *known == stated);
-                known.unwrap_or_else(|| {
-                    poses.push(stated);
-                    poses.len() - 1
-                }) as u16
-            }
-            None => 0,
-        });
-    }
-    of_rule.push(0);
-    SceneReferences { poses, further: scene.further_references.len(), of_rule }
 }
 
 /// The views in which the scene is looked at in advance: the reference, and up to 17 evenly over the timeline.

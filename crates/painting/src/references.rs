@@ -5,6 +5,8 @@ use impasto_core::ScreenMap;
 use impasto_core::lift::{Lift, turntable_axes};
 use impasto_core::presence::smoothstep;
 use impasto_core::screen_map::facing;
+use impasto_scene::document::{Reference, Scene};
+use impasto_scene::motion;
 
 use crate::view::PictureView;
 
@@ -31,6 +33,36 @@ pub(crate) struct SceneReferences {
 }
 
 impl SceneReferences {
+    /// The scene's own reference, the further ones, and those of regions.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let pose = |reference: &Reference| {
+            let (camera, frame) = motion::referred_to(scene, reference);
+            let size_px = [scene.size.0, scene.size.1];
+            ReferencePose {
+                view: PictureView { pose: camera, size_px },
+                poses: motion::poses_at(scene, frame),
+            }
+        };
+        let own = std::iter::once(&scene.reference);
+        let mut poses: Vec<ReferencePose> = own.chain(&scene.further_references).map(pose).collect();
+        let mut of_rule = Vec::with_capacity(scene.regions.len() + 1);
+        for region in &scene.regions {
+            of_rule.push(match &region.reference {
+                Some(reference) => {
+                    let stated = pose(reference);
+                    let known = poses.iter().position(|known| *known == stated);
+                    known.unwrap_or_else(|| {
+                        poses.push(stated);
+                        poses.len() - 1
+                    }) as u16
+                }
+                None => 0,
+            });
+        }
+        of_rule.push(0);
+        Self { poses, further: scene.further_references.len(), of_rule }
+    }
+
     /// The scene's own.
     pub(crate) fn own(&self) -> &ReferencePose {
         &self.poses[0]
