@@ -105,7 +105,7 @@ void main() {
 #ifdef SHAPED
     vec4 own_form = vec4(0.0);
     if (shape != vec2(0.0)) {
-        own_form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / size.x);
+        own_form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / max(size.x, 1e-6));
         mark_at = corner_of_box(corner, own_form, reach.w);
         from_center_px = along * mark_at.x + vec2(-along.y, along.x) * mark_at.y;
         // Where it is narrower, it is looked at more coarsely.

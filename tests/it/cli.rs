@@ -189,15 +189,15 @@ fn a_wrong_command_line_ends_with_2() {
 fn angles(text: &str) -> BTreeMap<(String, String), f64> {
     // The object's name holds a comma and quotes, so fields are counted from the end.
     let row = |line: &str| -> ((String, String), f64) {
-        let fields: Vec<&str> = line.rsplitn(14, ',').collect();
+        let fields: Vec<&str> = line.rsplitn(16, ',').collect();
         let id = line.split(',').next().unwrap().to_owned();
-        // All numbers but the id stand in the last thirteen fields.
-        for number in &fields[..13] {
+        // All numbers but the id stand in the last fifteen fields.
+        for number in &fields[..15] {
             assert!(number.parse::<f64>().is_ok_and(f64::is_finite), "{number:?} in {line}");
         }
-        // From the end: rank 0, facing 1, b g r 2-4, kappa 5, alpha 6, width 7, length 8, angle 9.
-        let layer = fields[13].rsplit(',').next().unwrap();
-        ((id, format!("{layer} {}", fields[8])), fields[9].parse().unwrap())
+        // From the end: bend 0, taper 1, rank 2, facing 3, b g r 4-6, kappa 7, alpha 8, width 9, length 10, angle 11.
+        let layer = fields[15].rsplit(',').next().unwrap();
+        ((id, format!("{layer} {}", fields[10])), fields[11].parse().unwrap())
     };
     text.lines().skip(1).map(row).collect()
 }
