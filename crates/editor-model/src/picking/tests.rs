@@ -160,7 +160,7 @@ fn what_is_hidden_is_looked_through() {
     assert_eq!(picker.pick(&ray, &poses, |_| false), None);
     assert_eq!(picker.update(&bodies), 0, "nothing changed");
     assert_eq!(picker.update(&[bodies[1].clone(), (surface(heap(3)), 0.0)]), 1);
-    assert_eq!(picker.update(&[]), 0);
+    assert_eq!(picker.update::<f64>(&[]), 0);
     assert_eq!(picker.pick(&ray, &poses, |_| true), None);
 }
 
