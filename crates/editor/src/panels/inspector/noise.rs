@@ -19,8 +19,12 @@ struct Setting<T> {
     of: fn(&mut T) -> &mut f64,
 }
 
-/// A choice of a part of the noise: name and effect, the words, which one is chosen, how it is set.
+/// The picture that a part of the noise names.
+type NameOf<T> = fn(&mut T) -> &mut Option<String>;
+
+/// A choice of a part of the noise: its label, name and effect, the words, which one is chosen, how it is set.
 struct Choice<T> {
+    label: &'static str,
     name: &'static str,
     effect: &'static str,
     words: &'static [&'static str],
@@ -122,8 +126,7 @@ fn choices<T: Clone>(
 ) {
     for choice in choices {
         let tip = Tip { name: choice.name, effect: choice.effect, ..Tip::default() };
-        let label = choice.name.trim_start_matches("Noise ");
-        let picked = row(ui, label, |ui| pick(ui, tip, choice.words, (choice.chosen)(now)));
+        let picked = row(ui, choice.label, |ui| pick(ui, tip, choice.words, (choice.chosen)(now)));
         if let Some(picked) = picked {
             let mut next = was.clone();
             (choice.set)(&mut next, picked);
@@ -203,6 +206,7 @@ fn vertex_numbers() -> [Setting<VertexNoise>; 3] {
 
 const VERTEX_CHOICES: [Choice<VertexNoise>; 3] = [
     Choice {
+        label: "Space",
         name: "Noise space",
         effect: "In the world, a thing that moves goes through the noise; in the object, the noise goes with it.",
         words: &["World", "Object"],
@@ -210,6 +214,7 @@ const VERTEX_CHOICES: [Choice<VertexNoise>; 3] = [
         set: |noise, picked| noise.space = [NoiseSpace::World, NoiseSpace::Local][picked],
     },
     Choice {
+        label: "Along",
         name: "Noise along",
         effect: "Each axis is moved by a channel of the noise, or the surface in and out along its normals.",
         words: &["Axes", "Normals"],
@@ -217,6 +222,7 @@ const VERTEX_CHOICES: [Choice<VertexNoise>; 3] = [
         set: |noise, picked| noise.along = [NoiseAlong::Channels, NoiseAlong::Normal][picked],
     },
     Choice {
+        label: "Shading",
         name: "Noise shading",
         effect: "Light falls on the surface as it is at rest, or as it is moved.",
         words: &["At rest", "As moved"],
@@ -273,6 +279,7 @@ fn surface_numbers() -> [Setting<SurfaceNoise>; 9] {
 
 const SURFACE_CHOICES: [Choice<SurfaceNoise>; 3] = [
     Choice {
+        label: "Forward",
         name: "Noise forward",
         effect: "Which layers move forward; the others move back.",
         words: &["Odd layers", "Even layers"],
@@ -280,6 +287,7 @@ const SURFACE_CHOICES: [Choice<SurfaceNoise>; 3] = [
         set: |noise, picked| noise.forward = [NoiseForward::Odd, NoiseForward::Even][picked],
     },
     Choice {
+        label: "Mix",
         name: "Noise mix",
         effect: "The root gets darker with more layers; the mean stays as light as the texture.",
         words: &["Root", "Mean"],
@@ -287,6 +295,7 @@ const SURFACE_CHOICES: [Choice<SurfaceNoise>; 3] = [
         set: |noise, picked| noise.mix = [NoiseMix::Root, NoiseMix::Mean][picked],
     },
     Choice {
+        label: "Alpha",
         name: "Noise alpha",
         effect: "See-through where the texture is, or where the noise is dark.",
         words: &["Of the texture", "Of its grey"],
