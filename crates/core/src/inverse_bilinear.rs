@@ -3,8 +3,10 @@
 //! With q = p − p₀, b₁ = p₁ − p₀, b₂ = p₂ − p₀, b₃ = p₀ − p₁ − p₂ + p₃ (how far the quad is from a parallelogram) and the
 //! wedge a∧b = a.x b.y − a.y b.x, a point p = p₀ + b₁u + b₂v + b₃uv has
 //!
-//!     A v² + B v + C = 0,   A = b₂∧b₃,   B = b₃∧q − b₁∧b₂,   C = b₁∧q
-//!     v = 2C / (−B + s √(B² − 4AC)),   u = (q − b₂v) / (b₁ + b₃v)
+//! ```text
+//! A v² + B v + C = 0,   A = b₂∧b₃,   B = b₃∧q − b₁∧b₂,   C = b₁∧q
+//! v = 2C / (−B + s √(B² − 4AC)),   u = (q − b₂v) / (b₁ + b₃v)
+//! ```
 //!
 //! s is the sign of the quad's area, on a convex quad that of b₁∧b₂. This form of the root holds where A is 0 (rectangles,
 //! parallelograms, trapezoids) and for either winding; where its denominator is a difference of like numbers, the same root

@@ -135,6 +135,9 @@ mod tests {
     /// Sheets that only ever show one side.
     const OPEN: [&str; 8] = ["cloth", "floor", "hills", "seal", "sky", "valley", "wall", "water"];
 
+    /// Billows that touch along an edge: there it is walked twice in each direction.
+    const TOUCHING: [&str; 2] = ["blast_fire", "blast_smoke"];
+
     /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
     #[test]
     fn bodies_are_closed_and_wind_outwards() {
@@ -153,7 +156,9 @@ mod tests {
             }
             assert!(volume > 0.0, "{} is inside out", mesh.name);
             for (&(from, to), &count) in &edges {
-                assert!(count == 1 && edges.get(&(to, from)) == Some(&1), "{}: edge {from}-{to}", mesh.name);
+                let most = if TOUCHING.contains(&mesh.name) { 2 } else { 1 };
+                let back = edges.get(&(to, from));
+                assert!(count <= most && back == Some(&count), "{}: edge {from}-{to}", mesh.name);
             }
         }
     }
