@@ -61,7 +61,7 @@ fn at_key(translation: [f64; 3]) -> Vec<ObjectKey> {
 }
 
 #[test]
-fn vertices_move_as_in_the_sources_shader() {
+fn row_4_vertices_move_as_in_the_sources_shader() {
     for space in [NoiseSpace::World, NoiseSpace::Local] {
         let noise = VertexNoise { space, value: [0.37, 0.21], scale: 0.4, ..Default::default() };
         let mut scene = ball(moved_by(noise));
@@ -85,7 +85,7 @@ fn vertices_move_as_in_the_sources_shader() {
 }
 
 #[test]
-fn a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
+fn row_2_a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
     for (space, changes) in [(NoiseSpace::World, true), (NoiseSpace::Local, false)] {
         let scene = || ball(moved_by(VertexNoise { space, ..Default::default() }));
         let mut there = scene();
@@ -95,7 +95,7 @@ fn a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
 }
 
 #[test]
-fn time_scrolls_the_texture() {
+fn row_3_time_scrolls_the_texture() {
     // 24 frames are 1/20 of the texture: as if every place were 0.05 / NV further along X and Y.
     let noise = VertexNoise { space: NoiseSpace::World, value: [0.1, 0.2], ..Default::default() };
     let scene = || ball(moved_by(noise.clone()));
@@ -109,7 +109,7 @@ fn time_scrolls_the_texture() {
 }
 
 #[test]
-fn a_half_taken_away_leaves_no_drift() {
+fn row_4_a_half_taken_away_leaves_no_drift() {
     // A sheet that covers the texture once.
     let noise = VertexNoise { space: NoiseSpace::Local, value: [0.5, 0.5], scale: 0.4, ..Default::default() };
     let mut scene = ball(moved_by(noise));
@@ -124,7 +124,7 @@ fn a_half_taken_away_leaves_no_drift() {
 }
 
 #[test]
-fn a_greater_value_is_a_busier_motion() {
+fn row_5_a_greater_value_is_a_busier_motion() {
     // The mean difference of neighbours, over the mean size.
     let busy = |value: f64| {
         let moves = moves(ball(moved_by(VertexNoise { value: [value; 2], ..Default::default() })), 0.0);
@@ -135,7 +135,7 @@ fn a_greater_value_is_a_busier_motion() {
 }
 
 #[test]
-fn the_scale_is_the_amplitude() {
+fn row_6_the_scale_is_the_amplitude() {
     let of = |scale: f64| moves(ball(moved_by(VertexNoise { scale, ..Default::default() })), 5.0);
     let (small, large) = (of(0.1), of(0.25));
     let worst = small.iter().zip(&large).map(|(a, b)| (*a * 2.5).distance(*b)).fold(0.0, f64::max);

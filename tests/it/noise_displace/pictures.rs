@@ -25,7 +25,7 @@ fn golden(name: &str) -> Vec<u8> {
 }
 
 #[test]
-fn shipped_scenes_look_as_they_did_on_either_driver() {
+fn row_10_three_bodies_look_as_they_did_on_either_driver() {
     for (scene, frame) in [("noise_displace", 12.0), ("explosion", 30.0)] {
         let path = root().join(format!("scenes/{scene}.ron"));
         let loaded = load(&path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));

@@ -79,9 +79,6 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     period(ui, asker, [&shown, &stored_noise], &set);
 }
 
-/// Where a noise keeps the name of its picture.
-type NameOf<T> = fn(&mut T) -> &mut Option<String>;
-
 /// A picture in place of the noise of the house; an empty name brings that back.
 fn texture<T: Clone>(
     ui: &mut Ui,
