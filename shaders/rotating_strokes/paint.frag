@@ -1,6 +1,6 @@
 // Paint where the brush mark is, near its own body: colour and height in one go. Both are laid over what is there.
 #ifdef SHAPED
-#include "shared/inverse_bilinear.glsl"
+#include "shared/stroke_shape.glsl"
 #endif
 in vec2 mark_at;
 in vec2 from_center_px;
@@ -51,33 +51,14 @@ float past_body(vec2 here, float tint) {
     return on_own;
 }
 
-#ifdef SHAPED
-// Px along a bent stroke and off its middle line, which is an arc.
-vec2 straightened(vec2 at_px) {
-    float per_px = form.w;
-    if (abs(per_px) < 1e-6) return at_px;
-    vec2 from_middle = vec2(per_px * at_px.x, 1.0 - per_px * at_px.y);
-    float off_px = (2.0 * at_px.y - per_px * dot(at_px, at_px)) / (1.0 + length(from_middle));
-    return vec2(atan(from_middle.x, from_middle.y) / per_px, off_px);
-}
-
-// Where a pixel lies on the mark: a bent stroke straightened is a trapezoid, its mark spread evenly between its sides.
-vec2 on_mark(vec2 at_px) {
-    vec2 start = vec2(leaning, 1.0) * form.y * (1.0 + form.z);
-    vec2 end = vec2(leaning, 1.0) * form.y * (1.0 - form.z);
-    vec2 half_along = vec2(form.x, 0.0);
-    return inverse_bilinear(straightened(at_px), -half_along - start, half_along - end, -half_along + start, half_along + end);
-}
-#endif
-
 void main() {
     vec2 quad_at = mark_at;
     float level = mark.y;
 #ifdef SHAPED
     if (form.x > 0.0) {
-        quad_at = on_mark(mark_at);
+        quad_at = on_mark(mark_at, form, leaning);
         if (any(lessThan(quad_at, vec2(0.0))) || any(greaterThan(quad_at, vec2(1.0)))) discard;
-        level = max(level - log2(max(1.0 + form.z * (1.0 - 2.0 * quad_at.x), 0.01)), 0.0);
+        level = level_where_narrow(level, quad_at.x, form.z);
     }
 #endif
     float u = quad_at.x;

@@ -1,5 +1,8 @@
 // Four corners of a stroke: a billboard of constant size on the screen, turned in pixels.
 #include "shared/oklab.glsl"
+#ifdef SHAPED
+#include "shared/stroke_shape.glsl"
+#endif
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
@@ -44,23 +47,6 @@ vec4 paint_below(vec2 center_px, float spread_px) {
         sum += texelFetch(below, texel, 0);
     }
     return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
-}
-#endif
-
-#ifdef SHAPED
-// A corner of the box round a tapered and bent stroke, px along and across its middle.
-vec2 corner_of_box(vec2 corner, vec4 of, float skew) {
-    float wide = of.y * (1.0 + abs(of.z));
-    float reach = of.x + abs(skew) * wide;
-    float per_px = abs(of.w);
-    if (per_px < 1e-6) return corner * vec2(reach, wide);
-    float half_angle = min(per_px * reach, 3.14159265);
-    float radius = 1.0 / per_px;
-    float along = (radius + wide) * (half_angle < 1.57079633 ? sin(half_angle) : 1.0);
-    float rise = sin(0.5 * half_angle);
-    float inward = max(2.0 * radius * rise * rise + wide * abs(cos(half_angle)), wide);
-    float across = of.w > 0.0 ? mix(-wide, inward, corner.y * 0.5 + 0.5) : mix(-inward, wide, corner.y * 0.5 + 0.5);
-    return vec2(corner.x * along, across);
 }
 #endif
 

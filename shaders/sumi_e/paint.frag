@@ -1,10 +1,13 @@
 // Ink where the brush mark is, near its own body. The darkest of what is laid stays; how often is counted in alpha.
+#include "shared/stroke_shape.glsl"
 in vec2 mark_at;
 in vec2 from_center_px;
 flat in vec4 ink;
 flat in vec4 mark;
 flat in vec4 body;
 flat in vec2 own;
+flat in vec4 form;
+flat in float leaning;
 
 uniform sampler2DArray brush_marks; // paint, height, tint
 uniform sampler2D depth_and_id;
@@ -38,10 +41,17 @@ float past_body(vec2 here, float tint) {
 }
 
 void main() {
-    float u = mark_at.x;
-    vec2 at = vec2(u, 0.5 + (mark_at.y - 0.5) * body.w);
+    vec2 quad_at = mark_at;
+    float level = mark.y;
+    if (form.x > 0.0) {
+        quad_at = on_mark(mark_at, form, leaning);
+        if (any(lessThan(quad_at, vec2(0.0))) || any(greaterThan(quad_at, vec2(1.0)))) discard;
+        level = level_where_narrow(level, quad_at.x, form.z);
+    }
+    float u = quad_at.x;
+    vec2 at = vec2(u, 0.5 + (quad_at.y - 0.5) * body.w);
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
-    vec3 texel = textureLod(brush_marks, vec3(at, mark.x), mark.y).rgb;
+    vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;
     // Fei bai: as the brush runs dry, its hairs part and the paper flies through.
     float cut = mix(ink.a, 1.0 - 0.3 * (1.0 - ink.a), body.y * smoothstep(0.25, 1.0, u));
     float alpha = smoothstep(cut - mark.z, cut + mark.z, texel.r);

@@ -1,4 +1,5 @@
 // Four corners of a stroke of ink: a billboard of constant size on the screen, turned in pixels.
+#include "shared/stroke_shape.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
 layout(location = 2) in uvec4 marks;         // random bits, body id, albedo, mark
@@ -7,17 +8,20 @@ layout(location = 4) in vec4 normal_and_bend; // world space, half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
 layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, how dark
+layout(location = 8) in vec2 shape;          // taper, bend in radians
 
 uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
 uniform float dryness;           // of the scene
 
-out vec2 mark_at;
+out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
 out vec2 from_center_px;
 flat out vec4 ink;               // what it takes away, and the height at which the mark is cut off
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bend
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
+flat out vec4 form;              // see shared/stroke_shape.glsl
+flat out float leaning;          // skew
 
 const float MARGIN = 1.0 / 0.84;
 const float BYTE = 1.0 / 255.0;
@@ -39,7 +43,16 @@ void main() {
         (along * corner.x * size.x + (vec2(-along.y, along.x) + along * reach.w) * corner.y * size.y)
         * 0.5 * MARGIN;
     mark_at = corner * 0.5 + 0.5;
-    float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
+    float level = log2(mark_rows / (1.05 * size.y * MARGIN));
+    form = vec4(0.0);
+    leaning = reach.w;
+    if (shape != vec2(0.0)) {
+        form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / max(size.x, 1e-6));
+        mark_at = corner_of_box(corner, form, leaning);
+        from_center_px = along * mark_at.x + vec2(-along.y, along.x) * mark_at.y;
+    } else {
+        level = max(level, 0.0);
+    }
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bend.w);
     // One brush in three runs dry on the way.
     float runs_dry = float((marks.x >> 8) & 255u) * BYTE;

@@ -13,6 +13,7 @@ mod editor_playing;
 mod editor_render;
 mod editor_script;
 mod editor_window;
+mod goldens;
 mod guides;
 mod horn;
 mod hostile_directions;

@@ -1,12 +1,13 @@
-//! Brush marks on the GPU: every mark of every brush a layer of one array, with levels, so that small strokes show no comb.
+//! What strokes of any style are made of on the GPU: their records as inputs of shaders, and brush marks: every mark of every brush
+//! a layer of one array, with levels, so that small strokes show no comb.
 
 use std::sync::Arc;
 
 use impasto_core::brush::{SIZE, VARIANTS};
-use impasto_painting::frame::Brushes;
+use impasto_painting::frame::{Brushes, Stroke};
 use rayon::prelude::*;
 
-use crate::gl::{Format, GlError, Gpu, Texture};
+use crate::gl::{Attribute, Buffer, Format, GlError, Gpu, Texture};
 
 /// The marks of the brushes of some frame, kept while frames use the same.
 pub(crate) struct Marks {
@@ -78,6 +79,34 @@ fn halved(texels: &[Texel], size: [usize; 2], half: [usize; 2]) -> Vec<Texel> {
         }
     }
     smaller
+}
+
+/// The fields of [`Stroke`] as shader inputs, from stroke `first` on.
+pub(crate) fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribute<'_>> {
+    let stride = size_of::<Stroke>() as i32;
+    let input = |location: u32, components: i32, offset: usize, integer: bool| Attribute {
+        location,
+        buffer,
+        components,
+        integer,
+        stride_bytes: stride,
+        offset_bytes: first * stride + offset as i32,
+        per_instance,
+    };
+    vec![
+        input(0, 4, std::mem::offset_of!(Stroke, center_px), false),
+        input(1, 4, std::mem::offset_of!(Stroke, length_px), false),
+        input(2, 4, std::mem::offset_of!(Stroke, bits), true),
+        input(3, 2, std::mem::offset_of!(Stroke, paint), true),
+        input(4, 4, std::mem::offset_of!(Stroke, normal_in_world), false),
+        input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
+    ]
+}
+
+/// The shape of strokes from number `first` on, beside another of their inputs.
+pub(crate) fn shape_input<'a>(beside: &Attribute<'a>, first: i32) -> Attribute<'a> {
+    let offset = first * size_of::<Stroke>() as i32 + std::mem::offset_of!(Stroke, taper) as i32;
+    Attribute { location: 8, components: 2, offset_bytes: offset, ..*beside }
 }
 
 #[cfg(test)]

@@ -279,8 +279,14 @@ impl ReferencePass {
         Ok(lights)
     }
 
+    /// Makes at once every program that otherwise waits until it is needed.
+    pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
+        self.ready_drafts()?;
+        self.noise.ready_all()
+    }
+
     /// Makes what drafts need, unless it is there.
-    pub(crate) fn ready_drafts(&mut self) -> Result<(), GlError> {
+    fn ready_drafts(&mut self) -> Result<(), GlError> {
         if self.draft_light.is_none() {
             let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
             self.draft_light = Some(Program::new(&self.gpu, &[SHARED, REFERENCE], &source)?);

@@ -135,11 +135,11 @@ impl Renderer {
         let styles = [FrameStyle::RotatingStrokes, FrameStyle::SumiE, FrameStyle::Reference];
         let made = (|| {
             let mut reference = ReferencePass::new(&gpu)?;
-            reference.ready_drafts()?;
+            reference.ready_all()?;
             let mut opened = HashMap::new();
             for style in styles {
                 let mut made = styles::open(&gpu, style)?;
-                made.ready_drafts()?;
+                made.ready_all()?;
                 opened.insert(style, made);
             }
             Ok::<_, GlError>((reference, opened, LightBillboards::new(&gpu)?))

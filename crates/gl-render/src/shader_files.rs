@@ -51,6 +51,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/lens.glsl",
     "shared/oklab.glsl",
     "shared/inverse_bilinear.glsl",
+    "shared/stroke_shape.glsl",
 ];
 
 /// Bodies that noise displaces and colours.

@@ -103,6 +103,14 @@ impl NoiseDisplace {
         Ok(())
     }
 
+    /// Makes at once every program that otherwise waits until it is needed.
+    pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
+        self.variants = Some(Variants::new(&self.gpu)?);
+        self.programs = Some(Programs::new(&self.gpu)?);
+        self.bloom = Some(Bloom::new(&self.gpu, [1, 1])?);
+        Ok(())
+    }
+
     fn upload(&mut self, tile: Arc<Tile>) -> Result<(), GlError> {
         if self.tile(&tile).is_some() {
             return Ok(());

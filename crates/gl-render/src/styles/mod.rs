@@ -35,8 +35,8 @@ pub(crate) trait Style {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt>;
 
-    /// Makes at once what drafts need, which otherwise waits for the first of them.
-    fn ready_drafts(&mut self) -> Result<(), GlError> {
+    /// Makes at once every program that otherwise waits until it is needed.
+    fn ready_all(&mut self) -> Result<(), GlError> {
         Ok(())
     }
 

@@ -19,7 +19,7 @@ use crate::gl::{
     Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
     Records, Texture, VertexArray, Vertices,
 };
-use crate::marks::Marks;
+use crate::marks::{Marks, shape_input, stroke_inputs};
 use crate::reference::{LENS_UNIFORMS, LensSetup};
 use crate::watch::Watch;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
@@ -145,6 +145,15 @@ impl RotatingStrokes {
         })
     }
 
+    /// The programs of a quality; makes those of drafts when they are first asked for.
+    fn ready(&mut self, quality: Quality) -> Result<&mut StrokePrograms, GlError> {
+        Ok(match (quality, &mut self.draft) {
+            (Quality::Exact, _) => &mut self.exact,
+            (Quality::Draft, Some(draft)) => draft,
+            (Quality::Draft, none) => none.insert(StrokePrograms::new(&self.gpu, quality)?),
+        })
+    }
+
     fn programs(&self, quality: Quality) -> &StrokePrograms {
         match quality {
             Quality::Exact => &self.exact,
@@ -235,13 +244,7 @@ impl RotatingStrokes {
         // A layer without shaped strokes is drawn as if there were none.
         let program = match &programs.shaped_paint {
             Some(shaped) if shaped_strokes => {
-                inputs.push(Attribute {
-                    location: 8,
-                    components: 2,
-                    offset_bytes: first * size_of::<Stroke>() as i32
-                        + std::mem::offset_of!(Stroke, taper) as i32,
-                    ..inputs[0]
-                });
+                inputs.push(shape_input(&inputs[0], first));
                 shaped
             }
             _ => &programs.paint,
@@ -339,9 +342,10 @@ impl RotatingStrokes {
 }
 
 impl Style for RotatingStrokes {
-    fn ready_drafts(&mut self) -> Result<(), GlError> {
-        if self.draft.is_none() {
-            self.draft = Some(StrokePrograms::new(&self.gpu, Quality::Draft)?);
+    fn ready_all(&mut self) -> Result<(), GlError> {
+        let gpu = self.gpu.clone();
+        for quality in [Quality::Exact, Quality::Draft] {
+            self.ready(quality)?.make_shaped(&gpu, quality)?;
         }
         Ok(())
     }
@@ -360,15 +364,10 @@ impl Style for RotatingStrokes {
         if !self.targets.as_ref().is_some_and(fits) {
             self.targets = Some(Targets::new(&self.gpu, frame.size_px, block_px)?);
         }
-        if frame.quality == Quality::Draft {
-            self.ready_drafts()?;
-        }
+        let gpu = self.gpu.clone();
+        let programs = self.ready(frame.quality)?;
         if frame.strokes.iter().any(Stroke::is_shaped) {
-            let programs = match (frame.quality, &mut self.draft) {
-                (Quality::Draft, Some(draft)) => draft,
-                _ => &mut self.exact,
-            };
-            programs.make_shaped(&self.gpu, frame.quality)?;
+            programs.make_shaped(&gpu, frame.quality)?;
         }
         self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
         self.find_detail(input, watch)?;
@@ -421,26 +420,4 @@ fn palettes(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
     texels.resize(texels.len().max(PALETTE), [0.0; 4]);
     let size_px = [PALETTE as u32, (texels.len() / PALETTE) as u32];
     Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))
-}
-
-/// The fields of [`Stroke`] as shader inputs, from stroke `first` on.
-fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribute<'_>> {
-    let stride = size_of::<Stroke>() as i32;
-    let input = |location: u32, components: i32, offset: usize, integer: bool| Attribute {
-        location,
-        buffer,
-        components,
-        integer,
-        stride_bytes: stride,
-        offset_bytes: first * stride + offset as i32,
-        per_instance,
-    };
-    vec![
-        input(0, 4, std::mem::offset_of!(Stroke, center_px), false),
-        input(1, 4, std::mem::offset_of!(Stroke, length_px), false),
-        input(2, 4, std::mem::offset_of!(Stroke, bits), true),
-        input(3, 2, std::mem::offset_of!(Stroke, paint), true),
-        input(4, 4, std::mem::offset_of!(Stroke, normal_in_world), false),
-        input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
-    ]
 }

@@ -210,6 +210,12 @@ impl SumiE {
 }
 
 impl Style for SumiE {
+    fn ready_all(&mut self) -> Result<(), GlError> {
+        self.source = Some(SourcePrograms::new(&self.gpu)?);
+        self.painter = Some(PainterPrograms::new(&self.gpu)?);
+        Ok(())
+    }
+
     fn draw(
         &mut self,
         input: &StyleInput<'_>,

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use impasto_core::{brush, color};
 use impasto_painting::Frame;
-use impasto_painting::frame::{LayerRun, Stroke, SumiE as Settings};
+use impasto_painting::frame::{LayerRun, SumiE as Settings};
 
 use super::programs::PainterPrograms;
 use super::targets::PainterTargets;
@@ -11,7 +11,7 @@ use crate::gl::{
     Attribute, Blend, Buffer, BufferUse, DrawState, Format, GlError, Gpu, Halt, Records, Texture,
     VertexArray, Vertices,
 };
-use crate::marks::Marks;
+use crate::marks::{Marks, shape_input, stroke_inputs};
 use crate::reference::{LENS_UNIFORMS, LensSetup};
 use crate::styles::StyleInput;
 use crate::watch::Watch;
@@ -122,6 +122,7 @@ impl InkStrokes {
         let frame = input.frame;
         let first = run.first as i32;
         let mut inputs = stroke_inputs(&self.strokes, first, true);
+        inputs.push(shape_input(&inputs[0], first));
         for (location, offset) in [(6, 0), (7, 16)] {
             inputs.push(Attribute {
                 location,
@@ -174,26 +175,4 @@ fn pigments(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
     texels.resize(texels.len().max(PALETTE), [0.0; 4]);
     let size_px = [PALETTE as u32, (texels.len() / PALETTE) as u32];
     Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))
-}
-
-/// The fields of [`Stroke`] as shader inputs, from stroke `first` on.
-fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribute<'_>> {
-    let stride = size_of::<Stroke>() as i32;
-    let input = |location: u32, components: i32, offset: usize, integer: bool| Attribute {
-        location,
-        buffer,
-        components,
-        integer,
-        stride_bytes: stride,
-        offset_bytes: first * stride + offset as i32,
-        per_instance,
-    };
-    vec![
-        input(0, 4, std::mem::offset_of!(Stroke, center_px), false),
-        input(1, 4, std::mem::offset_of!(Stroke, length_px), false),
-        input(2, 4, std::mem::offset_of!(Stroke, bits), true),
-        input(3, 2, std::mem::offset_of!(Stroke, paint), true),
-        input(4, 4, std::mem::offset_of!(Stroke, normal_in_world), false),
-        input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
-    ]
 }
