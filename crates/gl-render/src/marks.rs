@@ -81,6 +81,23 @@ fn halved(texels: &[Texel], size: [usize; 2], half: [usize; 2]) -> Vec<Texel> {
     smaller
 }
 
+/// Bytes of what the resolve pass of a style keeps of a stroke: its colour and presence, then what else the style found.
+pub(crate) const RESOLVED_BYTES: usize = 32;
+
+/// What was resolved of strokes from number `first` on, one for each billboard.
+pub(crate) fn resolved_inputs(resolved: &Buffer, first: i32) -> [Attribute<'_>; 2] {
+    let stride = RESOLVED_BYTES as i32;
+    [(6, 0), (7, 16)].map(|(location, offset)| Attribute {
+        location,
+        buffer: resolved,
+        components: 4,
+        integer: false,
+        stride_bytes: stride,
+        offset_bytes: first * stride + offset,
+        per_instance: true,
+    })
+}
+
 /// The fields of [`Stroke`] as shader inputs, from stroke `first` on.
 pub(crate) fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribute<'_>> {
     let stride = size_of::<Stroke>() as i32;

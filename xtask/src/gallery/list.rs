@@ -45,11 +45,15 @@ const fn sweep(
     Picture { name, view, own_size: false, columns, panels }
 }
 
-const fn of_the_sky(
+/// Blades of grass that are broad enough to be looked at.
+const BROAD: (&str, &str) = ("regions.grass.strokes.width_px", "18");
+
+const fn of_the_meadow(
     name: &'static str,
+    crop: [usize; 4],
     panels: &'static [&'static [(&'static str, &'static str)]],
 ) -> Picture {
-    let view = View::Scene { scene: "meadow", frame: 0, crop: Some([820, 0, 360, 270]) };
+    let view = View::Scene { scene: "meadow", frame: 0, crop: Some(crop) };
     Picture { name, view, own_size: false, columns: 3, panels }
 }
 
@@ -68,16 +72,18 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("fish", "fish", 0),
     whole("falling_log", "falling_log", 12),
     whole("meadow", "meadow", 0),
-    of_the_sky(
+    of_the_meadow(
         "stroke_taper",
+        [760, 560, 360, 160],
         &[
-            &[("regions.sky.strokes.taper", "0")],
-            &[("regions.sky.strokes.taper", "0.6")],
-            &[("regions.sky.strokes.taper", "1")],
+            &[("regions.grass.strokes.taper", "0"), BROAD],
+            &[("regions.grass.strokes.taper", "0.6"), BROAD],
+            &[("regions.grass.strokes.taper", "1"), BROAD],
         ],
     ),
-    of_the_sky(
+    of_the_meadow(
         "stroke_bend",
+        [820, 0, 360, 270],
         &[
             &[("regions.sky.strokes.bend_deg", "0")],
             &[("regions.sky.strokes.bend_deg", "-45")],

@@ -35,6 +35,9 @@ const TINT: &str = "objects.ball.material.noise_displace.surface.tint";
 const INTENSITY: &str = "objects.ball.material.noise_displace.surface.intensity";
 const OPACITY: &str = "objects.ball.material.noise_displace.surface.opacity";
 const BLOOM: &str = "objects.ball.material.noise_displace.surface.bloom";
+const THRESHOLD: &str = "objects.ball.material.noise_displace.surface.threshold";
+const OFFSET: &str = "objects.ball.material.noise_displace.surface.tile_offset";
+const FORWARD: &str = "objects.ball.material.noise_displace.surface.forward";
 const PLACE: &str = "objects.ball.keys";
 
 pub(super) const PICTURES: &[Picture] = &[
@@ -78,6 +81,14 @@ pub(super) const PICTURES: &[Picture] = &[
         &[&[(LAYERS, "1")], &[(LAYERS, "2")], &[], &[(LAYERS, "10")], &[(LAYERS, "22")], &[(LAYERS, "64")]],
     ),
     sweep("noise_speed", 3, &[&[(SPEED, "0")], &[(SPEED, "1")], &[(SPEED, "10")]]),
+    sweep("noise_tile_offset", 3, &[&[], &[(OFFSET, "(0.25, 0)")], &[(OFFSET, "(0.25, 0.25)")]]),
+    sweep(
+        "noise_forward",
+        4,
+        &[&[], &[("--frames", "6")], &[(FORWARD, "Even")], &[(FORWARD, "Even"), ("--frames", "6")]],
+    ),
+    sweep("noise_threshold", 3, &[&[(THRESHOLD, "0")], &[(THRESHOLD, "0.8")], &[(THRESHOLD, "2")]]),
+    sweep("noise_period", 3, &[&[], &[("--frames", "24")], &[("--frames", "48")]]),
     sweep("noise_tiling", 4, &[&[(TILING, "(0.5, 0.5)")], &[(TILING, "(1, 1)")], &[], &[(TILING, "(8, 8)")]]),
     sweep(
         "noise_mix",

@@ -16,19 +16,16 @@ use impasto_painting::{Frame, Quality};
 
 use super::{Style, StyleInput, ground};
 use crate::gl::{
-    Attribute, Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program,
-    Records, Texture, VertexArray, Vertices,
+    Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Records,
+    Texture, VertexArray, Vertices,
 };
-use crate::marks::{Marks, shape_input, stroke_inputs};
+use crate::marks::{Marks, RESOLVED_BYTES, resolved_inputs, shape_input, stroke_inputs};
 use crate::reference::{LENS_UNIFORMS, LensSetup};
 use crate::watch::Watch;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 
 /// How much of a body's own colour its toned ground carries.
 const WASH: f32 = 0.85;
-
-/// Bytes of what the resolve pass keeps of a stroke: colour and presence, then its fit.
-const RESOLVED_BYTES: usize = 32;
 
 /// Side of a block in which what happens is looked at, pixels at the scene's size.
 const BLOCK_PX: f32 = 4.0;
@@ -249,17 +246,7 @@ impl RotatingStrokes {
             }
             _ => &programs.paint,
         };
-        for (location, offset) in [(6, 0), (7, 16)] {
-            inputs.push(Attribute {
-                location,
-                buffer: &self.resolved,
-                components: 4,
-                integer: false,
-                stride_bytes: RESOLVED_BYTES as i32,
-                offset_bytes: first * RESOLVED_BYTES as i32 + offset,
-                per_instance: true,
-            });
-        }
+        inputs.extend(resolved_inputs(&self.resolved, first));
         self.stroke_quads.set(&inputs, None);
         let pass = targets.strokes_pass(frame.quality);
         self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });

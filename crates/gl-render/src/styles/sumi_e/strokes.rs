@@ -8,16 +8,12 @@ use impasto_painting::frame::{LayerRun, SumiE as Settings};
 use super::programs::PainterPrograms;
 use super::targets::PainterTargets;
 use crate::gl::{
-    Attribute, Blend, Buffer, BufferUse, DrawState, Format, GlError, Gpu, Halt, Records, Texture,
-    VertexArray, Vertices,
+    Blend, Buffer, BufferUse, DrawState, Format, GlError, Gpu, Halt, Records, Texture, VertexArray, Vertices,
 };
-use crate::marks::{Marks, shape_input, stroke_inputs};
+use crate::marks::{Marks, RESOLVED_BYTES, resolved_inputs, shape_input, stroke_inputs};
 use crate::reference::{LENS_UNIFORMS, LensSetup};
 use crate::styles::StyleInput;
 use crate::watch::Watch;
-
-/// Bytes of what the resolve pass keeps of a stroke: colour and presence, then its place and how dark it is.
-const RESOLVED_BYTES: usize = 32;
 
 /// The most strokes that are laid between two questions whether to stop.
 const PIECE: u32 = 4096;
@@ -123,17 +119,7 @@ impl InkStrokes {
         let first = run.first as i32;
         let mut inputs = stroke_inputs(&self.strokes, first, true);
         inputs.push(shape_input(&inputs[0], first));
-        for (location, offset) in [(6, 0), (7, 16)] {
-            inputs.push(Attribute {
-                location,
-                buffer: &self.resolved,
-                components: 4,
-                integer: false,
-                stride_bytes: RESOLVED_BYTES as i32,
-                offset_bytes: first * RESOLVED_BYTES as i32 + offset,
-                per_instance: true,
-            });
-        }
+        inputs.extend(resolved_inputs(&self.resolved, first));
         self.quads.set(&inputs, None);
         let state = DrawState { blend: Blend::Largest, ..DrawState::default() };
         self.gpu.begin_pass(&targets.strokes_pass, state);
