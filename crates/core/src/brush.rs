@@ -38,7 +38,12 @@ pub struct Mark {
 /// All marks of a brush by name, the same on every machine; `None` for a name that is not in [`NAMES`].
 pub fn marks_of(name: &str) -> Option<Vec<Mark>> {
     let index = NAMES.iter().position(|known| *known == name)?;
-    Some(marks::of_brush(index))
+    Some((0..VARIANTS).map(|variant| mark_of(index, variant)).collect())
+}
+
+/// Mark number `variant` (of [`VARIANTS`]) of the brush number `brush` in [`NAMES`].
+pub fn mark_of(brush: usize, variant: u32) -> Mark {
+    marks::of_brush(brush, variant)
 }
 
 /// One texel before it is stored.
@@ -62,15 +67,15 @@ impl Mark {
 
     /// Stores texels, their paint replaced by its place among all paint of the mark.
     fn store(texels: &[Texel]) -> Self {
-        let mut inked: Vec<u32> =
-            (0..texels.len() as u32).filter(|&index| texels[index as usize].paint > 0.02).collect();
-        inked.sort_unstable_by(|&a, &b| {
-            texels[a as usize].paint.total_cmp(&texels[b as usize].paint).then(a.cmp(&b))
-        });
+        // A positive number's bits are in its order; equal paint by index.
+        let key = |(index, texel): (usize, &Texel)| u64::from(texel.paint.to_bits()) << 32 | index as u64;
+        let mut inked: Vec<u64> =
+            texels.iter().enumerate().filter(|(_, texel)| texel.paint > 0.02).map(key).collect();
+        inked.sort_unstable();
         let mut paint = vec![0.0f32; texels.len()];
         let count = inked.len() as f32;
-        for (place, index) in inked.into_iter().enumerate() {
-            paint[index as usize] = (place as f32 + 0.5) / count;
+        for (place, key) in inked.into_iter().enumerate() {
+            paint[key as u32 as usize] = (place as f32 + 0.5) / count;
         }
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let stored = texels

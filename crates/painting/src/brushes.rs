@@ -25,8 +25,26 @@ pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
         .collect();
     names.sort();
     names.dedup();
-    let marks = names.par_iter().map(|name| marks_of(loaded, name)).collect();
+    make_house_marks(&names);
+    let marks = names.iter().map(|name| marks_of(loaded, name)).collect();
     Brushes { names, marks }
+}
+
+/// Makes what is not there yet, on all threads. No lock is held meanwhile: whoever comes at the same time makes the same.
+fn make_house_marks(names: &[String]) {
+    let missing: Vec<(usize, u32)> = names
+        .iter()
+        .filter_map(|name| brush::NAMES.iter().position(|known| known == name))
+        .filter(|&index| MARKS[index].get().is_none())
+        .flat_map(|index| (0..brush::VARIANTS).map(move |variant| (index, variant)))
+        .collect();
+    let made: Vec<Mark> =
+        missing.par_iter().map(|&(index, variant)| brush::mark_of(index, variant)).collect();
+    let mut made = made.into_iter();
+    for of_brush in missing.chunks(brush::VARIANTS as usize) {
+        let marks = made.by_ref().take(of_brush.len()).collect();
+        MARKS[of_brush[0].0].get_or_init(|| Arc::new(marks));
+    }
 }
 
 /// The marks of a brush that comes with Impasto.

@@ -10,6 +10,20 @@ pub(super) struct Lattice {
     values: Vec<f32>,
 }
 
+/// Two neighbouring lattice lines, and how far a place is from the first to the second.
+#[derive(Clone, Copy)]
+pub(super) struct Cell {
+    first: usize,
+    share: f32,
+}
+
+impl Cell {
+    fn of(at: f32, lines: usize) -> Self {
+        let first = (at as usize).min(lines - 2);
+        Self { first, share: smoothstep(at - first as f32) }
+    }
+}
+
 /// Cells before the first one that a mark's own rectangle needs.
 const MARGIN: f32 = 0.25;
 
@@ -27,17 +41,27 @@ impl Lattice {
     }
 
     pub(super) fn at(&self, u: f32, across: f32) -> f32 {
-        let x = (u + MARGIN).max(0.0) * self.cycles[0];
-        let y = (across + MARGIN).max(0.0) * self.cycles[1];
-        let rows = self.values.len() / self.columns;
-        let column = (x as usize).min(self.columns - 2);
-        let row = (y as usize).min(rows - 2);
-        let (fx, fy) = (smoothstep(x - column as f32), smoothstep(y - row as f32));
-        let first = row * self.columns + column;
+        self.between(self.column(u), self.row(across))
+    }
+
+    /// Where along u a place lies; many places share it.
+    pub(super) fn column(&self, u: f32) -> Cell {
+        Cell::of((u + MARGIN).max(0.0) * self.cycles[0], self.columns)
+    }
+
+    /// Where across.
+    pub(super) fn row(&self, across: f32) -> Cell {
+        Cell::of((across + MARGIN).max(0.0) * self.cycles[1], self.values.len() / self.columns)
+    }
+
+    /// Noise at a column and a row.
+    pub(super) fn between(&self, column: Cell, row: Cell) -> f32 {
+        let first = row.first * self.columns + column.first;
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
-        let low = mix(self.values[first], self.values[first + 1], fx);
-        let high = mix(self.values[first + self.columns], self.values[first + self.columns + 1], fx);
-        mix(low, high, fy)
+        let low = mix(self.values[first], self.values[first + 1], column.share);
+        let above = first + self.columns;
+        let high = mix(self.values[above], self.values[above + 1], column.share);
+        mix(low, high, row.share)
     }
 
     /// Of a line.

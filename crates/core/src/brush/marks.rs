@@ -1,7 +1,7 @@
 //! The marks of the brushes that come with Impasto.
 
-use super::lattice::Lattice;
-use super::{Mark, NAMES, SIZE, Texel, VARIANTS};
+use super::lattice::{Cell, Lattice};
+use super::{Mark, NAMES, SIZE, Texel};
 use crate::hash;
 use crate::presence::smoothstep;
 
@@ -83,21 +83,28 @@ const BRUSHES: [Brush; NAMES.len()] = [
     },
 ];
 
-/// All marks of a brush.
-pub(super) fn of_brush(index: usize) -> Vec<Mark> {
+/// One mark of a brush, of so many as a brush has.
+pub(super) fn of_brush(index: usize, variant: u32) -> Mark {
     let brush = BRUSHES[index];
-    (0..VARIANTS)
-        .map(|variant| {
-            let stroke = Hairs::new(brush, hash::combine(hash::of_name(NAMES[index]), variant));
-            let texels: Vec<Texel> = (0..SIZE[0] * SIZE[1])
-                .map(|texel| {
-                    let [u, v] = Mark::place(texel);
-                    stroke.texel(u, v)
-                })
-                .collect();
-            Mark::store(&texels)
-        })
-        .collect()
+    let hairs = Hairs::new(brush, hash::combine(hash::of_name(NAMES[index]), variant));
+    let mut texels = Vec::with_capacity(SIZE[0] * SIZE[1]);
+    let places = (0..SIZE[0]).map(|column| Mark::place(column)[0]);
+    let columns: Vec<AlongHere> = places.map(|u| hairs.along(u, u.clamp(0.0, 1.0))).collect();
+    for row in 0..SIZE[1] {
+        let v = Mark::place(row * SIZE[0])[1];
+        let across = hairs.across(v);
+        for here in &columns {
+            texels.push(match brush.shape {
+                // Hairs that spread are at another place of the mark in every texel.
+                Shape::Fan => {
+                    let spread = v / (0.50 + 0.48 * here.along.powf(1.2));
+                    hairs.texel(&hairs.along(here.u - 0.10 * v * v, here.along), &hairs.across(spread))
+                }
+                Shape::Straight | Shape::Belly | Shape::Taper => hairs.texel(here, &across),
+            });
+        }
+    }
+    Mark::store(&texels)
 }
 
 /// The noise of one mark.
@@ -127,50 +134,92 @@ impl Hairs {
         }
     }
 
-    fn texel(&self, u: f32, v: f32) -> Texel {
+    /// What is the same across the mark; `along` is where the texel lies before hairs have spread, 0..=1.
+    fn along(&self, u: f32, along: f32) -> AlongHere {
         let brush = &self.brush;
-        let along = u.clamp(0.0, 1.0);
-        let (u, v) = match brush.shape {
-            Shape::Fan => (u - 0.10 * v * v, v / (0.50 + 0.48 * along.powf(1.2))),
-            _ => (u, v),
-        };
-        let across = v * 0.5 + 0.5;
         let width = match brush.shape {
             Shape::Straight | Shape::Fan => 1.0,
             Shape::Belly => 1.0 - 0.16 * (2.0 * along - 1.0).abs().powi(4),
             Shape::Taper => 0.92 - 0.80 * along.powf(1.3),
         };
-        // The same at both ends, so that a mark as a whole lies straight.
-        let wander = (0.5 * (self.wander.along(u) + self.wander.along(1.0 - u)) - 0.5) * 0.10;
-        let edge = (self.edges[usize::from(v > 0.0)].along(u) - 0.5) * 0.10;
-        let side = width + edge - (v - wander).abs();
-        let cap = 1.0 - (1.0 - (v * v).min(1.0)).sqrt();
-        let start = (u - 0.06 * self.start_smooth.along(across) - 0.045 * self.start_hair.along(across))
-            * ASPECT
-            - brush.caps[0] * cap;
-        let ragged = brush.ragged * (0.7 * self.end_hair.along(across) + 0.3 * self.end_smooth.along(across));
-        let end = (1.0 - u - ragged) * ASPECT - brush.caps[1] * cap;
+        AlongHere {
+            u,
+            along,
+            // The same at both ends, so that a mark as a whole lies straight.
+            wander: (0.5 * (self.wander.along(u) + self.wander.along(1.0 - u)) - 0.5) * 0.10,
+            widths: [0, 1].map(|side| width + (self.edges[side].along(u) - 0.5) * 0.10),
+            dryness: brush.dry[0] + (brush.dry[1] - brush.dry[0]) * along.powf(1.6),
+            columns: self.streaks.columns(u),
+        }
+    }
+
+    /// What is the same along the mark.
+    fn across(&self, v: f32) -> AcrossHere {
+        let across = v * 0.5 + 0.5;
+        AcrossHere {
+            v,
+            cap: 1.0 - (1.0 - (v * v).min(1.0)).sqrt(),
+            start: [0.06 * self.start_smooth.along(across), 0.045 * self.start_hair.along(across)],
+            ragged: self.brush.ragged
+                * (0.7 * self.end_hair.along(across) + 0.3 * self.end_smooth.along(across)),
+            hairs: self.streaks.hairs(across),
+            rows: self.streaks.rows(across),
+        }
+    }
+
+    fn texel(&self, here: &AlongHere, over: &AcrossHere) -> Texel {
+        let (brush, u, v) = (&self.brush, here.u, over.v);
+        let side = here.widths[usize::from(v > 0.0)] - (v - here.wander).abs();
+        let start = (u - over.start[0] - over.start[1]) * ASPECT - brush.caps[0] * over.cap;
+        let end = (1.0 - u - over.ragged) * ASPECT - brush.caps[1] * over.cap;
         let inside = (start / 0.4).min(end / 0.68).min(side / 0.16).clamp(0.0, 1.0);
-        let streaks = self.streaks.at(u, across);
-        let dryness = brush.dry[0] + (brush.dry[1] - brush.dry[0]) * along.powf(1.6);
-        let paint = inside * (1.0 - dryness * (1.0 - streaks) * 1.25).max(0.0);
+        let (streaks, mixed) = self.streaks.between(&here.columns, (&over.rows, over.hairs));
+        let paint = inside * (1.0 - here.dryness * (1.0 - streaks) * 1.25).max(0.0);
+        let tint = 0.6 * mixed + 0.4 * (streaks * 2.0 - 1.0);
+        let covered = smoothstep((paint - 0.05) / 0.30);
+        if covered == 0.0 {
+            return Texel { paint, height: 0.0, tint };
+        }
         let bell = |x: f32, middle: f32, width: f32| (-((x - middle) / width).powi(2)).exp();
         let rim = bell(side, 0.07, 0.06);
         let pile = bell(end, 0.13, 0.12) * (0.5 + 0.7 * streaks);
-        let body = 0.50 - 0.20 * along
+        let body = 0.50 - 0.20 * here.along
             + brush.furrows * (streaks - 0.5)
-            + brush.ridges[0] * rim * (1.0 - 0.5 * along)
+            + brush.ridges[0] * rim * (1.0 - 0.5 * here.along)
             + brush.ridges[1] * pile;
-        let tint = 0.6 * self.streaks.mixed(u, across) + 0.4 * (streaks * 2.0 - 1.0);
-        Texel { paint, height: body.max(0.0) * smoothstep((paint - 0.05) / 0.30), tint }
+        Texel { paint, height: body.max(0.0) * covered, tint }
     }
 }
 
+/// What a mark has along its length at one place of it.
+struct AlongHere {
+    u: f32,
+    along: f32,
+    wander: f32,
+    /// From the middle to either edge.
+    widths: [f32; 2],
+    dryness: f32,
+    columns: [Cell; STREAKS],
+}
+
+/// What a mark has across it at one place of its width.
+struct AcrossHere {
+    v: f32,
+    cap: f32,
+    start: [f32; 2],
+    ragged: f32,
+    hairs: f32,
+    rows: [Cell; STREAKS],
+}
+
+/// Lattices of streaks: three of paint, one of half-mixed paint.
+const STREAKS: usize = 4;
+
 /// Streaks that the hairs draw.
 pub(super) struct Streaks {
-    along: [Lattice; 3],
+    /// The last is of half-mixed paint.
+    along: [Lattice; STREAKS],
     hairs: [Lattice; 3],
-    mixed: Lattice,
 }
 
 impl Streaks {
@@ -181,25 +230,35 @@ impl Streaks {
                 field(1, [2.2, 1.3 * hairs]),
                 field(2, [5.0, 2.2 * hairs]),
                 field(3, [14.0, 2.6 * hairs]),
+                field(9, [1.2, hairs / 3.0]),
             ],
             hairs: [1.0, 2.0, 4.0].map(|times| field(4 + times as u32, [times * hairs, 0.0])),
-            mixed: field(9, [1.2, hairs / 3.0]),
         }
     }
 
-    /// How much paint the hairs carry here, about 0..1.
-    pub(super) fn at(&self, u: f32, across: f32) -> f32 {
-        let along = 0.55 * self.along[0].at(u, across)
-            + 0.30 * self.along[1].at(u, across)
-            + 0.15 * self.along[2].at(u, across);
-        let hairs = 0.4 * self.hairs[0].along(across)
-            + 0.35 * self.hairs[1].along(across)
-            + 0.25 * self.hairs[2].along(across);
-        0.6 * along + 0.4 * hairs
+    /// How much paint the hairs carry here, about 0..1, and how half-mixed it is, −1..1.
+    pub(super) fn at(&self, u: f32, across: f32) -> (f32, f32) {
+        self.between(&self.columns(u), (&self.rows(across), self.hairs(across)))
     }
 
-    /// Half-mixed paint, −1..1.
-    pub(super) fn mixed(&self, u: f32, across: f32) -> f32 {
-        self.mixed.at(u, across) * 2.0 - 1.0
+    fn columns(&self, u: f32) -> [Cell; STREAKS] {
+        std::array::from_fn(|which| self.along[which].column(u))
+    }
+
+    fn rows(&self, across: f32) -> [Cell; STREAKS] {
+        std::array::from_fn(|which| self.along[which].row(across))
+    }
+
+    /// What each hair carries, whatever the place along it.
+    fn hairs(&self, across: f32) -> f32 {
+        0.4 * self.hairs[0].along(across)
+            + 0.35 * self.hairs[1].along(across)
+            + 0.25 * self.hairs[2].along(across)
+    }
+
+    fn between(&self, columns: &[Cell; STREAKS], (rows, hairs): (&[Cell; STREAKS], f32)) -> (f32, f32) {
+        let noise = |which: usize| self.along[which].between(columns[which], rows[which]);
+        let along = 0.55 * noise(0) + 0.30 * noise(1) + 0.15 * noise(2);
+        (0.6 * along + 0.4 * hairs, noise(3) * 2.0 - 1.0)
     }
 }

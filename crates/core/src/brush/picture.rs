@@ -65,9 +65,9 @@ pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
                 .iter()
                 .zip(&paint)
                 .map(|(&[u, v], &paint)| {
-                    let hairs = streaks.at(u, v * 0.5 + 0.5);
+                    let (hairs, mixed) = streaks.at(u, v * 0.5 + 0.5);
                     let paint = paint * (0.75 + 0.25 * hairs);
-                    let tint = 0.6 * streaks.mixed(u, v * 0.5 + 0.5) + 0.4 * (hairs * 2.0 - 1.0);
+                    let tint = 0.6 * mixed + 0.4 * (hairs * 2.0 - 1.0);
                     Texel { paint, height: paint * (0.4 + 0.4 * hairs), tint }
                 })
                 .collect();
