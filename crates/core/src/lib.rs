@@ -29,6 +29,7 @@ pub mod sampling;
 pub mod screen_map;
 pub mod shells;
 pub mod solve;
+mod wide;
 
 pub use mesh::TriangleMesh;
 pub use screen_map::ScreenMap;

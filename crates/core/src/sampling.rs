@@ -3,6 +3,7 @@
 mod candidates;
 mod dart_grid;
 mod paper;
+mod place;
 mod progressive;
 
 use glam::{Vec2, Vec3};
@@ -11,6 +12,7 @@ use crate::TriangleMesh;
 use crate::shells::{Side, sides};
 
 pub use paper::{PolygonParticle, per_polygon};
+pub use place::Place;
 pub use progressive::{ProgressiveState, progressive};
 
 /// Where a particle sits: a triangle and a place in it, so that it rides any deformation of the mesh.
@@ -30,6 +32,7 @@ pub struct Particle {
 
 impl Particle {
     /// The same place on the same triangles after their vertices have moved.
+    #[inline]
     pub fn on(&self, mesh: &TriangleMesh, positions: &[Vec3], normals: &[Vec3]) -> Self {
         let corners = mesh.triangles[self.triangle as usize];
         let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::ScreenMap;
 use crate::angle::atan2;
 use crate::lift::Lift;
+use crate::wide::{Wide, widest};
 
 /// How many particles one task handles.
 const CHUNK: usize = 8192;
@@ -23,6 +24,24 @@ pub struct BakedParticles {
     pub across: [Vec<f32>; 3],
     /// 1 keeps the stroke flat on the picture, 0 lets its direction follow the surface; empty when all are 1.
     pub flatness: Vec<f32>,
+}
+
+/// Some particles one after the other, one array per number.
+#[derive(Debug, Default)]
+pub struct BakedChunk<'a> {
+    /// Position, normal, and both columns of N', by component.
+    arrays: [&'a mut [f32]; 12],
+}
+
+impl BakedChunk<'_> {
+    /// Sets a particle of the chunk: position and unit normal in model space, and its lift.
+    #[inline]
+    pub fn set(&mut self, index: usize, (position, normal): (DVec3, DVec3), lift: Lift) {
+        let numbers = [position, normal, lift.along, lift.across].map(|vector| vector.to_array());
+        for (array, number) in self.arrays.iter_mut().zip(numbers.into_iter().flatten()) {
+            array[index] = number as f32;
+        }
+    }
 }
 
 /// What a view makes of them, one array per number, in the same order.
@@ -55,28 +74,32 @@ impl BakedParticles {
         }
     }
 
-    /// Appends all of another's particles; their flatness stays out.
-    pub fn append(&mut self, others: &Self) {
-        for (arrays, others) in self.vectors_mut().into_iter().zip(others.vectors()) {
-            for (array, other) in arrays.iter_mut().zip(others) {
-                array.extend_from_slice(other);
+    /// Room for exactly so many particles: those beyond are cut off, new ones are zero. Flatness goes.
+    pub fn resize(&mut self, count: usize) {
+        self.flatness.clear();
+        for array in self.vectors_mut().into_iter().flatten() {
+            if array.is_empty() {
+                // Memory that nobody has touched yet, so that all threads share the first touch.
+                *array = vec![0.0; count];
+            } else {
+                array.truncate(count);
+                array.reserve_exact(count - array.len());
+                array.resize(count, 0.0);
             }
         }
     }
 
-    /// Makes room for so many more.
-    pub fn reserve(&mut self, more: usize) {
-        self.vectors_mut().into_iter().flatten().for_each(|array| array.reserve_exact(more));
-    }
-
-    /// Keeps the first `count` particles.
-    pub fn truncate(&mut self, count: usize) {
-        self.vectors_mut().into_iter().flatten().for_each(|array| array.truncate(count));
-        self.flatness.truncate(count);
-    }
-
-    fn vectors(&self) -> [&[Vec<f32>; 3]; 4] {
-        [&self.position, &self.normal, &self.along, &self.across]
+    /// The particles from `first` on, so many at a time, to be set one by one.
+    pub fn chunks_mut(&mut self, first: usize, size: usize) -> Vec<BakedChunk<'_>> {
+        let count = self.len();
+        let mut chunks: Vec<BakedChunk<'_>> =
+            (first..count).step_by(size).map(|_| BakedChunk::default()).collect();
+        for (place, array) in self.vectors_mut().into_iter().flatten().enumerate() {
+            for (chunk, slice) in chunks.iter_mut().zip(array[first..].chunks_mut(size)) {
+                chunk.arrays[place] = slice;
+            }
+        }
+        chunks
     }
 
     fn vectors_mut(&mut self) -> [&mut [Vec<f32>; 3]; 4] {
@@ -139,9 +162,9 @@ pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedPar
         let first = chunk * CHUNK;
         let output = Output { x_px, y_px, depth, angle_rad, area_px };
         if particles.flatness.is_empty() {
-            wide::run::<false>(particles, first, &rows, output);
+            widest(Chunk::<false> { particles, first, rows: &rows, output });
         } else {
-            wide::run::<true>(particles, first, &rows, output);
+            widest(Chunk::<true> { particles, first, rows: &rows, output });
         }
     });
 }
@@ -170,45 +193,26 @@ struct Output<'a> {
     area_px: &'a mut [f32],
 }
 
-/// The loop, compiled for the widest vectors that the processor has.
-#[expect(unsafe_code, reason = "a function compiled for AVX2 may only be called where AVX2 was found")]
-mod wide {
-    use super::{BakedParticles, Output, Rows, run_portable};
+/// One task: the particles from `first` on, as many as the output holds.
+struct Chunk<'a, const WRAPPED: bool> {
+    particles: &'a BakedParticles,
+    first: usize,
+    rows: &'a Rows,
+    output: Output<'a>,
+}
 
-    /// Runs the loop. Every build of it rounds alike (no fused multiply-add), so the bits do not depend on the machine.
-    pub(super) fn run<const WRAPPED: bool>(
-        particles: &BakedParticles,
-        first: usize,
-        rows: &Rows,
-        output: Output<'_>,
-    ) {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: AVX2 was found on this processor.
-            return unsafe { run_avx2::<WRAPPED>(particles, first, rows, output) };
-        }
-        run_portable::<WRAPPED>(particles, first, rows, output);
-    }
+impl<const WRAPPED: bool> Wide for Chunk<'_, WRAPPED> {
+    type Output = ();
 
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn run_avx2<const WRAPPED: bool>(
-        particles: &BakedParticles,
-        first: usize,
-        rows: &Rows,
-        output: Output<'_>,
-    ) {
-        run_portable::<WRAPPED>(particles, first, rows, output);
+    #[inline(always)]
+    fn run(self) {
+        solve_chunk(self);
     }
 }
 
 #[inline(always)]
-fn run_portable<const WRAPPED: bool>(
-    particles: &BakedParticles,
-    first: usize,
-    rows: &Rows,
-    output: Output<'_>,
-) {
+fn solve_chunk<const WRAPPED: bool>(chunk: Chunk<'_, WRAPPED>) {
+    let Chunk { particles, first, rows, output } = chunk;
     let count = output.x_px.len();
     // Slices of one known length, so that the compiler drops the bounds checks and runs lanes side by side.
     let [px, py, pz] = slices(&particles.position, first, count);

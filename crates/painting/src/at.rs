@@ -361,7 +361,7 @@ impl Look<'_> {
     }
 
     pub(crate) fn region(&self, entry: OrderEntry) -> u16 {
-        self.seen[entry.coat as usize].coat.seats.region[entry.particle as usize]
+        self.seen[entry.coat as usize].coat.seats.region(entry.particle as usize)
     }
 
     /// The region's layer and the layer of paint.
@@ -384,7 +384,7 @@ impl Look<'_> {
     fn is_in_picture(&self, entry: OrderEntry) -> bool {
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
         let Some(gate) = &seen.gates[usize::from(self.region(entry))] else { return false };
-        let (solved, part) = (&seen.solved, seen.coat.seats.part[index] as usize);
+        let (solved, part) = (&seen.solved, seen.coat.seats.part(index));
         let depth = solved.depth[index];
         // Half a diagonal, for the largest of a lively crowd.
         let reach = gate.reach_px * seen.growth(index, self.painting, self.px_scale);
@@ -400,8 +400,8 @@ impl SeenCoat<'_> {
     pub(crate) fn angle_rad(&self, index: usize) -> f32 {
         let Some((reference, now)) = &self.clip_views else { return self.solved.angle_rad[index] };
         let particles = &self.coat.sampled.particles;
-        let position = |particle: usize| -> DVec3 { particles[particle].position.as_dvec3() };
-        let neighbours = self.coat.inputs.neighbours.as_ref().map_or(&[][..], |lists| lists.of(index));
+        let position = |particle: usize| -> DVec3 { particles.at(particle).position.as_dvec3() };
+        let neighbours = self.coat.ground.neighbours.as_ref().map_or(&[][..], |lists| lists.of(index));
         let turn_rad = horn_exact::turn_rad(
             position(index),
             neighbours.iter().map(|&neighbour| position(neighbour as usize)),
@@ -414,7 +414,7 @@ impl SeenCoat<'_> {
     /// How much larger than stated the stroke of a particle is, since it follows the size of its surface: m^γ, m the pixels
     /// per unit of surface now over those in the reference picture, γ the region's `size_follow`.
     pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
-        let region = usize::from(self.coat.seats.region[index]);
+        let region = usize::from(self.coat.seats.region(index));
         let follow = painting.rules[region].strokes.size_follow;
         if follow <= 0.0 {
             return 1.0;
@@ -422,7 +422,7 @@ impl SeenCoat<'_> {
         let scale = |map: &ScreenMap, at: DVec3, near: f64| {
             map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
         };
-        let reference = self.coat.inputs.references.of_rule(region);
+        let reference = self.coat.ground.references.of_rule(region);
         let before = scale(&reference.map, self.coat.baked.baked.position_of(index), reference.near);
         let now = scale(&self.map, self.baked.position_of(index), 1e-9);
         let grown = (now / before / f64::from(px_scale)).powf(f64::from(follow));
@@ -431,6 +431,6 @@ impl SeenCoat<'_> {
 
     /// Random bits of a particle.
     pub(crate) fn bits(&self, index: usize, which: u32) -> u32 {
-        hash::combine(self.coat.seats.bits[index], which)
+        hash::combine(self.coat.seats.bits(index), which)
     }
 }

@@ -11,27 +11,31 @@ use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
 use crate::field::{BodyField, FieldInputs};
-use crate::particles::Particles;
-use crate::parts::BodyParts;
 use crate::references::{BodyReferences, Views};
 use crate::regions::RegionRule;
-use crate::seats::Seats;
+use crate::seats::{KeptSeats, Seats};
 use crate::stated::{Point, Stated};
+
+/// How references see the particles of a coat: what a picture still needs once lifts are baked.
+#[derive(Clone)]
+pub(crate) struct LiftGround {
+    pub(crate) seats: Arc<Seats>,
+    pub(crate) neighbours: Option<Arc<Neighbours>>,
+    pub(crate) references: Arc<BodyReferences>,
+    pub(crate) rules: Arc<Vec<RegionRule>>,
+    /// Centre and length of the diagonal of the body's bounds, model space.
+    pub(crate) extent: (DVec3, f64),
+}
 
 /// All that the lifts of a coat depend on.
 #[derive(Clone)]
 pub(crate) struct BakeInputs {
-    pub(crate) particles: Particles,
-    pub(crate) seats: Arc<Seats>,
-    pub(crate) neighbours: Option<Arc<Neighbours>>,
-    pub(crate) references: Arc<BodyReferences>,
+    pub(crate) ground: LiftGround,
+    /// The same seats, with what they are made from.
+    pub(crate) seats: Arc<KeptSeats>,
     pub(crate) solver: Solver,
     /// The rules that particles of the body may have.
     pub(crate) used: Arc<Vec<u16>>,
-    pub(crate) rules: Arc<Vec<RegionRule>>,
-    /// Centre and length of the diagonal of the body's bounds, model space.
-    pub(crate) extent: (DVec3, f64),
-    pub(crate) parts: Arc<BodyParts>,
     /// Where directions are not all stated outright: what combs them, with the samples each particle listens to.
     pub(crate) combed: Option<Combed>,
 }
@@ -48,7 +52,8 @@ pub(crate) struct Combed {
 /// Equal but for how many particles there are.
 impl PartialEq for BakeInputs {
     fn eq(&self, other: &Self) -> bool {
-        let same_lists = match (&self.neighbours, &other.neighbours) {
+        let (ground, before) = (&self.ground, &other.ground);
+        let same_lists = match (&ground.neighbours, &before.neighbours) {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b),
             (a, b) => a.is_none() && b.is_none(),
         };
@@ -58,10 +63,10 @@ impl PartialEq for BakeInputs {
         };
         same_lists
             && same_combing
-            && self.seats.inputs == other.seats.inputs
-            && self.references == other.references
+            && self.seats.same_inputs(&other.seats)
+            && ground.references == before.references
             && self.solver == other.solver
-            && self.extent == other.extent
+            && ground.extent == before.extent
             && self.used == other.used
             && self.used.iter().all(|&rule| {
                 let of = |rules: &[RegionRule]| {
@@ -69,7 +74,7 @@ impl PartialEq for BakeInputs {
                     (*sense, *turn_rad, strokes.flatness, strokes.offset)
                 };
                 let direction = |rules: &'_ [RegionRule]| rules[usize::from(rule)].direction.clone();
-                of(&self.rules) == of(&other.rules) && direction(&self.rules) == direction(&other.rules)
+                of(&ground.rules) == of(&before.rules) && direction(&ground.rules) == direction(&before.rules)
             })
     }
 }
@@ -88,58 +93,75 @@ const CHUNK: usize = 1024;
 impl BakeInputs {
     /// The lifts of all particles; those `kept` are of the same inputs, and are cut or continued.
     pub(crate) fn bake(&self, kept: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
-        let count = self.particles.len();
+        let ground = &self.ground;
+        let count = ground.seats.particles.len();
         if let Some(kept) = &kept
             && kept.base_angle_rad.len() == count
         {
             return Arc::clone(kept);
         }
         let mut body = kept.map_or_else(BakedBody::default, Arc::unwrap_or_clone);
-        body.baked.truncate(count);
         body.base_angle_rad.truncate(count);
         let first = body.base_angle_rad.len();
-        let stated = Stated {
-            rules: &self.rules,
-            automatic: self.parts.directions(self.references.own()),
-            extent: self.extent,
-        };
-        let flatness = |rule: u16| self.rules[usize::from(rule)].strokes.flatness;
-        let wrapped = self.seats.region.iter().any(|&rule| flatness(rule) < 1.0);
-        let chunks: Vec<BakedBody> = (first..count)
-            .step_by(CHUNK)
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .map(|first| {
-                let mut chunk = BakedBody::default();
-                for index in first..(first + CHUNK).min(count) {
-                    let point = self.point(index, self.seats.region[index]);
-                    let (lift, base_rad) = self.lift(index, point, &stated);
-                    chunk.baked.push(self.lifted(point), point.normal, lift);
-                    chunk.base_angle_rad.push(base_rad as f32);
-                }
-                chunk
-            })
-            .collect();
-        body.baked.reserve(count - first);
-        body.base_angle_rad.reserve(count - first);
-        for chunk in chunks {
-            body.baked.append(&chunk.baked);
-            body.base_angle_rad.extend(chunk.base_angle_rad);
-        }
+        body.baked.resize(count);
+        body.base_angle_rad.resize(count, 0.0);
+        let stated = ground.stated();
+        let angles = body.base_angle_rad[first..].par_chunks_mut(CHUNK);
+        let chunks = body.baked.chunks_mut(first, CHUNK).into_par_iter().zip(angles).enumerate();
+        chunks.for_each(|(number, (mut baked, base_angles_rad))| {
+            for (offset, base_angle_rad) in base_angles_rad.iter_mut().enumerate() {
+                let index = first + number * CHUNK + offset;
+                let point = ground.point(index, ground.seats.region(index));
+                let (lift, base_rad) = self.lift(index, point, &stated);
+                baked.set(offset, (ground.lifted(point), point.normal), lift);
+                *base_angle_rad = base_rad as f32;
+            }
+        });
+        let flatness = |rule: u16| ground.rules[usize::from(rule)].strokes.flatness;
         body.baked.flatness.clear();
-        if wrapped {
-            body.baked.flatness.extend(self.seats.region.iter().map(|&rule| flatness(rule)));
+        let may_follow = self.used.iter().any(|&rule| flatness(rule) < 1.0);
+        if may_follow && (0..count).any(|index| flatness(ground.seats.region(index)) < 1.0) {
+            body.baked.flatness.extend((0..count).map(|index| flatness(ground.seats.region(index))));
         }
         Arc::new(body)
     }
 
+    /// N' of a particle, and its base angle in the reference picture.
+    fn lift(&self, index: usize, point: Point, stated: &Stated<'_>) -> (Lift, f64) {
+        let ground = &self.ground;
+        let views = ground.views(index, point, self.solver == Solver::Horn);
+        let base = stated.base(point, &views);
+        let mut tangent = base.tangent;
+        if let Some(combed) = &self.combed {
+            if let Some(field) = &combed.field {
+                tangent = field.direction((&combed.stencils, index), point, &base);
+            }
+            let relaxed = || combed.field.as_ref()?.relaxed((&combed.stencils, index), point, &base);
+            tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
+        }
+        let stray = self.seats.stray_rad[index] + ground.rules[point.rule].turn_rad;
+        let base_rad =
+            if tangent == base.tangent { base.in_reference_rad } else { views.angle_in_reference(tangent) };
+        (views.lift(tangent).turned(stray), if base_rad.is_finite() { base_rad + stray } else { stray })
+    }
+}
+
+impl LiftGround {
+    fn stated(&self) -> Stated<'_> {
+        Stated {
+            rules: &self.rules,
+            automatic: self.seats.parts.directions(self.references.own()),
+            extent: self.extent,
+        }
+    }
+
     fn point(&self, index: usize, region: u16) -> Point {
-        let particle = &self.particles[index];
+        let particle = self.seats.particles.at(index);
         Point {
             position: particle.position.as_dvec3(),
             normal: particle.normal.as_dvec3(),
             rule: usize::from(region),
-            part: self.seats.part[index] as usize,
+            part: self.seats.part(index),
         }
     }
 
@@ -150,33 +172,11 @@ impl BakeInputs {
 
     /// Which particles lie near a singular point of their stated direction.
     pub(crate) fn poles(&self) -> Vec<bool> {
-        let stated = Stated {
-            rules: &self.rules,
-            automatic: self.parts.directions(self.references.own()),
-            extent: self.extent,
-        };
+        let stated = self.stated();
         let up_in_model = self.references.own().up_in_model;
-        (0..self.particles.len())
-            .map(|index| stated.is_pole(self.point(index, self.seats.region[index]), up_in_model))
-            .collect()
-    }
-
-    /// N' of a particle, and its base angle in the reference picture.
-    fn lift(&self, index: usize, point: Point, stated: &Stated<'_>) -> (Lift, f64) {
-        let views = self.views(index, point, self.solver == Solver::Horn);
-        let base = stated.base(point, &views);
-        let mut tangent = base.tangent;
-        if let Some(combed) = &self.combed {
-            if let Some(field) = &combed.field {
-                tangent = field.direction((&combed.stencils, index), point, &base);
-            }
-            let relaxed = || combed.field.as_ref()?.relaxed((&combed.stencils, index), point, &base);
-            tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
-        }
-        let stray = self.seats.stray_rad[index] + self.rules[point.rule].turn_rad;
-        let base_rad =
-            if tangent == base.tangent { base.in_reference_rad } else { views.angle_in_reference(tangent) };
-        (views.lift(tangent).turned(stray), if base_rad.is_finite() { base_rad + stray } else { stray })
+        let is_pole =
+            |index: usize| stated.is_pole(self.point(index, self.seats.region(index)), up_in_model);
+        (0..self.seats.particles.len()).map(is_pole).collect()
     }
 
     /// How the references see a particle; with Horn's estimate from its neighbours or the tangent plane's own.
@@ -186,11 +186,11 @@ impl BakeInputs {
         self.references.views((position, point.normal), point.rule, |reference| {
             let neighbours = lists?.of(index);
             let center_px = reference.map.project(position);
-            let at = |other: &u32| self.particles[*other as usize].position.as_dvec3();
-            let in_front = neighbours.iter().filter(|other| reference.map.depth(at(other)) > reference.near);
-            Some(Lift::horn(in_front.map(|other| {
-                let offset_px: DVec2 = reference.map.project(at(other)) - center_px;
-                (at(other) - position, offset_px)
+            let at = |other: &u32| self.seats.particles.at(*other as usize).position.as_dvec3();
+            let in_front = neighbours.iter().map(at).filter(|&at| reference.map.depth(at) > reference.near);
+            Some(Lift::horn(in_front.map(|at| {
+                let offset_px: DVec2 = reference.map.project(at) - center_px;
+                (at - position, offset_px)
             })))
         })
     }

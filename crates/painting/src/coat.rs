@@ -8,12 +8,12 @@ use glam::{DVec3, Vec3};
 use impasto_core::direction::carry::Stencils;
 use impasto_core::hash;
 use impasto_core::neighbours::{Neighbours, full_list_radius};
-use impasto_core::sampling::{self, Particle, ProgressiveState, Surface};
+use impasto_core::sampling::{self, Place, ProgressiveState, Surface};
 use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
-use crate::bake::{BakeInputs, BakedBody, Combed};
+use crate::bake::{BakeInputs, BakedBody, Combed, LiftGround};
 use crate::counts::CountInputs;
 use crate::field::{BodyField, FieldInputs, FieldSamples};
 use crate::frame::BodySurface;
@@ -24,8 +24,8 @@ use crate::parts::{BodyParts, Cap};
 use crate::prepare::Context;
 use crate::references::BodyReferences;
 use crate::regions::{BodyGuide, BodyRegions};
-use crate::seats::{SeatInputs, Seats};
-use crate::surface::SurfaceInputs;
+use crate::seats::{KeptSeats, SeatInputs, Seats};
+use crate::surface::{Albedo, SurfaceInputs};
 
 /// One coat, prepared.
 pub(crate) struct Coat {
@@ -33,7 +33,7 @@ pub(crate) struct Coat {
     pub(crate) object: usize,
     pub(crate) kind: LayerKind,
     pub(crate) sampled: Arc<Sampled>,
-    pub(crate) inputs: BakeInputs,
+    pub(crate) ground: LiftGround,
     pub(crate) seats: Arc<Seats>,
     pub(crate) baked: Arc<BakedBody>,
     /// The surface that the particles ride.
@@ -42,12 +42,20 @@ pub(crate) struct Coat {
     pub(crate) first_marks: Vec<Vec<u32>>,
 }
 
+impl Coat {
+    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
+    pub(crate) fn albedo_srgb8(&self, particle: usize) -> u32 {
+        let triangle = self.sampled.particles.triangle(particle);
+        self.sampled.albedo.of(&self.surface, (particle, triangle))
+    }
+}
+
 /// The particles of a coat.
 #[derive(Clone)]
 pub(crate) struct Sampled {
     pub(crate) particles: Particles,
     /// Of all that is there of the particles' order.
-    pub(crate) albedo_srgb8: Arc<Vec<u32>>,
+    albedo: Arc<Albedo>,
     pub(crate) area: f64,
     pub(crate) polygons: Option<Arc<PolygonCounts>>,
 }
@@ -77,7 +85,7 @@ struct KeptCoat {
     posed: Option<(PosedInputs, Particles)>,
     neighbours: Option<(Particles, Arc<Neighbours>)>,
     stencils: Option<KeptStencils>,
-    seats: Option<Arc<Seats>>,
+    seats: Option<Arc<KeptSeats>>,
     baked: Option<(BakeInputs, Arc<BakedBody>)>,
 }
 
@@ -212,7 +220,7 @@ impl KeptObject {
                 if surface.is_at_rest(object.shape) {
                     return now.particles.clone();
                 }
-                Particles::new(Arc::new(surface.posed(&now.particles, object.shape)), count)
+                now.particles.posed(surface.vertices_at(object.shape))
             });
             coat.posed = Some((now, posed));
         }
@@ -224,8 +232,7 @@ impl KeptObject {
             if coat.neighbours.as_ref().is_some_and(|(before, _)| before.same(&particles)) {
                 continue;
             }
-            let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
-            let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
+            let (positions, normals) = particles.points();
             let radius = full_list_radius(coat.sampled_now().area, positions.len()) as f32;
             let found = Neighbours::find(&positions, &normals, radius);
             coat.neighbours = Some((particles, Arc::new(found)));
@@ -296,7 +303,7 @@ impl KeptObject {
             .map(|(kept, kind)| {
                 let particles = kept.posed_now();
                 let seats = SeatInputs::new(
-                    (particles.clone(), name_hash(context, object.index, kind)),
+                    (particles, name_hash(context, object.index, kind)),
                     (object.regions, object.used),
                     context.rules,
                     &parts,
@@ -304,9 +311,8 @@ impl KeptObject {
                 );
                 let seats = seats.seats(kept.seats.take());
                 kept.seats = Some(Arc::clone(&seats));
-                let inputs = BakeInputs {
-                    particles,
-                    seats,
+                let ground = LiftGround {
+                    seats: Arc::clone(&seats.seats),
                     neighbours: match context.solver {
                         Solver::Tangent => None,
                         Solver::Horn | Solver::HornExact => {
@@ -314,11 +320,14 @@ impl KeptObject {
                         }
                     },
                     references: Arc::clone(object.references),
-                    solver: context.solver,
-                    used: Arc::clone(object.used),
                     rules: Arc::clone(context.rules),
                     extent,
-                    parts: Arc::clone(&parts),
+                };
+                let inputs = BakeInputs {
+                    ground,
+                    seats,
+                    solver: context.solver,
+                    used: Arc::clone(object.used),
                     combed: field.as_ref().zip(kept.stencils.as_ref()).map(|((inputs, field), stencils)| {
                         let (inputs, stencils) = (Arc::clone(inputs), Arc::clone(&stencils.stencils));
                         Combed { inputs, field: field.clone(), stencils }
@@ -345,7 +354,7 @@ impl KeptCoat {
         &mut self,
         inputs: SampleInputs,
         count: usize,
-        (body, surface): (&BodySurface, impl Fn() -> &'a Surface<'mesh>),
+        (body, surface): (&Arc<BodySurface>, impl Fn() -> &'a Surface<'mesh>),
     ) {
         let kept = self.sampled.take().filter(|(before, ..)| *before == inputs);
         if let Some((_, state, sampled)) = &kept
@@ -360,36 +369,28 @@ impl KeptCoat {
             return;
         }
         let (surface, mut state) = (surface(), ProgressiveState::default());
-        let albedo_of = |particles: &[Particle]| -> Vec<u32> {
-            particles.iter().map(|particle| body.albedo_srgb8(particle)).collect()
-        };
         let sampled = if inputs.per_polygon.is_some() {
             let entries = sampling::per_polygon(surface, count, inputs.name_hash);
             let polygons = PolygonCounts::new(surface, &body.mesh, &entries);
-            let particles: Vec<Particle> = entries.into_iter().map(|entry| entry.particle).collect();
-            Sampled {
-                albedo_srgb8: Arc::new(albedo_of(&particles)),
-                particles: Particles::new(Arc::new(particles), usize::MAX),
-                area: surface.area(),
-                polygons: Some(Arc::new(polygons)),
-            }
+            let places: Vec<Place> = entries.iter().map(|entry| Place::of(&entry.particle)).collect();
+            let particles = Particles::new(body, Arc::new(places), usize::MAX);
+            let albedo = Arc::new(body.albedo(particles.par_range(0..particles.len())));
+            Sampled { particles, albedo, area: surface.area(), polygons: Some(Arc::new(polygons)) }
         } else {
-            let (mut all, mut albedo, mut before) = (Vec::new(), Vec::new(), None);
+            let (mut all, mut before) = (Vec::new(), None);
             if let Some((_, at, sampled)) = kept {
                 state = at;
-                let Sampled { particles, albedo_srgb8, .. } = Arc::unwrap_or_clone(sampled);
-                all = particles.all().to_vec();
-                albedo = Arc::unwrap_or_clone(albedo_srgb8);
-                before = Some(particles);
+                all.extend(sampled.particles.places().iter().map(|place| place.on(&body.mesh)));
+                before = Some(sampled.particles.clone());
             }
             state.grow(surface, inputs.name_hash, &mut all, count);
-            albedo.extend(albedo_of(&all[albedo.len()..]));
-            let all = Arc::new(all);
-            let particles = before.map_or_else(
-                || Particles::new(Arc::clone(&all), count),
-                |before| before.continued(Arc::clone(&all), count),
-            );
-            Sampled { particles, albedo_srgb8: Arc::new(albedo), area: surface.area(), polygons: None }
+            let places: Arc<Vec<Place>> = Arc::new(all.iter().map(Place::of).collect());
+            let albedo = Arc::new(body.albedo(all.par_iter().copied()));
+            let particles = match before {
+                Some(before) => before.continued(places, count),
+                None => Particles::new(body, places, count),
+            };
+            Sampled { particles, albedo, area: surface.area(), polygons: None }
         };
         self.sampled = Some((inputs, state, Arc::new(sampled)));
     }
@@ -409,8 +410,8 @@ impl KeptCoat {
             .iter()
             .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
             .collect();
-        let (sampled, seats) = (Arc::clone(self.sampled_now()), Arc::clone(&inputs.seats));
-        Coat { object, kind, sampled, inputs, seats, baked, surface, first_marks }
+        let (sampled, seats) = (Arc::clone(self.sampled_now()), Arc::clone(&inputs.ground.seats));
+        Coat { object, kind, sampled, ground: inputs.ground, seats, baked, surface, first_marks }
     }
 }
 

@@ -18,10 +18,11 @@ impl Coat {
             .into_par_iter()
             .with_min_len(1024)
             .map(|index| {
-                let was = particles[index].on(mesh, &before.0, &before.1);
-                let is = particles[index].on(mesh, &now.0, &now.1);
+                let particle = particles.at(index);
+                let was = particle.on(mesh, &before.0, &before.1);
+                let is = particle.on(mesh, &now.0, &now.1);
                 let frame = |positions: &[glam::Vec3], normal: glam::Vec3| {
-                    let corners = mesh.triangles[particles[index].triangle as usize];
+                    let corners = mesh.triangles[particle.triangle as usize];
                     let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
                     DMat3::from_cols(b - a, c - a, normal.as_dvec3())
                 };

@@ -102,7 +102,7 @@ impl Painting {
                 let jacobian = seen.map.jacobian(seen.baked.position_of(index));
                 let hair = Hair {
                     object: seen.coat.object,
-                    region: usize::from(seen.coat.seats.region[index]),
+                    region: usize::from(seen.coat.seats.region(index)),
                     particle: index,
                     rank,
                     position_px: [x, y],
@@ -167,7 +167,7 @@ impl Painting {
             let jacobian = seen.map.jacobian(baked.position_of(index));
             Hair {
                 object: place.object,
-                region: usize::from(seen.coat.seats.region[index]),
+                region: usize::from(seen.coat.seats.region(index)),
                 particle: index,
                 rank: (index as f32 + 0.5) / count as f32,
                 position_px: [solved.x_px[index] + look.half_px[0], look.half_px[1] - solved.y_px[index]],
@@ -185,12 +185,12 @@ impl Look<'_> {
     fn direction(&self, seen: &SeenCoat<'_>, index: usize) -> ShownDirection {
         let (position, normal) = (seen.baked.position_of(index), seen.baked.normal_of(index));
         let jacobian = seen.map.jacobian(position);
-        let region = seen.coat.seats.region[index];
+        let region = seen.coat.seats.region(index);
         let contour = self.painting.rules[usize::from(region)].strokes.contour;
         let facing = facing(jacobian, normal) as f32;
         let lift = match self.painting.solver {
             Solver::Tangent => seen.baked.lift_of(index),
-            Solver::Horn | Solver::HornExact => seen.coat.inputs.surface_lift(index, region),
+            Solver::Horn | Solver::HornExact => seen.coat.ground.surface_lift(index, region),
         };
         ShownDirection {
             angle_rad: along_contour(self.angle_rad(seen, index), contour, normal, (&seen.map, facing)),

@@ -39,5 +39,6 @@ pub use at::{FrameOptions, Rotation, StrokeColors};
 pub use frame::{Frame, Quality};
 pub use hairs::{Hair, ShownDirection, SurfacePlace};
 pub use noise_displace::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
+pub use particles::Particles;
 pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};
 pub use recall::Recall;

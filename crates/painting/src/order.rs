@@ -38,7 +38,7 @@ type Run = Vec<(u64, u32, OrderEntry)>;
 impl PartialEq for OrderedCoat {
     fn eq(&self, other: &Self) -> bool {
         let same_regions = match (&self.seats, &other.seats) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.region == b.region,
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.same_regions(b),
             (a, b) => a.is_none() && b.is_none(),
         };
         (self.kind, self.name_hash, self.count) == (other.kind, other.name_hash, other.count) && same_regions
@@ -59,7 +59,7 @@ impl OrderInputs {
             .iter()
             .map(|coat| OrderedCoat {
                 kind: coat.kind,
-                name_hash: coat.seats.inputs.name_hash,
+                name_hash: coat.seats.name_hash,
                 count: coat.sampled.particles.len(),
                 seats: (!one_layer).then(|| Arc::clone(&coat.seats)),
             })
@@ -74,7 +74,7 @@ impl OrderInputs {
         for (index, coat) in self.coats.iter().enumerate() {
             for particle in (0..coat.count).rev() {
                 let layer = match &coat.seats {
-                    Some(seats) => self.layers[usize::from(seats.region[particle])],
+                    Some(seats) => self.layers[usize::from(seats.region(particle))],
                     None => 0,
                 };
                 // Twice the order plus one over the count is the rank, compared without rounding.

@@ -1,24 +1,32 @@
 //! A coat's particles: the beginning of a progressive order that may be kept longer than it is needed.
 
-use std::ops::Deref;
+use std::ops::Range;
 use std::sync::Arc;
 
-use impasto_core::sampling::Particle;
+use glam::Vec3;
+use impasto_core::sampling::{Particle, Place};
+use rayon::prelude::*;
 
-/// The first particles of an order.
+use crate::frame::BodySurface;
+use crate::surface::Vertices;
+
+/// The first particles of an order, on a surface. Only their places are kept; all else is computed when it is asked for.
 #[derive(Clone)]
-pub(crate) struct Particles {
-    /// Stands for the order, whatever of it is there.
+pub struct Particles {
+    /// Stands for the order, whatever of it is there, and for how the surface stands.
     order: Arc<()>,
-    all: Arc<Vec<Particle>>,
+    all: Arc<Vec<Place>>,
+    surface: Arc<BodySurface>,
+    /// Where the vertices have gone; none on a surface at rest.
+    moved: Option<Arc<Vertices>>,
     count: usize,
 }
 
 impl Particles {
-    /// The first `count` of a new order.
-    pub(crate) fn new(all: Arc<Vec<Particle>>, count: usize) -> Self {
+    /// The first `count` of a new order on a surface at rest.
+    pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<Place>>, count: usize) -> Self {
         let count = count.min(all.len());
-        Self { order: Arc::new(()), all, count }
+        Self { order: Arc::new(()), all, surface: Arc::clone(surface), moved: None, count }
     }
 
     /// As many of the same order, if so many are there.
@@ -27,8 +35,13 @@ impl Particles {
     }
 
     /// The same order with more particles.
-    pub(crate) fn continued(&self, all: Arc<Vec<Particle>>, count: usize) -> Self {
-        Self { order: Arc::clone(&self.order), ..Self::new(all, count) }
+    pub(crate) fn continued(&self, all: Arc<Vec<Place>>, count: usize) -> Self {
+        Self { count: count.min(all.len()), all, ..self.clone() }
+    }
+
+    /// The same places where the surface's vertices have gone; an order of its own.
+    pub(crate) fn posed(&self, vertices: Vertices) -> Self {
+        Self { order: Arc::new(()), moved: Some(Arc::new(vertices)), ..self.clone() }
     }
 
     /// Whether one is the beginning of the other.
@@ -41,16 +54,64 @@ impl Particles {
         self.same_order(other) && self.count == other.count
     }
 
-    /// All that is there of the order.
-    pub(crate) fn all(&self) -> &Arc<Vec<Particle>> {
+    /// The places of all that is there of the order.
+    pub(crate) fn places(&self) -> &Arc<Vec<Place>> {
         &self.all
     }
-}
 
-impl Deref for Particles {
-    type Target = [Particle];
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.count
+    }
 
-    fn deref(&self) -> &[Particle] {
-        &self.all[..self.count]
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// One of them; `index` is less than [`Particles::len`].
+    #[inline]
+    pub fn at(&self, index: usize) -> Particle {
+        self.place_on_surface(self.all[..self.count][index])
+    }
+
+    /// One of them, if there are so many.
+    pub fn get(&self, index: usize) -> Option<Particle> {
+        (index < self.count).then(|| self.at(index))
+    }
+
+    /// All of them, in progressive order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Particle> + '_ {
+        self.all[..self.count].iter().map(|&place| self.place_on_surface(place))
+    }
+
+    /// Positions and unit normals of all of them, in model space.
+    pub(crate) fn points(&self) -> (Vec<Vec3>, Vec<Vec3>) {
+        let point = |particle: Particle| (particle.position, particle.normal);
+        self.par_range(0..self.count).map(point).unzip()
+    }
+
+    /// Index of the triangle of one of them.
+    #[inline]
+    pub(crate) fn triangle(&self, index: usize) -> usize {
+        self.all[index].triangle()
+    }
+
+    /// Those of a range, on all threads.
+    pub(crate) fn par_range(
+        &self,
+        range: Range<usize>,
+    ) -> impl IndexedParallelIterator<Item = Particle> + '_ {
+        self.all[range].par_iter().map(|&place| self.place_on_surface(place))
+    }
+
+    #[inline]
+    fn place_on_surface(&self, place: Place) -> Particle {
+        let mesh = &self.surface.mesh;
+        let particle = place.on(mesh);
+        match &self.moved {
+            Some(vertices) => particle.on(mesh, &vertices.0, &vertices.1),
+            None => particle,
+        }
     }
 }

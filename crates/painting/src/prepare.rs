@@ -21,6 +21,7 @@ use crate::frame::{BodySurface, Brushes, FrameStyle};
 use crate::lights;
 use crate::noise_displace::{BodyNoise, BodyShape, NoiseInputs};
 use crate::order::{OrderEntry, OrderInputs};
+use crate::particles::Particles;
 use crate::parts::Cap;
 use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
@@ -312,8 +313,11 @@ impl Painting {
     }
 
     /// The particles of one object's body layer, in progressive order.
-    pub fn particles(&self, object: usize) -> &[Particle] {
-        self.coat(object, LayerKind::Body).map_or(&[], |coat| &coat.sampled.particles)
+    pub fn particles(&self, object: usize) -> Particles {
+        self.coat(object, LayerKind::Body).map_or_else(
+            || Particles::new(&self.bodies[object].surface, Arc::default(), 0),
+            |coat| coat.sampled.particles.clone(),
+        )
     }
 
     /// The surface of one object.
@@ -344,7 +348,7 @@ impl Painting {
     /// For each particle of an object's body layer, whether the direction that is stated there has a singular point near by:
     /// the surface faces along the axis that it is stated by.
     pub fn poles(&self, object: usize) -> Vec<bool> {
-        self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.inputs.poles())
+        self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.ground.poles())
     }
 
     fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {

@@ -179,6 +179,17 @@ impl BodyRegions {
         covering.find(|dabbed| dabbed.covers(particle)).map_or(whole, |dabbed| dabbed.rule)
     }
 
+    /// The region of a triangle, where no dab has a say.
+    #[inline]
+    pub(crate) fn of_triangle(&self, triangle: usize) -> u16 {
+        self.of_triangle[triangle]
+    }
+
+    /// Whether there are dabs, so that particles of one triangle may belong to different regions.
+    pub(crate) fn has_dabs(&self) -> bool {
+        !self.dabbed.is_empty()
+    }
+
     /// The regions that may show on a triangle, without order.
     pub(crate) fn on_triangle(&self, mesh: &TriangleMesh, triangle: usize) -> impl Iterator<Item = u16> + '_ {
         let [a, b, c] = mesh.corners(triangle);

@@ -1,11 +1,10 @@
 //! What a particle has whatever its direction: its region, its chances, its slow noise.
 
-use std::ops::Range;
 use std::sync::Arc;
 
+use glam::DVec3;
 use impasto_core::hash;
 use impasto_core::noise;
-use impasto_core::sampling::Particle;
 use impasto_scene::document::Direction;
 use rayon::prelude::*;
 
@@ -42,8 +41,8 @@ const CROSSING_SWING: f64 = 26.0 / 6.0;
 const CROSSING_JITTER: f64 = 13.0 / 7.0;
 const SECOND_FAMILY: f32 = 0.42;
 
-/// Particles below this number are not worth a thread.
-const MIN_LEN: usize = 2048;
+/// How many particles one task looks at.
+const CHUNK: usize = 512;
 
 /// All that seats depend on, but for how many there are.
 #[derive(Clone)]
@@ -52,7 +51,7 @@ pub(crate) struct SeatInputs {
     regions: Arc<BodyRegions>,
     parts: Arc<BodyParts>,
     /// Hash of the object's name, the scene's seed and the layer.
-    pub(crate) name_hash: u32,
+    name_hash: u32,
     /// For each part, pixels of a picture 720 high per model unit, at the reference pose.
     scales: Vec<f64>,
     /// By rule; those that no particle of the body has are left as they are by default.
@@ -80,19 +79,61 @@ enum Family {
     Two(f64),
 }
 
-/// Particles' seats, in progressive order.
+/// Particles' seats, in progressive order: what pictures need of them.
 #[derive(Clone)]
 pub(crate) struct Seats {
-    pub(crate) inputs: SeatInputs,
-    pub(crate) region: Vec<u16>,
-    /// Random bits of each particle, for ever.
-    pub(crate) bits: Vec<u32>,
+    pub(crate) particles: Particles,
+    regions: Arc<BodyRegions>,
+    pub(crate) parts: Arc<BodyParts>,
+    pub(crate) name_hash: u32,
+    /// Region of each particle, where dabs decide; else its triangle's.
+    dabbed: Vec<u16>,
     /// Slow noise per particle: of hue and value, and of how firm edges are.
     pub(crate) drift: Vec<[f32; 2]>,
-    /// Part of each particle.
-    pub(crate) part: Vec<u32>,
-    /// What chance and slow noise add to the base angle, radians.
+}
+
+/// Seats, with what they are made from and what only their directions need.
+pub(crate) struct KeptSeats {
+    inputs: SeatInputs,
+    pub(crate) seats: Arc<Seats>,
+    /// What chance and slow noise add to the base angle of each particle, radians.
     pub(crate) stray_rad: Vec<f64>,
+}
+
+impl KeptSeats {
+    /// Whether both are made from the same, but for how many there are.
+    pub(crate) fn same_inputs(&self, other: &Self) -> bool {
+        self.inputs == other.inputs
+    }
+}
+
+impl Seats {
+    /// The region of a particle.
+    #[inline]
+    pub(crate) fn region(&self, particle: usize) -> u16 {
+        match self.dabbed.get(particle) {
+            Some(&region) => region,
+            None => self.regions.of_triangle(self.particles.triangle(particle)),
+        }
+    }
+
+    /// The part of a particle.
+    #[inline]
+    pub(crate) fn part(&self, particle: usize) -> usize {
+        self.parts.of_triangle[self.particles.triangle(particle)] as usize
+    }
+
+    /// Random bits of a particle, for ever.
+    #[inline]
+    pub(crate) fn bits(&self, particle: usize) -> u32 {
+        hash::combine(self.name_hash, particle as u32)
+    }
+
+    /// Whether all particles belong to the same regions; where in doubt, not.
+    pub(crate) fn same_regions(&self, other: &Self) -> bool {
+        self.particles.same(&other.particles)
+            && (Arc::ptr_eq(&self.regions, &other.regions) || self.regions == other.regions)
+    }
 }
 
 impl PartialEq for SeatInputs {
@@ -148,52 +189,105 @@ impl SeatInputs {
     }
 
     /// The seats of all particles; `kept` ones with the same inputs are cut or continued.
-    pub(crate) fn seats(self, kept: Option<Arc<Seats>>) -> Arc<Seats> {
+    pub(crate) fn seats(self, kept: Option<Arc<KeptSeats>>) -> Arc<KeptSeats> {
         let count = self.particles.len();
         let kept = kept.filter(|kept| kept.inputs == self);
         if let Some(kept) = &kept
-            && kept.region.len() == count
+            && kept.seats.drift.len() == count
         {
             return Arc::clone(kept);
         }
-        let empty = || Seats {
-            inputs: self.clone(),
-            region: Vec::new(),
-            bits: Vec::new(),
+        let (mut dabbed, mut drift, mut stray_rad) = (Vec::new(), Vec::new(), Vec::new());
+        if let Some(kept) = kept {
+            // Copied only if a painting still holds them.
+            let KeptSeats { seats, stray_rad: strays, .. } = match Arc::try_unwrap(kept) {
+                Ok(kept) => kept,
+                Err(kept) => KeptSeats {
+                    inputs: kept.inputs.clone(),
+                    seats: Arc::clone(&kept.seats),
+                    stray_rad: kept.stray_rad.clone(),
+                },
+            };
+            let seats = Arc::unwrap_or_clone(seats);
+            (dabbed, drift, stray_rad) = (seats.dabbed, seats.drift, strays);
+        }
+        dabbed.truncate(count);
+        drift.truncate(count);
+        stray_rad.truncate(count);
+        let from = drift.len();
+        if self.regions.has_dabs() {
+            let regions = self.particles.par_range(from..count).map(|particle| self.regions.of(&particle));
+            dabbed.par_extend(regions);
+        }
+        drift.resize(count, [0.0; 2]);
+        stray_rad.resize(count, 0.0);
+        let seats = Seats {
+            particles: self.particles.clone(),
+            regions: Arc::clone(&self.regions),
+            parts: Arc::clone(&self.parts),
+            name_hash: self.name_hash,
+            dabbed,
             drift: Vec::new(),
-            part: Vec::new(),
-            stray_rad: Vec::new(),
         };
-        let mut seats = kept.map_or_else(empty, Arc::unwrap_or_clone);
-        let from = seats.region.len().min(count);
-        seats.region.truncate(count);
-        seats.bits.truncate(count);
-        seats.drift.truncate(count);
-        seats.part.truncate(count);
-        seats.stray_rad.truncate(count);
-        seats.inputs = self;
-        seats.continue_from(from..count);
-        Arc::new(seats)
+        let chunks = drift[from..].par_chunks_mut(CHUNK).zip(stray_rad[from..].par_chunks_mut(CHUNK));
+        chunks.enumerate().for_each(|(chunk, (drift, stray_rad))| {
+            self.chances(&seats, from + chunk * CHUNK, (drift, stray_rad));
+        });
+        let seats = Arc::new(Seats { drift, ..seats });
+        Arc::new(KeptSeats { inputs: self, seats, stray_rad })
     }
 
-    fn part_of(&self, particle: &Particle) -> usize {
-        self.parts.of_triangle[particle.triangle as usize] as usize
+    /// The slow noise and the stray angles of the particles from `first` on; `seats` have no noise yet.
+    fn chances(&self, seats: &Seats, first: usize, (drift, stray_rad): (&mut [[f32; 2]], &mut [f64])) {
+        let count = drift.len();
+        let mut at = [[DVec3::ZERO; CHUNK]; 3];
+        let mut swings = [true; CHUNK];
+        for index in 0..count {
+            let particle = first + index;
+            let (rule, part) = (self.rules[usize::from(seats.region(particle))], seats.part(particle));
+            let position = self.particles.at(particle).position.as_dvec3();
+            let scale = self.scales[part];
+            let scaled = position * scale;
+            at[0][index] = scaled / SWING_PX;
+            at[1][index] = scaled / EDGE_PX;
+            at[2][index] = position * (scale / self.cycle_px(rule, part));
+            swings[index] = rule.swing_rad > 0.0;
+        }
+        let mut noise = [[0.0f32; CHUNK]; 3];
+        for (which, noise) in noise.iter_mut().enumerate() {
+            // The same swing in every layer.
+            let seed = if which == 2 { 3 } else { hash::combine(self.name_hash, which as u32 + 1) };
+            if which < 2 || swings[..count].contains(&true) {
+                noise::slow(seed, &at[which][..count], &mut noise[..count]);
+            }
+        }
+        for index in 0..count {
+            drift[index] = [noise[0][index], noise[1][index]];
+            stray_rad[index] = self.stray_rad(seats, first + index, noise[2][index]);
+        }
     }
 
-    /// What chance and slow noise add to a base angle, radians.
-    fn stray_rad(&self, (particle, bits): (&Particle, u32), rule: u16, part: usize) -> f64 {
-        let rule = &self.rules[usize::from(rule)];
-        let second = match rule.family {
+    /// What the second of two crossing families adds, where there are two.
+    fn second_rad(&self, rule: SeatRule, part: usize) -> Option<f64> {
+        match rule.family {
             Family::OfPart => self.second_of_part_rad[part],
             Family::One => None,
             Family::Two(turned) => Some(turned),
-        };
+        }
+    }
+
+    /// One cycle of the swing.
+    fn cycle_px(&self, rule: SeatRule, part: usize) -> f64 {
+        if self.second_rad(rule, part).is_some() { BACKDROP_SWING_PX } else { SWING_PX }
+    }
+
+    /// What chance and slow noise add to a particle's base angle, radians.
+    fn stray_rad(&self, seats: &Seats, particle: usize, swing_noise: f32) -> f64 {
+        let bits = seats.bits(particle);
+        let rule = self.rules[usize::from(seats.region(particle))];
+        let second = self.second_rad(rule, seats.part(particle));
         let normal = |which: u32| f64::from(hash::normal(hash::combine(bits, which)));
-        let (swing, jitter, cycle_px) = if second.is_some() {
-            (CROSSING_SWING, CROSSING_JITTER, BACKDROP_SWING_PX)
-        } else {
-            (1.0, 1.0, SWING_PX)
-        };
+        let (swing, jitter) = if second.is_some() { (CROSSING_SWING, CROSSING_JITTER) } else { (1.0, 1.0) };
         let jitter_rad = f64::from(rule.angle_jitter_rad);
         let mut stray = jitter_rad * jitter * normal(ANGLE_JITTER);
         if hash::unit(hash::combine(bits, RANK_BREAKING)) < RANK_BREAKERS {
@@ -201,9 +295,7 @@ impl SeatInputs {
             stray += RANK_BREAKING_DEG.to_radians() * share * normal(hash::combine(RANK_BREAKING, 1));
         }
         if rule.swing_rad > 0.0 {
-            let at = particle.position.as_dvec3() * (self.scales[part] / cycle_px);
-            // The same swing in every layer.
-            stray += f64::from(rule.swing_rad) * swing * f64::from(noise::slow(3, at));
+            stray += f64::from(rule.swing_rad) * swing * f64::from(swing_noise);
         }
         if let Some(second) = second
             && hash::unit(hash::combine(bits, FAMILY)) < SECOND_FAMILY
@@ -211,30 +303,5 @@ impl SeatInputs {
             stray += second;
         }
         stray
-    }
-}
-
-impl Seats {
-    fn continue_from(&mut self, range: Range<usize>) {
-        let inputs = &self.inputs;
-        let particles = &inputs.particles[range.clone()];
-        let first = range.start;
-        let each = particles.par_iter().enumerate().with_min_len(MIN_LEN);
-        let found: Vec<(u16, [f32; 2], f64)> = each
-            .map(|(index, particle)| {
-                let bits = hash::combine(inputs.name_hash, (first + index) as u32);
-                let (region, part) = (inputs.regions.of(particle), inputs.part_of(particle));
-                let at = particle.position.as_dvec3() * inputs.scales[part];
-                let noise =
-                    |which: u32, px: f64| noise::slow(hash::combine(inputs.name_hash, which), at / px);
-                let drift = [noise(1, SWING_PX), noise(2, EDGE_PX)];
-                (region, drift, inputs.stray_rad((particle, bits), region, part))
-            })
-            .collect();
-        self.region.extend(found.iter().map(|&(region, ..)| region));
-        self.drift.extend(found.iter().map(|&(_, drift, _)| drift));
-        self.stray_rad.extend(found.iter().map(|&(.., stray_rad)| stray_rad));
-        self.bits.extend(range.map(|particle| hash::combine(inputs.name_hash, particle as u32)));
-        self.part.extend(particles.iter().map(|particle| inputs.part_of(particle) as u32));
     }
 }

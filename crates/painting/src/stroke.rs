@@ -55,7 +55,7 @@ impl Look<'_> {
         if layer.coverage <= 0.0 {
             return None;
         }
-        let cap = self.painting.bodies[coat.object].caps[coat.seats.part[index] as usize];
+        let cap = self.painting.bodies[coat.object].caps[coat.seats.part(index)];
         let grown = seen.growth(index, self.painting, self.px_scale);
         let size_px = cap.apply(layer.length_px, layer.width_px).map(|side| side * grown);
         let drift = coat.seats.drift[index];
@@ -83,7 +83,7 @@ impl Look<'_> {
         }
         let lift = match self.painting.solver {
             Solver::Tangent => seen.baked.lift_of(index),
-            Solver::Horn | Solver::HornExact => coat.inputs.surface_lift(index, region),
+            Solver::Horn | Solver::HornExact => coat.ground.surface_lift(index, region),
         };
         let map: PixelMap2 = lift.map(jacobian);
         let angle_rad =
@@ -116,7 +116,7 @@ impl Look<'_> {
         {
             return None;
         }
-        let bits = coat.seats.bits[index];
+        let bits = coat.seats.bits(index);
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
             center_px: [solved.x_px[index] + self.half_px[0], solved.y_px[index] + self.half_px[1]],
@@ -129,7 +129,7 @@ impl Look<'_> {
             bits,
             body_id: coat.object as u32 + 1,
             albedo_srgb8: match self.colors {
-                StrokeColors::Scene => coat.sampled.albedo_srgb8[index],
+                StrokeColors::Scene => coat.albedo_srgb8(index),
                 StrokeColors::Trust => trust_srgb8(map.kappa() as f32),
             },
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),

@@ -11,6 +11,7 @@ use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{MeshFile, Texture};
 use impasto_scene::morph::{self, MorphTarget};
+use rayon::prelude::*;
 
 use crate::frame::{BodyMaterial, BodySurface};
 use crate::lights::linear;
@@ -199,10 +200,24 @@ impl BodySurface {
         (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
     }
 
+    /// sRGB albedo of the particles of the surface, as far as it is kept: of each material, or, where one has a texture, of each
+    /// of `particles`.
+    pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
+        if self.materials.iter().any(|material| material.texture.is_some()) {
+            return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());
+        }
+        Albedo::OfMaterial(self.materials.iter().map(|material| srgb8(material, material.albedo)).collect())
+    }
+
+    /// Index of the material of a triangle.
+    fn material_of_triangle(&self, triangle: usize) -> usize {
+        self.mesh.material_of_triangle.get(triangle).copied().unwrap_or(0) as usize
+    }
+
     /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
-    pub(crate) fn albedo_srgb8(&self, particle: &Particle) -> u32 {
-        let material = self.mesh.material_of_triangle.get(particle.triangle as usize).copied().unwrap_or(0);
-        let Some(material) = self.materials.get(material as usize) else { return 0xffcc_cccc };
+    fn albedo_srgb8(&self, particle: &Particle) -> u32 {
+        let material = self.material_of_triangle(particle.triangle as usize);
+        let Some(material) = self.materials.get(material) else { return NO_MATERIAL };
         let mut albedo = material.albedo;
         if let (Some(texture), Some(uv)) = (&material.texture, particle.uv(&self.mesh)) {
             let at = |value: f32, size: u32| ((value.rem_euclid(1.0) * size as f32) as u32).min(size - 1);
@@ -212,8 +227,36 @@ impl BodySurface {
                 *channel *= linear_from_srgb(f32::from(byte) / 255.0);
             }
         }
-        let [r, g, b] = albedo.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u32);
-        let lit = if material.unlit { 0 } else { 255 };
-        lit << 24 | b << 16 | g << 8 | r
+        srgb8(material, albedo)
+    }
+}
+
+/// The albedo of what has no material.
+const NO_MATERIAL: u32 = 0xffcc_cccc;
+
+/// A linear albedo as [`BodySurface::albedo_srgb8`] gives it.
+fn srgb8(material: &BodyMaterial, albedo: [f32; 3]) -> u32 {
+    let [r, g, b] = albedo.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u32);
+    let lit = if material.unlit { 0 } else { 255 };
+    lit << 24 | b << 16 | g << 8 | r
+}
+
+/// sRGB albedo of particles, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Albedo {
+    /// No material has a texture.
+    OfMaterial(Vec<u32>),
+    OfParticle(Vec<u32>),
+}
+
+impl Albedo {
+    /// Of a particle on a triangle of the surface.
+    pub(crate) fn of(&self, surface: &BodySurface, (particle, triangle): (usize, usize)) -> u32 {
+        match self {
+            Self::OfMaterial(all) => {
+                all.get(surface.material_of_triangle(triangle)).copied().unwrap_or(NO_MATERIAL)
+            }
+            Self::OfParticle(all) => all[particle],
+        }
     }
 }

@@ -8,6 +8,7 @@ use impasto_core::sampling::{self, Particle, Surface};
 
 use crate::frame::BodySurface;
 use crate::noise_displace::BodyShape;
+use crate::particles::Particles;
 
 /// The samples of a body.
 #[derive(Debug)]
@@ -48,9 +49,8 @@ impl FieldSamples {
     }
 
     /// Which samples each of these particles listens to.
-    pub(crate) fn stencils(&self, particles: &[Particle]) -> Stencils {
-        let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
-        let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
+    pub(crate) fn stencils(&self, particles: &Particles) -> Stencils {
+        let (positions, normals) = particles.points();
         Stencils::new(Points { positions: &positions, normals: &normals }, self.points(), self.spacing)
     }
 }
