@@ -1,6 +1,8 @@
 //! The painting order: the regions' layers, the layers of paint, then rank from high to low.
 
-use std::collections::BTreeMap;
+use std::cmp::Reverse;
+use std::collections::binary_heap::PeekMut;
+use std::collections::{BTreeMap, BinaryHeap};
 use std::sync::Arc;
 
 use impasto_scene::presets::LayerKind;
@@ -31,9 +33,6 @@ struct OrderedCoat {
     /// The regions of the particles, where those decide.
     seats: Option<Arc<Seats>>,
 }
-
-/// Particles of one layer of paint: the bits of a rank, the hash of the object's name, the particle.
-type Run = Vec<(u64, u32, OrderEntry)>;
 
 impl PartialEq for OrderedCoat {
     fn eq(&self, other: &Self) -> bool {
@@ -69,24 +68,97 @@ impl OrderInputs {
 
     /// All particles in painting order; equal ranks of two objects by name.
     pub(crate) fn order(&self) -> Vec<OrderEntry> {
-        // Each layer is a few lists that are sorted already.
-        let mut runs: BTreeMap<(i32, LayerKind), Run> = BTreeMap::new();
+        let mut runs: BTreeMap<(i32, LayerKind), Vec<Queue>> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
-            for particle in (0..coat.count).rev() {
-                let layer = match &coat.seats {
-                    Some(seats) => self.layers[usize::from(seats.region(particle))],
-                    None => 0,
-                };
-                // Twice the order plus one over the count is the rank, compared without rounding.
-                let rank = (particle as u64 * 2 + 1) as f64 / coat.count as f64;
-                let entry = OrderEntry { coat: index as u32, particle: particle as u32 };
-                runs.entry((layer, coat.kind)).or_default().push((rank.to_bits(), coat.name_hash, entry));
+            for (layer, particles) in coat.by_layer(&self.layers) {
+                let queue = Queue { coat: index as u32, name_hash: coat.name_hash, of: coat.count, particles };
+                runs.entry((layer, coat.kind)).or_default().push(queue);
             }
         }
-        let mut runs: Vec<Run> = runs.into_values().collect();
-        runs.par_iter_mut().for_each(|run| {
-            run.sort_by_key(|&(rank, name_hash, entry)| (std::cmp::Reverse(rank), name_hash, entry.particle));
-        });
-        runs.iter().flatten().map(|&(.., entry)| entry).collect()
+        let runs: Vec<Vec<Queue>> = runs.into_values().collect();
+        let runs: Vec<Vec<OrderEntry>> = runs.into_par_iter().map(merged).collect();
+        let mut order = Vec::with_capacity(runs.iter().map(Vec::len).sum());
+        for run in runs {
+            order.extend(run);
+        }
+        order
     }
+}
+
+impl OrderedCoat {
+    /// The particles of each of the regions' layers, in progressive order.
+    fn by_layer(&self, layers: &[i32]) -> BTreeMap<i32, LayerParticles> {
+        let Some(seats) = &self.seats else {
+            return BTreeMap::from([(0, LayerParticles::First(self.count as u32))]);
+        };
+        let mut of_layer: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
+        for particle in 0..self.count {
+            let layer = layers[usize::from(seats.region(particle))];
+            of_layer.entry(layer).or_default().push(particle as u32);
+        }
+        of_layer.into_iter().map(|(layer, particles)| (layer, LayerParticles::These(particles))).collect()
+    }
+}
+
+/// Particles of a coat that are in one layer, in progressive order.
+enum LayerParticles {
+    /// The first so many.
+    First(u32),
+    These(Vec<u32>),
+}
+
+/// What is left of the particles of a coat, the last of which is the next to be painted.
+struct Queue {
+    coat: u32,
+    name_hash: u32,
+    /// How many particles the coat has.
+    of: usize,
+    particles: LayerParticles,
+}
+
+impl Queue {
+    fn len(&self) -> usize {
+        match &self.particles {
+            LayerParticles::First(count) => *count as usize,
+            LayerParticles::These(particles) => particles.len(),
+        }
+    }
+
+    fn pop(&mut self) -> Option<u32> {
+        match &mut self.particles {
+            LayerParticles::First(count) => {
+                *count = count.checked_sub(1)?;
+                Some(*count)
+            }
+            LayerParticles::These(particles) => particles.pop(),
+        }
+    }
+
+    /// The bits of the rank of a particle, which are in the ranks' own order. Twice the order plus one over the count is the
+    /// rank, compared without rounding.
+    fn rank(&self, particle: u32) -> u64 {
+        ((u64::from(particle) * 2 + 1) as f64 / self.of as f64).to_bits()
+    }
+}
+
+/// The particles of queues, the highest rank first; each queue is sorted already.
+fn merged(mut queues: Vec<Queue>) -> Vec<OrderEntry> {
+    let mut order = Vec::with_capacity(queues.iter().map(Queue::len).sum());
+    // The greatest comes first: of equal ranks that of the lesser name, then of the lesser coat.
+    let mut heads: BinaryHeap<(u64, Reverse<(u32, u32, usize)>)> = BinaryHeap::new();
+    for (number, queue) in queues.iter_mut().enumerate() {
+        if let Some(particle) = queue.pop() {
+            heads.push((queue.rank(particle), Reverse((queue.name_hash, particle, number))));
+        }
+    }
+    while let Some(mut head) = heads.peek_mut() {
+        let (_, Reverse((_, particle, number))) = *head;
+        let queue = &mut queues[number];
+        order.push(OrderEntry { coat: queue.coat, particle });
+        match queue.pop() {
+            Some(next) => *head = (queue.rank(next), Reverse((queue.name_hash, next, number))),
+            None => drop(PeekMut::pop(head)),
+        }
+    }
+    order
 }
