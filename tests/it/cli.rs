@@ -152,6 +152,44 @@ fn wrong_input_ends_with_3_a_place_and_a_mend() {
 }
 
 #[test]
+fn what_does_not_fit_into_memory_is_refused_with_a_mend() {
+    let folder = Folder::new();
+    let render = |memory: &str| {
+        let set = "objects[0].particles=200000";
+        folder.run(&[
+            "render",
+            "scene.ron",
+            "--frames",
+            "0",
+            "-o",
+            "a.png",
+            "--set",
+            set,
+            "--memory",
+            memory,
+            "-v",
+        ])
+    };
+    let refused = render("20M");
+    let said = words(&refused.stderr);
+    assert_eq!(code(&refused), 3, "{said}");
+    assert!(
+        said.contains("and 20 MiB may be taken")
+            && said.contains("fewer than its 2")
+            && said.contains("--memory"),
+        "{said}"
+    );
+    assert!(!folder.path("a.png").exists());
+    let fits = render("1.5GiB");
+    assert_eq!(code(&fits), 0, "{}", words(&fits.stderr));
+    // Each step with the most memory that was held in it.
+    let said = words(&fits.stderr);
+    let step = said.lines().find(|line| line.trim_start().starts_with("sampling")).unwrap_or_default();
+    assert!(step.contains(" ms") && (!cfg!(target_os = "linux") || step.ends_with("MiB")), "{said}");
+    assert_eq!(code(&render("much")), 2);
+}
+
+#[test]
 fn outputs_are_refused_before_anything_is_drawn() {
     let folder = Folder::new();
     std::fs::write(folder.path("file"), "in the way").unwrap();

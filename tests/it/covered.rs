@@ -37,7 +37,7 @@ fn on_a_sheet(on: Selector) -> Vec<(Vec3, bool)> {
     let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
     let strokes = frame.sources[body.first as usize..(body.first + body.count) as usize].iter();
     let found: Vec<(Vec3, bool)> =
-        strokes.map(|source| (particles[source.particle as usize].position, source.region == 0)).collect();
+        strokes.map(|source| (particles.at(source.particle as usize).position, source.region == 0)).collect();
     assert!(found.len() > 500);
     found
 }
@@ -95,7 +95,7 @@ fn a_flood_stops_at_the_edges_of_a_cube() {
         (body.first..body.first + body.count)
             .map(|index| {
                 let source = &frame.sources[index as usize];
-                let normal = painting.particles(0)[source.particle as usize].normal;
+                let normal = painting.particles(0).at(source.particle as usize).normal;
                 (normal.z > 0.5, source.region == 0)
             })
             .collect::<Vec<_>>()

@@ -321,7 +321,7 @@ fn coherence(painting: &Painting, now: &CameraPose, reference: DVec3) -> (f64, f
     let mut apart = Vec::new();
     let mut count = 0;
     for (particle, seen) in &shown {
-        let there = &particles[*particle as usize];
+        let there = &particles.at(*particle as usize);
         if there.normal.as_dvec3().dot(reference - there.position.as_dvec3()) > 0.0 {
             continue;
         }

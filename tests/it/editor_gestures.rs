@@ -252,7 +252,7 @@ fn a_shipped_scene_is_picked_where_it_is_painted() {
     let (mut same, mut all) = (0, 0);
     for index in (run.first as usize..(run.first + run.count) as usize).step_by(3) {
         let object = frame.strokes[index].body_id as usize - 1;
-        let particle = painting.particles(object)[frame.sources[index].particle as usize];
+        let particle = painting.particles(object).at(frame.sources[index].particle as usize);
         let at = poses[object].transform_point3(particle.position.as_dvec3());
         let Some(at_px) = view.project(at) else { continue };
         let Some(hit) = picker.pick(&view.ray(at_px), &poses, |_| true) else { continue };

@@ -46,7 +46,7 @@ const CASES: [Case; 35] = [
         "particles_u64max",
         r#"objects: [(name: "a", mesh: "cube.obj", particles: 18446744073709551615)]"#,
         Limit,
-        "scene.ron:2:52: limit: 18446744073709551615 particles are more than 4000000",
+        "scene.ron:2:52: limit: 18446744073709551615 particles are more than 16000000",
     ),
     case(
         "particles_fraction",
@@ -296,7 +296,7 @@ fn a_thousand_objects_within_their_limits_may_still_be_too_much() {
     let (found, said) = outcome(&loaded);
     assert_eq!(found, Limit, "{said}");
     assert!(
-        said.contains("scene.ron:5:43: limit: with this object the scene has more than 8000000"),
+        said.contains("scene.ron:13:44: limit: with this object the scene has more than 32000000"),
         "{said}"
     );
 }

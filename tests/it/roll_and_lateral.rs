@@ -129,7 +129,7 @@ fn a_lateral_move_turns_strokes_by_the_planes_own_homography() {
         let (mut worst, mut count, mut largest) = (0.0f64, 0, 0.0f64);
         for (particle, angle) in angles(&before) {
             let Some(turned) = after.get(&particle) else { continue };
-            let at = painting.particles(0)[particle.1 as usize].position.as_dvec3();
+            let at = painting.particles(0).at(particle.1 as usize).position.as_dvec3();
             let at = flip(pose.transform_point3(at) - DVec3::new(0.0, 0.0, 4.0));
             let expected = homography_angle(normal, distance, DVec2::new(shift[0], shift[1]), at);
             worst = worst.max(degrees_apart(*turned, angle + expected));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use impasto_painting::{Frame, FrameOptions, PrepareError, Preparer, prepare};
+use impasto_painting::{Frame, FrameOptions, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
     Bend, Color, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector,
     Solver, Style,
@@ -158,7 +158,8 @@ fn what_was_given_up_half_way_is_prepared_to_the_same_bits_after() {
         // Each edit is given up at another step.
         let asked = AtomicUsize::new(0);
         let give_up = || asked.fetch_add(1, Ordering::Relaxed) >= index % 5;
-        let result = preparer.prepare_unless(Arc::clone(&loaded), &give_up);
+        let options = PrepareOptions { give_up: &give_up, ..PrepareOptions::default() };
+        let result = preparer.prepare_with(Arc::clone(&loaded), &options);
         given_up += usize::from(result.err() == Some(PrepareError::GivenUp));
         let warm = preparer.prepare(Arc::clone(&loaded)).unwrap();
         let cold = prepare(Arc::clone(&loaded)).unwrap();

@@ -55,6 +55,25 @@ pub(crate) struct SceneArguments {
     /// How many threads prepare and solve; all cores when left out. The result is the same.
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
+    /// The most memory that particles may take, such as 512M or 4G; what the system has free when left out.
+    #[arg(long, value_name = "SIZE", value_parser = memory_bytes)]
+    pub(crate) memory: Option<u64>,
+}
+
+/// Bytes from a number with K, M, G or T behind it.
+fn memory_bytes(text: &str) -> Result<u64, String> {
+    let words = || format!("{text:?} is no size: write a number of bytes, or one such as 512M or 4G");
+    let text = text.trim();
+    let digits = text.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());
+    let unit = text[digits.len()..].to_ascii_uppercase();
+    let unit = unit.strip_suffix("IB").or(unit.strip_suffix('B')).unwrap_or(&unit);
+    let power = ["", "K", "M", "G", "T"].iter().position(|known| *known == unit).ok_or_else(words)?;
+    let number: f64 = digits.trim().parse().map_err(|_| words())?;
+    if number.is_finite() && number >= 0.0 {
+        Ok((number * 1024f64.powi(power as i32)) as u64)
+    } else {
+        Err(words())
+    }
 }
 
 /// How much to say.

@@ -11,7 +11,7 @@ use crate::session;
 
 pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let loaded = session::read_scene(&arguments.scene, false)?;
-    let painting = session::prepare_scene(loaded, false)?;
+    let painting = session::prepare_scene(loaded, &arguments.scene, false)?;
     let facts = facts(&painting);
     let mut out = std::io::stdout();
     if arguments.json {

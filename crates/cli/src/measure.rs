@@ -25,6 +25,7 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
             asset_dirs: arguments.asset_dirs.clone(),
             set: arguments.set.clone(),
             // The threads are chosen once.
+            memory: None,
             threads: arguments.threads.filter(|_| index == 0),
         };
         let mut loaded = session::read_scene(&scene, arguments.quiet)?;

@@ -13,6 +13,7 @@ use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
 use impasto_painting::{Frame, FrameOptions, Painting, Rotation, StrokeColors};
 use impasto_scene::document::{Style, SumiE};
+use impasto_scene::memory;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice, StyleChoice};
@@ -49,13 +50,6 @@ struct Plan {
 
 /// Strokes that are less than this there are not painted.
 const LEAST_ALPHA: f32 = 0.004;
-
-/// The most memory that this process has held, where the system says so.
-fn peak_memory_mib() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? / 1024)
-}
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let frames = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
@@ -126,7 +120,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     ctrlc::set_handler(move || flag.store(true, Ordering::SeqCst))
         .map_err(|error| Failure::Other(error.to_string()))?;
     Ok(Plan {
-        painting: session::prepare_scene(loaded, verbose)?,
+        painting: session::prepare_scene(loaded, &arguments.scene, verbose)?,
         renderer,
         frames,
         options: FrameOptions {
@@ -359,7 +353,8 @@ impl Plan {
     fn told(&self, frame: &Frame) -> String {
         let strokes = self.drawn();
         let overdraw = self.cost.overdraw;
-        let memory = peak_memory_mib().map_or(String::new(), |mib| format!(", {mib} MiB at most so far"));
+        let memory = memory::peak_bytes()
+            .map_or_else(String::new, |bytes| format!(", {} MiB at most so far", bytes >> 20));
         let mut text = format!(
             "  {strokes} strokes of {} in question, overdraw {overdraw:.1}{memory}",
             frame.strokes.len()

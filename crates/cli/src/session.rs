@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_painting::{Painting, prepare};
+use impasto_painting::{Painting, PrepareError, PrepareOptions, Preparer};
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
+use impasto_scene::memory;
 
 use crate::args::{DriverChoice, SceneArguments};
 use crate::failure::Failure;
@@ -43,20 +44,31 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
     Ok(loaded)
 }
 
-/// Prepares a scene; the steps go to stderr where `verbose`.
-pub(crate) fn prepare_scene(loaded: LoadedScene, verbose: bool) -> Result<Painting, Failure> {
-    let painting = prepare(Arc::new(loaded)).map_err(|error| Failure::Refused(error.to_string()))?;
+/// Prepares a scene within the memory that may be taken; the steps, with the most memory held in each, go to stderr where
+/// `verbose`.
+pub(crate) fn prepare_scene(
+    loaded: LoadedScene,
+    arguments: &SceneArguments,
+    verbose: bool,
+) -> Result<Painting, Failure> {
+    let options = PrepareOptions {
+        memory_bytes: arguments.memory.or_else(memory::available_bytes),
+        peak_bytes: if verbose { &memory::peak_since_last_bytes } else { &|| None },
+        ..PrepareOptions::default()
+    };
+    let prepared = Preparer::default().prepare_with(Arc::new(loaded), &options);
+    let painting = prepared.map_err(|error| match error {
+        PrepareError::Memory { .. } => Failure::Refused(format!("{error}, or more with --memory")),
+        _ => Failure::Refused(error.to_string()),
+    })?;
     if verbose {
         let total: f64 = painting.steps().iter().map(|step| step.seconds).sum();
         let particles = painting.particle_total();
         eprintln!("prepared {particles} particles in {:.0} ms", total * 1e3);
         for step in painting.steps() {
-            eprintln!(
-                "  {:<12}{:>8.1} ms {:>5.1} %",
-                step.name,
-                step.seconds * 1e3,
-                100.0 * step.seconds / total
-            );
+            let share = 100.0 * step.seconds / total;
+            let peak = step.peak_bytes.map_or_else(String::new, |bytes| format!("{:>7} MiB", bytes >> 20));
+            eprintln!("  {:<12}{:>8.1} ms {share:>5.1} %{peak}", step.name, step.seconds * 1e3);
         }
     }
     Ok(painting)

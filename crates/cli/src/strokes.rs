@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
     }
     let size_px = arguments.size.unwrap_or([loaded.scene.size.0, loaded.scene.size.1]);
     let mut renderer = session::open_renderer(arguments.driver, false)?;
-    let painting = session::prepare_scene(loaded, false)?;
+    let painting = session::prepare_scene(loaded, &arguments.scene, false)?;
     let frame_number = arguments.frame.unwrap_or(painting.scene().timeline.first as f64);
     if !frame_number.is_finite() {
         return Err(Failure::Usage("--frame wants a number".to_owned()));

@@ -72,7 +72,8 @@ mod tests {
 
     #[test]
     fn wide_code_gives_the_same_bits() {
-        let places: Vec<DVec3> = (0..500).map(|i| DVec3::new(f64::from(i) * -0.71, 0.3, 1e6 / f64::from(i + 1))).collect();
+        let places: Vec<DVec3> =
+            (0..500).map(|i| DVec3::new(f64::from(i) * -0.71, 0.3, 1e6 / f64::from(i + 1))).collect();
         let (mut wide, mut plain) = (vec![0.0; 500], vec![0.0; 500]);
         slow(9, &places, &mut wide);
         Slow { seed: 9, at: &places, noise: &mut plain }.run();

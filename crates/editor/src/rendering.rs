@@ -19,7 +19,7 @@ use impasto_editor_model::render_settings::{
 use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
-use impasto_painting::{FrameOptions, PrepareError, Preparer};
+use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
 
 #[cfg(test)]
 mod tests;
@@ -178,7 +178,13 @@ fn run(
     if shared.is_stopped() {
         return Ok(Outcome::Stopped);
     }
-    let prepared = Preparer::default().prepare_unless(Arc::clone(&plan.loaded), &|| shared.is_stopped());
+    let give_up = || shared.is_stopped();
+    let options = PrepareOptions {
+        give_up: &give_up,
+        memory_bytes: impasto_scene::memory::available_bytes(),
+        ..PrepareOptions::default()
+    };
+    let prepared = Preparer::default().prepare_with(Arc::clone(&plan.loaded), &options);
     let painting = match prepared {
         Ok(painting) => painting,
         Err(PrepareError::GivenUp) => return Ok(Outcome::Stopped),

@@ -77,7 +77,7 @@ impl Reference {
             let object = key.body_id as usize - 1;
             let particle = painting.particles(object).get(key.particle as usize)?;
             let shares = [0, 1].map(|side: usize| morphs[side][object]);
-            let ride = Ride::of(painting.surface(object), particle, shares);
+            let ride = Ride::of(painting.surface(object), &particle, shares);
             let [then, now] = [0, 1]
                 .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
             if then.facing(ride.before) < FACED || !is_own(base.region) {

@@ -353,7 +353,7 @@ impl Look<'_> {
     pub(crate) fn angle_rad(&self, seen: &SeenCoat<'_>, index: usize) -> f32 {
         match self.rotation {
             Rotation::On | Rotation::Mapped => seen.angle_rad(index),
-            Rotation::Off => seen.coat.baked.base_angle_rad[index],
+            Rotation::Off => seen.base_angle_rad(index) as f32,
             Rotation::Random => {
                 (hash::unit(seen.bits(index, self.moment)) * 2.0 - 1.0) * std::f32::consts::PI
             }
@@ -408,7 +408,13 @@ impl SeenCoat<'_> {
             reference,
             now,
         );
-        impasto_core::angle::wrap_pi(turn_rad + f64::from(self.coat.baked.base_angle_rad[index])) as f32
+        impasto_core::angle::wrap_pi(turn_rad + self.base_angle_rad(index)) as f32
+    }
+
+    /// The angle of a particle's stroke in the reference picture, radians.
+    pub(crate) fn base_angle_rad(&self, index: usize) -> f64 {
+        let region = usize::from(self.coat.seats.region(index));
+        self.coat.baked.base_angle_rad(index, self.coat.ground.references.of_rule(region))
     }
 
     /// How much larger than stated the stroke of a particle is, since it follows the size of its surface: m^γ, m the pixels

@@ -11,7 +11,7 @@ use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
 use crate::field::{BodyField, FieldInputs};
-use crate::references::{BodyReferences, Views};
+use crate::references::{BodyReference, BodyReferences, Views};
 use crate::regions::RegionRule;
 use crate::seats::{KeptSeats, Seats};
 use crate::stated::{Point, Stated};
@@ -83,8 +83,22 @@ impl PartialEq for BakeInputs {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BakedBody {
     pub(crate) baked: BakedParticles,
-    /// θ₀ with jitter in the reference picture, radians: what `horn-exact` adds to its turn.
-    pub(crate) base_angle_rad: Vec<f32>,
+    /// θ₀ with jitter in the reference picture, radians: what `horn-exact` adds to its turn. Empty where N' alone turns.
+    base_angle_rad: Vec<f32>,
+}
+
+impl BakedBody {
+    /// The angle of a particle's stroke in the reference picture of its rule, radians.
+    pub(crate) fn base_angle_rad(&self, particle: usize, reference: &BodyReference) -> f64 {
+        match self.base_angle_rad.get(particle) {
+            Some(&angle_rad) => f64::from(angle_rad),
+            // What N' shows there.
+            None => {
+                let jacobian = reference.map.jacobian(self.baked.position_of(particle));
+                self.baked.lift_of(particle).map(jacobian).angle_rad()
+            }
+        }
+    }
 }
 
 /// How many particles one task bakes.
@@ -96,25 +110,30 @@ impl BakeInputs {
         let ground = &self.ground;
         let count = ground.seats.particles.len();
         if let Some(kept) = &kept
-            && kept.base_angle_rad.len() == count
+            && kept.baked.len() == count
         {
             return Arc::clone(kept);
         }
         let mut body = kept.map_or_else(BakedBody::default, Arc::unwrap_or_clone);
-        body.base_angle_rad.truncate(count);
-        let first = body.base_angle_rad.len();
+        let first = body.baked.len().min(count);
         body.baked.resize(count);
-        body.base_angle_rad.resize(count, 0.0);
+        body.base_angle_rad.truncate(count);
+        if self.solver != Solver::Tangent {
+            body.base_angle_rad.resize(count, 0.0);
+        }
         let stated = ground.stated();
-        let angles = body.base_angle_rad[first..].par_chunks_mut(CHUNK);
-        let chunks = body.baked.chunks_mut(first, CHUNK).into_par_iter().zip(angles).enumerate();
-        chunks.for_each(|(number, (mut baked, base_angles_rad))| {
-            for (offset, base_angle_rad) in base_angles_rad.iter_mut().enumerate() {
+        let mut angles = body.base_angle_rad.get_mut(first..).unwrap_or_default().chunks_mut(CHUNK);
+        let chunks = body.baked.chunks_mut(first, CHUNK).into_iter();
+        let chunks: Vec<_> = chunks.map(|baked| (baked, angles.next().unwrap_or_default())).collect();
+        chunks.into_par_iter().enumerate().for_each(|(number, (mut baked, base_angles_rad))| {
+            for offset in 0..CHUNK.min(count - first - number * CHUNK) {
                 let index = first + number * CHUNK + offset;
                 let point = ground.point(index, ground.seats.region(index));
                 let (lift, base_rad) = self.lift(index, point, &stated);
                 baked.set(offset, (ground.lifted(point), point.normal), lift);
-                *base_angle_rad = base_rad as f32;
+                if let Some(base_angle_rad) = base_angles_rad.get_mut(offset) {
+                    *base_angle_rad = base_rad as f32;
+                }
             }
         });
         let flatness = |rule: u16| ground.rules[usize::from(rule)].strokes.flatness;
@@ -174,8 +193,7 @@ impl LiftGround {
     pub(crate) fn poles(&self) -> Vec<bool> {
         let stated = self.stated();
         let up_in_model = self.references.own().up_in_model;
-        let is_pole =
-            |index: usize| stated.is_pole(self.point(index, self.seats.region(index)), up_in_model);
+        let is_pole = |index: usize| stated.is_pole(self.point(index, self.seats.region(index)), up_in_model);
         (0..self.seats.particles.len()).map(is_pole).collect()
     }
 

@@ -189,16 +189,26 @@ impl KeptObject {
         self.kept_surface().bounds.map(|(low, high)| (low - reach, high + reach))
     }
 
-    /// Samples the particles of every coat.
-    pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+    /// Finds how many particles each coat has.
+    pub(crate) fn count(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
         let KeptSurface { body, parts, .. } = self.kept_surface().clone();
-        let surface = OnceCell::new();
-        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
         let inputs = CountInputs::new(context, object, Arc::clone(&body));
         if self.counts.as_ref().is_none_or(|(before, _)| *before != inputs) {
-            let counts = inputs.counts(surface(), &parts);
+            let counts = inputs.counts(&Surface::with_sides(&body.mesh, &body.sides, |_| true), &parts);
             self.counts = Some((inputs, counts));
         }
+    }
+
+    /// How many particles all coats have together.
+    pub(crate) fn counted(&self) -> usize {
+        self.counts.as_ref().map_or(0, |(_, counts)| counts.iter().sum())
+    }
+
+    /// Samples the particles of every coat.
+    pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+        let body = self.surface();
+        let surface = OnceCell::new();
+        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
         let counts = self.counts.as_ref().map_or([0; LayerKind::ALL.len()], |(_, counts)| *counts);
         for (kind, count) in LayerKind::ALL.into_iter().zip(counts) {
             let name_hash = name_hash(context, object.index, kind);

@@ -40,5 +40,5 @@ pub use frame::{Frame, Quality};
 pub use hairs::{Hair, ShownDirection, SurfacePlace};
 pub use noise_displace::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
 pub use particles::Particles;
-pub use prepare::{Painting, PrepareError, Preparer, Step, prepare};
+pub use prepare::{Painting, PrepareError, PrepareOptions, Preparer, Step, prepare};
 pub use recall::Recall;

@@ -71,7 +71,8 @@ impl OrderInputs {
         let mut runs: BTreeMap<(i32, LayerKind), Vec<Queue>> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
             for (layer, particles) in coat.by_layer(&self.layers) {
-                let queue = Queue { coat: index as u32, name_hash: coat.name_hash, of: coat.count, particles };
+                let queue =
+                    Queue { coat: index as u32, name_hash: coat.name_hash, of: coat.count, particles };
                 runs.entry((layer, coat.kind)).or_default().push(queue);
             }
         }

@@ -1,8 +1,9 @@
 //! From a scene to a painting, step by step; each step is kept while its inputs stay the same.
 
+mod options;
+
 use std::collections::HashMap;
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::{DAffine3, Vec3};
 use impasto_core::direction::singularities::Singularity;
@@ -27,31 +28,9 @@ use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
+use options::{StepClock, fits};
 
-/// Why a scene cannot be prepared.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum PrepareError {
-    /// An object's mesh was not handed over with the scene.
-    #[error("object {object:?}: mesh {mesh:?} was not read")]
-    MeshMissing {
-        /// Name of the object.
-        object: String,
-        /// Path of the mesh as written in the scene.
-        mesh: String,
-    },
-    /// Whoever asked wants it no more.
-    #[error("preparing was given up")]
-    GivenUp,
-}
-
-/// How long a step of preparing took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    /// What was done.
-    pub name: &'static str,
-    /// Wall clock seconds.
-    pub seconds: f64,
-}
+pub use options::{PrepareError, PrepareOptions, Step};
 
 /// A scene, ready to be seen at any time from its camera. Immutable; cheap to clone.
 #[derive(Clone)]
@@ -129,19 +108,20 @@ impl Preparer {
     /// # Errors
     /// When a mesh that the scene names was not handed over with it.
     pub fn prepare(&mut self, loaded: Arc<LoadedScene>) -> Result<Painting, PrepareError> {
-        self.prepare_unless(loaded, &|| false)
+        self.prepare_with(loaded, &PrepareOptions::default())
     }
 
-    /// As [`Preparer::prepare`], given up as soon as `give_up` says so; what was made by then is kept for the next time.
+    /// As [`Preparer::prepare`]. Given up, it keeps what was made by then for the next time.
     ///
     /// # Errors
-    /// As there, and [`PrepareError::GivenUp`].
-    pub fn prepare_unless(
+    /// As there, [`PrepareError::GivenUp`], and [`PrepareError::Memory`] before any memory is taken for particles.
+    pub fn prepare_with(
         &mut self,
         loaded: Arc<LoadedScene>,
-        give_up: &(dyn Fn() -> bool + Sync),
+        options: &PrepareOptions<'_>,
     ) -> Result<Painting, PrepareError> {
-        let mut clock = StepClock::new();
+        let give_up = options.give_up;
+        let mut clock = StepClock::new(options.peak_bytes);
         let scene = &loaded.scene;
         let inputs = surface_inputs(&loaded)?;
         let mut kept = self.take_kept(scene);
@@ -194,6 +174,11 @@ impl Preparer {
                 shape: &reference_shapes[index],
             })
             .collect();
+        kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.count(&context, object));
+        if let Err(error) = fits(options.memory_bytes, scene, &kept, *solver) {
+            self.keep(scene, kept);
+            return Err(error);
+        }
         kept.par_iter_mut().zip(&objects).for_each(|(kept, &object)| kept.sample(&context, object));
         if give_up() {
             return self.given_up(scene, kept);
@@ -458,21 +443,4 @@ fn views_in_advance(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
     let reference = (PictureView { pose: camera, size_px }, motion::poses_at(scene, frame));
     let along = frames.iter().map(|frame| (view(frame), motion::poses_at(scene, *frame)));
     std::iter::once(reference).chain(along).collect()
-}
-
-/// Notes how long each step takes.
-struct StepClock {
-    since: Instant,
-    steps: Vec<Step>,
-}
-
-impl StepClock {
-    fn new() -> Self {
-        Self { since: Instant::now(), steps: Vec::new() }
-    }
-
-    fn lap(&mut self, name: &'static str) {
-        self.steps.push(Step { name, seconds: self.since.elapsed().as_secs_f64() });
-        self.since = Instant::now();
-    }
 }

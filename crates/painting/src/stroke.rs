@@ -93,7 +93,7 @@ impl Look<'_> {
         let flat = Shape { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
         let Shape { angle_rad, length_px, width_px, skew } = match self.rotation {
             Rotation::Mapped => {
-                let base = f64::from(coat.baked.base_angle_rad[index]);
+                let base = seen.base_angle_rad(index);
                 let lift = match self.painting.solver {
                     Solver::Horn | Solver::HornExact => lift.turned(base),
                     Solver::Tangent => lift,

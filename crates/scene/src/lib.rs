@@ -8,6 +8,7 @@ pub mod limits;
 pub mod load;
 pub mod loaded;
 pub mod locate;
+pub mod memory;
 pub mod mesh_file;
 pub mod morph;
 pub mod motion;

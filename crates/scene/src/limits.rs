@@ -42,11 +42,11 @@ pub const MAX_INTENSITY: f64 = 1e6;
 /// Vertical field of view, degrees.
 pub const FOV_Y_DEG: std::ops::RangeInclusive<f64> = 1.0..=170.0;
 
-/// Particles of one object.
-pub const MAX_PARTICLES_OF_OBJECT: u64 = 4_000_000;
+/// Particles of one object; exact in a 32-bit float.
+pub const MAX_PARTICLES_OF_OBJECT: u64 = 16_000_000;
 
 /// Particles of the scene.
-pub const MAX_PARTICLES: u64 = 8_000_000;
+pub const MAX_PARTICLES: u64 = 32_000_000;
 
 /// Length or width of a stroke, pixels.
 pub const MAX_STROKE_PX: f64 = 4096.0;

@@ -81,7 +81,7 @@ fn strokes_lie_where_the_surface_has_gone_and_turn_as_it_does() {
             if facing < 0.5 || *base_facing < 0.5 {
                 continue;
             }
-            let particle = &particles[index as usize];
+            let particle = &particles.at(index as usize);
             // Its triangle's corners carry it.
             let [v, w] = particle.barycentric.map(f64::from);
             let on_screen = |side: usize, v: f64, w: f64| {

@@ -13,7 +13,7 @@ use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
 use impasto_painting::frame::FrameStyle;
 use impasto_painting::{
-    Frame, FrameOptions, Painting, PrepareError, Preparer, Quality, Recall, StrokeColors,
+    Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, Quality, Recall, StrokeColors,
 };
 use impasto_scene::mesh_file::MeshFile;
 
@@ -231,7 +231,13 @@ impl Studio {
         if let Some((painting, _)) = self.prepared.as_ref().filter(|(_, prepared)| *prepared == serial) {
             return Some(painting.clone());
         }
-        match self.preparer.prepare_unless(Arc::clone(&order.job.loaded), &|| desk.gives_up(order)) {
+        let give_up = || desk.gives_up(order);
+        let options = PrepareOptions {
+            give_up: &give_up,
+            memory_bytes: impasto_scene::memory::available_bytes(),
+            ..PrepareOptions::default()
+        };
+        match self.preparer.prepare_with(Arc::clone(&order.job.loaded), &options) {
             Ok(painting) => {
                 self.prepared = Some((painting.clone(), serial));
                 let frame = order.job.views.first().map_or(0.0, |view| view.frame);

@@ -80,7 +80,7 @@ fn at_guide(
         if !is_its || stroke.facing < FACED {
             continue;
         }
-        let at = painting.particles(object)[key.particle as usize].position.as_dvec3();
+        let at = painting.particles(object).at(key.particle as usize).position.as_dvec3();
         let Some((distance, along, turn_deg)) = nearest(guide, at) else { continue };
         let is_combed_again = others
             .iter()

@@ -122,8 +122,8 @@ fn lights_say_where_they_are_and_are_few() {
 fn objects_have_names_particles_and_scales_in_range() {
     let object = |fields: &str| format!("objects: [(name: \"a\", mesh: \"cube.obj\", {fields})]");
     assert_finds(&object("particles: 0"), &[(Warning, "objects[0].particles")]);
-    assert_finds(&object("particles: 4000000"), &[]);
-    assert_finds(&object("particles: 4000001"), &[(Limit, "objects[0].particles")]);
+    assert_finds(&object("particles: 16000000"), &[]);
+    assert_finds(&object("particles: 16000001"), &[(Limit, "objects[0].particles")]);
     assert_finds(&object(&format!("particles: {}", u64::MAX)), &[(Limit, "objects[0].particles")]);
     assert_finds(&object("scale: 0"), &[(Warning, "objects[0].scale")]);
     assert_finds(&object("scale: (10, 1, 0.1)"), &[]);

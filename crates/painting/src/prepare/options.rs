@@ -1,0 +1,119 @@
+//! How to prepare, why it may fail, and what each step took.
+
+use std::time::Instant;
+
+use impasto_scene::document::{Scene, Solver};
+
+use crate::coat::KeptObject;
+
+/// Why a scene cannot be prepared.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PrepareError {
+    /// An object's mesh was not handed over with the scene.
+    #[error("object {object:?}: mesh {mesh:?} was not read")]
+    MeshMissing {
+        /// Name of the object.
+        object: String,
+        /// Path of the mesh as written in the scene.
+        mesh: String,
+    },
+    /// Whoever asked wants it no more.
+    #[error("preparing was given up")]
+    GivenUp,
+    /// There are too many particles for the memory that may be taken.
+    #[error(
+        "{particles} particles take about {} MiB while they are prepared, and {} MiB may be taken: give object {object:?} \
+         fewer than its {of_object} (particles), or larger strokes",
+        needed_bytes >> 20, budget_bytes >> 20
+    )]
+    Memory {
+        /// All particles of the scene.
+        particles: u64,
+        /// What they take, bytes.
+        needed_bytes: u64,
+        /// What they may take, bytes.
+        budget_bytes: u64,
+        /// The object that has most of them.
+        object: String,
+        /// How many it has.
+        of_object: u64,
+    },
+}
+
+/// What preparing takes at most for each particle, bytes: with directions that are combed and Horn's lists of neighbours.
+const PEAK_BYTES: u64 = 240;
+const PEAK_BYTES_WITH_LISTS: u64 = 520;
+
+/// How to prepare.
+#[derive(Clone, Copy)]
+pub struct PrepareOptions<'a> {
+    /// Whether to give up.
+    pub give_up: &'a (dyn Fn() -> bool + Sync),
+    /// What particles may take in memory, bytes; `None` for as much as there is.
+    pub memory_bytes: Option<u64>,
+    /// The most memory that was held since this was last asked, bytes, where that is known.
+    pub peak_bytes: &'a dyn Fn() -> Option<u64>,
+}
+
+impl Default for PrepareOptions<'_> {
+    /// To the end, without limit.
+    fn default() -> Self {
+        Self { give_up: &|| false, memory_bytes: None, peak_bytes: &|| None }
+    }
+}
+
+/// How long a step of preparing took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// What was done.
+    pub name: &'static str,
+    /// Wall clock seconds.
+    pub seconds: f64,
+    /// The most memory that the process held meanwhile, bytes, where whoever asked can tell.
+    pub peak_bytes: Option<u64>,
+}
+
+/// Whether the particles that were counted fit into memory.
+pub(super) fn fits(
+    memory_bytes: Option<u64>,
+    scene: &Scene,
+    kept: &[KeptObject],
+    solver: Solver,
+) -> Result<(), PrepareError> {
+    let of_object = |index: usize| kept[index].counted() as u64;
+    let particles: u64 = (0..kept.len()).map(of_object).sum();
+    let with_lists = matches!(solver, Solver::Horn | Solver::HornExact);
+    let needed_bytes = particles * if with_lists { PEAK_BYTES_WITH_LISTS } else { PEAK_BYTES };
+    let most = (0..kept.len()).max_by_key(|&index| of_object(index));
+    match (memory_bytes, most) {
+        (Some(budget_bytes), Some(most)) if needed_bytes > budget_bytes => Err(PrepareError::Memory {
+            particles,
+            needed_bytes,
+            budget_bytes,
+            object: scene.objects[most].name.clone(),
+            of_object: of_object(most),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Tells how long each step takes, and how much memory.
+pub(super) struct StepClock<'a> {
+    since: Instant,
+    peak_bytes: &'a dyn Fn() -> Option<u64>,
+    pub(super) steps: Vec<Step>,
+}
+
+impl<'a> StepClock<'a> {
+    pub(super) fn new(peak_bytes: &'a dyn Fn() -> Option<u64>) -> Self {
+        peak_bytes();
+        Self { since: Instant::now(), peak_bytes, steps: Vec::new() }
+    }
+
+    /// A step ends here.
+    pub(super) fn lap(&mut self, name: &'static str) {
+        let seconds = self.since.elapsed().as_secs_f64();
+        self.steps.push(Step { name, seconds, peak_bytes: (self.peak_bytes)() });
+        self.since = Instant::now();
+    }
+}

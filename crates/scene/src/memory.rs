@@ -1,0 +1,57 @@
+//! What memory there is, where the system says so (Linux).
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The most that was ever held, as far as [`peak_since_last_bytes`] has seen.
+static MOST: AtomicU64 = AtomicU64::new(0);
+
+/// Bytes that a program may still take without the system running out: what is free or can be freed, within the limits of the
+/// group of processes.
+pub fn available_bytes() -> Option<u64> {
+    let of_system = field_bytes("/proc/meminfo", "MemAvailable:");
+    let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
+    let left = |most: &str, now: &str| Some(number(most)?.saturating_sub(number(now)?));
+    let of_group = left("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current").or_else(|| {
+        left("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes")
+    });
+    match (of_system, of_group) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// The most memory that this process has held at once, bytes.
+pub fn peak_bytes() -> Option<u64> {
+    field_bytes("/proc/self/status", "VmHWM:").map(|now| now.max(MOST.load(Ordering::Relaxed)))
+}
+
+/// The most memory that this process has held at once since this was last asked, bytes.
+pub fn peak_since_last_bytes() -> Option<u64> {
+    let peak = field_bytes("/proc/self/status", "VmHWM:")?;
+    MOST.fetch_max(peak, Ordering::Relaxed);
+    // "5" lets the mark fall to what is held now; where that is not allowed the peaks only grow.
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+    Some(peak)
+}
+
+/// A line such as `VmHWM:  1234 kB` of a file of the system, in bytes.
+fn field_bytes(path: &str, name: &str) -> Option<u64> {
+    let text = std::fs::read_to_string(path).ok()?;
+    let line = text.lines().find(|line| line.starts_with(name))?;
+    Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? * 1024)
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_peak_falls_back_to_what_is_held() {
+        let before = peak_since_last_bytes().unwrap();
+        assert!(available_bytes().unwrap() > 0);
+        let held = std::hint::black_box(vec![1u8; 64 << 20]);
+        drop(held);
+        let with = peak_since_last_bytes().unwrap();
+        assert!(with >= 64 << 20 && peak_bytes().unwrap() >= with.max(before), "{before} {with}");
+    }
+}
