@@ -145,7 +145,7 @@ impl BakeInputs {
         Arc::new(body)
     }
 
-    /// N' of a particle, and its base angle in the reference picture.
+    /// N' of a particle, and, where N' does not tell it, its base angle in the reference picture.
     fn lift(&self, index: usize, point: Point, stated: &Stated<'_>) -> (Lift, f64) {
         let ground = &self.ground;
         let views = ground.views(index, point, self.solver == Solver::Horn);
@@ -159,9 +159,16 @@ impl BakeInputs {
             tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
         }
         let stray = self.seats.stray_rad[index] + ground.rules[point.rule].turn_rad;
-        let base_rad =
-            if tangent == base.tangent { base.in_reference_rad } else { views.angle_in_reference(tangent) };
-        (views.lift(tangent).turned(stray), if base_rad.is_finite() { base_rad + stray } else { stray })
+        let lift = views.lift(tangent).turned(stray);
+        if self.solver == Solver::Tangent {
+            return (lift, 0.0);
+        }
+        let base_rad = if tangent == base.tangent {
+            stated.in_reference_rad(point, &views)
+        } else {
+            views.angle_in_reference(tangent)
+        };
+        (lift, if base_rad.is_finite() { base_rad + stray } else { stray })
     }
 }
 

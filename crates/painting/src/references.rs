@@ -74,7 +74,7 @@ impl SceneReferences {
             BodyReference {
                 map: reference.view.screen_map(pose),
                 near: reference.view.near(),
-                roll_rad: reference.view.pose.roll_rad,
+                roll_sin_cos: reference.view.pose.roll_rad.sin_cos().into(),
                 up_in_model: pose.matrix3.transpose() * DVec3::Y,
                 size_px: reference.view.size_px,
             }
@@ -92,7 +92,8 @@ impl SceneReferences {
 pub(crate) struct BodyReference {
     pub(crate) map: ScreenMap,
     pub(crate) near: f64,
-    pub(crate) roll_rad: f64,
+    /// Of the angle by which its camera is rolled.
+    roll_sin_cos: [f64; 2],
     /// The world's up in model space, at the reference pose.
     pub(crate) up_in_model: DVec3,
     /// Width and height of the scene's picture.
@@ -152,8 +153,8 @@ impl BodyReferences {
         let jacobian = own.map.jacobian(position);
         let px_per_unit = jacobian[0].cross(jacobian[1]).length().sqrt();
         let axes = turntable_axes(normal, own.up_in_model);
-        let (sin, cos) = own.roll_rad.sin_cos();
-        let mut seen = [own.seen(position, normal), None];
+        let [sin, cos] = own.roll_sin_cos;
+        let mut seen = [own.seen_through(jacobian, (position, normal)), None];
         if let Some(first) = &mut seen[0]
             && let Some(lift) = horn(own)
         {
@@ -181,7 +182,10 @@ impl BodyReferences {
 
 impl BodyReference {
     fn seen(&self, position: DVec3, normal: DVec3) -> Option<Seen> {
-        let jacobian = self.map.jacobian(position);
+        self.seen_through(self.map.jacobian(position), (position, normal))
+    }
+
+    fn seen_through(&self, jacobian: [DVec3; 2], (position, normal): (DVec3, DVec3)) -> Option<Seen> {
         let share = f64::from(smoothstep(((facing(jacobian, normal) - NONE) / (WHOLE - NONE)) as f32));
         if self.map.depth(position) <= self.near || share.is_nan() || share <= 0.0 {
             return None;

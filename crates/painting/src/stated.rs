@@ -23,8 +23,6 @@ pub(crate) struct Base {
     pub(crate) tangent: DVec3,
     /// 1 where it is stated outright; less where no reference faces the point and it is a guess.
     pub(crate) exact: f64,
-    /// The same as an angle in the reference picture, radians.
-    pub(crate) in_reference_rad: f64,
 }
 
 /// Where a point stands.
@@ -34,6 +32,33 @@ pub(crate) struct Point {
     pub(crate) normal: DVec3,
     pub(crate) rule: usize,
     pub(crate) part: usize,
+}
+
+/// What is stated at a point: a direction on the surface shows at another angle in each view, an angle is the same in all.
+enum Line {
+    OnSurface(DVec3),
+    /// Radians.
+    Shown(f64),
+}
+
+impl Line {
+    fn angle_in(&self, jacobian: [DVec3; 2]) -> f64 {
+        match *self {
+            Self::OnSurface(tangent) => shown_rad(tangent, jacobian),
+            Self::Shown(angle_rad) => angle_rad,
+        }
+    }
+
+    /// The tangent where no reference sees the point.
+    fn unseen(&self, views: &Views) -> DVec3 {
+        match *self {
+            Self::OnSurface(tangent) => tangent,
+            Self::Shown(angle_rad) => {
+                let (sin, cos) = angle_rad.sin_cos();
+                views.rolled_axes[0] * cos + views.rolled_axes[1] * sin
+            }
+        }
+    }
 }
 
 /// How directions of a rule repeat.
@@ -56,6 +81,40 @@ impl Stated<'_> {
     }
 
     pub(crate) fn base(&self, point: Point, views: &Views) -> Base {
+        let line = self.line(point);
+        let symmetry = symmetry(&self.rules[point.rule]);
+        let is_angle = matches!(line, Line::Shown(_));
+        let (mut z, mut whole) = (None, None);
+        let mut left = views.seen.iter().flatten().count();
+        for seen in views.seen.iter().rev().flatten() {
+            left -= 1;
+            let here = views.tangent_at(line.angle_in(seen.jacobian), seen.jacobian);
+            if left == 0 && seen.share >= 1.0 {
+                whole = Some(here);
+                break;
+            }
+            let there = symmetry.encode(here, views.axes);
+            let unseen = z.unwrap_or_else(|| symmetry.encode(line.unseen(views), views.axes));
+            let mixed: DVec2 = there * seen.share + unseen * (1.0 - seen.share);
+            z = Some(mixed.try_normalize().unwrap_or(there));
+        }
+        Base {
+            // Through no number and back where one reference says it all: to the last bit.
+            tangent: whole.unwrap_or_else(|| {
+                let z = z.unwrap_or_else(|| symmetry.encode(line.unseen(views), views.axes));
+                symmetry.decode(z, views.axes)
+            }),
+            exact: if is_angle { views.share() } else { 1.0 },
+        }
+    }
+
+    /// The stated direction as an angle in the reference picture of the point's rule, radians.
+    pub(crate) fn in_reference_rad(&self, point: Point, views: &Views) -> f64 {
+        let angle_rad = self.line(point).angle_in(views.jacobian);
+        if angle_rad.is_finite() { angle_rad } else { 0.0 }
+    }
+
+    fn line(&self, point: Point) -> Line {
         let Point { position, normal, .. } = point;
         let tangent = match *self.direction(point) {
             Direction::Around(axis) => {
@@ -65,41 +124,12 @@ impl Stated<'_> {
             Direction::Along(axis) => direction::towards(DVec3::from(axis), normal),
             Direction::Up => direction::towards(DVec3::Y, normal),
             Direction::Toward(target) => direction::toward(DVec3::from(target), position, normal),
-            Direction::Auto | Direction::Angle(_) | Direction::Crossing(..) | Direction::Curvature(_) => {
-                DVec3::ZERO
+            Direction::Angle(degrees) | Direction::Crossing(degrees, _) => {
+                return Line::Shown(degrees.to_radians());
             }
+            Direction::Auto | Direction::Curvature(_) => DVec3::ZERO,
         };
-        let stated_rad = match *self.direction(point) {
-            Direction::Angle(degrees) | Direction::Crossing(degrees, _) => degrees.to_radians(),
-            _ => 0.0,
-        };
-        let is_angle = tangent == DVec3::ZERO;
-        // A direction on the surface shows at another angle in each view; a stated angle is the same in all.
-        let angle_in =
-            |jacobian: [DVec3; 2]| if is_angle { stated_rad } else { shown_rad(tangent, jacobian) };
-        let symmetry = symmetry(&self.rules[point.rule]);
-        let unseen = if is_angle {
-            let (sin, cos) = stated_rad.sin_cos();
-            views.rolled_axes[0] * cos + views.rolled_axes[1] * sin
-        } else {
-            tangent
-        };
-        let mut z = symmetry.encode(unseen, views.axes);
-        let mut whole = None;
-        for seen in views.seen.iter().rev().flatten() {
-            let here = views.tangent_at(angle_in(seen.jacobian), seen.jacobian);
-            whole = (seen.share >= 1.0).then_some(here);
-            let there = symmetry.encode(here, views.axes);
-            let mixed: DVec2 = there * seen.share + z * (1.0 - seen.share);
-            z = mixed.try_normalize().unwrap_or(there);
-        }
-        let in_reference_rad = angle_in(views.jacobian);
-        Base {
-            // Through no number and back where one reference says it all: to the last bit.
-            tangent: whole.unwrap_or_else(|| symmetry.decode(z, views.axes)),
-            exact: if is_angle { views.share() } else { 1.0 },
-            in_reference_rad: if in_reference_rad.is_finite() { in_reference_rad } else { 0.0 },
-        }
+        if tangent == DVec3::ZERO { Line::Shown(0.0) } else { Line::OnSurface(tangent) }
     }
 
     /// Whether the surface faces along the axis that the direction of a point is stated by, within 26 degrees; for a stated
