@@ -12,6 +12,7 @@ use crate::TriangleMesh;
 use crate::shells::{Side, sides};
 use dart_grid::Dart;
 
+pub use candidates::scattered;
 pub use paper::{PolygonParticle, per_polygon};
 pub use progressive::{ProgressiveState, progressive};
 

@@ -1,8 +1,21 @@
 //! An endless, even, random sequence of places on a surface: what dart throwing throws.
 
+use rayon::prelude::*;
+
 use super::dart_grid::Dart;
 use super::{Particle, Surface, barycentric};
 use crate::hash;
+
+/// `count` particles by chance, spread evenly by area: what dart throwing picks from, without the picking. The first so many are
+/// the same for every count. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
+pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
+    if surface.faces.is_empty() {
+        return Vec::new();
+    }
+    let candidates = Candidates::new(surface, seed);
+    let numbers = (0..count).into_par_iter().with_min_len(1024);
+    numbers.map(|number| candidates.particle(number as u32)).collect()
+}
 
 /// The sequence: its `i`th place depends on the surface, the seed and `i` alone.
 pub(super) struct Candidates<'a> {

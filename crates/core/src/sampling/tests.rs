@@ -1,6 +1,6 @@
 use glam::Vec3;
 
-use super::{Particle, ProgressiveState, Surface, progressive};
+use super::{Particle, ProgressiveState, Surface, progressive, scattered};
 use crate::TriangleMesh;
 
 /// Square grids of triangles; each patch maps a place in −1..1 squared to a position and a normal.
@@ -136,4 +136,21 @@ fn no_body_makes_it_stop_or_fail() {
         let count = if surface.area() > 0.0 { 2000 } else { 0 };
         assert_eq!(progressive(&surface, 2000, 1).len(), count);
     }
+}
+
+#[test]
+fn scattered_particles_fill_every_face_by_its_area() {
+    let mesh = rod_and_speck();
+    let surface = Surface::new(&mesh, |_| true);
+    let count = 200_000;
+    let particles = scattered(&surface, count, 9);
+    for (triangle, flipped, area) in surface.faces() {
+        let found =
+            particles.iter().filter(|p| p.triangle == triangle && p.flipped == flipped).count() as f64;
+        let expected = count as f64 * area / surface.area();
+        // Five standard deviations.
+        assert!((found - expected).abs() <= 5.0 * expected.sqrt(), "{triangle}: {found} of {expected}");
+    }
+    assert_eq!(scattered(&surface, 1000, 9), particles[..1000]);
+    assert!(scattered(&Surface::new(&mesh, |_| false), 10, 9).is_empty());
 }
