@@ -2,6 +2,7 @@
 
 mod candidates;
 mod dart_grid;
+mod face_cones;
 mod paper;
 mod place;
 mod progressive;
@@ -10,7 +11,9 @@ use glam::{Vec2, Vec3};
 
 use crate::TriangleMesh;
 use crate::shells::{Side, sides};
+use dart_grid::Dart;
 
+pub use candidates::scattered;
 pub use paper::{PolygonParticle, per_polygon};
 pub use place::Place;
 pub use progressive::{ProgressiveState, progressive};
@@ -120,6 +123,24 @@ impl<'mesh> Surface<'mesh> {
         })
     }
 
+    /// Where a place of a face lies: what [`Surface::particle`] says, at a third of its cost.
+    #[inline]
+    fn position(&self, face: usize, [v, w]: [f32; 2]) -> Vec3 {
+        let [a, b, c] = self.mesh.corners(self.faces[face].triangle as usize);
+        a * (1.0 - v - w) + b * v + c * w
+    }
+
+    /// Particles of this surface as darts.
+    fn darts(&self, particles: &[Particle]) -> Vec<Dart> {
+        let dart = |(particle, number): (&Particle, u32)| {
+            let face = self.faces.partition_point(|face| {
+                (face.triangle, face.flipped) < (particle.triangle, particle.flipped)
+            });
+            Dart { position: particle.position, face: face as u32, number }
+        };
+        particles.iter().zip(0..).map(dart).collect()
+    }
+
     /// The particle at a place of a face.
     fn particle(&self, face: usize, barycentric: [f32; 2]) -> Particle {
         let Face { triangle, flipped } = self.faces[face];
@@ -143,3 +164,6 @@ fn barycentric(first: f32, second: f32) -> [f32; 2] {
 pub fn hexagonal_spacing(area: f64, count: usize) -> f64 {
     (2.0 * area / (3f64.sqrt() * count as f64)).sqrt()
 }
+
+#[cfg(test)]
+mod tests;

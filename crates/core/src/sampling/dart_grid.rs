@@ -1,83 +1,249 @@
-//! Tells whether a place is free of accepted particles on the same side of the surface, in a hashed grid whose cells
-//! shrink with the spacing.
+//! Accepted particles sorted by cells, so that a search reads four short runs of memory.
+
+use std::ops::Range;
 
 use glam::Vec3;
 
-/// Marks the end of a chain.
-const NONE: u32 = u32::MAX;
-
-/// Accepted particles, chained by grid cell. A cell is at least twice the search radius wide, so that a search reads
-/// the eight cells round the nearest grid corner and no others.
-pub(super) struct DartGrid {
-    cell: f32,
-    heads: Vec<u32>,
-    entries: Vec<Entry>,
+/// A particle, or what may become one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dart {
+    /// Model space.
+    pub(super) position: Vec3,
+    /// The face of the surface that it lies on.
+    pub(super) face: u32,
+    /// Which particle or candidate it is.
+    pub(super) number: u32,
 }
 
-struct Entry {
-    position: Vec3,
-    next: u32,
-    normal: Vec3,
+/// How many darts are looked at together.
+const LANES: usize = 8;
+
+/// Widths of a cell in search radii, a little over 2 and 4, against rounding: a search reads two cells of a row, which are
+/// next to each other, and as much of the rows beside where they are near.
+const CELL: Vec3 = Vec3::new(2.02, 4.04, 4.04);
+
+/// Darts by grid cell. Cells share buckets: those that differ in x by one are next to each other, others are anywhere. A search
+/// may read more than it asked for, never less.
+pub(super) struct DartGrid {
+    /// Along each axis.
+    cells_per_unit: Vec3,
+    /// From one row to the next in y: about as many as a row has cells, so that they are near each other in memory too.
+    row_stride: u32,
+    /// One less than the number of buckets, a power of two.
+    mask: u32,
+    /// First dart of each bucket, and the end.
+    starts: Vec<u32>,
+    /// Positions of the darts, and [`LANES`] that are infinitely far away.
+    axes: [Vec<f32>; 3],
+    faces: Vec<u32>,
+    numbers: Vec<u32>,
 }
 
 impl DartGrid {
-    pub(super) fn new() -> Self {
-        Self { cell: f32::MAX, heads: vec![NONE; 64], entries: Vec::new() }
+    /// For searches within `radius`.
+    pub(super) fn new(darts: &[Dart], radius: f32) -> Self {
+        let buckets = darts.len().next_power_of_two().max(64);
+        let cells_per_unit = (CELL * radius).recip();
+        let ends = darts.iter().fold((f32::MAX, f32::MIN), |(low, high), dart| {
+            (low.min(dart.position.x), high.max(dart.position.x))
+        });
+        let mut grid = Self {
+            cells_per_unit,
+            row_stride: ((ends.1 - ends.0) * cells_per_unit.x).clamp(0.0, 4096.0) as u32 | 1,
+            mask: (buckets - 1) as u32,
+            starts: vec![0; buckets + 1],
+            axes: [0, 1, 2].map(|_| vec![f32::INFINITY; darts.len() + LANES]),
+            faces: vec![0; darts.len()],
+            numbers: vec![0; darts.len()],
+        };
+        for dart in darts {
+            let bucket = grid.bucket(dart.position) as usize;
+            grid.starts[bucket] += 1;
+        }
+        let mut end = 0;
+        for start in &mut grid.starts {
+            end += *start;
+            *start = end;
+        }
+        // From the ends of the buckets down to their starts.
+        for dart in darts.iter().rev() {
+            let bucket = grid.bucket(dart.position) as usize;
+            grid.starts[bucket] -= 1;
+            grid.put(grid.starts[bucket] as usize, dart);
+        }
+        grid
     }
 
-    /// Makes the grid finer when `radius` has shrunk enough to be worth it.
-    pub(super) fn shrink_to(&mut self, radius: f32) {
-        if radius * 2.0 < self.cell * 0.66 {
-            self.cell = radius * 2.0;
-            self.rebuild();
+    #[inline]
+    fn put(&mut self, at: usize, dart: &Dart) {
+        for (axis, value) in self.axes.iter_mut().zip(dart.position.to_array()) {
+            axis[at] = value;
+        }
+        self.faces[at] = dart.face;
+        self.numbers[at] = dart.number;
+    }
+
+    #[inline]
+    fn dart(&self, at: usize) -> Dart {
+        let [x, y, z] = &self.axes;
+        Dart { position: Vec3::new(x[at], y[at], z[at]), face: self.faces[at], number: self.numbers[at] }
+    }
+
+    /// All darts, those of a bucket next to each other.
+    pub(super) fn darts(&self) -> Vec<Dart> {
+        (0..self.numbers.len()).map(|at| self.dart(at)).collect()
+    }
+
+    /// Makes the cells as fine as `radius` allows and the buckets as many as the darts need, where that is worth it.
+    pub(super) fn fit(&mut self, radius: f32) {
+        if radius * CELL.x * self.cells_per_unit.x < 0.8 || self.numbers.len() > 2 * self.starts.len() {
+            *self = Self::new(&self.darts(), radius);
         }
     }
 
-    pub(super) fn insert(&mut self, position: Vec3, normal: Vec3) {
-        self.entries.push(Entry { position, normal, next: NONE });
-        if self.entries.len() * 2 > self.heads.len() {
-            self.rebuild();
-        } else {
-            self.chain(self.entries.len() - 1);
+    /// The same darts, those next to each other that are so in the grid: one search after the other finds what it reads in
+    /// the cache.
+    pub(super) fn in_order(&self, darts: Vec<Dart>) -> Vec<Dart> {
+        let Some(&first) = darts.first() else { return darts };
+        let buckets = self.mask as usize + 1;
+        let groups = (darts.len() / 16).next_power_of_two().min(1 << 16).min(buckets);
+        let shift = (buckets / groups).trailing_zeros();
+        let keys: Vec<u16> = darts.iter().map(|dart| (self.bucket(dart.position) >> shift) as u16).collect();
+        let mut ends = vec![0u32; groups];
+        for &key in &keys {
+            ends[usize::from(key)] += 1;
+        }
+        let mut sum = 0;
+        for end in &mut ends {
+            sum += *end;
+            *end = sum;
+        }
+        let mut sorted = vec![first; darts.len()];
+        for (dart, &key) in darts.iter().zip(&keys) {
+            let end = &mut ends[usize::from(key)];
+            *end -= 1;
+            sorted[*end as usize] = *dart;
+        }
+        sorted
+    }
+
+    /// Adds some darts.
+    pub(super) fn insert(&mut self, darts: &[Dart]) {
+        let key = |(index, dart): (usize, &Dart)| u64::from(self.bucket(dart.position)) << 32 | index as u64;
+        let mut order: Vec<u64> = darts.iter().enumerate().map(key).collect();
+        order.sort_unstable();
+        let mut end = self.numbers.len();
+        let count = end + darts.len();
+        self.faces.resize(count, 0);
+        self.numbers.resize(count, 0);
+        for axis in &mut self.axes {
+            axis.resize(count + LANES, f32::INFINITY);
+            axis[count..].fill(f32::INFINITY);
+        }
+        // From the last one down; what lies between two moves up by as many as are still to come.
+        let mut bucket_end = self.starts.len();
+        for (before, &key) in order.iter().enumerate().rev() {
+            let (after, index) = ((key >> 32) as usize + 1, key as u32 as usize);
+            let at = if after < bucket_end { self.starts[after] as usize } else { end };
+            for axis in &mut self.axes {
+                axis.copy_within(at..end, at + before + 1);
+            }
+            self.faces.copy_within(at..end, at + before + 1);
+            self.numbers.copy_within(at..end, at + before + 1);
+            self.put(at + before, &darts[index]);
+            for start in &mut self.starts[after..bucket_end] {
+                *start += before as u32 + 1;
+            }
+            (end, bucket_end) = (at, after);
         }
     }
 
-    /// Whether no accepted particle on the same side is nearer than `radius`.
-    pub(super) fn has_room(&self, position: Vec3, normal: Vec3, radius: f32) -> bool {
-        let corner = (position / self.cell - 0.5).floor().as_ivec3();
-        for offset in 0..8 {
-            let key = [corner.x + (offset & 1), corner.y + (offset >> 1 & 1), corner.z + (offset >> 2)];
-            let mut at = self.heads[self.slot(key)];
-            while at != NONE {
-                let entry = &self.entries[at as usize];
-                let crowded = entry.position.distance_squared(position) < radius * radius;
-                if crowded && entry.normal.dot(normal) > 0.0 {
-                    return false;
+    /// Whether `found` holds for any of the darts nearer than `radius` to a position; it may be asked twice of one.
+    #[inline]
+    pub(super) fn any_near(&self, position: Vec3, radius: f32, mut found: impl FnMut(&Dart) -> bool) -> bool {
+        let scaled = position * self.cells_per_unit;
+        let [x, y, z] = [floor(scaled.x), floor(scaled.y), floor(scaled.z)];
+        let first_x = x.wrapping_sub(i32::from(scaled.x - (x as f32) < 0.5));
+        let mut in_row = |y: i32, z: i32| {
+            let bucket = self.bucket_of([first_x, y, z]) as usize;
+            self.any_in_row(bucket, (position, radius * radius), &mut found)
+        };
+        // The position's own row first, where most of what crowds it is.
+        if in_row(y, z) {
+            return true;
+        }
+        let beside = |within: f32| if within < 0.25 { -1 } else { i32::from(within > 0.75) };
+        let (dy, dz) = (beside(scaled.y - y as f32), beside(scaled.z - z as f32));
+        let (beside_y, beside_z) = (y.wrapping_add(dy), z.wrapping_add(dz));
+        dy != 0 && in_row(beside_y, z)
+            || dz != 0 && (in_row(y, beside_z) || dy != 0 && in_row(beside_y, beside_z))
+    }
+
+    #[inline]
+    fn any_in_row(
+        &self,
+        bucket: usize,
+        (position, radius_sq): (Vec3, f32),
+        found: &mut impl FnMut(&Dart) -> bool,
+    ) -> bool {
+        let last = self.mask as usize;
+        let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
+        if self.any_in_run(run, (position, radius_sq), found) {
+            return true;
+        }
+        bucket == last && self.any_in_run(0..self.starts[1] as usize, (position, radius_sq), found)
+    }
+
+    #[inline]
+    fn any_in_run(
+        &self,
+        run: Range<usize>,
+        (position, radius_sq): (Vec3, f32),
+        found: &mut impl FnMut(&Dart) -> bool,
+    ) -> bool {
+        let [xs, ys, zs] = &self.axes;
+        let mut from = run.start;
+        loop {
+            // Whole lanes, past the run's end too: what lies there is tested like all others.
+            let (x, y, z) = (&xs[from..][..LANES], &ys[from..][..LANES], &zs[from..][..LANES]);
+            let mut distances_sq = [0.0; LANES];
+            let mut any = 0;
+            for lane in 0..LANES {
+                let off = [x[lane] - position.x, y[lane] - position.y, z[lane] - position.z];
+                let distance_sq = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
+                distances_sq[lane] = distance_sq;
+                any |= u32::from(distance_sq < radius_sq);
+            }
+            if any != 0 {
+                let mut lanes = distances_sq.iter().zip(from..);
+                if lanes.any(|(&distance_sq, at)| distance_sq < radius_sq && found(&self.dart(at))) {
+                    return true;
                 }
-                at = entry.next;
+            }
+            from += LANES;
+            if from >= run.end {
+                return false;
             }
         }
-        true
     }
 
-    fn slot(&self, key: [i32; 3]) -> usize {
-        let [x, y, z] = key.map(|value| value as u32);
-        let hash = x.wrapping_mul(0x8da6_b343) ^ y.wrapping_mul(0xd816_3841) ^ z.wrapping_mul(0xcb1a_b31f);
-        (hash ^ hash >> 15) as usize & (self.heads.len() - 1)
+    /// The bucket of the cell that holds a position.
+    #[inline]
+    fn bucket(&self, position: Vec3) -> u32 {
+        let scaled = position * self.cells_per_unit;
+        self.bucket_of([floor(scaled.x), floor(scaled.y), floor(scaled.z)])
     }
 
-    fn chain(&mut self, index: usize) {
-        let key = (self.entries[index].position / self.cell).floor().as_ivec3().to_array();
-        let slot = self.slot(key);
-        self.entries[index].next = self.heads[slot];
-        self.heads[slot] = index as u32;
+    #[inline]
+    fn bucket_of(&self, [x, y, z]: [i32; 3]) -> u32 {
+        let row = (y as u32).wrapping_mul(self.row_stride).wrapping_add((z as u32).wrapping_mul(0x9e37_79b1));
+        (x as u32).wrapping_add(row) & self.mask
     }
+}
 
-    fn rebuild(&mut self) {
-        self.heads.clear();
-        self.heads.resize((self.entries.len() * 4).next_power_of_two().max(64), NONE);
-        for index in 0..self.entries.len() {
-            self.chain(index);
-        }
-    }
+/// `f32::floor` is a call where the processor is taken to be old.
+#[inline]
+fn floor(value: f32) -> i32 {
+    let toward_zero = value as i32;
+    toward_zero.wrapping_sub(i32::from(toward_zero as f32 > value))
 }

@@ -1,0 +1,127 @@
+//! Points sorted by grid cell, so that whatever is near a cell lies in nine runs of memory.
+
+use std::ops::Range;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::Points;
+
+/// Where cells lie and how wide they are, at least as wide as the search radius. Their numbers grow with z, then y, then x, and
+/// every cell that holds a point has one on each side.
+#[derive(Clone, Copy)]
+pub(super) struct CellSpace {
+    low: [f64; 3],
+    cells_per_unit: f64,
+    /// Along x, y and z.
+    cells: [u64; 3],
+}
+
+impl CellSpace {
+    /// Holds all positions that are finite.
+    pub(super) fn new(positions: [&[Vec3]; 2], radius: f32) -> Self {
+        let none = (Vec3::splat(f32::MAX), Vec3::splat(f32::MIN));
+        let joined = |a: (Vec3, Vec3), b: (Vec3, Vec3)| (a.0.min(b.0), a.1.max(b.1));
+        let finite = positions.into_par_iter().flatten().filter(|position| position.is_finite());
+        let (low, high) = finite.map(|&position| (position, position)).reduce(|| none, joined);
+        let extent = (high.as_dvec3() - low.as_dvec3()).max(glam::DVec3::ZERO).to_array();
+        // A little wider than need be, against rounding; and so wide that the numbers of all cells are in range.
+        let mut width = f64::from(radius.max(f32::MIN_POSITIVE)) * 1.00001;
+        let cells = loop {
+            let cells = extent.map(|extent| (extent / width).floor() + 3.0);
+            if cells[0] * cells[1] * cells[2] < 9e18 {
+                break cells.map(|cells| cells as u64);
+            }
+            width *= 2.0;
+        };
+        Self { low: low.as_dvec3().to_array(), cells_per_unit: 1.0 / width, cells }
+    }
+
+    /// The number of a position's cell.
+    #[inline]
+    fn number(&self, position: Vec3) -> u64 {
+        let position = position.as_dvec3().to_array();
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            // In range, whatever the position.
+            let cell = ((position[axis] - self.low[axis]) * self.cells_per_unit) as u64;
+            cell.min(self.cells[axis] - 3) + 1
+        });
+        (z * self.cells[1] + y) * self.cells[0] + x
+    }
+
+    /// The first cell of each of the nine rows of three cells round a cell.
+    fn rows(&self, cell: u64) -> [u64; 9] {
+        let [row, layer] = [self.cells[0], self.cells[0] * self.cells[1]];
+        let corner = cell - layer - row - 1;
+        std::array::from_fn(|at| corner + at as u64 / 3 * layer + at as u64 % 3 * row)
+    }
+}
+
+/// Points in the order of their cells, one array per number.
+pub(super) struct SortedPoints {
+    cells: Vec<u64>,
+    /// Positions, then normals: x, y, z.
+    pub(super) axes: [Vec<f32>; 6],
+    /// Which of the points each is.
+    pub(super) numbers: Vec<u32>,
+}
+
+impl SortedPoints {
+    pub(super) fn new(points: Points<'_>, space: &CellSpace) -> Self {
+        let positions = points.positions.par_iter().with_min_len(4096);
+        let mut sorted: Vec<(u64, u32)> = positions
+            .enumerate()
+            .map(|(number, position)| (space.number(*position), number as u32))
+            .collect();
+        sorted.par_sort_unstable();
+        let axis = |vectors: &[Vec3], axis: usize| {
+            let numbers = sorted.par_iter().with_min_len(4096);
+            numbers.map(|&(_, number)| vectors[number as usize].to_array()[axis]).collect()
+        };
+        let [p, n] = [points.positions, points.normals];
+        Self {
+            axes: [axis(p, 0), axis(p, 1), axis(p, 2), axis(n, 0), axis(n, 1), axis(n, 2)],
+            numbers: sorted.iter().map(|&(_, number)| number).collect(),
+            cells: sorted.into_iter().map(|(cell, _)| cell).collect(),
+        }
+    }
+
+    /// Splits a part of the points where the cell changes.
+    pub(super) fn by_cell(&self, part: Range<usize>) -> impl Iterator<Item = (u64, Range<usize>)> {
+        let first = part.start;
+        let mut from = first;
+        self.cells[part].chunk_by(|a, b| a == b).map(move |cells| {
+            let run = from..from + cells.len();
+            from = run.end;
+            (cells[0], run)
+        })
+    }
+}
+
+/// Finds what lies round cells whose numbers never fall.
+pub(super) struct RowCursor<'a> {
+    points: &'a SortedPoints,
+    space: &'a CellSpace,
+    /// In each of the nine rows, the first point that may count; `None` before the first cell.
+    at: Option<[usize; 9]>,
+}
+
+impl<'a> RowCursor<'a> {
+    pub(super) fn new(points: &'a SortedPoints, space: &'a CellSpace) -> Self {
+        Self { points, space, at: None }
+    }
+
+    /// The points of the three by three by three cells round a cell.
+    pub(super) fn runs_round(&mut self, cell: u64) -> [Range<usize>; 9] {
+        let cells = &self.points.cells;
+        let rows = self.space.rows(cell);
+        let at = self.at.get_or_insert_with(|| rows.map(|row| cells.partition_point(|&cell| cell < row)));
+        std::array::from_fn(|index| {
+            let row = rows[index];
+            let steps =
+                |from: usize, below: u64| cells[from..].iter().take_while(|&&cell| cell < below).count();
+            at[index] += steps(at[index], row);
+            at[index]..at[index] + steps(at[index], row + 3)
+        })
+    }
+}

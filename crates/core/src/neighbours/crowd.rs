@@ -1,0 +1,152 @@
+//! The points round one cell, copied next to each other, and the nearest of them to a place.
+
+use glam::Vec3;
+
+use super::cells::SortedPoints;
+use std::ops::Range;
+
+/// So many candidates are looked at together.
+const LANES: usize = 16;
+
+/// Distances are sorted into so many classes before they are compared; fewer of them count than fit into a byte.
+const CLASSES: usize = 256;
+
+/// More than this are cut down to the nearest before they are sorted.
+const MANY: usize = 255;
+
+/// What one task works in.
+#[derive(Default)]
+pub(super) struct Crowd {
+    /// Positions, then normals: x, y, z.
+    axes: [Vec<f32>; 6],
+    numbers: Vec<u32>,
+    /// Bits of the squared distance, then the number: those that count, and the same by class.
+    found: Vec<u64>,
+    sorted: Vec<u64>,
+}
+
+/// Where neighbours are looked for, and which.
+#[derive(Clone, Copy)]
+pub(super) struct Query {
+    pub(super) position: Vec3,
+    pub(super) normal: Vec3,
+    /// The number of a point that does not count.
+    pub(super) own: u32,
+    pub(super) radius: f32,
+    /// The longest list.
+    pub(super) most: usize,
+}
+
+impl Crowd {
+    /// Takes in some runs of points.
+    pub(super) fn gather(&mut self, points: &SortedPoints, runs: &[Range<usize>; 9]) {
+        let count: usize = runs.iter().map(Range::len).sum();
+        let padded = count.next_multiple_of(LANES);
+        for (to, from) in self.axes.iter_mut().zip(&points.axes) {
+            to.clear();
+            runs.iter().for_each(|run| to.extend_from_slice(&from[run.clone()]));
+            to.resize(padded, f32::NAN);
+        }
+        self.numbers.clear();
+        runs.iter().for_each(|run| self.numbers.extend_from_slice(&points.numbers[run.clone()]));
+        self.numbers.resize(padded, 0);
+        self.found.resize(padded + LANES, 0);
+        self.sorted.resize(padded, 0);
+    }
+
+    /// Writes the nearest points, nearest first, equal distances by number; gives how many.
+    #[inline(always)]
+    pub(super) fn nearest(&mut self, query: &Query, list: &mut [u32]) -> usize {
+        let count = self.collect(query);
+        let mut found = &mut self.found[..count];
+        if count > MANY {
+            let most = query.most.min(count);
+            found.select_nth_unstable(most - 1);
+            found = &mut found[..most];
+            found.sort_unstable();
+        } else {
+            let sorted = &mut self.sorted[..count];
+            sort_by_class(found, sorted, query);
+            found = sorted;
+        }
+        let most = query.most.min(found.len());
+        for (to, from) in list[..most].iter_mut().zip(&found[..most]) {
+            *to = *from as u32;
+        }
+        most
+    }
+
+    /// Those within the radius on the same side, in any order; gives how many.
+    #[inline(always)]
+    fn collect(&mut self, query: &Query) -> usize {
+        let [(xs, _), (ys, _), (zs, _), (us, _), (vs, _), (ws, _)] =
+            self.axes.each_ref().map(|axis| axis.as_chunks::<LANES>());
+        let (numbers, _) = self.numbers.as_chunks::<LANES>();
+        let blocks = xs.iter().zip(ys).zip(zs).zip(us.iter().zip(vs).zip(ws)).zip(numbers);
+        let ([qx, qy, qz], [qu, qv, qw]) = (query.position.to_array(), query.normal.to_array());
+        let radius_sq = query.radius * query.radius;
+        let mut end = 0;
+        for ((((x, y), z), ((u, v), w)), numbers) in blocks {
+            let mut distances_sq = [0.0; LANES];
+            for i in 0..LANES {
+                let (dx, dy, dz) = (qx - x[i], qy - y[i], qz - z[i]);
+                let distance_sq = dx * dx + dy * dy + dz * dz;
+                let counts = (qu * u[i] + qv * v[i] + qw * w[i] > 0.0) & (numbers[i] != query.own);
+                distances_sq[i] = if counts { distance_sq } else { f32::NAN };
+            }
+            let Some(found) = self.found[end..].first_chunk_mut::<LANES>() else { break };
+            let mut more = 0;
+            for i in 0..LANES {
+                // Written anyway, and kept if it counts: no branch that nobody can foresee.
+                found[more % LANES] = u64::from(distances_sq[i].to_bits()) << 32 | u64::from(numbers[i]);
+                more += usize::from(distances_sq[i] <= radius_sq);
+            }
+            end += more;
+        }
+        end
+    }
+}
+
+/// Sorts by classes of distances, of which a surface has about equally many in each, and then what little is left; at least as
+/// far as the longest list goes.
+#[inline(always)]
+fn sort_by_class(found: &[u64], sorted: &mut [u64], query: &Query) {
+    let classes_per_sq = (CLASSES - 1) as f32 / (query.radius * query.radius);
+    let class = |key: u64| {
+        let distance_sq = f32::from_bits((key >> 32) as u32);
+        // Added to 2^23, a number stands rounded in the lowest bits.
+        (distance_sq * classes_per_sq + 8_388_608.0).to_bits() as usize % CLASSES
+    };
+    let mut ends = [0u8; CLASSES];
+    for &key in found {
+        ends[class(key)] += 1;
+    }
+    let mut sum = 0u64;
+    for ends in ends.as_chunks_mut::<8>().0 {
+        // Sums of eight bytes at once; all of them stay below 256.
+        let mut word = u64::from_le_bytes(*ends);
+        word += word << 8;
+        word += word << 16;
+        word += word << 32;
+        *ends = (word + sum * 0x0101_0101_0101_0101).to_le_bytes();
+        sum += word >> 56;
+    }
+    for &key in found {
+        let end = &mut ends[class(key)];
+        *end -= 1;
+        sorted[usize::from(*end)] = key;
+    }
+    let last = sorted.get(query.most - 1).map_or(CLASSES, |&key| class(key));
+    for i in 1..sorted.len() {
+        let key = sorted[i];
+        if i >= query.most && class(key) > last {
+            break;
+        }
+        let mut at = i;
+        while at > 0 && sorted[at - 1] > key {
+            sorted[at] = sorted[at - 1];
+            at -= 1;
+        }
+        sorted[at] = key;
+    }
+}

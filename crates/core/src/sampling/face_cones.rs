@@ -1,0 +1,72 @@
+//! Tells by two faces alone whether all that lies on them is on one side of the surface, or nothing is.
+
+use glam::Vec3;
+
+use super::{Face, Surface};
+
+/// More than all rounding of unit vectors and of what is interpolated between them.
+const MARGIN: f32 = 1e-3;
+
+/// Round each face a cone that holds the normal of every place on it.
+pub(super) struct FaceCones {
+    cones: Vec<Cone>,
+}
+
+#[derive(Clone, Copy)]
+struct Cone {
+    axis: Vec3,
+    /// Sine of the angle between the axis and the side, plus a margin; above 1 when nothing is sure.
+    spread: f32,
+}
+
+impl FaceCones {
+    pub(super) fn new(surface: &Surface<'_>) -> Self {
+        Self { cones: surface.faces.iter().map(|face| Cone::of(surface, face)).collect() }
+    }
+
+    /// Whether normals on the one face and normals on the other have a product above 0; `None` where it takes the normals
+    /// themselves to tell.
+    #[inline]
+    pub(super) fn same_side(&self, first: u32, second: u32) -> Option<bool> {
+        let first = &self.cones[first as usize];
+        let second = &self.cones[second as usize];
+        let product = first.axis.dot(second.axis);
+        // sin(a + b) <= sin a + sin b.
+        let unsure = first.spread + second.spread;
+        if product > unsure {
+            Some(true)
+        } else if product < -unsure {
+            Some(false)
+        } else {
+            None
+        }
+    }
+}
+
+impl Cone {
+    const UNSURE: Self = Self { axis: Vec3::ZERO, spread: 2.0 };
+
+    fn of(surface: &Surface<'_>, face: &Face) -> Self {
+        let corners = surface.mesh.triangles[face.triangle as usize];
+        let [a, b, c] = corners.map(|vertex| surface.mesh.positions[vertex as usize]);
+        let mut normals = corners.map(|vertex| surface.mesh.normals[vertex as usize]);
+        let across = (b - a).cross(c - a);
+        let Some(across) = (if face.flipped { -across } else { across }).try_normalize() else {
+            return Self::UNSURE;
+        };
+        // A particle's normal is turned to its side of the triangle: all three must turn alike, whatever is between them.
+        if normals.iter().all(|normal| normal.dot(across) < 0.0) {
+            normals = normals.map(|normal| -normal);
+        }
+        let axis = normals.iter().sum::<Vec3>().normalize_or_zero();
+        let fine = |normal: &Vec3| {
+            let unit = (normal.length_squared() - 1.0).abs() < MARGIN;
+            unit && normal.dot(across) > 0.01 && normal.dot(axis) > 0.5
+        };
+        if !normals.iter().all(fine) {
+            return Self::UNSURE;
+        }
+        let sine = normals.iter().map(|normal| normal.cross(axis).length()).fold(0.0, f32::max);
+        Self { axis, spread: sine + MARGIN }
+    }
+}
