@@ -66,6 +66,8 @@ pub(crate) struct BodyField {
     /// The same after the guides that smooth; none where there is none.
     relaxed: Option<Vec<DVec2>>,
     anchors: Vec<f64>,
+    /// Whether what is stated holds wholly at every sample, so that no point that is stated outright need ask.
+    anchored: bool,
     /// Found when they are first asked for.
     singularities: OnceLock<Vec<Singularity>>,
 }
@@ -159,7 +161,9 @@ impl FieldInputs {
         let relaxed =
             self.smooths().then(|| graph.relaxed(symmetry, &solved, &self.holds(points, &solved, symmetry)));
         let singularities = OnceLock::new();
-        Some(BodyField { inputs: self.clone(), symmetry, ground, solved, relaxed, anchors, singularities })
+        let anchored = anchors.iter().all(|&anchor| anchor >= 1.0);
+        let inputs = self.clone();
+        Some(BodyField { inputs, symmetry, ground, solved, relaxed, anchors, anchored, singularities })
     }
 
     fn points(&self) -> Vec<SamplePoint> {
@@ -410,6 +414,9 @@ impl BodyField {
         point: Point,
         base: &Base,
     ) -> DVec3 {
+        if self.anchored && base.exact >= 1.0 {
+            return base.tangent;
+        }
         let symmetry = self.symmetry;
         let axes = tangent_axes(point.normal);
         let stated = symmetry.encode(base.tangent, axes);
