@@ -1,6 +1,7 @@
 //! Random choices as pure functions of integers, so that the same particle looks the same for ever.
 
 /// Permutes 32 bits so that neighbouring inputs give unrelated outputs (PCG's RXS-M-XS step; O'Neill 2014).
+#[inline]
 pub fn scramble(value: u32) -> u32 {
     let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
@@ -8,6 +9,7 @@ pub fn scramble(value: u32) -> u32 {
 }
 
 /// Joins two hashes into one; the order matters.
+#[inline]
 pub fn combine(first: u32, second: u32) -> u32 {
     scramble(first.rotate_left(5) ^ scramble(second ^ 0x9e37_79b9))
 }
@@ -18,11 +20,13 @@ pub fn of_name(name: &str) -> u32 {
 }
 
 /// A number in 0..1 (24 bits) from a hash.
+#[inline]
 pub fn unit(hash: u32) -> f32 {
     (hash >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
 /// A number of mean 0 and standard deviation 1 from a hash: the sum of four uniform ones, so it never exceeds 3.5.
+#[inline]
 pub fn normal(hash: u32) -> f32 {
     let sum: f32 = (0..4).map(|index| unit(combine(hash, index))).sum();
     (sum - 2.0) * 1.732_050_8
