@@ -7,10 +7,12 @@ mod doctor;
 #[cfg(feature = "editor")]
 mod edit;
 mod failure;
+mod in_order;
 mod info;
 mod measure;
 mod movie;
 mod new;
+mod painter;
 mod render;
 mod session;
 mod sheet;

@@ -1,24 +1,25 @@
 //! `impasto render`: frames of a scene as pictures.
 
-use std::fmt::Write as _;
+use std::collections::HashSet;
 use std::io::{IsTerminal as _, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use impasto_editor::files::shader_folder::ShaderFolder;
-use impasto_frame_files::picture_file::{self, Provenance};
+use impasto_frame_files::picture_file;
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
-use impasto_gl_render::{Cost, PassTime, Picture, Renderer};
-use impasto_painting::{Frame, FrameOptions, Painting, Rotation, StrokeColors};
+use impasto_gl_render::{Picture, Renderer};
+use impasto_painting::{FrameOptions, Rotation, StrokeColors};
 use impasto_scene::document::{Style, SumiE};
-use impasto_scene::memory;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice, StyleChoice};
 use crate::failure::Failure;
+use crate::in_order::{Workers, in_order};
 use crate::movie::{self, Movie};
+use crate::painter::{Drawn, Painter, Shot, Wanted, pixels};
 use crate::session;
 use crate::sheet::Sheet;
 
@@ -36,20 +37,12 @@ enum Destination {
 
 /// What the command does, after everything was checked.
 struct Plan {
-    painting: Painting,
+    shot: Shot,
     renderer: Renderer,
     frames: FrameList,
-    options: FrameOptions,
     destination: Destination,
-    scene_name: String,
     interrupted: Arc<AtomicBool>,
-    verbose: bool,
-    /// Of the last frame, where `verbose`.
-    cost: Cost,
 }
-
-/// Strokes that are less than this there are not painted.
-const LEAST_ALPHA: f32 = 0.004;
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let frames = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
@@ -91,7 +84,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));
     let inputs = loaded.inputs();
-    not_an_input(std::path::Path::new(&arguments.output), &inputs)?;
+    not_an_input(Path::new(&arguments.output), &inputs)?;
     let destination = destination(arguments, &frames)?;
     match &destination {
         Destination::Files(pattern) => {
@@ -110,42 +103,44 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let scene_name =
         loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mut renderer = session::open_renderer(arguments.driver, verbose)?;
+    let mut shaders = None;
     if let Some(folder) = &arguments.shaders {
         let (_, texts) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
         renderer.replace_shaders(&texts)?;
+        shaders = Some(texts);
     }
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     // A second signal while the frame is finishing changes nothing.
     ctrlc::set_handler(move || flag.store(true, Ordering::SeqCst))
         .map_err(|error| Failure::Other(error.to_string()))?;
-    Ok(Plan {
-        painting: session::prepare_scene(loaded, &arguments.scene, verbose)?,
-        renderer,
-        frames,
-        options: FrameOptions {
-            size_px,
-            shot_height_px: None,
-            keep_stroke_px: arguments.keep_stroke_px,
-            transparent: arguments.alpha,
-            rotation: match arguments.rotation {
-                RotationChoice::On => Rotation::On,
-                RotationChoice::Off => Rotation::Off,
-                RotationChoice::Random => Rotation::Random,
-                RotationChoice::Mapped => Rotation::Mapped,
-            },
-            colors: match arguments.colors {
-                ColorsChoice::Scene => StrokeColors::Scene,
-                ColorsChoice::Trust => StrokeColors::Trust,
-            },
-            ..FrameOptions::new(size_px)
+    let options = FrameOptions {
+        size_px,
+        shot_height_px: None,
+        keep_stroke_px: arguments.keep_stroke_px,
+        transparent: arguments.alpha,
+        rotation: match arguments.rotation {
+            RotationChoice::On => Rotation::On,
+            RotationChoice::Off => Rotation::Off,
+            RotationChoice::Random => Rotation::Random,
+            RotationChoice::Mapped => Rotation::Mapped,
         },
-        destination,
+        colors: match arguments.colors {
+            ColorsChoice::Scene => StrokeColors::Scene,
+            ColorsChoice::Trust => StrokeColors::Trust,
+        },
+        ..FrameOptions::new(size_px)
+    };
+    let shot = Shot {
+        painting: session::prepare_scene(loaded, &arguments.scene, verbose)?,
+        options,
         scene_name,
-        interrupted,
+        driver: arguments.driver,
+        shaders,
         verbose,
-        cost: Cost::default(),
-    })
+        counted: verbose || arguments.json,
+    };
+    Ok(Plan { shot, renderer, frames, destination, interrupted })
 }
 
 fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destination, Failure> {
@@ -183,47 +178,49 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
 
 impl Plan {
     fn files(&mut self, arguments: &RenderArguments, pattern: &Pattern) -> Result<(), Failure> {
-        let verbose = arguments.talk.verbose > 0;
+        let verbose = self.shot.verbose;
         let bar = progress_bar(self.frames.count(), arguments);
-        let mut sheet =
-            arguments.contact_sheet.then(|| Sheet::new(self.frames.count(), self.options.size_px));
+        let count = self.frames.count();
+        let mut sheet = arguments.contact_sheet.then(|| Sheet::new(count, self.shot.options.size_px));
         let (mut done, mut failed, start) = (0, 0, Instant::now());
+        let driver = self.renderer.report().renderer.clone();
         if arguments.json {
             let driver = self.renderer.report().to_string();
             let line = serde_json::json!({ "version": 1, "event": "context", "driver": driver });
             writeln!(std::io::stdout(), "{line}")?;
         }
-        for frame_number in self.frames.clone().iter() {
-            if self.interrupted.load(Ordering::SeqCst) {
-                return Err(Failure::Interrupted { done });
-            }
-            let path = pattern.path(frame_number);
-            if arguments.skip_existing && path.exists() {
+        // A frame that is named twice is there when it is named again.
+        let mut begun = HashSet::new();
+        let wants = |frame_number: i64| {
+            let skips = arguments.skip_existing
+                && (pattern.path(frame_number).exists() || !begun.insert(frame_number));
+            if skips {
                 bar.inc(1);
-                continue;
             }
-            let begun = Instant::now();
-            let drawn = self.draw(frame_number).and_then(|(frame, picture)| {
-                picture_file::write(&path, pixels(&picture), &self.provenance(frame_number))
+            !skips
+        };
+        let wanted = if sheet.is_some() { Wanted::FileAndPicture } else { Wanted::File };
+        let all = self.each(wanted, wants, |frame_number, drawn| {
+            let path = pattern.path(frame_number);
+            let written = drawn.and_then(|drawn| {
+                picture_file::whole(&path, |file| Ok(file.write_all(&drawn.png)?))
                     .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
-                Ok((frame, picture))
+                Ok(drawn)
             });
-            match drawn {
-                Ok((frame, picture)) => {
+            match written {
+                Ok(Drawn { picture, strokes, told, seconds, .. }) => {
                     done += 1;
-                    if let Some(sheet) = &mut sheet {
-                        sheet.add(&picture);
+                    if let (Some(sheet), Some(picture)) = (&mut sheet, &picture) {
+                        sheet.add(picture);
                     }
-                    let seconds = begun.elapsed().as_secs_f64();
                     if verbose {
-                        let told = self.told(&frame);
                         bar.suspend(|| {
                             eprintln!("frame {frame_number}: {seconds:.2} s, {}\n{told}", path.display());
                         });
                     }
                     if arguments.json {
                         let line = serde_json::json!({
-                            "version": 1, "event": "frame", "frame": frame_number, "path": path, "strokes": self.drawn(), "seconds": seconds,
+                            "version": 1, "event": "frame", "frame": frame_number, "path": path, "strokes": strokes, "seconds": seconds,
                         });
                         writeln!(std::io::stdout(), "{line}")?;
                     }
@@ -236,11 +233,15 @@ impl Plan {
                 }
             }
             bar.inc(1);
+            Ok(())
+        })?;
+        if !all {
+            return Err(Failure::Interrupted { done });
         }
         bar.finish_and_clear();
         if let Some(sheet) = sheet {
             let path = pattern.beside("sheet");
-            picture_file::write(&path, pixels(&sheet.picture()), &self.provenance_of("sheet"))
+            picture_file::write(&path, pixels(&sheet.picture()), &self.shot.provenance("sheet", &driver))
                 .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
         }
         if failed > 0 {
@@ -256,12 +257,12 @@ impl Plan {
         Ok(())
     }
 
-    fn animation(&mut self, arguments: &RenderArguments, path: &std::path::Path) -> Result<(), Failure> {
+    fn animation(&mut self, arguments: &RenderArguments, path: &Path) -> Result<(), Failure> {
         let bar = progress_bar(self.frames.count(), arguments);
         let count = u32::try_from(self.frames.count()).map_err(|error| Failure::Usage(error.to_string()))?;
-        let fps = self.painting.scene().timeline.fps;
-        let provenance = self.provenance_of("all");
-        let size_px = self.options.size_px;
+        let fps = self.shot.painting.scene().timeline.fps;
+        let provenance = self.shot.provenance("all", &self.renderer.report().renderer);
+        let size_px = self.shot.options.size_px;
         let (mut stopped, mut done) = (None, 0);
         let written = picture_file::whole(path, |file| {
             let mut encoder = picture_file::encoder(file, size_px, &provenance)?;
@@ -270,20 +271,15 @@ impl Plan {
             // Milliseconds resolve every common rate.
             encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
             let mut writer = encoder.write_header()?;
-            for frame_number in self.frames.clone().iter() {
-                if self.interrupted.load(Ordering::SeqCst) {
-                    stopped = Some(Failure::Interrupted { done: 0 });
-                    anyhow::bail!("interrupted");
-                }
-                match self.draw(frame_number) {
-                    Ok((_, picture)) => writer.write_image_data(&picture.rgba8)?,
-                    Err(failure) => {
-                        stopped = Some(failure);
-                        anyhow::bail!("a frame failed");
-                    }
-                }
+            let drawn = self.pictures(|picture| {
+                writer.write_image_data(&picture.rgba8).map_err(|error| Failure::Other(error.to_string()))?;
                 done += 1;
                 bar.inc(1);
+                Ok(())
+            });
+            if let Err(failure) = drawn {
+                stopped = Some(failure);
+                anyhow::bail!("a frame failed");
             }
             writer.finish()?;
             Ok(())
@@ -299,18 +295,15 @@ impl Plan {
         Ok(())
     }
 
-    fn movie(&mut self, arguments: &RenderArguments, path: &std::path::Path) -> Result<(), Failure> {
+    fn movie(&mut self, arguments: &RenderArguments, path: &Path) -> Result<(), Failure> {
         let bar = progress_bar(self.frames.count(), arguments);
-        let fps = self.painting.scene().timeline.fps;
-        let mut movie = Movie::start(path, self.options.size_px, fps)?;
-        for frame_number in self.frames.clone().iter() {
-            if self.interrupted.load(Ordering::SeqCst) {
-                return Err(Failure::Interrupted { done: 0 });
-            }
-            let (_, picture) = self.draw(frame_number)?;
-            movie.add(&picture)?;
+        let fps = self.shot.painting.scene().timeline.fps;
+        let mut movie = Movie::start(path, self.shot.options.size_px, fps)?;
+        self.pictures(|picture| {
+            movie.add(picture)?;
             bar.inc(1);
-        }
+            Ok(())
+        })?;
         movie.finish()?;
         bar.finish_and_clear();
         if !arguments.talk.quiet {
@@ -321,73 +314,48 @@ impl Plan {
 
     fn stream(&mut self) -> Result<(), Failure> {
         let frame_number = self.frames.iter().next().unwrap_or(0);
-        let (_, picture) = self.draw(frame_number)?;
-        let mut bytes = Vec::new();
-        picture_file::encode(&mut bytes, pixels(&picture), &self.provenance(frame_number))
-            .map_err(|error| Failure::Other(error.to_string()))?;
-        std::io::stdout().write_all(&bytes)?;
+        let drawn = Painter::new(&self.shot, &mut self.renderer).draw(frame_number, Wanted::File)?;
+        std::io::stdout().write_all(&drawn.png)?;
         Ok(())
     }
 
-    fn draw(&mut self, frame_number: i64) -> Result<(Frame, Picture), Failure> {
-        let begun = Instant::now();
-        let frame = self.painting.at(frame_number as f64, &self.options);
-        let picture = if self.verbose {
-            let solved = begun.elapsed().as_secs_f64();
-            let (picture, mut cost) = self.renderer.render_timed(&frame)?;
-            cost.passes.insert(0, PassTime { name: "solve", seconds: solved });
-            self.cost = cost;
-            picture
-        } else {
-            self.renderer.render(&frame)?
+    /// All pictures, in their order; the first failure ends it, and so does a signal.
+    fn pictures(&mut self, mut take_in: impl FnMut(&Picture) -> Result<(), Failure>) -> Result<(), Failure> {
+        let all = self.each(
+            Wanted::Picture,
+            |_| true,
+            |_, drawn| drawn?.picture.as_ref().map_or(Ok(()), &mut take_in),
+        )?;
+        if all { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
+    }
+
+    /// Draws the frames that `wants` names, on as many threads as is worth it, and hands each over in its turn. After a signal no
+    /// more are begun; whether none came.
+    fn each(
+        &mut self,
+        wanted: Wanted,
+        mut wants: impl FnMut(i64) -> bool + Send,
+        take_in: impl FnMut(i64, Result<Drawn, Failure>) -> Result<(), Failure>,
+    ) -> Result<bool, Failure> {
+        let Self { shot, renderer, frames, interrupted, .. } = self;
+        let driver = renderer.report().renderer.clone();
+        let mut painter = Painter::new(shot, renderer);
+        let mut all = true;
+        let jobs = frames
+            .iter()
+            .take_while(|_| {
+                all = !interrupted.load(Ordering::SeqCst);
+                all
+            })
+            .filter(|&frame_number| wants(frame_number));
+        let workers = Workers {
+            own: Box::new(move |frame_number| painter.draw(frame_number, wanted)),
+            helpers: shot.helpers(frames.count()),
+            open: &|| shot.helper(&driver, wanted),
         };
-        Ok((frame, picture))
+        in_order(jobs, workers, take_in)?;
+        Ok(all)
     }
-
-    /// How many strokes of the last frame were painted.
-    fn drawn(&self) -> usize {
-        self.renderer.resolved_strokes().iter().filter(|stroke| stroke.alpha > LEAST_ALPHA).count()
-    }
-
-    /// What the last frame was made of: strokes, overdraw, memory, seconds of each pass.
-    fn told(&self, frame: &Frame) -> String {
-        let strokes = self.drawn();
-        let overdraw = self.cost.overdraw;
-        let memory = memory::peak_bytes()
-            .map_or_else(String::new, |bytes| format!(", {} MiB at most so far", bytes >> 20));
-        let mut text = format!(
-            "  {strokes} strokes of {} in question, overdraw {overdraw:.1}{memory}",
-            frame.strokes.len()
-        );
-        let mut passes: Vec<PassTime> = Vec::new();
-        for pass in &self.cost.passes {
-            match passes.iter_mut().find(|known| known.name == pass.name) {
-                Some(known) => known.seconds += pass.seconds,
-                None => passes.push(*pass),
-            }
-        }
-        for pass in passes {
-            // Writing to a String cannot fail.
-            let _ = write!(text, "\n  {:<14}{:>8.1} ms", pass.name, pass.seconds * 1e3);
-        }
-        text
-    }
-
-    fn provenance(&self, frame_number: i64) -> Provenance {
-        self.provenance_of(&frame_number.to_string())
-    }
-
-    fn provenance_of(&self, frame: &str) -> Provenance {
-        Provenance {
-            scene: self.scene_name.clone(),
-            frame: frame.to_owned(),
-            driver: self.renderer.report().renderer.clone(),
-        }
-    }
-}
-
-fn pixels(picture: &Picture) -> picture_file::Pixels<'_> {
-    (picture.size_px, &picture.rgba8)
 }
 
 fn progress_bar(count: u64, arguments: &RenderArguments) -> ProgressBar {

@@ -3,6 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// Wraps an angle in radians into (−π, π].
+#[inline]
 pub fn wrap_pi(angle_rad: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     let wrapped = angle_rad - turn * (angle_rad / turn).round();

@@ -63,6 +63,7 @@ impl Lift {
     }
 
     /// `N R(θ)`: what was measured along the reference's x is now measured along a line at this angle to it.
+    #[inline]
     pub fn turned(self, angle_rad: f64) -> Self {
         let (sin, cos) = angle_rad.sin_cos();
         Self { along: self.along * cos + self.across * sin, across: self.across * cos - self.along * sin }
@@ -79,6 +80,7 @@ impl Lift {
     }
 
     /// `A = J N`.
+    #[inline]
     pub fn map(self, [jx, jy]: [DVec3; 2]) -> PixelMap2 {
         PixelMap2 {
             x: DVec2::new(jx.dot(self.along), jx.dot(self.across)),
@@ -111,6 +113,7 @@ impl PixelMap2 {
 
     /// κ in 0..=1: how much of the map is turning and scaling; at least 1/√2 for any map that does not
     /// mirror, 0 for a zero map.
+    #[inline]
     pub fn kappa(self) -> f64 {
         let size = self.x.length_squared() + self.y.length_squared();
         if size > 0.0 { self.turn().length() / (2.0 * size).sqrt() } else { 0.0 }

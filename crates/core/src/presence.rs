@@ -5,12 +5,14 @@
 ///
 /// `supply_ln`: x = ln(D/u), D the strokes wanted per pixel over the particles per projected pixel (uncapped), u the
 /// particle's rank in (0, 1).
+#[inline]
 pub fn of_supply(supply_ln: f32) -> f32 {
     ((smoothstep(MIDDLE + supply_ln * (1.0 / FADE)) - LEAST) * (1.0 / (1.0 - LEAST))).max(0.0)
 }
 
 /// How much of a stroke is there as its surface turns away: S(facing/0.2), facing the cosine between the surface normal and
 /// the direction to the eye.
+#[inline]
 pub fn of_facing(facing: f32) -> f32 {
     smoothstep(facing * 5.0)
 }
@@ -29,6 +31,7 @@ const MIDDLE: f32 = 0.533_382_94;
 pub const ABSENT_LN: f32 = -0.472_616;
 
 /// 3t² − 2t³ on 0..=1, clamped outside.
+#[inline]
 pub fn smoothstep(t: f32) -> f32 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -60,6 +60,7 @@ impl ScreenMap {
     }
 
     /// The two rows of the Jacobian J (pixels per model unit) at a point, for any lens.
+    #[inline]
     pub fn jacobian(&self, position_in_model: DVec3) -> [DVec3; 2] {
         let p = position_in_model.extend(1.0);
         let w = self.row_w.dot(p);
@@ -73,11 +74,13 @@ impl ScreenMap {
 
 /// Projected area in px² per unit of surface with this unit normal, positive where the surface faces the eye:
 /// `n · (j_x × j_y)`.
+#[inline]
 pub fn area_px(jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
     normal_in_model.dot(jacobian[0].cross(jacobian[1]))
 }
 
 /// Cosine between the normal and the direction to the eye; 0 where the Jacobian is singular.
+#[inline]
 pub fn facing(jacobian: [DVec3; 2], normal_in_model: DVec3) -> f64 {
     let towards_eye = jacobian[0].cross(jacobian[1]);
     let length = towards_eye.length();

@@ -1,5 +1,7 @@
 //! Projection and orientation of all particles of a body, in one pass over structure-of-arrays data.
 
+mod cull;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -7,6 +9,8 @@ use crate::ScreenMap;
 use crate::angle::atan2;
 use crate::lift::Lift;
 use crate::wide::{Wide, widest};
+
+pub use cull::{Bounds, ParticleView, SolvedParticle};
 
 /// How many particles one task handles.
 const CHUNK: usize = 8192;
@@ -122,16 +126,19 @@ impl BakedParticles {
     }
 
     /// A particle's position in model space.
+    #[inline]
     pub fn position_of(&self, particle: usize) -> DVec3 {
         vector(&self.position, particle)
     }
 
     /// A particle's unit normal in model space.
+    #[inline]
     pub fn normal_of(&self, particle: usize) -> DVec3 {
         vector(&self.normal, particle)
     }
 
     /// A particle's lift N'.
+    #[inline]
     pub fn lift_of(&self, particle: usize) -> Lift {
         Lift { along: vector(&self.along, particle), across: vector(&self.across, particle) }
     }
@@ -223,36 +230,63 @@ fn solve_chunk<const WRAPPED: bool>(chunk: Chunk<'_, WRAPPED>) {
     let Output { x_px, y_px, depth, angle_rad, area_px } = output;
     let (x_px, y_px, depth) = (&mut x_px[..count], &mut y_px[..count], &mut depth[..count]);
     let (angle_rad, area_px) = (&mut angle_rad[..count], &mut area_px[..count]);
-    let Rows { x: rx, y: ry, w: rw, depth: rd } = *rows;
     for i in 0..count {
-        let (x, y, z) = (px[i], py[i], pz[i]);
-        let over_w = 1.0 / (rw[0] * x + rw[1] * y + rw[2] * z + rw[3]);
-        let u = (rx[0] * x + rx[1] * y + rx[2] * z + rx[3]) * over_w;
-        let v = (ry[0] * x + ry[1] * y + ry[2] * z + ry[3]) * over_w;
-        x_px[i] = u;
-        y_px[i] = v;
-        depth[i] = rd[0] * x + rd[1] * y + rd[2] * z + rd[3];
-        // J, row by row.
-        let (jx0, jx1, jx2) =
-            ((rx[0] - rw[0] * u) * over_w, (rx[1] - rw[1] * u) * over_w, (rx[2] - rw[2] * u) * over_w);
-        let (jy0, jy1, jy2) =
-            ((ry[0] - rw[0] * v) * over_w, (ry[1] - rw[1] * v) * over_w, (ry[2] - rw[2] * v) * over_w);
-        area_px[i] = nx[i] * (jx1 * jy2 - jx2 * jy1)
-            + ny[i] * (jx2 * jy0 - jx0 * jy2)
-            + nz[i] * (jx0 * jy1 - jx1 * jy0);
+        let seen = project(rows, [px[i], py[i], pz[i]], [nx[i], ny[i], nz[i]]);
+        (x_px[i], y_px[i], depth[i], area_px[i]) = (seen.x_px, seen.y_px, seen.depth, seen.area_px);
+        let lift = [[ax[i], ay[i], az[i]], [bx[i], by[i], bz[i]]];
+        angle_rad[i] = seen.angle_rad::<WRAPPED>(lift, if WRAPPED { flatness[i] } else { 1.0 });
+    }
+}
+
+/// One particle in a view, with J row by row.
+struct Projected {
+    x_px: f32,
+    y_px: f32,
+    depth: f32,
+    area_px: f32,
+    jacobian: [[f32; 3]; 2],
+}
+
+#[inline(always)]
+fn project(rows: &Rows, [x, y, z]: [f32; 3], [nx, ny, nz]: [f32; 3]) -> Projected {
+    let Rows { x: rx, y: ry, w: rw, depth: rd } = *rows;
+    let over_w = 1.0 / (rw[0] * x + rw[1] * y + rw[2] * z + rw[3]);
+    let u = (rx[0] * x + rx[1] * y + rx[2] * z + rx[3]) * over_w;
+    let v = (ry[0] * x + ry[1] * y + ry[2] * z + ry[3]) * over_w;
+    let (jx0, jx1, jx2) =
+        ((rx[0] - rw[0] * u) * over_w, (rx[1] - rw[1] * u) * over_w, (rx[2] - rw[2] * u) * over_w);
+    let (jy0, jy1, jy2) =
+        ((ry[0] - rw[0] * v) * over_w, (ry[1] - rw[1] * v) * over_w, (ry[2] - rw[2] * v) * over_w);
+    Projected {
+        x_px: u,
+        y_px: v,
+        depth: rd[0] * x + rd[1] * y + rd[2] * z + rd[3],
+        area_px: nx * (jx1 * jy2 - jx2 * jy1) + ny * (jx2 * jy0 - jx0 * jy2) + nz * (jx0 * jy1 - jx1 * jy0),
+        jacobian: [[jx0, jx1, jx2], [jy0, jy1, jy2]],
+    }
+}
+
+impl Projected {
+    #[inline(always)]
+    fn angle_rad<const WRAPPED: bool>(
+        &self,
+        [[ax, ay, az], [bx, by, bz]]: [[f32; 3]; 2],
+        flatness: f32,
+    ) -> f32 {
+        let [[jx0, jx1, jx2], [jy0, jy1, jy2]] = self.jacobian;
         // A = J N'.
-        let a11 = jx0 * ax[i] + jx1 * ay[i] + jx2 * az[i];
-        let a21 = jy0 * ax[i] + jy1 * ay[i] + jy2 * az[i];
-        let a12 = jx0 * bx[i] + jx1 * by[i] + jx2 * bz[i];
-        let a22 = jy0 * bx[i] + jy1 * by[i] + jy2 * bz[i];
+        let a11 = jx0 * ax + jx1 * ay + jx2 * az;
+        let a21 = jy0 * ax + jy1 * ay + jy2 * az;
+        let a12 = jx0 * bx + jx1 * by + jx2 * bz;
+        let a22 = jy0 * bx + jy1 * by + jy2 * bz;
         let (mut turn_x, mut turn_y) = (a11 + a22, a21 - a12);
         if WRAPPED {
-            let flat = flatness[i] / (turn_x * turn_x + turn_y * turn_y).sqrt().max(f32::MIN_POSITIVE);
-            let wrapped = (1.0 - flatness[i]) / (a11 * a11 + a21 * a21).sqrt().max(f32::MIN_POSITIVE);
+            let flat = flatness / (turn_x * turn_x + turn_y * turn_y).sqrt().max(f32::MIN_POSITIVE);
+            let wrapped = (1.0 - flatness) / (a11 * a11 + a21 * a21).sqrt().max(f32::MIN_POSITIVE);
             turn_x = turn_x * flat + a11 * wrapped;
             turn_y = turn_y * flat + a21 * wrapped;
         }
-        angle_rad[i] = atan2(turn_y, turn_x);
+        atan2(turn_y, turn_x)
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
-use impasto_core::solve::{BakedParticles, SolvedParticles, solve};
+use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticle, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::{InkDrawing, InkRule, Solver, Style};
 use impasto_scene::house_mesh;
@@ -22,7 +22,7 @@ use crate::frame::{
 use crate::gate::Gate;
 use crate::lights;
 use crate::noise_displace::BodyShape;
-use crate::order::OrderEntry;
+use crate::order::{OrderEntry, PaintingOrder};
 use crate::prepare::Painting;
 use crate::recall::Recall;
 use crate::surface::Vertices;
@@ -99,8 +99,8 @@ pub(crate) struct SeenCoat<'a> {
     /// The baked particles, on a surface that changes its shape as they are now.
     pub(crate) baked: Cow<'a, BakedParticles>,
     pub(crate) map: ScreenMap,
+    pub(crate) view: ParticleView,
     pub(crate) world_from_model: DAffine3,
-    pub(crate) solved: SolvedParticles,
     /// With the paper's rule, how many particles of each polygon show.
     pub(crate) shown: Option<Vec<u32>>,
     /// With `horn-exact`, the reference and this view.
@@ -221,8 +221,6 @@ impl Painting {
             Some([before, now]) => Cow::Owned(coat.deformed(before, now)),
             None => Cow::Borrowed(&coat.baked.baked),
         };
-        let mut solved = SolvedParticles::default();
-        solve(&baked, &map, &mut solved);
         let wanted_per_px =
             self.rules.last().map_or(0.0, |rule| f64::from(rule.strokes.body().wanted_per_px()));
         let shown = coat
@@ -235,7 +233,8 @@ impl Painting {
             (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
         });
         let gates = self.gates(coat, px_scale, shown.is_some());
-        SeenCoat { coat, baked, map, world_from_model, solved, shown, clip_views, gates }
+        let view = ParticleView::new(&map);
+        SeenCoat { coat, baked, map, view, world_from_model, shown, clip_views, gates }
     }
 }
 
@@ -258,6 +257,12 @@ impl Stands {
     }
 }
 
+/// How much larger than stated a stroke may become that follows the size of its surface.
+const MOST_GROWTH: f32 = 64.0;
+
+/// How many candidates are read side by side.
+const TOGETHER: usize = 64;
+
 /// How many particles one task looks at.
 const CHUNK: usize = 64 * Recall::WORD;
 
@@ -268,6 +273,41 @@ struct Found {
     sources: Vec<StrokeSource>,
     /// With the regions' layer and the layer of paint.
     layers: Vec<((i32, LayerKind), LayerRun)>,
+}
+
+impl Found {
+    fn add(&mut self, look: &Look<'_>, candidate: &Candidate) {
+        if !look.is_in_picture(candidate) {
+            return;
+        }
+        let Some((stroke, source)) = look.stroke(candidate) else { return };
+        let rule = &look.painting.rules[usize::from(candidate.region)];
+        let kind = look.seen[candidate.entry.coat as usize].coat.kind;
+        // The region's layer and the layer of paint.
+        let layer = (rule.strokes.layer, kind);
+        match self.layers.last_mut() {
+            Some((last, run)) if *last == layer => run.count += 1,
+            _ => {
+                let first = self.strokes.len() as u32;
+                self.layers.push((layer, LayerRun { kind, first, count: 1 }));
+            }
+        }
+        self.strokes.push(stroke);
+        self.sources.push(source);
+    }
+}
+
+/// A particle that may show, with what its stroke depends on.
+pub(crate) struct Candidate {
+    pub(crate) entry: OrderEntry,
+    /// Of the entry in the order.
+    pub(crate) place: u32,
+    pub(crate) solved: SolvedParticle,
+    pub(crate) region: u16,
+    pub(crate) part: usize,
+    pub(crate) bits: u32,
+    pub(crate) drift: [f32; 2],
+    pub(crate) albedo_srgb8: u32,
 }
 
 impl<'a> Look<'a> {
@@ -302,9 +342,12 @@ impl<'a> Look<'a> {
 
 impl Look<'_> {
     fn strokes(&self) -> Strokes {
-        let order = &self.painting.order;
-        let chunk = |(number, entries): (usize, &[OrderEntry])| self.found(number * CHUNK, entries);
-        let found: Vec<Found> = order.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        let numbers = self.painting.order.numbers();
+        let may_show: Vec<Vec<u64>> = self.seen.iter().map(|seen| self.may_show(seen)).collect();
+        // One after the other, as the numbers go on from coat to coat.
+        let may_show = may_show.concat();
+        let chunk = |(number, part): (usize, &[u32])| self.found(number * CHUNK, part, &may_show);
+        let found: Vec<Found> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();
         let count = found.iter().map(|found| found.strokes.len()).sum();
         let (mut strokes, mut sources) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut layers: Vec<((i32, LayerKind), LayerRun)> = Vec::new();
@@ -322,37 +365,56 @@ impl Look<'_> {
         Strokes { strokes, sources, layers: layers.into_iter().map(|(_, run)| run).collect() }
     }
 
-    /// The strokes of the particles from a place of the order on.
-    fn found(&self, first: usize, entries: &[OrderEntry]) -> Found {
-        let mut found = Found::default();
-        let add = |offset: usize| {
-            let entry = entries[offset];
-            if self.is_left_out(entry) || !self.is_in_picture(entry) {
-                return;
-            }
-            let Some((stroke, source)) = self.stroke(entry, (first + offset) as u32) else { return };
-            let layer = self.layer(entry);
-            match found.layers.last_mut() {
-                Some((last, run)) if *last == layer => run.count += 1,
-                _ => {
-                    let first = found.strokes.len() as u32;
-                    found.layers.push((layer, LayerRun { kind: layer.1, first, count: 1 }));
-                }
-            }
-            found.strokes.push(stroke);
-            found.sources.push(source);
+    /// Of each particle of a coat, a bit: whether it faces the eye and is about where strokes may show. No region asks for more
+    /// than is asked here.
+    fn may_show(&self, seen: &SeenCoat<'_>) -> Vec<u64> {
+        let (mut most_reach_px, mut most_per_area) = (0.0f32, 0.0f32);
+        for &rule in seen.coat.used.iter() {
+            let Some(gate) = &seen.gates[usize::from(rule)] else { continue };
+            let follows = self.painting.rules[usize::from(rule)].strokes.size_follow > 0.0;
+            let most_growth = if follows { MOST_GROWTH } else { 1.0 };
+            most_reach_px = most_reach_px.max(gate.reach_px * most_growth);
+            most_per_area = gate.most_per_area.iter().fold(most_per_area, |most, &of_part| most.max(of_part));
+        }
+        let half_px = self.half_px.map(|half| half + most_reach_px);
+        let bounds = Bounds { half_px, near_far: self.near_far, most_per_area };
+        if self.is_left_out(seen.coat.kind) || most_per_area <= 0.0 {
+            return vec![0; seen.baked.len().div_ceil(64)];
+        }
+        seen.view.within(&seen.baked, &bounds)
+    }
+
+    /// The strokes of the particles from a place of the order on, of those that may show.
+    fn found(&self, first: usize, numbers: &[u32], may_show: &[u64]) -> Found {
+        let shows = |offset: &usize| {
+            let number = numbers[*offset] as usize;
+            may_show[number / PaintingOrder::WORD] >> (number % PaintingOrder::WORD) & 1 != 0
         };
-        match self.recall {
-            Some(recall) => recall.asked(first, entries.len()).for_each(add),
-            None => (0..entries.len()).for_each(add),
+        // Found first, in a loop of their own: most do not show.
+        let asked: Vec<usize> = match self.recall {
+            Some(recall) => recall.asked(first, numbers.len()).filter(shows).collect(),
+            None => (0..numbers.len()).filter(shows).collect(),
+        };
+        let mut found = Found::default();
+        // What is read of particles comes from far apart; read side by side, it is waited for once.
+        let mut candidates: Vec<Candidate> = Vec::with_capacity(TOGETHER);
+        for offsets in asked.chunks(TOGETHER) {
+            candidates.clear();
+            candidates.extend(offsets.iter().map(|&offset| {
+                let entry = self.painting.order.entry(numbers[offset]);
+                self.seen[entry.coat as usize].candidate(entry, first + offset)
+            }));
+            for candidate in &candidates {
+                found.add(self, candidate);
+            }
         }
         found
     }
 
     /// The angle of a particle's stroke before its contour has a say.
-    pub(crate) fn angle_rad(&self, seen: &SeenCoat<'_>, index: usize) -> f32 {
+    pub(crate) fn angle_rad(&self, seen: &SeenCoat<'_>, index: usize, solved: &SolvedParticle) -> f32 {
         match self.rotation {
-            Rotation::On | Rotation::Mapped => seen.angle_rad(index),
+            Rotation::On | Rotation::Mapped => seen.angle_rad(index, solved),
             Rotation::Off => seen.base_angle_rad(index) as f32,
             Rotation::Random => {
                 (hash::unit(seen.bits(index, self.moment)) * 2.0 - 1.0) * std::f32::consts::PI
@@ -360,19 +422,8 @@ impl Look<'_> {
         }
     }
 
-    pub(crate) fn region(&self, entry: OrderEntry) -> u16 {
-        self.seen[entry.coat as usize].coat.seats.region(entry.particle as usize)
-    }
-
-    /// The region's layer and the layer of paint.
-    fn layer(&self, entry: OrderEntry) -> (i32, LayerKind) {
-        let rule = &self.painting.rules[self.region(entry) as usize];
-        (rule.strokes.layer, self.seen[entry.coat as usize].coat.kind)
-    }
-
     /// A draft has no underpainting: its ground stands in.
-    fn is_left_out(&self, entry: OrderEntry) -> bool {
-        let kind = self.seen[entry.coat as usize].coat.kind;
+    fn is_left_out(&self, kind: LayerKind) -> bool {
         self.quality == Quality::Draft && kind == LayerKind::Underpainting
     }
 
@@ -381,24 +432,49 @@ impl Look<'_> {
         depth > self.near_far[0] && depth < self.near_far[1]
     }
 
-    fn is_in_picture(&self, entry: OrderEntry) -> bool {
+    fn is_in_picture(&self, candidate: &Candidate) -> bool {
+        let &Candidate { entry, ref solved, region, part, .. } = candidate;
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
-        let Some(gate) = &seen.gates[usize::from(self.region(entry))] else { return false };
-        let (solved, part) = (&seen.solved, seen.coat.seats.part(index));
-        let depth = solved.depth[index];
+        let Some(gate) = &seen.gates[usize::from(region)] else { return false };
         // Half a diagonal, for the largest of a lively crowd.
         let reach = gate.reach_px * seen.growth(index, self.painting, self.px_scale);
-        solved.area_px[index] > 0.0
-            && solved.area_px[index] * gate.most_per_area[part] > index as f32
-            && self.is_between(depth)
-            && solved.x_px[index].abs() < self.half_px[0] + reach
-            && solved.y_px[index].abs() < self.half_px[1] + reach
+        solved.area_px > 0.0
+            && solved.area_px * gate.most_per_area[part] > index as f32
+            && self.is_between(solved.depth)
+            && solved.x_px.abs() < self.half_px[0] + reach
+            && solved.y_px.abs() < self.half_px[1] + reach
     }
 }
 
 impl SeenCoat<'_> {
-    pub(crate) fn angle_rad(&self, index: usize) -> f32 {
-        let Some((reference, now)) = &self.clip_views else { return self.solved.angle_rad[index] };
+    /// A particle in this view.
+    pub(crate) fn solved(&self, index: usize) -> SolvedParticle {
+        self.view.solved(&self.baked, index)
+    }
+
+    fn candidate(&self, entry: OrderEntry, place: usize) -> Candidate {
+        let (coat, index) = (self.coat, entry.particle as usize);
+        Candidate {
+            entry,
+            place: place as u32,
+            solved: self.solved(index),
+            region: coat.seats.region(index),
+            part: coat.seats.part(index),
+            bits: coat.seats.bits(index),
+            drift: coat.seats.drift[index],
+            albedo_srgb8: coat.albedo_srgb8(index),
+        }
+    }
+
+    /// All particles in this view.
+    pub(crate) fn all_solved(&self) -> SolvedParticles {
+        let mut solved = SolvedParticles::default();
+        solve(&self.baked, &self.map, &mut solved);
+        solved
+    }
+
+    fn angle_rad(&self, index: usize, solved: &SolvedParticle) -> f32 {
+        let Some((reference, now)) = &self.clip_views else { return solved.angle_rad };
         let particles = &self.coat.sampled.particles;
         let position = |particle: usize| -> DVec3 { particles.at(particle).position.as_dvec3() };
         let neighbours = self.coat.ground.neighbours.as_ref().map_or(&[][..], |lists| lists.of(index));
@@ -432,7 +508,11 @@ impl SeenCoat<'_> {
         let before = scale(&reference.map, self.coat.baked.baked.position_of(index), reference.near);
         let now = scale(&self.map, self.baked.position_of(index), 1e-9);
         let grown = (now / before / f64::from(px_scale)).powf(f64::from(follow));
-        if grown.is_finite() { grown.clamp(1.0 / 64.0, 64.0) as f32 } else { 1.0 }
+        if grown.is_finite() {
+            grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32
+        } else {
+            1.0
+        }
     }
 
     /// Random bits of a particle.

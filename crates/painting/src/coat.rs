@@ -34,6 +34,8 @@ pub(crate) struct Coat {
     pub(crate) kind: LayerKind,
     pub(crate) sampled: Arc<Sampled>,
     pub(crate) ground: LiftGround,
+    /// The rules that its particles may have.
+    pub(crate) used: Arc<Vec<u16>>,
     pub(crate) seats: Arc<Seats>,
     pub(crate) baked: Arc<BakedBody>,
     /// The surface that the particles ride.
@@ -421,7 +423,17 @@ impl KeptCoat {
             .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
             .collect();
         let (sampled, seats) = (Arc::clone(self.sampled_now()), Arc::clone(&inputs.ground.seats));
-        Coat { object, kind, sampled, ground: inputs.ground, seats, baked, surface, first_marks }
+        Coat {
+            object,
+            kind,
+            sampled,
+            ground: inputs.ground,
+            used: inputs.used,
+            seats,
+            baked,
+            surface,
+            first_marks,
+        }
     }
 }
 

@@ -83,7 +83,7 @@ impl Painting {
         let rows = (height_px / cell_px).ceil().max(1.0) as usize;
         let mut cells: Vec<Option<(usize, Hair)>> = vec![None; columns * rows];
         for (number, seen) in look.seen.iter().enumerate() {
-            let solved = &seen.solved;
+            let solved = seen.all_solved();
             let count = solved.area_px.len() as f32;
             for index in 0..solved.area_px.len() {
                 let x = solved.x_px[index] + look.half_px[0];
@@ -137,7 +137,7 @@ impl Painting {
                 (nearest, least_sq) = (Some(index), distance_sq);
             }
         }
-        let index = nearest.filter(|&index| look.is_between(seen.solved.depth[index]))?;
+        let index = nearest.filter(|&index| look.is_between(seen.solved(index).depth))?;
         Some(look.direction(seen, index))
     }
 
@@ -153,7 +153,7 @@ impl Painting {
         let wanted = |coat: &crate::coat::Coat| coat.kind == LayerKind::Body && coat.object == place.object;
         let look = self.look(camera, frame, options, wanted);
         let Some(seen) = look.seen.first() else { return Vec::new() };
-        let (solved, baked) = (&seen.solved, &seen.baked);
+        let (solved, baked) = (seen.all_solved(), &seen.baked);
         let is_near = |index: &usize| {
             let apart_sq = baked.position_of(*index).distance_squared(place.position);
             apart_sq < place.radius * place.radius
@@ -193,7 +193,12 @@ impl Look<'_> {
             Solver::Horn | Solver::HornExact => seen.coat.ground.surface_lift(index, region),
         };
         ShownDirection {
-            angle_rad: along_contour(self.angle_rad(seen, index), contour, normal, (&seen.map, facing)),
+            angle_rad: along_contour(
+                self.angle_rad(seen, index, &seen.solved(index)),
+                contour,
+                normal,
+                (&seen.map, facing),
+            ),
             kappa: lift.map(jacobian).kappa() as f32,
         }
     }

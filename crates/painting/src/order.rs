@@ -12,11 +12,36 @@ use crate::coat::Coat;
 use crate::regions::RegionRule;
 use crate::seats::Seats;
 
-/// A particle's place in the painting order.
+/// A particle of a coat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct OrderEntry {
     pub(crate) coat: u32,
     pub(crate) particle: u32,
+}
+
+/// All particles in painting order, each as its number among those of all coats.
+#[derive(Debug, Default)]
+pub(crate) struct PaintingOrder {
+    numbers: Vec<u32>,
+    /// The number of the first particle of each coat, a multiple of [`PaintingOrder::WORD`].
+    firsts: Vec<u32>,
+}
+
+impl PaintingOrder {
+    /// Flags of a word, of which every coat begins a new one.
+    pub(crate) const WORD: usize = u64::BITS as usize;
+
+    /// The numbers, in painting order.
+    pub(crate) fn numbers(&self) -> &[u32] {
+        &self.numbers
+    }
+
+    /// The particle with a number.
+    #[inline]
+    pub(crate) fn entry(&self, number: u32) -> OrderEntry {
+        let coat = self.firsts.partition_point(|&first| first <= number) - 1;
+        OrderEntry { coat: coat as u32, particle: number - self.firsts[coat] }
+    }
 }
 
 /// All that the order depends on.
@@ -67,22 +92,24 @@ impl OrderInputs {
     }
 
     /// All particles in painting order; equal ranks of two objects by name.
-    pub(crate) fn order(&self) -> Vec<OrderEntry> {
+    pub(crate) fn order(&self) -> PaintingOrder {
+        let mut firsts = Vec::with_capacity(self.coats.len());
+        let mut next = 0;
+        for coat in &self.coats {
+            firsts.push(next as u32);
+            next = (next + coat.count).next_multiple_of(PaintingOrder::WORD);
+        }
         let mut runs: BTreeMap<(i32, LayerKind), Vec<Queue>> = BTreeMap::new();
         for (index, coat) in self.coats.iter().enumerate() {
             for (layer, particles) in coat.by_layer(&self.layers) {
                 let queue =
-                    Queue { coat: index as u32, name_hash: coat.name_hash, of: coat.count, particles };
+                    Queue { first: firsts[index], name_hash: coat.name_hash, of: coat.count, particles };
                 runs.entry((layer, coat.kind)).or_default().push(queue);
             }
         }
         let runs: Vec<Vec<Queue>> = runs.into_values().collect();
-        let runs: Vec<Vec<OrderEntry>> = runs.into_par_iter().map(merged).collect();
-        let mut order = Vec::with_capacity(runs.iter().map(Vec::len).sum());
-        for run in runs {
-            order.extend(run);
-        }
-        order
+        let runs: Vec<Vec<u32>> = runs.into_par_iter().map(merged).collect();
+        PaintingOrder { numbers: runs.concat(), firsts }
     }
 }
 
@@ -110,7 +137,8 @@ enum LayerParticles {
 
 /// What is left of the particles of a coat, the last of which is the next to be painted.
 struct Queue {
-    coat: u32,
+    /// The number of the coat's first particle.
+    first: u32,
     name_hash: u32,
     /// How many particles the coat has.
     of: usize,
@@ -142,8 +170,8 @@ impl Queue {
     }
 }
 
-/// The particles of queues, the highest rank first; each queue is sorted already.
-fn merged(mut queues: Vec<Queue>) -> Vec<OrderEntry> {
+/// The numbers of the particles of queues, the highest rank first; each queue is sorted already.
+fn merged(mut queues: Vec<Queue>) -> Vec<u32> {
     let mut order = Vec::with_capacity(queues.iter().map(Queue::len).sum());
     // The greatest comes first: of equal ranks that of the lesser name, then of the lesser coat.
     let mut heads: BinaryHeap<(u64, Reverse<(u32, u32, usize)>)> = BinaryHeap::new();
@@ -155,7 +183,7 @@ fn merged(mut queues: Vec<Queue>) -> Vec<OrderEntry> {
     while let Some(mut head) = heads.peek_mut() {
         let (_, Reverse((_, particle, number))) = *head;
         let queue = &mut queues[number];
-        order.push(OrderEntry { coat: queue.coat, particle });
+        order.push(queue.first + particle);
         match queue.pop() {
             Some(next) => *head = (queue.rank(next), Reverse((queue.name_hash, next, number))),
             None => drop(PeekMut::pop(head)),

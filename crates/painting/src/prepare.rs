@@ -21,7 +21,7 @@ use crate::finish::FinishRule;
 use crate::frame::{BodySurface, Brushes, FrameStyle};
 use crate::lights;
 use crate::noise_displace::{BodyNoise, BodyShape, NoiseInputs};
-use crate::order::{OrderEntry, OrderInputs};
+use crate::order::{OrderInputs, PaintingOrder};
 use crate::particles::Particles;
 use crate::parts::Cap;
 use crate::references::{BodyReferences, SceneReferences};
@@ -47,7 +47,7 @@ pub struct Painting {
     pub(crate) brushes: Arc<Brushes>,
     pub(crate) finish: FinishRule,
     /// All particles in painting order.
-    pub(crate) order: Arc<Vec<OrderEntry>>,
+    pub(crate) order: Arc<PaintingOrder>,
     pub(crate) references: Arc<SceneReferences>,
     /// How each object stands in the reference pose.
     pub(crate) reference_shapes: Arc<Vec<BodyShape>>,
@@ -77,7 +77,7 @@ pub(crate) struct PreparedBody {
 #[derive(Default)]
 pub struct Preparer {
     kept: HashMap<String, KeptObject>,
-    order: Option<(OrderInputs, Arc<Vec<OrderEntry>>)>,
+    order: Option<(OrderInputs, Arc<PaintingOrder>)>,
     brushes: Option<Arc<Brushes>>,
 }
 
@@ -244,7 +244,7 @@ impl Preparer {
         self.kept = scene.objects.iter().map(|object| object.name.clone()).zip(kept).collect();
     }
 
-    fn order(&mut self, coats: &[Arc<Coat>], rules: &[RegionRule]) -> Arc<Vec<OrderEntry>> {
+    fn order(&mut self, coats: &[Arc<Coat>], rules: &[RegionRule]) -> Arc<PaintingOrder> {
         let inputs = OrderInputs::new(coats, rules);
         let kept = self.order.take().filter(|(before, _)| *before == inputs);
         let order = kept.map_or_else(|| Arc::new(inputs.order()), |(_, order)| order);

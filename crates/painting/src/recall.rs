@@ -7,7 +7,7 @@ use std::sync::Arc;
 use impasto_scene::presets::LayerKind;
 
 use crate::frame::Frame;
-use crate::order::OrderEntry;
+use crate::order::PaintingOrder;
 use crate::prepare::Painting;
 
 /// Of those that were absent, every sixteenth is asked, others in each picture: small strokes come late without being missed.
@@ -18,7 +18,7 @@ const LARGE: u64 = 0x5555_5555_5555_5555;
 
 /// Which strokes there were in a picture.
 pub struct Recall {
-    order: Arc<Vec<OrderEntry>>,
+    order: Arc<PaintingOrder>,
     /// A bit a particle, in painting order.
     words: Vec<u64>,
 }
@@ -31,18 +31,18 @@ impl Recall {
     /// it was painted; `turn` counts the pictures.
     pub fn of(painting: &Painting, frame: &Frame, is_there: impl Fn(usize) -> bool, turn: u32) -> Self {
         let order = Arc::clone(&painting.order);
-        let pattern = |entry: OrderEntry| match painting.coats[entry.coat as usize].kind {
+        let pattern = |number: u32| match painting.coats[order.entry(number).coat as usize].kind {
             LayerKind::Form | LayerKind::Accents | LayerKind::Lights => SMALL << (turn % 16),
             LayerKind::Body | LayerKind::Scumble => LARGE << (turn % 2),
             // A draft has none.
             LayerKind::Underpainting => 0,
         };
         // Layers may share a word.
-        let word = |entries: &[OrderEntry]| match (pattern(entries[0]), pattern(entries[entries.len() - 1])) {
+        let word = |numbers: &[u32]| match (pattern(numbers[0]), pattern(numbers[numbers.len() - 1])) {
             (first, last) if first == last => first,
-            _ => entries.iter().fold(0, |asked, &entry| asked | pattern(entry)),
+            _ => numbers.iter().fold(0, |asked, &number| asked | pattern(number)),
         };
-        let mut words: Vec<u64> = order.chunks(Self::WORD).map(word).collect();
+        let mut words: Vec<u64> = order.numbers().chunks(Self::WORD).map(word).collect();
         for (index, source) in frame.sources.iter().enumerate() {
             if is_there(index) {
                 words[source.place as usize / Self::WORD] |= 1 << (source.place as usize % Self::WORD);

@@ -9,11 +9,10 @@ use impasto_core::screen_map::facing;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
 
-use crate::at::{Look, Rotation, SeenCoat, StrokeColors};
+use crate::at::{Candidate, Look, Rotation, SeenCoat, StrokeColors};
 use crate::brushes;
 use crate::counts::most_wanted;
 use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
-use crate::order::OrderEntry;
 use crate::seats::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
@@ -46,24 +45,26 @@ const WHOLE: f32 = 8.0;
 
 impl Look<'_> {
     /// The stroke of a particle, unless it is absent whatever its layer is wanted for.
-    pub(crate) fn stroke(&self, entry: OrderEntry, place: u32) -> Option<(Stroke, StrokeSource)> {
+    pub(crate) fn stroke(&self, candidate: &Candidate) -> Option<(Stroke, StrokeSource)> {
+        let &Candidate { entry, place, ref solved, region, part, bits, drift, .. } = candidate;
         let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
-        let (coat, solved) = (seen.coat, &seen.solved);
-        let region = self.region(entry);
+        let coat = seen.coat;
         let strokes = &self.painting.rules[region as usize].strokes;
         let layer = strokes.layer_of(coat.kind);
         if layer.coverage <= 0.0 {
             return None;
         }
-        let cap = self.painting.bodies[coat.object].caps[coat.seats.part(index)];
+        let cap = self.painting.bodies[coat.object].caps[part];
         let grown = seen.growth(index, self.painting, self.px_scale);
         let size_px = cap.apply(layer.length_px, layer.width_px).map(|side| side * grown);
-        let drift = coat.seats.drift[index];
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&seen.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
             (Some(_), _) => return None,
-            _ => self.supply_ln(seen, index, layer.coverage * patches / (size_px[0] * size_px[1])),
+            _ => {
+                let wanted_per_px = layer.coverage * patches / (size_px[0] * size_px[1]);
+                self.supply_ln((seen, index), solved.area_px, wanted_per_px)
+            }
         };
         if supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln() <= presence::ABSENT_LN {
             return None;
@@ -87,8 +88,8 @@ impl Look<'_> {
         };
         let map: PixelMap2 = lift.map(jacobian);
         let angle_rad =
-            along_contour(self.angle_rad(seen, index), strokes.contour, normal, (&seen.map, facing));
-        let chance = Chance { seen, index };
+            along_contour(self.angle_rad(seen, index, solved), strokes.contour, normal, (&seen.map, facing));
+        let chance = Chance { bits };
         let size_px = chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
         let flat = Shape { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
         let Shape { angle_rad, length_px, width_px, skew } = match self.rotation {
@@ -111,16 +112,15 @@ impl Look<'_> {
                 + 0.5 * length_px * along.abs()
         };
         let outside = |at: f32, half: f32, reach: f32| at.abs() > half + reach;
-        if outside(solved.x_px[index], self.half_px[0], reach_px(cos, sin))
-            || outside(solved.y_px[index], self.half_px[1], reach_px(sin, cos))
+        if outside(solved.x_px, self.half_px[0], reach_px(cos, sin))
+            || outside(solved.y_px, self.half_px[1], reach_px(sin, cos))
         {
             return None;
         }
-        let bits = coat.seats.bits(index);
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
-            center_px: [solved.x_px[index] + self.half_px[0], solved.y_px[index] + self.half_px[1]],
-            depth: solved.depth[index],
+            center_px: [solved.x_px + self.half_px[0], solved.y_px + self.half_px[1]],
+            depth: solved.depth,
             angle_rad,
             length_px,
             width_px,
@@ -129,7 +129,7 @@ impl Look<'_> {
             bits,
             body_id: coat.object as u32 + 1,
             albedo_srgb8: match self.colors {
-                StrokeColors::Scene => coat.albedo_srgb8(index),
+                StrokeColors::Scene => candidate.albedo_srgb8,
                 StrokeColors::Trust => trust_srgb8(map.kappa() as f32),
             },
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
@@ -139,8 +139,7 @@ impl Look<'_> {
                 .normalize_or_zero()
                 .as_vec3()
                 .to_array(),
-            bow: (BOW_DEVIATION * jitter_share * hash::normal(seen.bits(index, BOW)))
-                .clamp(-MOST_BOW, MOST_BOW),
+            bow: (BOW_DEVIATION * jitter_share * chance.normal(BOW)).clamp(-MOST_BOW, MOST_BOW),
             overrun_px: self.overrun_px(strokes.edges, layer.overrun, drift[1]),
             drift,
             skew,
@@ -164,8 +163,8 @@ impl Look<'_> {
 
     /// ln of ρ*·A/(order + ½): strokes wanted per pixel over particles per pixel, over rank. How many particles there are
     /// cancels out, so twice as many leave the first half as they were.
-    fn supply_ln(&self, seen: &SeenCoat<'_>, index: usize, wanted_per_px: f32) -> f32 {
-        let area_px = seen.solved.area_px[index] / (self.px_scale * self.px_scale);
+    fn supply_ln(&self, (seen, index): (&SeenCoat<'_>, usize), area_px: f32, wanted_per_px: f32) -> f32 {
+        let area_px = area_px / (self.px_scale * self.px_scale);
         let wanted = f64::from(wanted_per_px * area_px) * seen.coat.sampled.area / (index as f64 + 0.5);
         wanted.ln() as f32
     }
@@ -261,14 +260,13 @@ pub(crate) fn along_contour(
 }
 
 /// The chances of one particle.
-struct Chance<'a> {
-    seen: &'a SeenCoat<'a>,
-    index: usize,
+struct Chance {
+    bits: u32,
 }
 
-impl Chance<'_> {
+impl Chance {
     fn normal(&self, which: u32) -> f32 {
-        hash::normal(self.seen.bits(self.index, which))
+        hash::normal(hash::combine(self.bits, which))
     }
 
     fn size_px(&self, [length, width]: [f32; 2], jitter: f32) -> [f32; 2] {
@@ -287,7 +285,7 @@ impl Chance<'_> {
     fn paint(&self, layer: &ResolvedLayer, lively: bool) -> Paint {
         let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
         let (thickness, dryness) = if lively {
-            let dryness = hash::unit(self.seen.bits(self.index, DRYNESS_JITTER));
+            let dryness = hash::unit(hash::combine(self.bits, DRYNESS_JITTER));
             ((THICKNESS_DEVIATION * self.normal(THICKNESS_JITTER)).exp(), 0.4 + 1.2 * dryness)
         } else {
             (1.0, 1.0)

@@ -44,6 +44,9 @@ pub enum PrepareError {
 const PEAK_BYTES: u64 = 240;
 const PEAK_BYTES_WITH_LISTS: u64 = 520;
 
+/// Particles of all coats that can be told apart.
+const MOST_PARTICLES: u64 = 1 << 31;
+
 /// How to prepare.
 #[derive(Clone, Copy)]
 pub struct PrepareOptions<'a> {
@@ -84,9 +87,11 @@ pub(super) fn fits(
     let particles: u64 = (0..kept.len()).map(of_object).sum();
     let with_lists = matches!(solver, Solver::Horn | Solver::HornExact);
     let needed_bytes = particles * if with_lists { PEAK_BYTES_WITH_LISTS } else { PEAK_BYTES };
+    // More cannot be numbered.
+    let budget_bytes = memory_bytes.unwrap_or(u64::MAX).min(MOST_PARTICLES * PEAK_BYTES);
     let most = (0..kept.len()).max_by_key(|&index| of_object(index));
-    match (memory_bytes, most) {
-        (Some(budget_bytes), Some(most)) if needed_bytes > budget_bytes => Err(PrepareError::Memory {
+    match most {
+        Some(most) if needed_bytes > budget_bytes => Err(PrepareError::Memory {
             particles,
             needed_bytes,
             budget_bytes,

@@ -1,0 +1,222 @@
+//! Which particles may show in a view, found before anything else is computed for them; then one at a time.
+
+use rayon::prelude::*;
+
+use super::{BakedParticles, CHUNK, Rows, project, slices};
+use crate::ScreenMap;
+use crate::wide::{Wide, widest};
+
+/// Particles a word of bits.
+const WORD: usize = u64::BITS as usize;
+
+/// A screen map, ready for particles.
+#[derive(Clone, Copy)]
+pub struct ParticleView {
+    rows: Rows,
+}
+
+/// What a particle that may show is within.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// From the picture's centre, exclusive.
+    pub half_px: [f32; 2],
+    /// Nearest and farthest depth, exclusive.
+    pub near_far: [f32; 2],
+    /// Times a particle's px² per unit of surface: what its number is less than.
+    pub most_per_area: f32,
+}
+
+/// One particle of [`super::SolvedParticles`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolvedParticle {
+    /// Pixels from the picture's centre.
+    pub x_px: f32,
+    /// Pixels from the picture's centre, Y up.
+    pub y_px: f32,
+    /// Along the gaze, world units.
+    pub depth: f32,
+    /// Counter-clockwise from +X, radians in (−π, π].
+    pub angle_rad: f32,
+    /// Projected area in px² per unit of surface; positive where it faces the eye.
+    pub area_px: f32,
+}
+
+impl ParticleView {
+    /// Of a screen map.
+    pub fn new(map: &ScreenMap) -> Self {
+        Self { rows: Rows::new(map) }
+    }
+
+    /// To the bit what [`super::solve`] finds for one particle.
+    #[inline]
+    pub fn solved(&self, particles: &BakedParticles, particle: usize) -> SolvedParticle {
+        let of = |arrays: &[Vec<f32>; 3]| [0, 1, 2].map(|axis| arrays[axis][particle]);
+        let seen = project(&self.rows, of(&particles.position), of(&particles.normal));
+        let lift = [of(&particles.along), of(&particles.across)];
+        SolvedParticle {
+            x_px: seen.x_px,
+            y_px: seen.y_px,
+            depth: seen.depth,
+            angle_rad: match particles.flatness.get(particle) {
+                Some(&flatness) => seen.angle_rad::<true>(lift, flatness),
+                None => seen.angle_rad::<false>(lift, 1.0),
+            },
+            area_px: seen.area_px,
+        }
+    }
+
+    /// Of all particles that face the eye, a bit each for those within the bounds; 64 particles a word, the first the lowest
+    /// bit.
+    pub fn within(&self, particles: &BakedParticles, bounds: &Bounds) -> Vec<u64> {
+        let mut words = vec![0; particles.len().div_ceil(WORD)];
+        words.par_chunks_mut(CHUNK / WORD).enumerate().for_each(|(chunk, words)| {
+            widest(Marking { particles, first: chunk * CHUNK, rows: &self.rows, bounds, words });
+        });
+        words
+    }
+}
+
+/// Sets the bits of the particles from `first` on that are within the bounds.
+struct Marking<'a> {
+    particles: &'a BakedParticles,
+    first: usize,
+    rows: &'a Rows,
+    bounds: &'a Bounds,
+    words: &'a mut [u64],
+}
+
+impl Wide for Marking<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { particles, rows, bounds, .. } = self;
+        for (number, word) in self.words.iter_mut().enumerate() {
+            let first = self.first + number * WORD;
+            let mut flags = [0; WORD];
+            match particles.len() - first {
+                // Of one known length, so that lanes run side by side.
+                WORD.. => mark_word(particles, first, (rows, bounds), &mut flags),
+                rest => mark_word(particles, first, (rows, bounds), &mut flags[..rest]),
+            }
+            *word = packed(&flags);
+        }
+    }
+}
+
+#[inline(always)]
+fn mark_word(particles: &BakedParticles, first: usize, (rows, bounds): (&Rows, &Bounds), flags: &mut [u8]) {
+    let count = flags.len();
+    let [px, py, pz] = slices(&particles.position, first, count);
+    let [nx, ny, nz] = slices(&particles.normal, first, count);
+    for (i, flag) in flags.iter_mut().enumerate() {
+        let seen = project(rows, [px[i], py[i], pz[i]], [nx[i], ny[i], nz[i]]);
+        // Without a branch: every test is cheap.
+        *flag = u8::from(
+            (seen.area_px > 0.0)
+                & (seen.area_px * bounds.most_per_area > (first as i32 + i as i32) as f32)
+                & (seen.depth > bounds.near_far[0])
+                & (seen.depth < bounds.near_far[1])
+                & (seen.x_px.abs() < bounds.half_px[0])
+                & (seen.y_px.abs() < bounds.half_px[1]),
+        );
+    }
+}
+
+/// A bit a byte.
+#[inline(always)]
+fn packed(flags: &[u8; WORD]) -> u64 {
+    let mut word = 0;
+    for (index, bytes) in flags.chunks_exact(8).enumerate() {
+        let mut eight = [0; 8];
+        eight.copy_from_slice(bytes);
+        // The bit of each byte, moved side by side into the top byte.
+        let bits = u64::from_le_bytes(eight).wrapping_mul(0x0102_0408_1020_4080) >> 56;
+        word |= bits << (index * 8);
+    }
+    word
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{SolvedParticles, solve};
+    use super::*;
+    use crate::hash;
+    use crate::lift::Lift;
+    use crate::screen_map::PixelLens;
+    use glam::{DAffine3, DMat4, DVec3};
+
+    /// Everywhere round the eye, some behind it, facing anywhere.
+    fn crowd(count: u32, wrapped: bool) -> BakedParticles {
+        let vector = |particle: u32, which: u32| {
+            DVec3::from_array(
+                [0, 1, 2].map(|axis| f64::from(hash::normal(hash::combine(particle, 8 * which + axis)))),
+            )
+        };
+        let mut particles = BakedParticles::default();
+        for particle in 0..count {
+            let lift = Lift { along: vector(particle, 3), across: vector(particle, 4) };
+            particles.push(3.0 * vector(particle, 1), vector(particle, 2).normalize(), lift);
+        }
+        if wrapped {
+            particles.flatness = (0..count).map(|particle| hash::unit(hash::combine(particle, 50))).collect();
+        }
+        particles
+    }
+
+    fn view() -> ScreenMap {
+        let view = DMat4::from_translation(DVec3::new(0.3, -0.2, -4.0));
+        ScreenMap::new(view, DAffine3::from_rotation_y(0.4), PixelLens::Perspective { focal_px: 900.0 })
+    }
+
+    #[test]
+    fn one_particle_is_solved_as_all_are() {
+        for wrapped in [false, true] {
+            let (particles, map) = (crowd(1000, wrapped), view());
+            let mut solved = SolvedParticles::default();
+            solve(&particles, &map, &mut solved);
+            let view = ParticleView::new(&map);
+            for index in 0..particles.len() {
+                let one = view.solved(&particles, index);
+                let bits = [one.x_px, one.y_px, one.depth, one.angle_rad, one.area_px].map(f32::to_bits);
+                let all = [&solved.x_px, &solved.y_px, &solved.depth, &solved.angle_rad, &solved.area_px];
+                assert_eq!(bits, all.map(|array| array[index].to_bits()), "particle {index}");
+            }
+        }
+    }
+
+    #[test]
+    fn bits_are_set_where_every_bound_holds() {
+        // More than a task, and no whole word.
+        let (particles, map) = (crowd(CHUNK as u32 + 1000, false), view());
+        let mut solved = SolvedParticles::default();
+        solve(&particles, &map, &mut solved);
+        let bounds = Bounds { half_px: [640.0, 360.0], near_far: [0.5, 9.0], most_per_area: 0.04 };
+        let words = ParticleView::new(&map).within(&particles, &bounds);
+        let mut portable = vec![0; words.len()];
+        let (rows, words_of) = (Rows::new(&map), &mut portable);
+        Marking { particles: &particles, first: 0, rows: &rows, bounds: &bounds, words: words_of }.run();
+        assert_eq!(words, portable);
+        // How often each bound alone keeps a particle out.
+        let mut alone = [0; 6];
+        for index in 0..particles.len() {
+            let (area_px, depth) = (solved.area_px[index], solved.depth[index]);
+            let holds = [
+                area_px > 0.0,
+                area_px.abs() * bounds.most_per_area > index as f32,
+                depth > 0.5,
+                depth < 9.0,
+                solved.x_px[index].abs() < 640.0,
+                solved.y_px[index].abs() < 360.0,
+            ];
+            let bit = words[index / WORD] >> (index % WORD) & 1;
+            assert_eq!(bit == 1, holds.iter().all(|&holds| holds), "particle {index}");
+            if let [out] = [0, 1, 2, 3, 4, 5].iter().filter(|&&bound| !holds[bound]).collect::<Vec<_>>()[..] {
+                alone[*out] += 1;
+            }
+        }
+        assert!(alone.iter().all(|&count| count > 0), "{alone:?}");
+        assert!(words.iter().map(|word| word.count_ones()).sum::<u32>() > 100);
+        assert_eq!(words.last().map(|word| word >> (particles.len() % WORD)), Some(0));
+    }
+}
