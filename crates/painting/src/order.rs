@@ -170,11 +170,13 @@ impl Queue {
     }
 }
 
+/// The next particle of a queue: its rank, then the name's hash, the particle and the queue, of which the least come first.
+type Head = (u64, Reverse<(u32, u32, usize)>);
+
 /// The numbers of the particles of queues, the highest rank first; each queue is sorted already.
 fn merged(mut queues: Vec<Queue>) -> Vec<u32> {
     let mut order = Vec::with_capacity(queues.iter().map(Queue::len).sum());
-    // The greatest comes first: of equal ranks that of the lesser name, then of the lesser coat.
-    let mut heads: BinaryHeap<(u64, Reverse<(u32, u32, usize)>)> = BinaryHeap::new();
+    let mut heads: BinaryHeap<Head> = BinaryHeap::new();
     for (number, queue) in queues.iter_mut().enumerate() {
         if let Some(particle) = queue.pop() {
             heads.push((queue.rank(particle), Reverse((queue.name_hash, particle, number))));

@@ -444,3 +444,6 @@ fn views_in_advance(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
     let along = frames.iter().map(|frame| (view(frame), motion::poses_at(scene, *frame)));
     std::iter::once(reference).chain(along).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+//! An edit makes anew what depends on it, and nothing else: what is kept is the very same in memory.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use impasto_scene::document::{Direction, Falloff, Guide, GuideMode, GuidePoint, ObjectKey, Scene};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::loaded::LoadedScene;
+
+use super::{Painting, Preparer};
+
+/// A shipped scene whose objects state their counts, so that no view has a say in them.
+fn start() -> Arc<LoadedScene> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/sumi_e_apple.ron");
+    let mut loaded = load(&path, &LoadOptions::default()).unwrap();
+    loaded.scene.strokes.preset = Some("paper".to_owned());
+    for object in &mut loaded.scene.objects {
+        object.particles = Some(1500);
+    }
+    Arc::new(loaded)
+}
+
+fn edited(loaded: &Arc<LoadedScene>, edit: impl FnOnce(&mut Scene)) -> Arc<LoadedScene> {
+    let mut edited = LoadedScene::clone(loaded);
+    edit(&mut edited.scene);
+    Arc::new(edited)
+}
+
+/// Of each coat whether its places, its seats and its lifts are those of before.
+fn kept(before: &Painting, now: &Painting) -> Vec<[bool; 3]> {
+    let pairs = before.coats.iter().zip(&now.coats);
+    pairs
+        .map(|(before, now)| {
+            [
+                Arc::ptr_eq(&before.sampled, &now.sampled),
+                Arc::ptr_eq(&before.seats, &now.seats),
+                Arc::ptr_eq(&before.baked, &now.baked),
+            ]
+        })
+        .collect()
+}
+
+#[test]
+fn a_moved_object_does_nothing_again() {
+    let (start, mut preparer) = (start(), Preparer::default());
+    let before = preparer.prepare(Arc::clone(&start)).unwrap();
+    let moved = edited(&start, |scene| {
+        let key = ObjectKey { frame: 30.0, translation: [0.4, 0.1, 0.0], ..scene.objects[0].keys[0].clone() };
+        scene.objects[0].keys.push(key);
+    });
+    let now = preparer.prepare(moved).unwrap();
+    assert_eq!(kept(&before, &now), [[true; 3]; 2]);
+    assert!(Arc::ptr_eq(&before.order, &now.order) && Arc::ptr_eq(&before.brushes, &now.brushes));
+    let surfaces = before.bodies.iter().zip(&now.bodies);
+    assert!(surfaces.into_iter().all(|(before, now)| Arc::ptr_eq(&before.surface, &now.surface)));
+}
+
+#[test]
+fn a_changed_angle_and_a_guide_turn_the_strokes_of_their_object_alone() {
+    let (start, mut preparer) = (start(), Preparer::default());
+    let before = preparer.prepare(Arc::clone(&start)).unwrap();
+    let angle = edited(&start, |scene| scene.regions[0].direction = Direction::Angle(30.0));
+    let turned = preparer.prepare(Arc::clone(&angle)).unwrap();
+    assert_eq!(kept(&before, &turned), [[true, true, false], [true; 3]]);
+    assert!(Arc::ptr_eq(&before.order, &turned.order));
+
+    let point = |x: f64| GuidePoint { at: [x, 0.5, 0.4], normal: [0.0, 0.0, 1.0], turn_deg: 0.0 };
+    let guide = Guide {
+        mode: GuideMode::Comb,
+        curve: false,
+        object: None,
+        view: None,
+        points: vec![point(-0.2), point(0.2)],
+        radius: 0.3,
+        strength: 1.0,
+        falloff: Falloff::Smooth,
+    };
+    let combed = edited(&angle, |scene| scene.regions[0].guides.push(guide));
+    let now = preparer.prepare(combed).unwrap();
+    assert_eq!(kept(&turned, &now)[1], [true; 3]);
+    assert_eq!(kept(&turned, &now)[0][..2], [true; 2]);
+}
