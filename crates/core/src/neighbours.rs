@@ -5,7 +5,7 @@ mod crowd;
 mod wide;
 
 use cells::{CellSpace, RowCursor, SortedPoints};
-use crowd::{Crowd, Query};
+use crowd::{Crowd, Keep, Query};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -116,7 +116,7 @@ struct Part<'a> {
 
 impl Search<'_> {
     #[inline(always)]
-    fn run(&self, part: Part<'_>) {
+    fn run<K: Keep>(&self, part: Part<'_>) {
         if self.most == 0 {
             return;
         }
@@ -135,7 +135,7 @@ impl Search<'_> {
                     most: self.most,
                 };
                 let list = &mut indices[(query - first) * self.most..][..self.most];
-                lengths[query - first] = crowd.nearest(&asked, list) as u8;
+                lengths[query - first] = crowd.nearest::<K>(&asked, list) as u8;
             }
         }
     }

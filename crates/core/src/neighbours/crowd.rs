@@ -6,7 +6,7 @@ use super::cells::SortedPoints;
 use std::ops::Range;
 
 /// So many candidates are looked at together.
-const LANES: usize = 16;
+pub(super) const LANES: usize = 16;
 
 /// Distances are sorted into so many classes before they are compared; fewer of them count than fit into a byte.
 const CLASSES: usize = 256;
@@ -23,6 +23,38 @@ pub(super) struct Crowd {
     /// Bits of the squared distance, then the number: those that count, and the same by class.
     found: Vec<u64>,
     sorted: Vec<u64>,
+}
+
+/// How those of a block are kept that are near enough.
+pub(super) trait Keep {
+    /// Writes the bits of each squared distance that is not above `radius_sq`, then its number, one after the other; gives how
+    /// many. What stands behind them is of no meaning.
+    fn keep(
+        distances_sq: &[f32; LANES],
+        numbers: &[u32; LANES],
+        radius_sq: f32,
+        found: &mut [u64; LANES],
+    ) -> usize;
+}
+
+/// Without a branch that nobody can foresee: each is written, and counted if it is near.
+pub(super) struct OneByOne;
+
+impl Keep for OneByOne {
+    #[inline(always)]
+    fn keep(
+        distances_sq: &[f32; LANES],
+        numbers: &[u32; LANES],
+        radius_sq: f32,
+        found: &mut [u64; LANES],
+    ) -> usize {
+        let mut count = 0;
+        for i in 0..LANES {
+            found[count % LANES] = u64::from(distances_sq[i].to_bits()) << 32 | u64::from(numbers[i]);
+            count += usize::from(distances_sq[i] <= radius_sq);
+        }
+        count
+    }
 }
 
 /// Where neighbours are looked for, and which.
@@ -56,8 +88,8 @@ impl Crowd {
 
     /// Writes the nearest points, nearest first, equal distances by number; gives how many.
     #[inline(always)]
-    pub(super) fn nearest(&mut self, query: &Query, list: &mut [u32]) -> usize {
-        let count = self.collect(query);
+    pub(super) fn nearest<K: Keep>(&mut self, query: &Query, list: &mut [u32]) -> usize {
+        let count = self.collect::<K>(query);
         let mut found = &mut self.found[..count];
         if count > MANY {
             let most = query.most.min(count);
@@ -78,13 +110,12 @@ impl Crowd {
 
     /// Those within the radius on the same side, in any order; gives how many.
     #[inline(always)]
-    fn collect(&mut self, query: &Query) -> usize {
+    fn collect<K: Keep>(&mut self, query: &Query) -> usize {
         let [(xs, _), (ys, _), (zs, _), (us, _), (vs, _), (ws, _)] =
             self.axes.each_ref().map(|axis| axis.as_chunks::<LANES>());
         let (numbers, _) = self.numbers.as_chunks::<LANES>();
         let blocks = xs.iter().zip(ys).zip(zs).zip(us.iter().zip(vs).zip(ws)).zip(numbers);
         let ([qx, qy, qz], [qu, qv, qw]) = (query.position.to_array(), query.normal.to_array());
-        let radius_sq = query.radius * query.radius;
         let mut end = 0;
         for ((((x, y), z), ((u, v), w)), numbers) in blocks {
             let mut distances_sq = [0.0; LANES];
@@ -94,14 +125,8 @@ impl Crowd {
                 let counts = (qu * u[i] + qv * v[i] + qw * w[i] > 0.0) & (numbers[i] != query.own);
                 distances_sq[i] = if counts { distance_sq } else { f32::NAN };
             }
-            let Some(found) = self.found[end..].first_chunk_mut::<LANES>() else { break };
-            let mut more = 0;
-            for i in 0..LANES {
-                // Written anyway, and kept if it counts: no branch that nobody can foresee.
-                found[more % LANES] = u64::from(distances_sq[i].to_bits()) << 32 | u64::from(numbers[i]);
-                more += usize::from(distances_sq[i] <= radius_sq);
-            }
-            end += more;
+            let Some(found) = self.found[end..].first_chunk_mut() else { break };
+            end += K::keep(&distances_sq, numbers, query.radius * query.radius, found);
         }
         end
     }

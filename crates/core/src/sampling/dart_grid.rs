@@ -1,4 +1,4 @@
-//! Accepted particles sorted by cells, so that a search reads four short runs of memory.
+//! Accepted particles sorted by cells, so that a search reads a few short runs of memory.
 
 use std::ops::Range;
 

@@ -17,6 +17,8 @@ struct Cone {
     axis: Vec3,
     /// Sine of the angle between the axis and the side, plus a margin; above 1 when nothing is sure.
     spread: f32,
+    /// Whether any two normals of the face have a product above 0.
+    even: bool,
 }
 
 impl FaceCones {
@@ -28,7 +30,11 @@ impl FaceCones {
     /// themselves to tell.
     #[inline]
     pub(super) fn same_side(&self, first: u32, second: u32) -> Option<bool> {
+        let alike = first == second;
         let first = &self.cones[first as usize];
+        if alike && first.even {
+            return Some(true);
+        }
         let second = &self.cones[second as usize];
         let product = first.axis.dot(second.axis);
         // sin(a + b) <= sin a + sin b.
@@ -44,7 +50,7 @@ impl FaceCones {
 }
 
 impl Cone {
-    const UNSURE: Self = Self { axis: Vec3::ZERO, spread: 2.0 };
+    const UNSURE: Self = Self { axis: Vec3::ZERO, spread: 2.0, even: false };
 
     fn of(surface: &Surface<'_>, face: &Face) -> Self {
         let corners = surface.mesh.triangles[face.triangle as usize];
@@ -67,6 +73,7 @@ impl Cone {
             return Self::UNSURE;
         }
         let sine = normals.iter().map(|normal| normal.cross(axis).length()).fold(0.0, f32::max);
-        Self { axis, spread: sine + MARGIN }
+        let [a, b, c] = normals;
+        Self { axis, spread: sine + MARGIN, even: a.dot(b).min(b.dot(c)).min(c.dot(a)) > MARGIN }
     }
 }

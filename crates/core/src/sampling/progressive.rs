@@ -84,11 +84,16 @@ impl ProgressiveState {
             let least = (*level_end as f64 * LEAST_FILLED) as usize;
             let missing = least.saturating_sub(particles.len() + kept.len());
             kept.extend(level.clone().take(missing).map(|number| field.candidates.dart(number)));
-            let first = particles.len() as u32;
-            let chosen = kept.par_iter().with_min_len(LEAST_CHUNK);
-            particles.par_extend(chosen.map(|dart| field.candidates.particle(dart.number)));
-            kept.iter_mut().zip(first..).for_each(|(dart, number)| dart.number = number);
-            grid.insert(&kept);
+            let numbers: Vec<u32> = kept.iter().map(|dart| dart.number).collect();
+            kept.iter_mut().zip(particles.len() as u32..).for_each(|(dart, number)| dart.number = number);
+            if kept.len() < LEAST_CHUNK {
+                particles.extend(numbers.iter().map(|&number| field.candidates.particle(number)));
+                grid.insert(&kept);
+            } else {
+                let chosen = numbers.par_iter().with_min_len(LEAST_CHUNK);
+                let chosen = chosen.map(|&number| field.candidates.particle(number));
+                rayon::join(|| particles.par_extend(chosen), || grid.insert(&kept));
+            }
             *thrown = level.end;
         }
     }
