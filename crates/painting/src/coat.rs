@@ -1,8 +1,7 @@
 //! A coat: the particles of one object that carry one layer of paint. Each layer has particles of its own, so that a small
 //! stroke does not sit in the middle of each large one.
 
-use std::cell::OnceCell;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DVec3, Vec3};
 use impasto_core::direction::carry::Stencils;
@@ -209,15 +208,16 @@ impl KeptObject {
     /// Samples the particles of every coat.
     pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
         let body = self.surface();
-        let surface = OnceCell::new();
+        let surface = OnceLock::new();
         let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
         let counts = self.counts.as_ref().map_or([0; LayerKind::ALL.len()], |(_, counts)| *counts);
-        for (kind, count) in LayerKind::ALL.into_iter().zip(counts) {
+        let coats = self.coats.par_iter_mut().zip(LayerKind::ALL).zip(counts);
+        coats.for_each(|((coat, kind), count)| {
             let name_hash = name_hash(context, object.index, kind);
             let per_polygon = (context.paper && count > 0).then_some(count);
             let now = SampleInputs { surface: object.surface.clone(), name_hash, per_polygon };
-            self.coats[kind as usize].sample(now, count, (&body, surface));
-        }
+            coat.sample(now, count, (&body, surface));
+        });
     }
 
     /// Puts the particles where they are in the reference pose.
