@@ -32,10 +32,18 @@ fn cut_quads_look_as_whole_ones_do() {
         let [cut, whole] = [&mut cut, &mut whole].map(|renderer| renderer.render(&frame).unwrap().rgba8);
         let off: Vec<u8> =
             cut.iter().zip(&whole).map(|(a, b)| a.abs_diff(*b)).filter(|&off| off > 0).collect();
-        let most = off.iter().max().copied().unwrap_or(0);
-        println!("{scene} at {size_px:?}: {} of {} bytes differ, by {most} at most", off.len(), cut.len());
-        // Paint that is cut away leaves holes of tens.
-        assert!(most <= 8 && off.len() * 200 < cut.len(), "{scene}: {} bytes, {most} at most", off.len());
+        let far_off = off.iter().filter(|&&off| off > 8).count();
+        println!(
+            "{scene} at {size_px:?}: {} of {} bytes differ, {far_off} by more than 8",
+            off.len(),
+            cut.len()
+        );
+        // By a rounding a pixel may lie on another body; paint that is cut away leaves holes.
+        assert!(
+            off.len() * 200 < cut.len() && far_off <= 4 + cut.len() / 20_000,
+            "{scene}: {}, {far_off}",
+            off.len()
+        );
     }
 }
 

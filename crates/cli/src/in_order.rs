@@ -203,9 +203,8 @@ mod tests {
         let (begun, most) = (AtomicI64::new(0), AtomicI64::new(0));
         for helpers in [0, 1, 3] {
             begun.store(0, Ordering::SeqCst);
-            let jobs = (0..200).map(|job| {
+            let jobs = (0..200).inspect(|_| {
                 begun.fetch_add(1, Ordering::SeqCst);
-                job
             });
             let mut seen = Vec::new();
             let open = || Some(Box::new(slowly) as Worker<'_, i64>);

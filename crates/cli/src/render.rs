@@ -84,7 +84,7 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));
     let inputs = loaded.inputs();
-    not_an_input(std::path::Path::new(&arguments.output), &inputs)?;
+    not_an_input(Path::new(&arguments.output), &inputs)?;
     let destination = destination(arguments, &frames)?;
     match &destination {
         Destination::Files(pattern) => {
