@@ -2,6 +2,8 @@
 
 mod live;
 mod noise_displace;
+mod sequence;
+mod stroke_pass;
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -24,9 +26,18 @@ fn main() {
     if std::env::args().any(|argument| argument == "noise_displace") {
         return noise_displace::run();
     }
+    let named = |what: &str| std::env::args().any(|argument| argument == what);
+    if named("sequence") {
+        return sequence::run(named("--quick"));
+    }
+    if named("stroke_pass") {
+        return stroke_pass::run(named("--quick"));
+    }
     sampling();
     solving();
     preparing();
+    stroke_pass::run(false);
+    sequence::run(false);
     noise_displace::run();
     live::run();
 }

@@ -17,6 +17,7 @@ layout(location = 8) in vec2 shape;          // taper, bend in radians
 
 uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
+uniform sampler2D mark_bounds;   // a row a mark: least and greatest along and across where there is more paint than so much
 #ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
 #endif
@@ -50,6 +51,34 @@ vec4 paint_below(vec2 center_px, float spread_px) {
 }
 #endif
 
+// As in `core::brush` and `marks::bounds`.
+const vec2 MARK_SIZE = vec2(256.0, 96.0);
+const float FILL = 0.84;
+const int STEPS = 32;
+// Coarser levels than this are no halves of the finest.
+const float COARSEST = 5.0;
+
+// The part of the quad where the mark has more paint than `least`, seen at this level: least and greatest along and across.
+vec4 painted_part(float least, float level, float bow, float flip) {
+    int amount = int(floor(least * float(STEPS) - 0.05));
+    float coarser = floor(level) + 1.0;
+    if (amount < 0 || coarser > COARSEST) return vec4(0.0, 1.0, 0.0, 1.0);
+    vec4 part = texelFetch(mark_bounds, ivec2(min(amount, STEPS - 1), int(marks.w & 65535u)), 0);
+    // As far as a texel of the coarser level reaches, and beyond the border what is at the border.
+    vec2 reach = (1.5 * exp2(coarser) - 0.8) / MARK_SIZE;
+    part += vec4(-reach.x, reach.x, -reach.y, reach.y);
+    if (part.z <= 0.0) part.z = -9.0;
+    if (part.w >= 1.0) part.w = 9.0;
+    // The bow shifts the mark across.
+    vec2 from_middle = part.xy - 0.5;
+    vec2 square = vec2(part.x < 0.5 && part.y > 0.5 ? 0.0 : min(from_middle.x * from_middle.x, from_middle.y * from_middle.y),
+        max(from_middle.x * from_middle.x, from_middle.y * from_middle.y));
+    vec2 shift = bow * (square - 0.06) * 0.5 * FILL;
+    vec2 across = part.zw + vec2(min(shift.x, shift.y), max(shift.x, shift.y));
+    if (flip < 0.0) across = 1.0 - across.yx;
+    return clamp(vec4(part.xy, across), 0.0, 1.0);
+}
+
 void main() {
     float there = resolved.a;
     if (there <= 0.004) {
@@ -81,16 +110,23 @@ void main() {
     picked_up = vec4(under.rgb, pickup * smoothstep(0.3, 0.9, under.a));
 #endif
 
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    // A constant level keeps the mark the same at every angle.
+    float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
+    float flip = (marks.w & 65536u) == 0u ? 1.0 : -1.0;
+    vec4 part = painted_part(paint.a - soft, level, normal_and_bow.w, flip);
+    if (part.x >= part.y || part.z >= part.w) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
+    mark_at = vec2((gl_VertexID & 1) == 0 ? part.x : part.y, gl_VertexID < 2 ? part.z : part.w);
+    vec2 corner = mark_at * 2.0 - 1.0;
     from_center_px =
         (along * corner.x * size.x + (vec2(-along.y, along.x) + along * reach.w) * corner.y * size.y)
         * 0.5 * MARGIN;
-    mark_at = corner * 0.5 + 0.5;
-    // A constant level keeps the mark the same at every angle.
-    float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
 #ifdef SHAPED
     vec4 own_form = vec4(0.0);
     if (shape != vec2(0.0)) {
+        corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
         own_form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / max(size.x, 1e-6));
         mark_at = corner_of_box(corner, own_form, reach.w);
         from_center_px = along * mark_at.x + vec2(-along.y, along.x) * mark_at.y;
@@ -102,7 +138,7 @@ void main() {
 #endif
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
-    body = vec4(opacity, thickness * fat, reach.x, (marks.w & 65536u) == 0u ? 1.0 : -1.0);
+    body = vec4(opacity, thickness * fat, reach.x, flip);
     own = vec2(place.z, float(marks.y));
     gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
 }

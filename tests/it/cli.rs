@@ -93,6 +93,46 @@ fn render_writes_whole_frames_by_their_pattern() {
     assert_eq!(frames, [2]);
 }
 
+/// The same bytes from one painter and from three, told of in their order.
+#[test]
+fn frames_do_not_depend_on_how_many_draw_them() {
+    let folder = Folder::new();
+    std::fs::write(folder.path("scene.ron"), SCENE.replace("last: 2)", "last: 13)")).unwrap();
+    let render = |threads: &str, pattern: &str| {
+        let output = folder.run(&[
+            "render",
+            "scene.ron",
+            "-o",
+            pattern,
+            "--json",
+            "-q",
+            "--contact-sheet",
+            "--threads",
+            threads,
+            "--frames",
+            "0-13,3",
+            "--skip-existing",
+        ]);
+        assert_eq!(code(&output), 0, "{}", words(&output.stderr));
+        let events = words(&output.stdout);
+        let events = events.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
+        events
+            .filter(|event| event["event"] == "frame")
+            .map(|event| event["frame"].clone())
+            .collect::<Vec<_>>()
+    };
+    std::fs::create_dir(folder.path("three")).unwrap();
+    std::fs::write(folder.path("three/f_05.png"), "mine").unwrap();
+    assert_eq!(render("1", "one/f_##.png"), (0..14).collect::<Vec<_>>());
+    assert_eq!(render("3", "three/f_##.png"), (0..14).filter(|&frame| frame != 5).collect::<Vec<_>>());
+    assert_eq!(folder.names("one"), folder.names("three"));
+    for name in folder.names("one") {
+        let [one, three] = ["one", "three"].map(|from| std::fs::read(folder.path(from).join(&name)).unwrap());
+        // One sheet lacks a frame.
+        assert!(name == "f_sheet.png" || name == "f_05.png" || one == three, "{name}");
+    }
+}
+
 #[test]
 fn a_picture_streams_and_an_animation_is_one_file() {
     let folder = Folder::new();

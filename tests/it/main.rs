@@ -5,6 +5,7 @@
 mod cli;
 mod corpus;
 mod covered;
+mod cut_quads;
 mod directions;
 mod editor_gestures;
 mod editor_journeys;

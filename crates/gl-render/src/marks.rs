@@ -1,9 +1,11 @@
 //! What strokes of any style are made of on the GPU: their records as inputs of shaders, and brush marks: every mark of every brush
 //! a layer of one array, with levels, so that small strokes show no comb.
 
+mod bounds;
+
 use std::sync::Arc;
 
-use impasto_core::brush::{SIZE, VARIANTS};
+use impasto_core::brush::{Mark, SIZE, VARIANTS};
 use impasto_painting::frame::{Brushes, Stroke};
 use rayon::prelude::*;
 
@@ -13,6 +15,8 @@ use crate::gl::{Attribute, Buffer, Format, GlError, Gpu, Texture};
 pub(crate) struct Marks {
     brushes: Arc<Brushes>,
     pub(crate) texture: Texture,
+    /// For each mark a row: where there is more paint than so much.
+    pub(crate) bounds: Texture,
 }
 
 /// Paint, height, tint, unused.
@@ -27,12 +31,11 @@ impl Marks {
         {
             return Ok(kept);
         }
-        let layers: Vec<Vec<Texel>> = brushes
-            .marks
-            .iter()
-            .flat_map(|marks| marks.iter())
-            .map(|mark| mark.texels.iter().map(|&[paint, height, tint]| [paint, height, tint, 0]).collect())
-            .collect();
+        let marks: Vec<&Mark> = brushes.marks.iter().flat_map(|marks| marks.iter()).collect();
+        let texels = |mark: &&Mark| -> Vec<Texel> {
+            mark.texels.iter().map(|&[paint, height, tint]| [paint, height, tint, 0]).collect()
+        };
+        let layers: Vec<Vec<Texel>> = marks.par_iter().map(texels).collect();
         let count = layers.len().max(1);
         let limit = gpu.limits().max_array_layers as usize;
         if count > limit {
@@ -40,8 +43,10 @@ impl Marks {
             return Err(GlError::Resource { what, reason: format!("this driver's limit is {limit} marks") });
         }
         let size = [SIZE[0] as u32, SIZE[1] as u32, count as u32];
+        let bounds = bounds::texture(gpu, &layers)?;
         let texture = Texture::array_with_levels(gpu, Format::Rgba8, size, &levels(layers))?;
-        Ok(Self { brushes: Arc::clone(brushes), texture })
+        gpu.lap("marks");
+        Ok(Self { brushes: Arc::clone(brushes), texture, bounds })
     }
 }
 
@@ -53,7 +58,9 @@ fn levels(mut layers: Vec<Vec<Texel>>) -> Vec<Vec<u8>> {
     let mut size = SIZE;
     let mut levels = Vec::new();
     loop {
-        levels.push(layers.iter().flatten().flatten().copied().collect());
+        let mut level = Vec::with_capacity(layers.len() * size_of::<Texel>() * size[0] * size[1]);
+        layers.iter().for_each(|texels| level.extend_from_slice(bytemuck::cast_slice(texels)));
+        levels.push(level);
         if size == [1, 1] {
             return levels;
         }

@@ -9,6 +9,7 @@
 mod at;
 mod bake;
 mod brushes;
+mod candidates;
 mod coat;
 mod counts;
 mod deform;

@@ -9,8 +9,9 @@ use impasto_core::screen_map::facing;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
 
-use crate::at::{Candidate, Look, Rotation, SeenCoat, StrokeColors};
+use crate::at::{Look, Rotation, SeenCoat, StrokeColors};
 use crate::brushes;
+use crate::candidates::Candidate;
 use crate::counts::most_wanted;
 use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::seats::{

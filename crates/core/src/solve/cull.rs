@@ -191,7 +191,7 @@ mod tests {
         let (particles, map) = (crowd(CHUNK as u32 + 1000, false), view());
         let mut solved = SolvedParticles::default();
         solve(&particles, &map, &mut solved);
-        let bounds = Bounds { half_px: [640.0, 360.0], near_far: [0.5, 9.0], most_per_area: 0.04 };
+        let bounds = Bounds { half_px: [640.0, 360.0], near_far: [2.0, 6.0], most_per_area: 0.04 };
         let words = ParticleView::new(&map).within(&particles, &bounds);
         let mut portable = vec![0; words.len()];
         let (rows, words_of) = (Rows::new(&map), &mut portable);
@@ -204,8 +204,8 @@ mod tests {
             let holds = [
                 area_px > 0.0,
                 area_px.abs() * bounds.most_per_area > index as f32,
-                depth > 0.5,
-                depth < 9.0,
+                depth > 2.0,
+                depth < 6.0,
                 solved.x_px[index].abs() < 640.0,
                 solved.y_px[index].abs() < 360.0,
             ];

@@ -215,6 +215,7 @@ impl RotatingStrokes {
         let strokes = &input.frame.strokes[layer.first as usize..][..layer.count as usize];
         if input.frame.quality == Quality::Exact && strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
             targets.paint_pass.copy_to(&targets.below_pass);
+            self.gpu.lap("below");
         }
         let shaped = strokes.iter().any(Stroke::is_shaped);
         let mut first = layer.first;
@@ -256,6 +257,7 @@ impl RotatingStrokes {
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
             .set("mark_rows", brush::SIZE[1] as f32)
             .texture("brush_marks", &marks.texture)
+            .texture("mark_bounds", &marks.bounds)
             .texture("depth_and_id", &input.reference.depth_and_id);
         if frame.quality == Quality::Exact {
             bound = bound.texture("below", &targets.below);

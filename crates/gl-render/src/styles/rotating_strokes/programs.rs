@@ -52,8 +52,15 @@ const DRAFT: &[&str] = &["DRAFT"];
 const SHAPED: &[&str] = &["SHAPED"];
 const SHAPED_DRAFT: &[&str] = &["SHAPED", "DRAFT"];
 
-const DRAFT_PAINT_UNIFORMS: &[&str] =
-    &["size_px", "mark_rows", "brush_marks", "depth_and_id", "units_per_px_at_1", "orthographic"];
+const DRAFT_PAINT_UNIFORMS: &[&str] = &[
+    "size_px",
+    "mark_rows",
+    "mark_bounds",
+    "brush_marks",
+    "depth_and_id",
+    "units_per_px_at_1",
+    "orthographic",
+];
 
 const DRAFT_ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "ground", "wash", "finish"];
 
@@ -109,6 +116,7 @@ const PAINT: ProgramSource<'static> = ProgramSource {
     uniforms: &[
         "size_px",
         "mark_rows",
+        "mark_bounds",
         "below",
         "brush_marks",
         "depth_and_id",

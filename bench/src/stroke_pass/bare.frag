@@ -1,0 +1,12 @@
+// One sample of the brush times the stroke's colour, into both targets.
+in vec2 mark_at;
+flat in vec4 color;
+flat in vec2 mark;
+uniform sampler2DArray brush_marks;
+layout(location = 0) out vec4 over;
+layout(location = 1) out vec4 height;
+void main() {
+    vec4 texel = textureLod(brush_marks, vec3(mark_at, mark.x), mark.y);
+    over = vec4(color.rgb, 1.0) * texel.r;
+    height = vec4(texel.g * texel.r, 0.0, 0.0, texel.r);
+}

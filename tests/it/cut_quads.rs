@@ -1,0 +1,73 @@
+//! Quads are cut to where their marks have paint: the picture is that of whole quads but for roundings, in fewer pixels.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use impasto_gl_render::ShaderTexts;
+use impasto_gl_render::context::Driver;
+use impasto_painting::{FrameOptions, Quality, prepare};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_tests::pictures::renderer;
+
+const PAINT: &str = include_str!("../../shaders/rotating_strokes/paint.vert");
+const FRAGMENTS: &str = include_str!("../../shaders/rotating_strokes/paint.frag");
+
+#[test]
+fn cut_quads_look_as_whole_ones_do() {
+    const CUT: &str = "if (amount < 0 || coarser > COARSEST)";
+    assert!(PAINT.contains(CUT));
+    let mut whole_quads = ShaderTexts::default();
+    assert!(whole_quads.put("rotating_strokes/paint.vert", PAINT.replace(CUT, "if (true)")));
+    let (mut cut, mut whole) = (renderer(Driver::Egl), renderer(Driver::Egl));
+    whole.replace_shaders(&whole_quads).unwrap();
+    // Large and small strokes of many brushes; the second is seen from afar too, with its marks in coarse levels.
+    for (scene, size_px, quality) in [
+        ("still_life", [320, 180], Quality::Exact),
+        ("simple_objects", [640, 360], Quality::Exact),
+        ("simple_objects", [96, 54], Quality::Draft),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.ron"));
+        let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap();
+        let frame = painting.at(0.0, &FrameOptions { quality, ..FrameOptions::new(size_px) });
+        let [cut, whole] = [&mut cut, &mut whole].map(|renderer| renderer.render(&frame).unwrap().rgba8);
+        let off: Vec<u8> =
+            cut.iter().zip(&whole).map(|(a, b)| a.abs_diff(*b)).filter(|&off| off > 0).collect();
+        let far_off = off.iter().filter(|&&off| off > 8).count();
+        println!(
+            "{scene} at {size_px:?}: {} of {} bytes differ, {far_off} by more than 8",
+            off.len(),
+            cut.len()
+        );
+        // By a rounding a pixel may lie on another body; paint that is cut away leaves holes.
+        assert!(
+            off.len() * 200 < cut.len() && far_off <= 4 + cut.len() / 20_000,
+            "{scene}: {}, {far_off}",
+            off.len()
+        );
+    }
+}
+
+/// The fragments of whole quads, most of which lay nothing.
+#[test]
+fn fewer_pixels_are_asked_for_paint() {
+    const NOTHING: &str = "if (alpha <= 0.0) discard;";
+    assert!(FRAGMENTS.contains(NOTHING));
+    let mut counted = ShaderTexts::default();
+    assert!(counted.put("rotating_strokes/paint.frag", FRAGMENTS.replace(NOTHING, "")));
+    let mut renderer = renderer(Driver::Egl);
+    renderer.replace_shaders(&counted).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/roll.ron");
+    let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap();
+    let frame = painting.at(0.0, &FrameOptions::new([320, 180]));
+    let (_, cost) = renderer.render_timed(&frame).unwrap();
+    let quads_px: f32 = renderer
+        .resolved_strokes()
+        .iter()
+        .zip(&frame.strokes)
+        .filter(|(resolved, _)| resolved.alpha > 0.004)
+        .map(|(_, stroke)| stroke.length_px * stroke.width_px / (0.84 * 0.84))
+        .sum();
+    let asked_px = cost.overdraw * 320.0 * 180.0;
+    println!("{asked_px} px of {quads_px}");
+    assert!(asked_px > 0.0 && asked_px < 0.8 * f64::from(quads_px), "{asked_px} px of {quads_px}");
+}
