@@ -7,9 +7,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use impasto_editor::files::shader_folder::ShaderFolder;
 use impasto_frame_files::picture_file;
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
+use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Picture, Renderer};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
 use impasto_scene::document::{Style, SumiE};

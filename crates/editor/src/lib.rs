@@ -16,7 +16,7 @@ pub mod worker;
 use files::dialogs::Source;
 use files::incoming;
 use files::preferences::{self, DriverChoice, Loaded, Preferences};
-use files::shader_folder::ShaderFolder;
+use impasto_gl_render::shader_folder::ShaderFolder;
 
 /// What `impasto edit` was told.
 #[derive(Clone, Debug, Default)]

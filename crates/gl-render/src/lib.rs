@@ -18,6 +18,7 @@ mod overlays;
 mod reference;
 mod renderer;
 mod shader_files;
+pub mod shader_folder;
 mod styles;
 mod watch;
 

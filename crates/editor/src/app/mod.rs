@@ -34,11 +34,11 @@ use impasto_scene::problem::Report;
 use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
-use crate::files::shader_folder::ShaderFolder;
 use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
 use crate::window::{self, Opened, numpad_pressed, tab_pressed};
+use impasto_gl_render::shader_folder::ShaderFolder;
 
 use file_flow::FileFlow;
 use long_work::LongWork;

@@ -6,7 +6,7 @@ use egui::Context;
 use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
-use crate::files::shader_folder::ShaderFolder;
+use impasto_gl_render::shader_folder::ShaderFolder;
 
 /// Time between two looks at the folder.
 const LOOK: Duration = Duration::from_millis(500);

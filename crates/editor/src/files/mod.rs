@@ -6,5 +6,4 @@ pub mod incoming;
 pub mod nearby;
 pub mod path_sheet;
 pub mod preferences;
-pub mod shader_folder;
 pub mod show_folder;

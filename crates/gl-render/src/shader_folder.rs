@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use impasto_gl_render::ShaderTexts;
+use crate::ShaderTexts;
 
 /// More than this is no shader.
 const MOST_BYTES: u64 = 1 << 20;
