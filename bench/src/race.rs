@@ -1,0 +1,111 @@
+//! Contenders for one task, timed in turn: each round runs all of them, so that what slows the machine slows them alike.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use crate::table::{Figure, Spread, Unit};
+
+/// Runs the task so many times and gives back the seconds that all of them took.
+type Run<'a> = Box<dyn FnMut(usize) -> anyhow::Result<f64> + 'a>;
+
+/// Someone who does the task, or why it cannot be had on this machine.
+pub struct Contender<'a> {
+    who: String,
+    note: String,
+    run: Result<Run<'a>, String>,
+}
+
+impl<'a> Contender<'a> {
+    /// A function of this process.
+    pub fn here<T>(who: &str, note: &str, mut work: impl FnMut() -> T + 'a) -> Self {
+        Self::timed(who, note, move |times| {
+            let start = Instant::now();
+            for _ in 0..times {
+                black_box(work());
+            }
+            Ok(start.elapsed().as_secs_f64())
+        })
+    }
+
+    /// Something that takes its own time: `run` does the task so many times and gives back the seconds of all of them.
+    pub fn timed(who: &str, note: &str, run: impl FnMut(usize) -> anyhow::Result<f64> + 'a) -> Self {
+        Self { who: who.to_owned(), note: note.to_owned(), run: Ok(Box::new(run)) }
+    }
+
+    /// One that cannot be had here.
+    pub fn missing(who: &str, why: &str) -> Self {
+        Self { who: who.to_owned(), note: String::new(), run: Err(why.to_owned()) }
+    }
+
+    /// One who starts, or does not.
+    pub fn started(
+        who: &str,
+        note: &str,
+        run: anyhow::Result<impl FnMut(usize) -> anyhow::Result<f64> + 'a>,
+    ) -> Self {
+        match run {
+            Ok(run) => Self::timed(who, note, run),
+            Err(why) => Self::missing(who, &format!("{why:#}")),
+        }
+    }
+}
+
+/// How long a race takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// Rounds after the warm-up.
+    pub rounds: usize,
+    /// Shortest measurement, seconds: quicker tasks are done several times in a row.
+    pub least_secs: f64,
+    /// A contender has no more rounds once it has taken this long, seconds; the warm-up counts as its only round if that alone
+    /// took as long.
+    pub most_secs: f64,
+}
+
+/// Runs the contenders; gives back one figure for each, in their order.
+///
+/// # Errors
+/// When a contender that had started gives up.
+pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<Figure>> {
+    struct Lane<'a> {
+        contender: Contender<'a>,
+        times: usize,
+        spent_secs: f64,
+        secs: Vec<f64>,
+    }
+    let mut lanes = Vec::new();
+    for mut contender in contenders {
+        let mut times = 1;
+        let (mut spent_secs, mut secs) = (0.0, Vec::new());
+        if let Ok(run) = &mut contender.run {
+            // Twice: the first also pays for memory, tables and compilers that work as the program runs.
+            spent_secs = run(1)?;
+            let mut warm_secs = spent_secs;
+            if warm_secs < pace.most_secs / 4.0 {
+                warm_secs = warm_secs.min(run(1)?);
+            }
+            if spent_secs >= pace.most_secs {
+                secs.push(spent_secs);
+            }
+            times = (pace.least_secs / warm_secs.max(1e-9)).ceil().clamp(1.0, 1e6) as usize;
+        }
+        lanes.push(Lane { contender, times, spent_secs, secs });
+    }
+    for _ in 0..pace.rounds {
+        for lane in &mut lanes {
+            let Ok(run) = &mut lane.contender.run else { continue };
+            if lane.spent_secs < pace.most_secs {
+                let secs = run(lane.times)?;
+                lane.spent_secs += secs;
+                lane.secs.push(secs / lane.times as f64);
+            }
+        }
+    }
+    let figure = |lane: Lane<'_>| Figure {
+        value: lane.contender.run.map(|_| Spread::of(lane.secs)),
+        who: lane.contender.who,
+        unit: Unit::Seconds,
+        note: lane.contender.note,
+    };
+    Ok(lanes.into_iter().map(figure).collect())
+}
