@@ -46,10 +46,12 @@ fn best_secs<T>(mut work: impl FnMut() -> T) -> f64 {
 
 /// Measures all counts that there is time and memory for.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
-    let most = match (bench.quick(), bench.has_memory("growth", 12 << 30)) {
-        (true, _) => 100_000,
-        (false, true) => 10_000_000,
-        (false, false) => 3_000_000,
+    let most = if bench.quick() {
+        100_000
+    } else if bench.has_memory("growth", 12 << 30) {
+        10_000_000
+    } else {
+        3_000_000
     };
     let mut curves = STEPS.map(|(name, plot)| Curve { name, plot, points: Vec::new() });
     for count in COUNTS.into_iter().filter(|&count| count <= most) {

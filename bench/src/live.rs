@@ -113,12 +113,15 @@ fn changed(
     })
 }
 
+/// What is edited, and how for each version.
+type Edit = (&'static str, fn(&mut Scene, f64));
+
 /// Preparing anew after one edit of each kind.
 pub fn edits(bench: &mut Bench) -> anyhow::Result<()> {
     for count in [PARTICLES / 2, PARTICLES] {
         edits_of(bench, "a comb gesture on an apple", combed(count))?;
     }
-    let still_life: [(&str, fn(&mut Scene, f64)); 5] = [
+    let still_life: [Edit; 5] = [
         ("nothing", |_, _| ()),
         ("a light", |scene, step| scene.lights[0].direction = Some([0.8, -0.82, -0.26 + 0.01 * step])),
         ("the apple's key", |scene, step| {
@@ -130,7 +133,7 @@ pub fn edits(bench: &mut Bench) -> anyhow::Result<()> {
     for (what, change) in still_life {
         edits_of(bench, &format!("{what}, still_life"), changed("still_life", change))?;
     }
-    let simple_objects: [(&str, fn(&mut Scene, f64)); 2] = [
+    let simple_objects: [Edit; 2] = [
         ("nothing", |_, _| ()),
         ("a length", |scene, step| scene.strokes.length_px = Some(30.0 - 0.5 * step)),
     ];

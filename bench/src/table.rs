@@ -206,3 +206,45 @@ pub fn shown_count(count: usize) -> String {
 pub fn one_line(words: &str) -> String {
     words.lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(ours: f64, tree: f64, floor: f64) -> Row {
+        let figure = |who: &str, secs: f64| Figure::new(who, Unit::Seconds, Spread::exact(secs));
+        let figures = vec![figure("Impasto", ours), figure("tree 1.0", tree), figure("floor", floor)];
+        Row::of_race("task", "1,000", figures, true)
+    }
+
+    #[test]
+    fn quartiles_lie_between_the_runs_and_one_bad_run_moves_them_little() {
+        let spread = Spread::of(vec![5.0, 1.0, 2.0, 4.0, 3.0]);
+        assert_eq!((spread.low, spread.median, spread.high), (2.0, 3.0, 4.0));
+        assert_eq!(
+            Spread::of(vec![1.0, 2.0, 3.0, 4.0, 900.0]).noise(),
+            Spread::of(vec![1.0, 2.0, 3.0, 4.0, 5.0]).noise()
+        );
+        assert_eq!(Spread::of(vec![1.0, 2.0]).median, 1.5);
+    }
+
+    #[test]
+    fn goals_are_held_missed_or_cannot_be_told() {
+        let row = row(2.0, 7.0, 1.0);
+        let held = |goal: Goal| row.judged(&goal).1;
+        assert_eq!(held(Goal::Faster { than: "tree", times: 3.0 }), Some(true));
+        assert_eq!(held(Goal::Faster { than: "tree", times: 4.0 }), Some(false));
+        assert_eq!(held(Goal::Faster { than: "grid", times: 4.0 }), None);
+        assert_eq!(held(Goal::OverFloor(1.5)), Some(false));
+        assert_eq!(held(Goal::AtMost(2.5)), Some(true));
+    }
+
+    #[test]
+    fn whoever_is_missing_has_a_line_that_says_why() {
+        let mut row = row(2.0, 7.0, 1.0);
+        row.peers.push(Figure::missing("grid", Unit::Seconds, "no compiler"));
+        let text = text(&Table { head: Vec::new(), rows: vec![row] });
+        assert!(text.contains("not to be had here: no compiler"), "{text}");
+        assert!(text.contains("3.50") && text.contains("2.00 s"), "{text}");
+    }
+}
