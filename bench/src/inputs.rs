@@ -1,5 +1,6 @@
 //! What is measured: the source paper's three scenes, and as many particles as one likes on the largest one's mesh.
 
+use std::borrow::Borrow;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -81,13 +82,11 @@ pub struct Cloud {
 }
 
 impl Cloud {
-    fn new(name: &str, particles: &[Particle], area: f64) -> Self {
-        Self {
-            name: format!("{name}, {}", shown_count(particles.len())),
-            positions: particles.iter().map(|particle| particle.position).collect(),
-            normals: particles.iter().map(|particle| particle.normal).collect(),
-            area,
-        }
+    fn new(name: &str, particles: impl Iterator<Item = impl Borrow<Particle>>, area: f64) -> Self {
+        let place = |particle: &Particle| (particle.position, particle.normal);
+        let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =
+            particles.map(|particle| place(particle.borrow())).unzip();
+        Self { name: format!("{name}, {}", shown_count(positions.len())), positions, normals, area }
     }
 
     /// A radius that holds so many of the points on a flat piece of the surface.
@@ -150,8 +149,8 @@ impl Inputs {
             return Ok(Rc::clone(cloud));
         }
         let painting = self.painting(scene.file)?;
-        let cloud =
-            Cloud::new(scene.file, painting.particles(scene.object), painting.surface_area(scene.object));
+        let (particles, area) = (painting.particles(scene.object), painting.surface_area(scene.object));
+        let cloud = Cloud::new(scene.file, particles.iter(), area);
         anyhow::ensure!(
             cloud.positions.len() == scene.particles,
             "{} has {} particles, where the paper has {}",
@@ -176,7 +175,7 @@ impl Inputs {
         let mesh = self.mesh()?;
         let surface = Surface::new(&mesh, |_| true);
         let particles = progressive(&surface, count, 7);
-        let cloud = Rc::new(Cloud::new("objects", &particles, surface.area()));
+        let cloud = Rc::new(Cloud::new("objects", particles.iter(), surface.area()));
         self.clouds.insert(key, Rc::clone(&cloud));
         Ok(cloud)
     }

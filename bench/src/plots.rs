@@ -5,6 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use plotters::prelude::*;
 
+/// One for each curve; told apart by those who see colours otherwise, too (Okabe and Ito 2008).
+const COLORS: [RGBColor; 4] =
+    [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
+
 /// Which plot a curve stands in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plot {
@@ -92,13 +96,15 @@ fn draw_one(file: &Path, title: &str, curves: &[&Curve]) -> Result<(), Box<dyn s
         .build_cartesian_2d(counts.log_scale(), costs.log_scale())?;
     chart
         .configure_mesh()
+        .bold_line_style(BLACK.mix(0.2))
+        .light_line_style(BLACK.mix(0.06))
         .x_desc("particles")
         .y_desc("ns a particle")
         .x_label_formatter(&|count| format!("{count:.0e}"))
         .y_label_formatter(&|cost| format!("{cost}"))
         .draw()?;
     for (index, curve) in curves.iter().enumerate() {
-        let color = Palette99::pick(index).to_rgba();
+        let color = COLORS[index % COLORS.len()];
         let points: Vec<(f64, f64)> = curve.points.iter().map(nanoseconds).collect();
         chart
             .draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?

@@ -57,7 +57,6 @@ pub fn views(inputs: &mut Inputs) -> anyhow::Result<(ScreenMap, ScreenMap)> {
 /// Particles with lifts that need no neighbours.
 pub fn facing(cloud: &Cloud, reference: &ScreenMap) -> BakedParticles {
     let mut baked = BakedParticles::default();
-    baked.reserve(cloud.positions.len());
     for (position, normal) in cloud.positions.iter().zip(&cloud.normals) {
         let (position, normal) = (position.as_dvec3(), normal.as_dvec3());
         let px_per_unit = reference.jacobian(position)[0].length();
@@ -101,7 +100,6 @@ impl SolveScene {
         };
         let lifts: Vec<Option<Lift>> = (0..positions.len()).into_par_iter().map(lift).collect();
         let mut baked = BakedParticles::default();
-        baked.reserve(positions.len());
         for (particle, lift) in lifts.into_iter().enumerate() {
             let lift = lift.with_context(|| format!("particle {particle} has too few neighbours"))?;
             baked.push(positions[particle].as_dvec3(), normals[particle].as_dvec3(), lift);
