@@ -50,6 +50,9 @@ impl<'a> Contender<'a> {
     }
 }
 
+/// Rounds of those who are slow, but not too slow for more than one.
+const LEAST_ROUNDS: usize = 3;
+
 /// How long a race takes.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
@@ -57,8 +60,8 @@ pub struct Pace {
     pub rounds: usize,
     /// Shortest measurement, seconds: quicker tasks are done several times in a row.
     pub least_secs: f64,
-    /// A contender has no more rounds once it has taken this long, seconds; the warm-up counts as its only round if that alone
-    /// took as long.
+    /// A contender that has had three rounds has no more once it has taken this long, seconds; where the warm-up alone took as
+    /// long, that is its only round.
     pub most_secs: f64,
 }
 
@@ -71,11 +74,13 @@ pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<F
         contender: Contender<'a>,
         times: usize,
         spent_secs: f64,
+        /// Too slow for another round.
+        once: bool,
         secs: Vec<f64>,
     }
     let mut lanes = Vec::new();
     for mut contender in contenders {
-        let mut times = 1;
+        let (mut times, mut once) = (1, false);
         let (mut spent_secs, mut secs) = (0.0, Vec::new());
         if let Ok(run) = &mut contender.run {
             // Twice: the first also pays for memory, tables and compilers that work as the program runs.
@@ -84,17 +89,18 @@ pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<F
             if warm_secs < pace.most_secs / 4.0 {
                 warm_secs = warm_secs.min(run(1)?);
             }
-            if spent_secs >= pace.most_secs {
+            once = spent_secs >= pace.most_secs;
+            if once {
                 secs.push(spent_secs);
             }
             times = (pace.least_secs / warm_secs.max(1e-9)).ceil().clamp(1.0, 1e6) as usize;
         }
-        lanes.push(Lane { contender, times, spent_secs, secs });
+        lanes.push(Lane { contender, times, spent_secs, once, secs });
     }
     for _ in 0..pace.rounds {
         for lane in &mut lanes {
             let Ok(run) = &mut lane.contender.run else { continue };
-            if lane.spent_secs < pace.most_secs {
+            if !lane.once && (lane.spent_secs < pace.most_secs || lane.secs.len() < LEAST_ROUNDS) {
                 let secs = run(lane.times)?;
                 lane.spent_secs += secs;
                 lane.secs.push(secs / lane.times as f64);
@@ -108,4 +114,50 @@ pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<F
         note: lane.contender.note,
     };
     Ok(lanes.into_iter().map(figure).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_take_turns_and_whoever_is_missing_keeps_the_place() {
+        let order = std::cell::RefCell::new(Vec::new());
+        let contender = |who: &'static str, secs: f64| {
+            let order = &order;
+            Contender::timed(who, "", move |times| {
+                order.borrow_mut().push(who);
+                Ok(secs * times as f64)
+            })
+        };
+        let pace = Pace { rounds: 4, least_secs: 0.1, most_secs: 10.0 };
+        let contenders = vec![
+            contender("quick", 0.01),
+            Contender::missing("none", "why"),
+            contender("slow", 6.0),
+            contender("once", 20.0),
+        ];
+        let figures = race(&pace, contenders).unwrap();
+        let runs: Vec<Option<usize>> =
+            figures.iter().map(|figure| Some(figure.value.as_ref().ok()?.runs)).collect();
+        assert_eq!(runs, [Some(4), None, Some(3), Some(1)]);
+        assert_eq!(
+            figures.iter().map(Figure::median).collect::<Vec<_>>(),
+            [Some(0.01), None, Some(6.0), Some(20.0)]
+        );
+        // Two warm-ups of the quick one, then rounds in which they alternate.
+        assert_eq!(order.borrow()[..7], ["quick", "quick", "slow", "once", "quick", "slow", "quick"]);
+    }
+
+    #[test]
+    fn whoever_gives_up_ends_the_race() {
+        let mut runs = 0;
+        let dying = Contender::timed("dying", "", |_| {
+            runs += 1;
+            anyhow::ensure!(runs < 4, "gone");
+            Ok(1.0)
+        });
+        let pace = Pace { rounds: 9, least_secs: 0.0, most_secs: 100.0 };
+        assert!(race(&pace, vec![dying]).is_err());
+    }
 }
