@@ -13,8 +13,14 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 use impasto_tests::{gestures, shapes};
 
+use crate::bench::Bench;
+use crate::table::{Figure, Row, Spread, Unit, one_line, shown, shown_count};
+
 /// Particles of all layers of the combed body.
 const PARTICLES: u64 = 50_000;
+
+/// Pictures of a moving view.
+const TURNS: u32 = 12;
 
 fn shipped(name: &str) -> LoadedScene {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.ron"));
@@ -24,23 +30,27 @@ fn shipped(name: &str) -> LoadedScene {
 /// CPU seconds of this process, all threads.
 fn cpu_secs() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let fields: Vec<f64> = stat.rsplit(')').next().unwrap_or("").split_whitespace().map(|f| f.parse().unwrap_or(0.0)).collect();
+    let fields: Vec<f64> =
+        stat.rsplit(')').next().unwrap_or("").split_whitespace().map(|f| f.parse().unwrap_or(0.0)).collect();
     fields.get(11).zip(fields.get(12)).map_or(0.0, |(user, system)| (user + system) / 100.0)
 }
 
-/// Prepares versions of a scene one after the other; prints the median of each step.
-fn edits(what: &str, versions: impl IntoIterator<Item = Arc<LoadedScene>>) {
+/// Prepares versions of a scene one after the other; a row of those after the first.
+fn edits_of(
+    bench: &mut Bench,
+    what: &str,
+    versions: impl IntoIterator<Item = Arc<LoadedScene>>,
+) -> anyhow::Result<()> {
     let mut preparer = Preparer::default();
     let mut steps: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut whole = Vec::new();
-    let mut particles = 0;
-    let mut cpu = 0.0;
+    let (mut particles, mut cpu, mut first_secs) = (0, 0.0, 0.0);
     for (index, version) in versions.into_iter().enumerate() {
         let (start, cpu_start) = (Instant::now(), cpu_secs());
-        let painting = preparer.prepare(version).expect("the scene has its meshes");
+        let painting = preparer.prepare(version)?;
         particles = painting.particle_total();
         if index == 0 {
-            println!("{what}: {particles} particles; the first {:.0} ms", start.elapsed().as_secs_f64() * 1e3);
+            first_secs = start.elapsed().as_secs_f64();
             continue;
         }
         whole.push(start.elapsed().as_secs_f64());
@@ -52,16 +62,19 @@ fn edits(what: &str, versions: impl IntoIterator<Item = Arc<LoadedScene>>) {
             }
         }
     }
-    let median = |seconds: &mut Vec<f64>| {
-        seconds.sort_by(f64::total_cmp);
-        seconds[seconds.len() / 2] * 1e3
-    };
-    let cpu = cpu / whole.len() as f64 * 1e3;
-    print!("  each further one of {}: {:.1} ms, {cpu:.0} ms of CPU;", whole.len(), median(&mut whole));
-    for (name, mut seconds) in steps {
-        print!(" {name} {:.1}", median(&mut seconds));
+    let cpu = cpu / whole.len() as f64;
+    let mut note = format!(
+        "the first {}; {} of CPU; steps:",
+        shown(first_secs, Unit::Seconds),
+        shown(cpu, Unit::Seconds)
+    );
+    for (name, seconds) in steps {
+        note += &format!(" {name} {}", shown(Spread::of(seconds).median, Unit::Seconds));
     }
-    println!(" ({particles} particles)");
+    let input = format!("{what}, {}", shown_count(particles));
+    let figure = Figure::new("Impasto", Unit::Seconds, Spread::of(whole)).noted(note);
+    bench.push(Row::of_ours("edit", &input, figure));
+    Ok(())
 }
 
 /// A body that is combed, one more point a version.
@@ -88,7 +101,10 @@ fn combed(particles: u64) -> impl Iterator<Item = Arc<LoadedScene>> {
 }
 
 /// Versions of a scene, each changed by a number that grows.
-fn changed(scene: &str, change: impl Fn(&mut Scene, f64) + 'static) -> impl Iterator<Item = Arc<LoadedScene>> {
+fn changed(
+    scene: &str,
+    change: impl Fn(&mut Scene, f64) + 'static,
+) -> impl Iterator<Item = Arc<LoadedScene>> {
     let loaded = shipped(scene);
     (0..8).map(move |step| {
         let mut next = loaded.clone();
@@ -97,38 +113,56 @@ fn changed(scene: &str, change: impl Fn(&mut Scene, f64) + 'static) -> impl Iter
     })
 }
 
-fn preparing() {
-    let body = |count: u64| combed(count);
-    edits("a comb gesture on an apple", body(PARTICLES / 2));
-    edits("a comb gesture on an apple", body(PARTICLES));
-    edits("nothing changes, still life", changed("still_life", |_, _| ()));
-    edits("a light, still life", changed("still_life", |scene, step| {
-        scene.lights[0].direction = Some([0.8, -0.82, -0.26 + 0.01 * step]);
-    }));
-    edits("the apple's key, still life", changed("still_life", |scene, step| {
-        scene.objects[7].keys[0].translation = [0.33 + 0.002 * step, 0.2503, 0.32];
-    }));
-    edits("a length, still life", changed("still_life", |scene, step| {
-        scene.regions[11].strokes.length_px = Some(64.0 - step);
-    }));
-    edits("an angle, still life", changed("still_life", |scene, step| {
-        scene.regions[1].direction = Direction::Angle(3.0 + step);
-    }));
-    edits("nothing changes, simple objects", changed("simple_objects", |_, _| ()));
-    edits("a length, simple objects", changed("simple_objects", |scene, step| {
-        scene.strokes.length_px = Some(30.0 - 0.5 * step);
-    }));
+/// What is edited, and how for each version.
+type Edit = (&'static str, fn(&mut Scene, f64));
+
+/// Preparing anew after one edit of each kind.
+pub fn edits(bench: &mut Bench) -> anyhow::Result<()> {
+    for count in [PARTICLES / 2, PARTICLES] {
+        edits_of(bench, "a comb gesture on an apple", combed(count))?;
+    }
+    let still_life: [Edit; 5] = [
+        ("nothing", |_, _| ()),
+        ("a light", |scene, step| scene.lights[0].direction = Some([0.8, -0.82, -0.26 + 0.01 * step])),
+        ("the apple's key", |scene, step| {
+            scene.objects[7].keys[0].translation = [0.33 + 0.002 * step, 0.2503, 0.32];
+        }),
+        ("a length", |scene, step| scene.regions[11].strokes.length_px = Some(64.0 - step)),
+        ("an angle", |scene, step| scene.regions[1].direction = Direction::Angle(3.0 + step)),
+    ];
+    for (what, change) in still_life {
+        edits_of(bench, &format!("{what}, still_life"), changed("still_life", change))?;
+    }
+    let simple_objects: [Edit; 2] = [
+        ("nothing", |_, _| ()),
+        ("a length", |scene, step| scene.strokes.length_px = Some(30.0 - 0.5 * step)),
+    ];
+    for (what, change) in simple_objects {
+        edits_of(bench, &format!("{what}, simple_objects"), changed("simple_objects", change))?;
+    }
+    Ok(())
 }
 
-fn pictures() {
-    let painting: Painting = Preparer::default().prepare(Arc::new(shipped("still_life"))).expect("the scene has its meshes");
+/// Pictures of `still_life` while its camera moves, at the sizes of a viewport.
+pub fn pictures(bench: &mut Bench) -> anyhow::Result<()> {
+    let painting: Painting = Preparer::default().prepare(Arc::new(shipped("still_life")))?;
     let camera = motion::camera_at(painting.scene(), 0.0);
-    let mut renderer = Renderer::new(open(Driver::Auto, &OpenOptions::default()).expect("a driver")).expect("shaders");
+    let context = match open(Driver::Auto, &OpenOptions::default()) {
+        Ok(context) => context,
+        Err(why) => {
+            let figure = Figure::missing("Impasto", Unit::Seconds, &one_line(&why.to_string()));
+            bench.push(Row::of_ours("picture", "still_life", figure));
+            return Ok(());
+        }
+    };
+    let mut renderer = Renderer::new(context)?;
     let sizes = [[475, 325], [333, 228], [950, 650]];
-    for (size_px, quality) in sizes.into_iter().flat_map(|size| [(size, Quality::Exact), (size, Quality::Draft)]) {
+    for (size_px, quality) in
+        sizes.into_iter().flat_map(|size| [(size, Quality::Exact), (size, Quality::Draft)])
+    {
         let options = FrameOptions { quality, ..FrameOptions::new(size_px) };
         let (mut seen, mut drawn, mut cpu, mut recall) = (Vec::new(), Vec::new(), 0.0, None);
-        for turn in 0..12u32 {
+        for turn in 0..TURNS {
             let mut camera = camera.clone();
             camera.eye.x += 0.01 * f64::from(turn);
             let (start, cpu_start) = (Instant::now(), cpu_secs());
@@ -139,7 +173,7 @@ fn pictures() {
                 seen.push(start.elapsed().as_secs_f64());
                 strokes
             };
-            renderer.render_with(&mut frame, strokes).expect("it is drawn");
+            renderer.render_with(&mut frame, strokes)?;
             if quality == Quality::Draft {
                 let resolved = renderer.resolved_strokes();
                 recall = Some(Recall::of(&painting, &frame, |index| resolved[index].alpha > 0.0, turn));
@@ -149,39 +183,22 @@ fn pictures() {
         }
         let mut frame = painting.bare(&camera, 0.0, &options);
         frame.lay(painting.strokes(&camera, 0.0, &options, recall.as_ref()));
-        renderer.render_timed(&frame).expect("it is drawn");
-        let (_, cost) = renderer.render_timed(&frame).expect("it is drawn");
-        for seconds in [&mut seen, &mut drawn] {
-            seconds.sort_by(f64::total_cmp);
-        }
-        println!(
-            "still life at {size_px:?}, {quality:?}: {} strokes, data {:.1} ms, whole {:.1} ms, {:.0} ms of CPU, overdraw {:.1}",
-            frame.strokes.len(), seen[6] * 1e3, drawn[6] * 1e3, cpu / 12.0 * 1e3, cost.overdraw
+        renderer.render_timed(&frame)?;
+        let (_, cost) = renderer.render_timed(&frame)?;
+        let secs = |secs: f64| shown(secs, Unit::Seconds);
+        let mut note = format!(
+            "{} strokes; as data {}; {} of CPU; overdraw {:.1}; passes:",
+            shown_count(frame.strokes.len()),
+            secs(Spread::of(seen).median),
+            secs(cpu / f64::from(TURNS)),
+            cost.overdraw
         );
         for pass in &cost.passes {
-            print!("  {} {:.1}", pass.name, pass.seconds * 1e3);
+            note += &format!(" {} {}", pass.name, secs(pass.seconds));
         }
-        println!();
-        // To be looked at: four bytes a pixel, top row first.
-        if let Some(folder) = std::env::args().nth(3) {
-            let picture = renderer.render(&frame).expect("it is drawn");
-            let file = format!("{folder}/{}x{}_{quality:?}.rgba", size_px[0], size_px[1]);
-            std::fs::write(file, picture.rgba8).expect("the folder is there");
-        }
-        for run in &frame.layers {
-            print!("  {} {}", run.kind.name(), run.count);
-        }
-        println!();
+        let input = format!("still_life, {} × {}, {quality:?}", size_px[0], size_px[1]).to_lowercase();
+        let figure = Figure::new("Impasto", Unit::Seconds, Spread::of(drawn)).noted(note);
+        bench.push(Row::of_ours("picture", &input, figure));
     }
-}
-
-/// Runs all of it, or what is named: `edits` or `pictures`.
-pub fn run() {
-    let named = |what: &str| std::env::args().any(|argument| argument == what);
-    if !named("pictures") {
-        preparing();
-    }
-    if !named("edits") {
-        pictures();
-    }
+    Ok(())
 }

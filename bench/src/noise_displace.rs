@@ -10,6 +10,9 @@ use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::document::{MaterialOverride, NoiseDisplace, ObjectKey, Scene, Style};
 use impasto_tests::shapes;
 
+use crate::bench::Bench;
+use crate::table::{Figure, Row, Spread, Unit, one_line, shown};
+
 /// Side of the picture, pixels.
 const SIDE_PX: u32 = 1024;
 
@@ -42,8 +45,8 @@ fn spheres(count: usize, noise: Option<&NoiseDisplace>) -> Painting {
     prepare(Arc::clone(&loaded)).expect("the meshes are there")
 }
 
-/// Median seconds of describing a frame and of drawing it.
-fn frame_secs(renderer: &mut Renderer, painting: &Painting) -> [f64; 2] {
+/// Seconds of describing each frame, and of drawing it.
+fn frame_secs(renderer: &mut Renderer, painting: &Painting) -> [Vec<f64>; 2] {
     let options = FrameOptions::new([SIDE_PX; 2]);
     let mut secs = [Vec::new(), Vec::new()];
     for number in 0..FRAMES + 2 {
@@ -57,27 +60,30 @@ fn frame_secs(renderer: &mut Renderer, painting: &Painting) -> [f64; 2] {
             secs[1].push(drawn);
         }
     }
-    secs.map(|mut secs| {
-        secs.sort_by(f64::total_cmp);
-        secs[secs.len() / 2]
-    })
+    secs
 }
 
-pub fn run() {
-    let context = open(Driver::Auto, &OpenOptions::default()).expect("a driver");
-    let mut renderer = Renderer::new(context).expect("shaders");
-    println!("spheres at {SIDE_PX} x {SIDE_PX}: without, with noise (milliseconds to describe and to draw), ratio");
+/// Measures spheres of four counts.
+pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
+    let context = match open(Driver::Auto, &OpenOptions::default()) {
+        Ok(context) => context,
+        Err(why) => {
+            let figure = Figure::missing("with noise", Unit::Seconds, &one_line(&why.to_string()));
+            bench.push(Row::of_ours("noise_displace", "spheres", figure));
+            return Ok(());
+        }
+    };
+    let mut renderer = Renderer::new(context)?;
     for count in [1, 25, 100, 400] {
         let noise = NoiseDisplace::default();
-        let [without, with] =
-            [None, Some(&noise)].map(|noise| frame_secs(&mut renderer, &spheres(count, noise)));
-        println!(
-            "  {count:3}: {:.2} + {:.1}, {:.2} + {:.1}, ratio {:.2}",
-            without[0] * 1e3,
-            without[1] * 1e3,
-            with[0] * 1e3,
-            with[1] * 1e3,
-            (with[0] + with[1]) / (without[0] + without[1])
-        );
+        let figures = [("with noise", Some(&noise)), ("without", None)].map(|(who, noise)| {
+            let [described, drawn] = frame_secs(&mut renderer, &spheres(count, noise));
+            let whole = Spread::of(described.iter().zip(&drawn).map(|(one, other)| one + other).collect());
+            let described = shown(Spread::of(described).median, Unit::Seconds);
+            Figure::new(who, Unit::Seconds, whole).noted(format!("{described} of it to describe the frame"))
+        });
+        let input = format!("{count} spheres, {SIDE_PX} × {SIDE_PX}");
+        bench.push(Row::of_race("noise_displace", &input, figures.to_vec(), false));
     }
+    Ok(())
 }

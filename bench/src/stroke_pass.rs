@@ -4,11 +4,15 @@
 
 use std::sync::Arc;
 
+use anyhow::ensure;
 use impasto_gl_render::context::{Driver, OpenOptions, open};
 use impasto_gl_render::{Cost, PassTime, Renderer, ShaderTexts};
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, prepare};
 use impasto_scene::load::{LoadOptions, load};
+
+use crate::bench::Bench;
+use crate::table::{Figure, Goal, Row, Spread, Unit, one_line, shown, shown_count};
 
 /// What the shaders of a bare draw stand in for.
 const BARE: [(&str, &str); 2] = [
@@ -19,37 +23,16 @@ const BARE: [(&str, &str); 2] = [
 /// The copy that wet paint is picked up from: part of laying strokes, but of no bare draw.
 const BELOW: &str = "below";
 
-/// Medians over the rounds, seconds.
-pub struct StrokePass {
-    /// Who draws.
-    pub driver: String,
-    /// Strokes that go to the driver.
-    pub strokes: usize,
+/// Seconds of each round.
+struct StrokePass {
     /// Ours: all layers, and the copy of what lies below them.
-    pub ours_secs: Vec<f64>,
-    /// The same quads, bare.
-    pub bare_secs: Vec<f64>,
+    ours_secs: Vec<f64>,
+    /// The same strokes, bare.
+    bare_secs: Vec<f64>,
     /// Every pass of ours.
-    pub passes: Vec<PassTime>,
-    /// How many strokes lie on a pixel: our marks, and whole quads.
-    pub overdraw: [f64; 2],
-}
-
-fn median(seconds: &[f64]) -> f64 {
-    let mut sorted = seconds.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted[sorted.len() / 2]
-}
-
-impl StrokePass {
-    /// Ours over bare, of medians.
-    pub fn ratio(&self) -> f64 {
-        median(&self.ours_secs) / median(&self.bare_secs)
-    }
-}
-
-fn renderer() -> Renderer {
-    Renderer::new(open(Driver::Auto, &OpenOptions::default()).expect("a driver")).expect("shaders")
+    passes: Vec<(&'static str, Vec<f64>)>,
+    /// How many strokes lie on a pixel: ours, and bare.
+    overdraw: [f64; 2],
 }
 
 fn layers_secs(cost: &Cost, also: &str) -> f64 {
@@ -58,64 +41,73 @@ fn layers_secs(cost: &Cost, also: &str) -> f64 {
 }
 
 /// Draws a frame in turn with the program's own shaders and bare.
-pub fn measure(frame: &Frame, rounds: usize) -> StrokePass {
-    let (mut ours, mut bare) = (renderer(), renderer());
-    let mut texts = ShaderTexts::default();
-    for (path, text) in BARE {
-        assert!(texts.put(path, text.to_owned()), "{path} is a shader of the program");
-    }
-    bare.replace_shaders(&texts).expect("the bare shaders compile");
-    let (mut ours_secs, mut bare_secs) = (Vec::new(), Vec::new());
-    let (mut passes, mut overdraw): (Vec<(&'static str, Vec<f64>)>, _) = (Vec::new(), [0.0; 2]);
+fn measure([ours, bare]: [&mut Renderer; 2], frame: &Frame, rounds: usize) -> anyhow::Result<StrokePass> {
+    let mut pass =
+        StrokePass { ours_secs: Vec::new(), bare_secs: Vec::new(), passes: Vec::new(), overdraw: [0.0; 2] };
     for round in 0..=rounds {
-        let (_, own) = ours.render_timed(frame).expect("it is drawn");
-        let (_, other) = bare.render_timed(frame).expect("it is drawn");
+        let (_, own) = ours.render_timed(frame)?;
+        let (_, other) = bare.render_timed(frame)?;
         // The first picture compiles shaders for their state.
         if round == 0 {
-            let same = ours.resolved_strokes() == bare.resolved_strokes();
-            assert!(same, "both lay the same strokes");
+            ensure!(ours.resolved_strokes() == bare.resolved_strokes(), "the bare draw lays other strokes");
             continue;
         }
-        ours_secs.push(layers_secs(&own, BELOW));
-        bare_secs.push(layers_secs(&other, ""));
-        overdraw = [own.overdraw, other.overdraw];
-        let mut summed: Vec<PassTime> = Vec::new();
-        for pass in own.passes {
-            match summed.iter_mut().find(|known| known.name == pass.name) {
-                Some(known) => known.seconds += pass.seconds,
-                None => summed.push(pass),
-            }
-        }
-        for pass in summed {
-            match passes.iter_mut().find(|(name, _)| *name == pass.name) {
-                Some((_, seconds)) => seconds.push(pass.seconds),
-                None => passes.push((pass.name, vec![pass.seconds])),
+        pass.ours_secs.push(layers_secs(&own, BELOW));
+        pass.bare_secs.push(layers_secs(&other, ""));
+        pass.overdraw = [own.overdraw, other.overdraw];
+        for PassTime { name, seconds } in own.passes {
+            match pass.passes.iter_mut().find(|(known, _)| *known == name) {
+                // Of several laps of one pass in a picture, their sum.
+                Some((_, all)) if all.len() > pass.ours_secs.len() - 1 => {
+                    if let Some(last) = all.last_mut() {
+                        *last += seconds;
+                    }
+                }
+                Some((_, all)) => all.push(seconds),
+                None => pass.passes.push((name, vec![seconds])),
             }
         }
     }
-    let passes = passes.iter().map(|(name, seconds)| PassTime { name, seconds: median(seconds) }).collect();
-    let strokes = frame.strokes.len();
-    StrokePass { driver: ours.report().renderer.clone(), strokes, ours_secs, bare_secs, passes, overdraw }
+    Ok(pass)
 }
 
 /// The still life at its own size.
-pub fn run(quick: bool) {
+pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
+    let input = "still_life, 1280 × 720";
+    let open_renderer =
+        || -> anyhow::Result<Renderer> { Ok(Renderer::new(open(Driver::Auto, &OpenOptions::default())?)?) };
+    let (mut ours, mut bare) = match (open_renderer(), open_renderer()) {
+        (Ok(ours), Ok(bare)) => (ours, bare),
+        (Err(why), _) | (_, Err(why)) => {
+            let figure = Figure::missing("Impasto", Unit::Seconds, &one_line(&why.to_string()));
+            bench.push(Row::of_ours("stroke pass", input, figure));
+            return Ok(());
+        }
+    };
+    let mut texts = ShaderTexts::default();
+    for (path, text) in BARE {
+        ensure!(texts.put(path, text.to_owned()), "{path} is no shader of the program");
+    }
+    bare.replace_shaders(&texts)?;
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/still_life.ron");
-    let loaded = load(&path, &LoadOptions::default()).expect("the shipped scene is good");
-    let painting = prepare(Arc::new(loaded)).expect("the scene has its meshes");
+    let painting = prepare(Arc::new(load(&path, &LoadOptions::default())?))?;
     let frame = painting.at(0.0, &FrameOptions::new([1280, 720]));
-    let pass = measure(&frame, if quick { 5 } else { 21 });
-    println!(
-        "stroke pass, still life 1280x720, {} strokes in question, {}: {:.1} ms, bare {:.1} ms, ratio {:.2}; overdraw {:.1}, of quads {:.1}",
-        pass.strokes,
-        pass.driver,
-        median(&pass.ours_secs) * 1e3,
-        median(&pass.bare_secs) * 1e3,
-        pass.ratio(),
+    let pass = measure([&mut ours, &mut bare], &frame, if bench.quick() { 7 } else { 31 })?;
+    let mut note = format!(
+        "{} strokes in question, {}; overdraw {:.1}, bare {:.1}; all passes:",
+        shown_count(frame.strokes.len()),
+        ours.report().renderer,
         pass.overdraw[0],
         pass.overdraw[1]
     );
-    for PassTime { name, seconds } in &pass.passes {
-        println!("  {name:<14}{:>8.1} ms", seconds * 1e3);
+    for (name, seconds) in pass.passes {
+        note += &format!(" {name} {}", shown(Spread::of(seconds).median, Unit::Seconds));
     }
+    let figures = vec![
+        Figure::new("Impasto", Unit::Seconds, Spread::of(pass.ours_secs)).noted(note),
+        Figure::new("a bare instanced draw", Unit::Seconds, Spread::of(pass.bare_secs))
+            .noted("same targets, blend, brush, strokes"),
+    ];
+    bench.push(Row::of_race("stroke pass", input, figures, true).meant(Goal::OverFloor(1.3)));
+    Ok(())
 }

@@ -1,0 +1,83 @@
+//! What stands on the command line.
+
+use std::path::PathBuf;
+
+use anyhow::bail;
+
+use crate::parts::{PARTS, Part};
+
+/// What is to be done.
+#[derive(Debug, Default)]
+pub struct Arguments {
+    /// Names of parts; none for all.
+    named: Vec<String>,
+    /// Under two minutes.
+    pub quick: bool,
+    /// JSON in place of text.
+    pub json: bool,
+    /// Kept results to compare with.
+    pub against: Option<PathBuf>,
+    /// Whether to keep the results of this machine.
+    pub keep: bool,
+    /// Whether to write the table into the docs.
+    pub write_docs: bool,
+    /// Whether to install what peers need from the system.
+    pub install: bool,
+    /// Whether Python's packages may be fetched.
+    pub may_fetch: bool,
+}
+
+impl Arguments {
+    /// Reads the words; `None` where the words ask what there is.
+    ///
+    /// # Errors
+    /// At a word that means nothing.
+    pub fn parse(words: &[String]) -> anyhow::Result<Option<Self>> {
+        let mut arguments = Self { may_fetch: true, ..Self::default() };
+        let mut words = words.iter();
+        while let Some(word) = words.next() {
+            match word.as_str() {
+                "--help" | "-h" | "help" => return Ok(None),
+                "--quick" => arguments.quick = true,
+                "--json" => arguments.json = true,
+                "--keep" => arguments.keep = true,
+                "--write-docs" => arguments.write_docs = true,
+                "--install" => arguments.install = true,
+                "--no-fetch" => arguments.may_fetch = false,
+                "--against" => match words.next() {
+                    Some(file) => arguments.against = Some(PathBuf::from(file)),
+                    None => bail!("--against which file?"),
+                },
+                name if PARTS.iter().any(|part| part.name == name) => arguments.named.push(name.to_owned()),
+                _ => bail!("`{word}` is neither a part nor an option\n{}", usage()),
+            }
+        }
+        Ok(Some(arguments))
+    }
+
+    /// The parts that are asked for, in their own order.
+    pub fn parts(&self) -> impl Iterator<Item = &'static Part> {
+        PARTS.iter().filter(|part| match self.named.as_slice() {
+            [] => part.quick || !self.quick,
+            named => named.iter().any(|name| name == part.name),
+        })
+    }
+}
+
+/// What can be asked for.
+pub fn usage() -> String {
+    let parts: String = PARTS.iter().map(|part| format!("  {:<16}{}\n", part.name, part.about)).collect();
+    format!(
+        "\
+cargo xtask bench -- [PART …] [OPTION …]
+parts, all unless some are named:
+{parts}options:
+  --quick         smaller inputs and fewer rounds: under two minutes
+  --json          JSON on stdout in place of text
+  --against FILE  what moved beyond the noise since FILE of bench/results/
+  --keep          keep the results in bench/results/, one file a machine
+  --write-docs    write the table into docs/performance.md
+  --install       install Debian's packages for the peers first
+  --no-fetch      fetch no Python packages: peers that need them are named as missing"
+    )
+}
