@@ -62,23 +62,21 @@ fn check_same(folders: [&Path; 2], frames: usize) -> anyhow::Result<()> {
 
 /// Renders in turn.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
-    let (frames, runs) = if bench.quick() { (QUICK_FRAMES, 1) } else { (FRAMES, 3) };
+    let frames = if bench.quick() { QUICK_FRAMES } else { FRAMES };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let command = command(&root)?;
     let scratch = std::env::temp_dir().join(format!("impasto-sequence-{}", std::process::id()));
     let (ours, alone) = (scratch.join("ours"), scratch.join("alone"));
-    let (mut ours_secs, mut alone_secs) = (Vec::new(), Vec::new());
-    for _ in 0..runs {
-        ours_secs.push(render_secs(&command, (&root, &ours), frames, false)?);
-        alone_secs.push(render_secs(&command, (&root, &alone), frames, true)?);
-    }
+    // Long enough for one run each.
+    let ours_secs = render_secs(&command, (&root, &ours), frames, false)?;
+    let alone_secs = render_secs(&command, (&root, &alone), frames, true)?;
     check_same([&ours, &alone], frames)?;
     // What is left behind by a run that failed is to be looked at.
     let _ = std::fs::remove_dir_all(&scratch);
     let figures = vec![
-        Figure::new("Impasto", Unit::Seconds, Spread::of(ours_secs))
+        Figure::new("Impasto", Unit::Seconds, Spread::exact(ours_secs))
             .noted("the whole command, preparing too"),
-        Figure::new("one thread", Unit::Seconds, Spread::of(alone_secs)).noted("of ours, and of the driver"),
+        Figure::new("one thread", Unit::Seconds, Spread::exact(alone_secs)).noted("of ours, and of the driver"),
     ];
     let row = Row::of_race("sequence", &format!("still_life, {frames} frames"), figures, false);
     bench.push(row.meant(Goal::Faster { than: "one thread", times: 1.7 }));

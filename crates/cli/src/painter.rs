@@ -7,7 +7,6 @@ use std::time::Instant;
 use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_gl_render::{Cost, PassTime, Picture, Renderer, ShaderTexts};
 use impasto_painting::{Frame, FrameOptions, Painting};
-
 use impasto_scene::memory;
 
 use crate::args::DriverChoice;

@@ -13,16 +13,16 @@ impl Coat {
     /// each rides its triangle, and its lift is carried by what the triangle's edges and normal have done, `N'' = F N'`.
     pub(crate) fn deformed(&self, before: &Vertices, now: &Vertices) -> BakedParticles {
         let mesh = &self.surface.mesh;
-        let particles = &self.sampled.particles;
-        let moved: Vec<(DVec3, DVec3, Lift)> = (0..particles.len())
+        let places = self.sampled.particles.places();
+        let moved: Vec<(DVec3, DVec3, Lift)> = (0..self.sampled.particles.len())
             .into_par_iter()
             .with_min_len(1024)
             .map(|index| {
-                let particle = particles.at(index);
-                let was = particle.on(mesh, &before.0, &before.1);
-                let is = particle.on(mesh, &now.0, &now.1);
+                let place = places[index];
+                let was = place.on_moved(mesh, &before.0, &before.1);
+                let is = place.on_moved(mesh, &now.0, &now.1);
                 let frame = |positions: &[glam::Vec3], normal: glam::Vec3| {
-                    let corners = mesh.triangles[particle.triangle as usize];
+                    let corners = mesh.triangles[place.triangle()];
                     let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
                     DMat3::from_cols(b - a, c - a, normal.as_dvec3())
                 };

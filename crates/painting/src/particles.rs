@@ -108,10 +108,9 @@ impl Particles {
     #[inline]
     fn place_on_surface(&self, place: Place) -> Particle {
         let mesh = &self.surface.mesh;
-        let particle = place.on(mesh);
         match &self.moved {
-            Some(vertices) => particle.on(mesh, &vertices.0, &vertices.1),
-            None => particle,
+            Some(vertices) => place.on_moved(mesh, &vertices.0, &vertices.1),
+            None => place.on(mesh),
         }
     }
 }

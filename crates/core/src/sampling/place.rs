@@ -34,13 +34,59 @@ impl Place {
     /// The particle again, to the bit, on the mesh that it was sampled on.
     #[inline]
     pub fn on(self, mesh: &TriangleMesh) -> Particle {
-        let place = Particle {
+        self.unplaced(Vec3::Y).on(mesh, &mesh.positions, &mesh.normals)
+    }
+
+    /// The same after the mesh's vertices have moved, as [`Particle::on`] gives it.
+    #[inline]
+    pub fn on_moved(self, mesh: &TriangleMesh, positions: &[Vec3], normals: &[Vec3]) -> Particle {
+        let moved = self.unplaced(Vec3::NAN).on(mesh, positions, normals);
+        if moved.normal.is_nan() {
+            // Where the triangle has shrunk to nothing, the normal that it had.
+            return Particle { normal: self.on(mesh).normal, ..moved };
+        }
+        moved
+    }
+
+    fn unplaced(self, normal: Vec3) -> Particle {
+        Particle {
             triangle: self.triangle_and_side & !FLIPPED,
             barycentric: self.barycentric,
             flipped: self.triangle_and_side & FLIPPED != 0,
             position: Vec3::ZERO,
-            normal: Vec3::Y,
+            normal,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_its_particle_to_the_bit_however_the_mesh_moves() {
+        let mesh = TriangleMesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::Z],
+            triangles: vec![[0, 1, 2]],
+            ..TriangleMesh::default()
         };
-        place.on(mesh, &mesh.positions, &mesh.normals)
+        let shrunk = (vec![Vec3::ONE; 3], vec![Vec3::ZERO; 3]);
+        let bent = (vec![Vec3::Z, Vec3::X, Vec3::Y], vec![Vec3::X, Vec3::Y, Vec3::Z]);
+        for flipped in [false, true] {
+            let place = Particle {
+                triangle: 0,
+                barycentric: [0.31, 0.17],
+                flipped,
+                position: Vec3::ZERO,
+                normal: Vec3::Y,
+            };
+            let particle = place.on(&mesh, &mesh.positions, &mesh.normals);
+            assert_eq!(Place::of(&particle).on(&mesh), particle);
+            for (positions, normals) in [&shrunk, &bent] {
+                let moved = Place::of(&particle).on_moved(&mesh, positions, normals);
+                assert_eq!(moved, particle.on(&mesh, positions, normals));
+            }
+        }
     }
 }

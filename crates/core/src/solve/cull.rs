@@ -191,7 +191,7 @@ mod tests {
         let (particles, map) = (crowd(CHUNK as u32 + 1000, false), view());
         let mut solved = SolvedParticles::default();
         solve(&particles, &map, &mut solved);
-        let bounds = Bounds { half_px: [640.0, 360.0], near_far: [2.0, 6.0], most_per_area: 0.04 };
+        let bounds = Bounds { half_px: [640.0, 360.0], near_far: [2.0, 6.0], most_per_area: 0.15 };
         let words = ParticleView::new(&map).within(&particles, &bounds);
         let mut portable = vec![0; words.len()];
         let (rows, words_of) = (Rows::new(&map), &mut portable);
