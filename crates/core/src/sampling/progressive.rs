@@ -22,9 +22,10 @@ const GROWTH: f64 = 1.08;
 /// this share of the particles that it is meant for, so that the work is in proportion to the count.
 const LEAST_FILLED: f64 = 0.5;
 
-/// How many candidates one task handles: so few are not worth another thread, so many still fit into its cache.
+/// How many candidates one task handles: fewer are not worth another thread. The more there are, the nearer to each other those lie
+/// that are looked at one after the other.
 const LEAST_CHUNK: usize = 1024;
-const MOST_CHUNK: usize = 65_536;
+const MOST_CHUNK: usize = 1 << 20;
 
 /// Stands for no dart.
 const NONE: u32 = u32::MAX;
