@@ -141,7 +141,7 @@ fn objects_have_names_particles_and_scales_in_range() {
     assert_finds(&named("a", "b\\u{7}"), &[(Error, "objects[1].name")]);
     let many: String =
         (0..1000).map(|i| format!("(name: \"{i}\", mesh: \"m.obj\", particles: 100000),")).collect();
-    assert_finds(&format!("objects: [{many}]"), &[(Limit, "objects[80].particles")]);
+    assert_finds(&format!("objects: [{many}]"), &[(Limit, "objects[320].particles")]);
 }
 
 #[test]
