@@ -15,12 +15,15 @@ pub(super) fn finite(word: &[u8]) -> Option<f64> {
 /// where a `\` might join lines.
 #[inline]
 pub(super) fn next(text: &[u8], at: usize) -> Option<(f64, usize)> {
-    decimal(text, at).or_else(|| {
-        let length =
-            text[at..].iter().position(|byte| byte.is_ascii_whitespace() || matches!(byte, 0x0b | b'\\'))?;
-        let end = at + length;
-        if text[end] == b'\\' { None } else { Some((finite(&text[at..end])?, end)) }
-    })
+    if let Some(read) = decimal(text, at) { Some(read) } else { word(text, at) }
+}
+
+/// The same for whatever the standard library takes.
+#[inline(never)]
+fn word(text: &[u8], at: usize) -> Option<(f64, usize)> {
+    let is_end = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, 0x0b | b'\\');
+    let end = at + text[at..].iter().position(is_end)?;
+    if text[end] == b'\\' { None } else { Some((finite(&text[at..end])?, end)) }
 }
 
 /// A number without an exponent whose digits and power of ten are both exact in double precision: then one division
