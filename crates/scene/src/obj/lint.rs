@@ -1,33 +1,31 @@
-//! The first pass over an OBJ text: every number and index is checked where it stands, and what remains is plain.
+//! The first pass over an OBJ text: every number and index is checked where it stands. Plain lines come in bulk from
+//! [`super::plain`], all others are looked at here one by one.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 
+use rayon::prelude::*;
+
+use super::number::finite;
+use super::oddities::Oddities;
+use super::plain::{self, Corner, Counts, NONE, Piece};
+use super::surface::SHARE;
 use super::text::{Findings, Lines, Word, name_of};
 
 /// Coordinates beyond this lose their squares and cross products in single precision.
-const MAX_COORDINATE: f64 = 1e9;
+pub(super) const MAX_COORDINATE: f64 = 1e9;
 
-/// An index that a corner does not have.
-pub(super) const NONE: u32 = u32::MAX;
-
-/// One corner of a face: indices from 0 of position, texture coordinate and normal ([`NONE`] where there is none).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Corner {
-    pub position: u32,
-    pub uv: u32,
-    pub normal: u32,
-    offset: usize,
-}
+/// Texture coordinates from here on are of no use.
+pub(super) const MAX_UV: f64 = 1e30;
 
 /// One face of at least three different corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     /// Where its corners end in [`Checked::corners`]; they begin where those of the face before it end.
-    pub end: usize,
+    pub end: u32,
     pub group: u32,
     pub material: u32,
     /// Where its line begins in the text.
-    pub offset: usize,
+    pub offset: u32,
 }
 
 /// A file of materials that the text names.
@@ -63,7 +61,7 @@ impl Names {
 pub(super) struct Checked {
     pub positions: Vec<[f64; 3]>,
     pub uvs: Vec<[f32; 2]>,
-    /// Not of unit length; zero where the file's normal is of no use.
+    /// Of unit length; zero where the file's normal is of no use.
     pub normals: Vec<[f32; 3]>,
     pub corners: Vec<Corner>,
     pub faces: Vec<Face>,
@@ -72,46 +70,6 @@ pub(super) struct Checked {
     /// Where each material is first named.
     pub material_offsets: Vec<usize>,
     pub libraries: Vec<Library>,
-}
-
-/// What is counted and told once, with the first place.
-#[derive(Default)]
-struct Tally {
-    count: usize,
-    first: usize,
-}
-
-impl Tally {
-    fn add(&mut self, offset: usize) {
-        if self.count == 0 {
-            self.first = offset;
-        }
-        self.count += 1;
-    }
-
-    fn tell(&self, findings: &mut Findings<'_>, what: &str, mend: &str) {
-        if self.count > 0 {
-            let more = if self.count == 1 { String::new() } else { format!(" ({} in all)", self.count) };
-            findings.warning(self.first, format!("{what}{more}"), mend);
-        }
-    }
-}
-
-#[derive(Default)]
-struct Oddities {
-    degenerate: Tally,
-    too_few: Tally,
-    plus: Tally,
-    zero_w: Tally,
-    bad_normal: Tally,
-    bad_uv: Tally,
-    color: Tally,
-    extra: Tally,
-    free_form: Tally,
-    free_form_words: BTreeSet<String>,
-    unknown: Tally,
-    unknown_words: BTreeSet<String>,
-    lines_and_points: usize,
 }
 
 struct Linter<'f, 'a> {
@@ -137,20 +95,69 @@ pub(super) fn check(text: &[u8], findings: &mut Findings<'_>) -> Checked {
         material_number: None,
         corners: Vec::new(),
     };
-    let mut lines = Lines::new(text);
-    let mut words = Vec::new();
-    let is_cut = text.last().is_some_and(|byte| !matches!(byte, b'\n' | b'\r'));
-    while lines.next_into(&mut words) {
-        let is_last = is_cut && words.last().is_some_and(|word| word.offset + word.bytes.len() == text.len());
-        if is_last && linter.drop_cut_line(&words) {
-            break;
-        }
-        linter.line(&words);
+    let pieces = plain::read(text, plain::PIECE_BYTES);
+    linter.reserve(&pieces);
+    for piece in pieces {
+        linter.piece(text, &piece);
     }
     linter.finish()
 }
 
+/// A direction of unit length, if there is one.
+pub(super) fn unit(numbers: [f64; 3]) -> Option<[f32; 3]> {
+    let length = numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
+    (length > 1e-30 && length.is_finite()).then(|| numbers.map(|number| (number / length) as f32))
+}
+
 impl Linter<'_, '_> {
+    /// Takes the memory for all plain lines at once.
+    fn reserve(&mut self, pieces: &[Piece]) {
+        let sum = |count: fn(&Piece) -> usize| pieces.iter().map(count).sum();
+        self.checked.positions.reserve(sum(|piece| piece.positions.len()));
+        self.checked.uvs.reserve(sum(|piece| piece.uvs.len()));
+        self.checked.normals.reserve(sum(|piece| piece.normals.len()));
+        self.checked.corners.reserve(sum(|piece| piece.corners.len()));
+        self.checked.faces.reserve(sum(|piece| piece.faces.len()));
+    }
+
+    /// Takes the plain lines of a piece in bulk, and those between them one by one.
+    fn piece(&mut self, text: &[u8], piece: &Piece) {
+        let mut words = Vec::new();
+        let mut taken = Counts::default();
+        for rest in &piece.rest {
+            self.plain_lines(piece, taken, rest.before);
+            taken = rest.before;
+            let mut lines = Lines::between(text, rest.text.start as usize, rest.text.end as usize);
+            while lines.next_into(&mut words) {
+                let is_last = words.last().is_some_and(|word| word.offset + word.bytes.len() == text.len());
+                if is_last && self.drop_cut_line(&words) {
+                    break;
+                }
+                self.line(&words);
+            }
+        }
+        self.plain_lines(piece, taken, piece.counts());
+    }
+
+    fn plain_lines(&mut self, piece: &Piece, from: Counts, to: Counts) {
+        let checked = &mut self.checked;
+        append(&mut checked.positions, &piece.positions[from.positions as usize..to.positions as usize]);
+        append(&mut checked.uvs, &piece.uvs[from.uvs as usize..to.uvs as usize]);
+        append(&mut checked.normals, &piece.normals[from.normals as usize..to.normals as usize]);
+        let faces = &piece.faces[from.faces as usize..to.faces as usize];
+        let Some(last) = faces.last() else { return };
+        let start = from.faces.checked_sub(1).map_or(0, |before| piece.faces[before as usize].end);
+        let base = checked.corners.len() as u32;
+        append(&mut checked.corners, &piece.corners[start as usize..last.end as usize]);
+        let (group, material) = self.numbers_of_next_face(faces[0].offset as usize);
+        self.checked.faces.extend(faces.iter().map(|face| Face {
+            end: base + (face.end - start),
+            group,
+            material,
+            offset: face.offset,
+        }));
+    }
+
     fn line(&mut self, words: &[Word<'_>]) {
         let (keyword, rest) = (words[0], &words[1..]);
         match keyword.bytes {
@@ -214,7 +221,7 @@ impl Linter<'_, '_> {
         if is_cut {
             let message = "the last line has no end and too few numbers: the file seems cut short";
             self.findings.warning(words[0].offset, message, "the line is left out; get the whole file");
-        } else if words[0].bytes == b"f" && rest.len() < arity_before {
+        } else if words[0].bytes == b"f" && rest.len() < arity_before as usize {
             let message =
                 "the last line has no end and fewer corners than the one before: the file may be cut short";
             self.findings.warning(words[0].offset, message, "end the file with a line end if it is whole");
@@ -250,7 +257,7 @@ impl Linter<'_, '_> {
         let mut uv = [0.0; 2];
         let mut is_bad = rest.is_empty();
         for (value, word) in uv.iter_mut().zip(rest) {
-            match finite(*word).filter(|number| number.abs() < 1e30) {
+            match finite(word.bytes).filter(|number| number.abs() < MAX_UV) {
                 Some(number) => *value = number as f32,
                 None => is_bad = true,
             }
@@ -262,19 +269,17 @@ impl Linter<'_, '_> {
     }
 
     fn normal(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
-        let numbers: Vec<f64> = rest.iter().take(3).filter_map(|word| finite(*word)).collect();
-        let length = numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
-        let is_good = numbers.len() == 3 && length > 1e-30 && length.is_finite();
-        if !is_good {
+        let numbers: Vec<f64> = rest.iter().take(3).filter_map(|word| finite(word.bytes)).collect();
+        let normal = <[f64; 3]>::try_from(numbers).ok().and_then(unit);
+        if normal.is_none() {
             self.odd.bad_normal.add(keyword.offset);
         }
-        let normal = if is_good { [0, 1, 2].map(|axis| (numbers[axis] / length) as f32) } else { [0.0; 3] };
-        self.checked.normals.push(normal);
+        self.checked.normals.push(normal.unwrap_or_default());
     }
 
     /// A finite number; anything else is an error where it stands.
     fn number(&mut self, word: Word<'_>) -> f64 {
-        if let Some(number) = finite(word) {
+        if let Some(number) = finite(word.bytes) {
             return number;
         }
         let text = word.text();
@@ -311,6 +316,14 @@ impl Linter<'_, '_> {
             self.odd.degenerate.add(keyword.offset);
             return;
         }
+        let (group, material) = self.numbers_of_next_face(keyword.offset);
+        self.checked.corners.append(&mut self.corners);
+        let end = self.checked.corners.len() as u32;
+        self.checked.faces.push(Face { end, group, material, offset: keyword.offset as u32 });
+    }
+
+    /// The group and the material of a face that stands here.
+    fn numbers_of_next_face(&mut self, offset: usize) -> (u32, u32) {
         let group = match self.group_number {
             Some(group) => group,
             None => {
@@ -324,14 +337,12 @@ impl Linter<'_, '_> {
             None => {
                 let number = self.checked.materials.number("");
                 if self.checked.material_offsets.len() <= number as usize {
-                    self.checked.material_offsets.push(keyword.offset);
+                    self.checked.material_offsets.push(offset);
                 }
                 number
             }
         };
-        self.checked.corners.append(&mut self.corners);
-        let end = self.checked.corners.len();
-        self.checked.faces.push(Face { end, group, material, offset: keyword.offset });
+        (group, material)
     }
 
     /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. Positive indices may point ahead, so their upper end is checked last.
@@ -350,7 +361,7 @@ impl Linter<'_, '_> {
             self.findings.error(word.offset, message, "write v, v/vt, v//vn or v/vt/vn");
             return None;
         }
-        Some(Corner { position: indices[0], uv: indices[1], normal: indices[2], offset: word.offset })
+        Some(Corner { position: indices[0], uv: indices[1], normal: indices[2], offset: word.offset as u32 })
     }
 
     fn index(&mut self, word: Word<'_>, part: &[u8], count: usize) -> Option<u32> {
@@ -389,13 +400,23 @@ impl Linter<'_, '_> {
             ("texture coordinate", self.checked.uvs.len()),
             ("normal", self.checked.normals.len()),
         ];
+        let is_beyond = |corner: &Corner| {
+            let indices = [corner.position, corner.uv, corner.normal];
+            indices
+                .into_iter()
+                .zip(limits)
+                .any(|(index, (_, count))| index != NONE && index as usize >= count)
+        };
+        if !self.checked.corners.par_iter().with_min_len(SHARE).any(is_beyond) {
+            return;
+        }
         for corner in &self.checked.corners {
             for (index, (what, count)) in [corner.position, corner.uv, corner.normal].into_iter().zip(limits)
             {
                 if index != NONE && index as usize >= count {
                     let message =
                         format!("there is no {what} {}: the file has {count}", u64::from(index) + 1);
-                    self.findings.error(corner.offset, message, "use an index that the file has");
+                    self.findings.error(corner.offset as usize, message, "use an index that the file has");
                 }
             }
         }
@@ -403,56 +424,10 @@ impl Linter<'_, '_> {
 
     fn finish(mut self) -> Checked {
         self.check_upper_ends();
-        let odd = &self.odd;
         let findings = &mut *self.findings;
-        odd.degenerate.tell(findings, "this face repeats its corners and has no area", "it is left out");
-        odd.too_few.tell(findings, "this face has fewer than 3 corners", "it is left out");
-        odd.plus.tell(
-            findings,
-            "this index is written with a +, which not every reader takes",
-            "leave the + out",
-        );
-        odd.zero_w.tell(
-            findings,
-            "this vertex has the weight 0, a point at infinity",
-            "the weight is ignored",
-        );
-        odd.bad_normal.tell(
-            findings,
-            "this normal has no direction",
-            "normals of its faces are worked out from the surface",
-        );
-        odd.bad_uv.tell(
-            findings,
-            "this texture coordinate is not made of finite numbers",
-            "0 is used in its place",
-        );
-        odd.color.tell(
-            findings,
-            "this vertex has a colour, and colours of vertices are not used",
-            "use a material",
-        );
-        odd.extra.tell(
-            findings,
-            "this vertex has an odd number of numbers",
-            "those after the third are ignored",
-        );
-        if odd.free_form.count > 0 {
-            let words: Vec<&str> = odd.free_form_words.iter().map(String::as_str).collect();
-            let message = format!("curves and free-form surfaces are not read ({})", words.join(", "));
-            findings.warning(odd.free_form.first, message, "turn them into polygons before export");
-        }
-        if odd.unknown.count > 0 {
-            let words: Vec<&str> = odd.unknown_words.iter().map(String::as_str).collect();
-            let message = format!(
-                "{} lines begin with words that OBJ does not know ({})",
-                odd.unknown.count,
-                words.join(", ")
-            );
-            findings.warning(odd.unknown.first, message, "they are ignored");
-        }
+        self.odd.tell(findings);
         if self.checked.faces.is_empty() && !findings.has_errors() {
-            let message = match (self.checked.positions.len(), odd.lines_and_points) {
+            let message = match (self.checked.positions.len(), self.odd.lines_and_points) {
                 (0, 0) => "the file has no vertex and no face".to_owned(),
                 (points, 0) => format!("the file has {points} vertices, but no face to paint on"),
                 (points, lines) => format!(
@@ -465,8 +440,13 @@ impl Linter<'_, '_> {
     }
 }
 
-fn finite(word: Word<'_>) -> Option<f64> {
-    std::str::from_utf8(word.bytes).ok()?.parse::<f64>().ok().filter(|number| number.is_finite())
+/// Copies on all cores what is long enough for it.
+fn append<T: Copy + Send + Sync>(to: &mut Vec<T>, from: &[T]) {
+    if from.len() < SHARE {
+        to.extend_from_slice(from);
+    } else {
+        to.par_extend(from.par_iter().with_min_len(SHARE).copied());
+    }
 }
 
 /// Whether a number or a corner ends in the middle: nothing after a sign, a slash or an exponent's mark.

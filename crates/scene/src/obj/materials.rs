@@ -1,4 +1,4 @@
-//! MTL files: checked line by line, the colours read through tobj, the pictures through [`crate::texture`].
+//! MTL files: checked line by line, the pictures read through [`crate::texture`].
 
 use super::text::{Findings, Lines, Walk, Word, name_of, to_utf8};
 use crate::problem::{Place, Problem};
@@ -39,8 +39,6 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
         findings.warning(0, "the file is UTF-16", "save it as UTF-8");
     }
     let mut materials: Vec<Described> = Vec::new();
-    // Only numbered names and checked colours reach tobj.
-    let mut plain = String::new();
     let mut lines = Lines::new(&text);
     let mut words = Vec::new();
     let mut walk = Walk::default();
@@ -48,7 +46,6 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
         let (keyword, rest) = (words[0], &words[1..]);
         if keyword.bytes == b"newmtl" {
             check_name(keyword, rest, &mut findings);
-            plain.push_str(&format!("newmtl m{}\n", materials.len()));
             materials.push(Described {
                 name: name_of(rest),
                 color: None,
@@ -62,9 +59,7 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
         let Some(material) = materials.last_mut() else { continue };
         match keyword.bytes {
             b"Kd" => {
-                if let Some([r, g, b]) = color(keyword, rest, &mut findings) {
-                    plain.push_str(&format!("Kd {r} {g} {b}\n"));
-                }
+                material.color = color(keyword, rest, &mut findings).or(material.color);
             }
             b"Ks" => material.highlight = mean(rest).clamp(0.0, 1.0),
             b"Ns" => material.exponent = mean(rest).clamp(0.0, 1000.0),
@@ -81,11 +76,6 @@ pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem
     }
     if materials.is_empty() {
         findings.warning(0, "the file describes no material", "begin each one with newmtl and its name");
-    }
-    if let Ok((read, _)) = tobj::load_mtl_buf(&mut plain.as_bytes()) {
-        for (material, color) in materials.iter_mut().zip(read.iter().map(|material| material.diffuse)) {
-            material.color = color;
-        }
     }
     let warnings = findings.finish().unwrap_or_else(|report| report.0);
     (materials, warnings)

@@ -1,28 +1,33 @@
-//! OBJ files with their materials, made safe: every line is checked and located here, and only then read through tobj.
+//! OBJ files with their materials, made safe: every line is checked and located here.
 //!
 //! Groups: faces belong to the last `g` line (its whole text), or to the last `o` where no `g` followed it, or to
 //! `default`. The same name is the same group. Smoothing groups are not used: see `surface::CREASE_ANGLE_DEG`.
 
 mod lint;
 mod materials;
+mod number;
+mod oddities;
+mod plain;
 mod polygon;
 mod shelf;
 mod surface;
 mod text;
+mod weld;
 
-use std::collections::{BTreeSet, HashMap};
-use std::fmt::Write as _;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 use crate::assets::{self, AssetError, AssetFolders};
 use crate::mesh_file::MeshFile;
 use crate::problem::{Problem, Report, Severity};
-use lint::{Checked, NONE};
+use lint::Checked;
+use plain::NONE;
 use shelf::Shelf;
-use surface::{Builder, SurfaceCorner};
+use surface::{Builder, SHARE, Values};
 use text::Findings;
+use weld::weld;
 
 /// The largest OBJ file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 512 << 20;
@@ -54,7 +59,7 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
         return Err(findings.finish().err().unwrap_or(Report(Vec::new())));
     }
     enlarge_tiny(&mut checked, &mut findings);
-    let mesh = build(&checked, &mut findings);
+    let mesh = build(&mut checked, &mut findings);
     let place_of = |offset: usize| findings.place(offset);
     let mut shelf = Shelf::new(path, root, folders);
     let materials = if mesh.is_some() { shelf.materials(&checked, &place_of)? } else { Vec::new() };
@@ -93,6 +98,11 @@ fn unread(path: &Path, error: &AssetError) -> Problem {
 
 fn enlarge_tiny(checked: &mut Checked, findings: &mut Findings<'_>) {
     let used = || checked.corners.iter().map(|corner| checked.positions[corner.position as usize]);
+    let Some(first) = used().next() else { return };
+    // Nearly every model shows at its second corner that it is not tiny.
+    if used().any(|at| (0..3).any(|axis| (at[axis] - first[axis]).abs() >= LEAST_EXTENT)) {
+        return;
+    }
     let extent = (0..3)
         .map(|axis| {
             let (low, high) =
@@ -103,45 +113,27 @@ fn enlarge_tiny(checked: &mut Checked, findings: &mut Findings<'_>) {
     if extent > 0.0 && extent < LEAST_EXTENT {
         checked.positions.iter_mut().flatten().for_each(|value| *value /= extent);
         let message = format!("the model is only {extent:e} across, too small for single precision");
-        let offset = checked.faces.first().map_or(0, |face| face.offset);
+        let offset = checked.faces.first().map_or(0, |face| face.offset as usize);
         findings.warning(offset, message, "it is scaled to a size of 1; export it in other units");
     }
 }
 
-/// The numbers through tobj, the faces through the builder; `None` after an error.
-fn build(checked: &Checked, findings: &mut Findings<'_>) -> Option<impasto_core::TriangleMesh> {
-    let options = tobj::LoadOptions::default();
-    let plain = plain_text(checked);
-    let model = tobj::load_obj_buf(&mut plain.as_bytes(), &options, |_| Err(tobj::LoadError::OpenFileFailed));
-    drop(plain);
-    let Some(read) = model.ok().and_then(|(models, _)| models.into_iter().next()).map(|model| model.mesh)
-    else {
-        findings.error_of_file("the polygons could not be read", "export the model again");
-        return None;
-    };
-    let (places, place_of_position) = weld(&read.positions);
-    let mut builder = Builder::new(&places);
-    let mut start = 0;
-    for (number, face) in checked.faces.iter().enumerate() {
-        let corners: Vec<SurfaceCorner> = (start..face.end)
-            .map(|at| {
-                let uv = read.texcoord_indices[at] as usize * 2;
-                let normal = read.normal_indices[at] as usize * 3;
-                let normal = Vec3::from_slice(&read.normals[normal..normal + 3]);
-                SurfaceCorner {
-                    place: place_of_position[read.indices[at] as usize],
-                    uv: (checked.corners[at].uv != NONE)
-                        .then(|| Vec2::from_slice(&read.texcoords[uv..uv + 2])),
-                    normal: (checked.corners[at].normal != NONE && normal != Vec3::ZERO).then_some(normal),
-                }
-            })
-            .collect();
-        builder.add(number, &corners);
-        start = face.end;
-    }
+/// The faces through the builder; `None` after an error.
+fn build(checked: &mut Checked, findings: &mut Findings<'_>) -> Option<impasto_core::TriangleMesh> {
+    let (places, place_of_position) = weld(&checked.positions);
+    let normals = &checked.normals;
+    checked.corners.par_iter_mut().with_min_len(SHARE).for_each(|corner| {
+        corner.position = place_of_position[corner.position as usize];
+        if corner.normal != NONE && normals[corner.normal as usize] == [0.0; 3] {
+            corner.normal = NONE;
+        }
+    });
+    let values =
+        Values { places: &places, uvs: &checked.uvs, normals: &checked.normals, corners: &checked.corners };
+    let builder = Builder::new(values, &checked.faces);
     let (mut mesh, faces) = builder.finish();
-    mesh.group_of_triangle = faces.iter().map(|&face| checked.faces[face].group).collect();
-    mesh.material_of_triangle = faces.iter().map(|&face| checked.faces[face].material).collect();
+    mesh.group_of_triangle = faces.iter().map(|&face| checked.faces[face as usize].group).collect();
+    mesh.material_of_triangle = faces.iter().map(|&face| checked.faces[face as usize].material).collect();
     tell(&builder.odd, checked, findings);
     if mesh.triangles.is_empty() {
         findings.error_of_file(
@@ -166,53 +158,7 @@ fn tell(odd: &surface::Oddities, checked: &Checked, findings: &mut Findings<'_>)
     for ((count, first), what, mend) in told {
         if count > 0 {
             let more = if count == 1 { String::new() } else { format!(" ({count} such faces)") };
-            findings.warning(checked.faces[first].offset, format!("{what}{more}"), mend);
+            findings.warning(checked.faces[first as usize].offset as usize, format!("{what}{more}"), mend);
         }
     }
-}
-
-/// The checked numbers as the plainest OBJ there is: every corner has all three indices, the last texture coordinate
-/// and normal standing for those that a corner does not have.
-fn plain_text(checked: &Checked) -> String {
-    let mut text = String::new();
-    for [x, y, z] in checked.positions.iter().map(|at| at.map(|value| value as f32)) {
-        let _ = writeln!(text, "v {x:e} {y:e} {z:e}");
-    }
-    for [u, v] in checked.uvs.iter().chain([&[0.0; 2]]) {
-        let _ = writeln!(text, "vt {u:e} {v:e}");
-    }
-    for [x, y, z] in checked.normals.iter().chain([&[0.0; 3]]) {
-        let _ = writeln!(text, "vn {x:e} {y:e} {z:e}");
-    }
-    let or_last = |index: u32, count: usize| if index == NONE { count + 1 } else { index as usize + 1 };
-    let mut start = 0;
-    for face in &checked.faces {
-        text.push('f');
-        for corner in &checked.corners[start..face.end] {
-            let uv = or_last(corner.uv, checked.uvs.len());
-            let normal = or_last(corner.normal, checked.normals.len());
-            let _ = write!(text, " {}/{uv}/{normal}", corner.position + 1);
-        }
-        text.push('\n');
-        start = face.end;
-    }
-    text
-}
-
-/// One place for all positions that are equal, so that seams of the file's vertices do not show as creases.
-fn weld(positions: &[f32]) -> (Vec<Vec3>, Vec<u32>) {
-    let mut places = Vec::new();
-    let mut numbers: HashMap<[u32; 3], u32> = HashMap::new();
-    let place_of_position = positions
-        .chunks_exact(3)
-        .map(|at| {
-            // Adding 0 makes -0 and 0 the same.
-            let at = [at[0] + 0.0, at[1] + 0.0, at[2] + 0.0];
-            *numbers.entry(at.map(f32::to_bits)).or_insert_with(|| {
-                places.push(Vec3::from_array(at));
-                places.len() as u32 - 1
-            })
-        })
-        .collect();
-    (places, place_of_position)
 }

@@ -40,8 +40,16 @@ pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
     let points = if is_mirrored { points.iter().map(|at| DVec2::new(at.x, -at.y)).collect() } else { points };
     let is_convex = (0..count)
         .all(|at| turn(points[(at + count - 1) % count], points[at], points[(at + 1) % count]) >= 0.0)
-        && winds_once(&points);
+        && (is_plain_quad(&points) || winds_once(&points));
     if is_convex { Cut { triangles: fan(), is_rough: false } } else { Ears::new(&points, tests_left).clip() }
+}
+
+/// Whether a polygon has four corners that all turn left by far more than rounding: four turns of less than a half make
+/// one whole turn and no more.
+fn is_plain_quad(points: &[DVec2]) -> bool {
+    let &[a, b, c, d] = points else { return false };
+    let longest = [b - a, c - b, d - c, a - d].into_iter().map(DVec2::length_squared).fold(0.0, f64::max);
+    [turn(a, b, c), turn(b, c, d), turn(c, d, a), turn(d, a, b)].into_iter().all(|turn| turn > 1e-9 * longest)
 }
 
 /// Whether a polygon that only turns left goes round once, and not as a pentagram does.

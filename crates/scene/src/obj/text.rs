@@ -63,6 +63,16 @@ impl<'a> Lines<'a> {
         Self { text, at: 0 }
     }
 
+    /// The lines of a part of a text: both ends are ends of lines, or of the text.
+    pub fn between(text: &'a [u8], start: usize, end: usize) -> Self {
+        Self { text: &text[..end], at: start }
+    }
+
+    /// Where the next line begins.
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
     /// Fills `words` with the next line's words; false at the end of the text.
     pub fn next_into(&mut self, words: &mut Vec<Word<'a>>) -> bool {
         words.clear();

@@ -1,0 +1,98 @@
+//! Oddities of an OBJ text: counted line by line, and told once each.
+
+use std::collections::BTreeSet;
+
+use super::text::Findings;
+
+/// What is counted and told once, with the first place.
+#[derive(Default)]
+pub(super) struct Tally {
+    count: usize,
+    first: usize,
+}
+
+impl Tally {
+    pub fn add(&mut self, offset: usize) {
+        if self.count == 0 {
+            self.first = offset;
+        }
+        self.count += 1;
+    }
+
+    fn tell(&self, findings: &mut Findings<'_>, what: &str, mend: &str) {
+        if self.count > 0 {
+            let more = if self.count == 1 { String::new() } else { format!(" ({} in all)", self.count) };
+            findings.warning(self.first, format!("{what}{more}"), mend);
+        }
+    }
+}
+
+/// What a text may hold that is no error.
+#[derive(Default)]
+pub(super) struct Oddities {
+    pub degenerate: Tally,
+    pub too_few: Tally,
+    pub plus: Tally,
+    pub zero_w: Tally,
+    pub bad_normal: Tally,
+    pub bad_uv: Tally,
+    pub color: Tally,
+    pub extra: Tally,
+    pub free_form: Tally,
+    pub free_form_words: BTreeSet<String>,
+    pub unknown: Tally,
+    pub unknown_words: BTreeSet<String>,
+    pub lines_and_points: usize,
+}
+
+impl Oddities {
+    /// Tells what was counted, as warnings.
+    pub fn tell(&self, findings: &mut Findings<'_>) {
+        self.degenerate.tell(findings, "this face repeats its corners and has no area", "it is left out");
+        self.too_few.tell(findings, "this face has fewer than 3 corners", "it is left out");
+        self.plus.tell(
+            findings,
+            "this index is written with a +, which not every reader takes",
+            "leave the + out",
+        );
+        self.zero_w.tell(
+            findings,
+            "this vertex has the weight 0, a point at infinity",
+            "the weight is ignored",
+        );
+        self.bad_normal.tell(
+            findings,
+            "this normal has no direction",
+            "normals of its faces are worked out from the surface",
+        );
+        self.bad_uv.tell(
+            findings,
+            "this texture coordinate is not made of finite numbers",
+            "0 is used in its place",
+        );
+        self.color.tell(
+            findings,
+            "this vertex has a colour, and colours of vertices are not used",
+            "use a material",
+        );
+        self.extra.tell(
+            findings,
+            "this vertex has an odd number of numbers",
+            "those after the third are ignored",
+        );
+        if self.free_form.count > 0 {
+            let words: Vec<&str> = self.free_form_words.iter().map(String::as_str).collect();
+            let message = format!("curves and free-form surfaces are not read ({})", words.join(", "));
+            findings.warning(self.free_form.first, message, "turn them into polygons before export");
+        }
+        if self.unknown.count > 0 {
+            let words: Vec<&str> = self.unknown_words.iter().map(String::as_str).collect();
+            let message = format!(
+                "{} lines begin with words that OBJ does not know ({})",
+                self.unknown.count,
+                words.join(", ")
+            );
+            findings.warning(self.unknown.first, message, "they are ignored");
+        }
+    }
+}
