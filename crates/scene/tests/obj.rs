@@ -42,6 +42,52 @@ fn assert_sound(file: &MeshFile) {
     assert!(mesh.material_of_triangle.iter().all(|&material| (material as usize) < file.materials.len()));
 }
 
+/// The corners of a polygon, in no order.
+fn corner_set(corners: impl Iterator<Item = [f32; 3]>) -> Vec<[u32; 3]> {
+    let mut corners: Vec<[u32; 3]> = corners.map(|corner| corner.map(f32::to_bits)).collect();
+    corners.sort_unstable();
+    corners.dedup();
+    corners
+}
+
+#[test]
+fn good_files_have_the_polygons_that_tobj_reads() {
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/meshes");
+    let options = tobj::LoadOptions { single_index: true, ..tobj::LoadOptions::default() };
+    let mut polygons = 0;
+    for entry in fs::read_dir(&meshes).expect("the shipped meshes are there") {
+        let path = entry.expect("the folder can be read").path();
+        if path.extension().is_none_or(|extension| extension != "obj") {
+            continue;
+        }
+        let (file, _) = obj::read(&path, &meshes, &AssetFolders::default()).expect("a shipped mesh is good");
+        let (models, _) = tobj::load_obj(&path, &options).expect("a shipped mesh is good");
+        let mut theirs = Vec::new();
+        for mesh in models.iter().map(|model| &model.mesh) {
+            let at = |index: u32| [0, 1, 2].map(|axis| mesh.positions[3 * index as usize + axis]);
+            // None stand there where all are triangles.
+            let all_triangles = vec![3; mesh.indices.len() / 3];
+            let arities = if mesh.face_arities.is_empty() { &all_triangles } else { &mesh.face_arities };
+            let mut indices = mesh.indices.iter();
+            for &arity in arities {
+                theirs.push(corner_set(indices.by_ref().take(arity as usize).map(|&index| at(index))));
+            }
+        }
+        let numbered: Vec<(u32, [u32; 3])> =
+            file.mesh.polygon_of_triangle.iter().copied().zip(file.mesh.triangles.iter().copied()).collect();
+        let ours: Vec<Vec<[u32; 3]>> = numbered
+            .chunk_by(|a, b| a.0 == b.0)
+            .map(|polygon| {
+                let corners = polygon.iter().flat_map(|(_, triangle)| *triangle);
+                corner_set(corners.map(|vertex| file.mesh.positions[vertex as usize].to_array()))
+            })
+            .collect();
+        assert!(ours == theirs, "{}: {} polygons, tobj {}", path.display(), ours.len(), theirs.len());
+        polygons += ours.len();
+    }
+    assert!(polygons > 10_000, "{polygons}");
+}
+
 #[test]
 fn errors_stand_where_they_are() {
     let folder = tempfile::tempdir().unwrap();
