@@ -1,4 +1,5 @@
-//! Work compiled for the widest vectors that the processor has: the one fence round code that only some processors run.
+//! Work compiled for the widest vectors that the processor has: the fence round code that only some processors run, but for what
+//! names an instruction itself (`neighbours::wide`).
 //!
 //! Every build of it rounds alike (the compiler fuses no multiplication with an addition), so the bits do not depend on the
 //! machine.

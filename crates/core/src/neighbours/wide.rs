@@ -1,5 +1,5 @@
-//! The search, compiled for the widest vectors that the processor has. Every build of it rounds alike (no fused multiply-add),
-//! so the bits do not depend on the machine.
+//! The search with AVX-512, which packs what was found by an instruction of its own; vectors without it gain nothing over portable
+//! code. Both builds round alike (no fused multiply-add), so the bits do not depend on the machine.
 #![expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 
 use super::crowd::OneByOne;
@@ -10,22 +10,10 @@ use super::{Part, Search};
 /// Finds the lists of a part of the queries.
 pub(super) fn run(search: &Search<'_>, part: Part<'_>) {
     #[cfg(target_arch = "x86_64")]
-    {
-        if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("popcnt") {
-            // SAFETY: AVX-512F and POPCNT were found on this processor.
-            return unsafe { run_avx512(search, part) };
-        }
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: AVX2 was found on this processor.
-            return unsafe { run_avx2(search, part) };
-        }
+    if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("popcnt") {
+        // SAFETY: AVX-512F and POPCNT were found on this processor.
+        return unsafe { run_avx512(search, part) };
     }
-    search.run::<OneByOne>(part);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn run_avx2(search: &Search<'_>, part: Part<'_>) {
     search.run::<OneByOne>(part);
 }
 
@@ -93,12 +81,5 @@ pub(super) type Build = fn(&Search<'_>, Part<'_>);
 /// All builds that this processor can run, by name.
 #[cfg(test)]
 pub(super) fn builds() -> Vec<(&'static str, Build)> {
-    let mut builds: Vec<(&'static str, Build)> =
-        vec![("portable", |search, part| search.run::<OneByOne>(part)), ("widest", run)];
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: AVX2 was found on this processor.
-        builds.push(("AVX2", |search, part| unsafe { run_avx2(search, part) }));
-    }
-    builds
+    vec![("portable", |search, part| search.run::<OneByOne>(part)), ("widest", run)]
 }
