@@ -34,7 +34,7 @@ pub struct Neighbours {
 }
 
 /// How many lists one task finds.
-const CHUNK: usize = 4096;
+const CHUNK: usize = 1024;
 
 impl Neighbours {
     /// How many particles have a list.

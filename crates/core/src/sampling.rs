@@ -1,5 +1,6 @@
 //! Particles on a surface: progressive blue noise, or the source paper's equal counts per polygon.
 
+mod block;
 mod candidates;
 mod dart_grid;
 mod face_cones;

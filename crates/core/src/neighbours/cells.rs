@@ -74,13 +74,17 @@ impl SortedPoints {
             .map(|(number, position)| (space.number(*position), number as u32))
             .collect();
         sorted.par_sort_unstable();
-        let axis = |vectors: &[Vec3], axis: usize| {
-            let numbers = sorted.par_iter().with_min_len(4096);
-            numbers.map(|&(_, number)| vectors[number as usize].to_array()[axis]).collect()
+        // Read in one go: where a point lies is waited for once.
+        let numbers = sorted.par_iter().with_min_len(4096);
+        let gathered: Vec<[Vec3; 2]> = numbers
+            .map(|&(_, number)| [points.positions[number as usize], points.normals[number as usize]])
+            .collect();
+        let axis = |vector: usize, axis: usize| {
+            let gathered = gathered.par_iter().with_min_len(4096);
+            gathered.map(|vectors| vectors[vector].to_array()[axis]).collect()
         };
-        let [p, n] = [points.positions, points.normals];
         Self {
-            axes: [axis(p, 0), axis(p, 1), axis(p, 2), axis(n, 0), axis(n, 1), axis(n, 2)],
+            axes: [axis(0, 0), axis(0, 1), axis(0, 2), axis(1, 0), axis(1, 1), axis(1, 2)],
             numbers: sorted.iter().map(|&(_, number)| number).collect(),
             cells: sorted.into_iter().map(|(cell, _)| cell).collect(),
         }

@@ -14,15 +14,23 @@ const CLASSES: usize = 256;
 /// More than this are cut down to the nearest before they are sorted.
 const MANY: usize = 255;
 
+/// Of what is sorted, and of a block of what stands behind it.
+const SLOTS: usize = CLASSES + 64;
+
 /// What one task works in.
-#[derive(Default)]
 pub(super) struct Crowd {
     /// Positions, then normals: x, y, z.
     axes: [Vec<f32>; 6],
     numbers: Vec<u32>,
     /// Bits of the squared distance, then the number: those that count, and the same by class.
     found: Vec<u64>,
-    sorted: Vec<u64>,
+    sorted: [u64; SLOTS],
+}
+
+impl Default for Crowd {
+    fn default() -> Self {
+        Self { axes: Default::default(), numbers: Vec::new(), found: Vec::new(), sorted: [0; SLOTS] }
+    }
 }
 
 /// How those of a block are kept that are near enough.
@@ -83,7 +91,6 @@ impl Crowd {
         runs.iter().for_each(|run| self.numbers.extend_from_slice(&points.numbers[run.clone()]));
         self.numbers.resize(padded, 0);
         self.found.resize(padded + LANES, 0);
-        self.sorted.resize(padded, 0);
     }
 
     /// Writes the nearest points, nearest first, equal distances by number; gives how many.
@@ -97,9 +104,8 @@ impl Crowd {
             found = &mut found[..most];
             found.sort_unstable();
         } else {
-            let sorted = &mut self.sorted[..count];
-            sort_by_class(found, sorted, query);
-            found = sorted;
+            sort_by_class(found, &mut self.sorted, query);
+            found = &mut self.sorted[..count];
         }
         let most = query.most.min(found.len());
         for (to, from) in list[..most].iter_mut().zip(&found[..most]) {
@@ -135,7 +141,7 @@ impl Crowd {
 /// Sorts by classes of distances, of which a surface has about equally many in each, and then what little is left; at least as
 /// far as the longest list goes.
 #[inline(always)]
-fn sort_by_class(found: &[u64], sorted: &mut [u64], query: &Query) {
+fn sort_by_class(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
     let classes_per_sq = (CLASSES - 1) as f32 / (query.radius * query.radius);
     let class = |key: u64| {
         let distance_sq = f32::from_bits((key >> 32) as u32);
@@ -161,17 +167,36 @@ fn sort_by_class(found: &[u64], sorted: &mut [u64], query: &Query) {
         *end -= 1;
         sorted[usize::from(*end)] = key;
     }
-    let last = sorted.get(query.most - 1).map_or(CLASSES, |&key| class(key));
-    for i in 1..sorted.len() {
-        let key = sorted[i];
-        if i >= query.most && class(key) > last {
-            break;
+    let count = found.len();
+    let last = if count < query.most { CLASSES } else { class(sorted[query.most - 1]) };
+    let end = (query.most..count).find(|&i| class(sorted[i]) > last).unwrap_or(count);
+    sort_what_is_left(sorted, end);
+}
+
+/// Sorts what is nearly sorted.
+#[inline(always)]
+fn sort_what_is_left(sorted: &mut [u64; SLOTS], count: usize) {
+    for first in (0..count.saturating_sub(1)).step_by(64) {
+        // Which are more than the next, found without a branch that nobody can foresee.
+        let Some(block) = sorted[first..].first_chunk::<65>() else { break };
+        let mut falls = 0u64;
+        for bit in 0..64 {
+            falls |= u64::from(block[bit] > block[bit + 1]) << bit;
         }
-        let mut at = i;
-        while at > 0 && sorted[at - 1] > key {
-            sorted[at] = sorted[at - 1];
-            at -= 1;
+        falls &= u64::MAX >> (64 - (count - first - 1).min(64));
+        while falls != 0 {
+            let mut i = first + falls.trailing_zeros() as usize + 1;
+            falls &= falls - 1;
+            // What comes next may be less than what then stands here.
+            while i < count && sorted[i - 1] > sorted[i] {
+                let (key, mut at) = (sorted[i], i);
+                while at > 0 && sorted[at - 1] > key {
+                    sorted[at] = sorted[at - 1];
+                    at -= 1;
+                }
+                sorted[at] = key;
+                i += 1;
+            }
         }
-        sorted[at] = key;
     }
 }

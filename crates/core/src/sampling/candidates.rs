@@ -1,7 +1,10 @@
 //! An endless, even, random sequence of places on a surface: what dart throwing throws.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
+use super::block::{self, Block};
 use super::dart_grid::Dart;
 use super::{Particle, Surface, barycentric};
 use crate::hash;
@@ -13,8 +16,18 @@ pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle
         return Vec::new();
     }
     let candidates = Candidates::new(surface, seed);
-    let numbers = (0..count).into_par_iter().with_min_len(1024);
-    numbers.map(|number| candidates.particle(number as u32)).collect()
+    let numbers = (0..count as u32).into_par_iter().with_min_len(16 * block::LANES);
+    let none = || (None, Vec::new());
+    numbers
+        .map_init(none, |(known, particles), number| {
+            let (first, lane) = block::of(number);
+            if *known != Some(first) {
+                *known = Some(first);
+                candidates.block(first).particles(surface, particles);
+            }
+            particles[lane]
+        })
+        .collect()
 }
 
 /// The sequence: its `i`th place depends on the surface, the seed and `i` alone.
@@ -25,41 +38,104 @@ pub(super) struct Candidates<'a> {
     seed: u32,
 }
 
+/// What chance says of a candidate.
+#[derive(Clone, Copy)]
+pub(super) struct Throw {
+    /// Together the share of the area that comes before it, in 0..1: 53 random bits, so that a speck beside a huge face still has
+    /// its share.
+    high: f64,
+    low: f64,
+    /// Where on its face, 0..1.
+    on_face: [f32; 2],
+}
+
+impl Throw {
+    #[inline(always)]
+    pub(super) fn new(seed: u32, number: u32) -> Self {
+        let seed = hash::combine(seed, number);
+        Self {
+            high: f64::from(hash::combine(seed, 0)) / 4_294_967_296.0,
+            low: f64::from(hash::combine(seed, 1) >> 11) / 9_007_199_254_740_992.0,
+            on_face: [hash::unit(hash::combine(seed, 2)), hash::unit(hash::combine(seed, 3))],
+        }
+    }
+
+    /// The area that comes before it, of so much.
+    #[inline(always)]
+    pub(super) fn area(&self, total: f64) -> f64 {
+        (self.high + self.low) * total
+    }
+
+    /// In which of so many equal steps of area it is, give or take one.
+    #[inline(always)]
+    pub(super) fn step(&self, steps: usize) -> i32 {
+        ((self.high * steps as f64) as i32).min(steps as i32 - 1)
+    }
+
+    /// Weights of the second and third corner.
+    #[inline(always)]
+    pub(super) fn barycentric(&self) -> [f32; 2] {
+        let [first, second] = self.on_face;
+        barycentric(first, second)
+    }
+}
+
 impl<'a> Candidates<'a> {
     /// `surface` must have a face.
     pub(super) fn new(surface: &'a Surface<'a>, seed: u32) -> Self {
         Self { surface, guide: guide_table(&surface.area_up_to), seed }
     }
 
-    /// Where a candidate lies: its face, and the weights of the face's second and third corner.
+    /// The candidates from `first` on, side by side.
     #[inline]
-    fn place(&self, index: u32) -> (usize, [f32; 2]) {
-        let Self { surface, guide, seed } = self;
-        let seed = hash::combine(*seed, index);
-        // 53 random bits, so that a speck beside a huge face still has its share.
-        let high = f64::from(hash::combine(seed, 0)) / 4_294_967_296.0;
-        let low = f64::from(hash::combine(seed, 1) >> 11) / 9_007_199_254_740_992.0;
-        let target = (high + low) * surface.area();
-        let bucket = ((high * (guide.len() - 1) as f64) as usize).min(guide.len() - 2);
-        let (from, to) = (guide[bucket] as usize, guide[bucket + 1] as usize + 1);
+    fn block(&self, first: u32) -> Block {
+        let (steps, total) = (self.guide.len() - 1, self.surface.area());
+        Block::new((self.seed, first), (steps, total), |area, step| self.face(area, step) as u32)
+    }
+
+    /// Where a candidate lies: its face, and the weights of the face's second and third corner.
+    fn place(&self, number: u32) -> (usize, [f32; 2]) {
+        let throw = Throw::new(self.seed, number);
+        let face = self.face(throw.area(self.surface.area()), throw.step(self.guide.len() - 1));
+        (face, throw.barycentric())
+    }
+
+    /// The face before whose end so much area comes.
+    #[inline(always)]
+    fn face(&self, area: f64, step: i32) -> usize {
+        let Self { surface, guide, .. } = self;
+        let step = step as usize;
+        let (from, to) = (guide[step] as usize, guide[step + 1] as usize + 1);
         let to = to.min(surface.faces.len());
         let mut face = from;
         if to - from <= 4 {
-            while face < to && surface.area_up_to[face] <= target {
+            while face < to && surface.area_up_to[face] <= area {
                 face += 1;
             }
         } else {
-            face += surface.area_up_to[from..to].partition_point(|&sum| sum <= target);
+            face += surface.area_up_to[from..to].partition_point(|&sum| sum <= area);
         }
-        let place = barycentric(hash::unit(hash::combine(seed, 2)), hash::unit(hash::combine(seed, 3)));
-        (face.min(surface.faces.len() - 1), place)
+        face.min(surface.faces.len() - 1)
     }
 
     /// What of a candidate most are ever asked for.
-    #[inline]
     pub(super) fn dart(&self, number: u32) -> Dart {
         let (face, place) = self.place(number);
         Dart { position: self.surface.position(face, place), face: face as u32, number }
+    }
+
+    /// The same of some.
+    pub(super) fn darts(&self, numbers: Range<u32>) -> Vec<Dart> {
+        let mut darts = Vec::with_capacity(numbers.len());
+        for first in numbers.clone().step_by(block::LANES) {
+            let block = self.block(first);
+            for (lane, number) in (first..numbers.end).take(block::LANES).enumerate() {
+                let (face, place) = block.place(lane);
+                let position = self.surface.position(face, place);
+                darts.push(Dart { position, face: face as u32, number });
+            }
+        }
+        darts
     }
 
     /// The whole candidate.
@@ -69,14 +145,18 @@ impl<'a> Candidates<'a> {
     }
 }
 
+/// More steps than this find a face no sooner, and their number is a whole one in 32 bits.
+const MOST_STEPS: usize = 1 << 24;
+
 fn guide_table(area_up_to: &[f64]) -> Vec<u32> {
-    let steps = area_up_to.len();
-    let total = area_up_to[steps - 1];
+    let faces = area_up_to.len();
+    let steps = faces.min(MOST_STEPS);
+    let total = area_up_to[faces - 1];
     let mut face = 0;
     (0..=steps)
         .map(|step| {
             let area = total * step as f64 / steps as f64;
-            while face + 1 < steps && area_up_to[face] <= area {
+            while face + 1 < faces && area_up_to[face] <= area {
                 face += 1;
             }
             face as u32

@@ -132,7 +132,7 @@ impl DartField<'_> {
 
     fn roomy_of(&self, numbers: Range<u32>, standing: &Standing<'_>) -> Vec<Dart> {
         let Standing { grid, particles, radius } = standing;
-        let mut darts = grid.in_order(numbers.map(|number| self.candidates.dart(number)).collect());
+        let mut darts = grid.in_order(self.candidates.darts(numbers));
         darts.retain(|dart| {
             let mut normal = None;
             let crowds = |other: &Dart| {

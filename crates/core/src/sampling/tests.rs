@@ -1,5 +1,6 @@
 use glam::Vec3;
 
+use super::candidates::Candidates;
 use super::{Particle, ProgressiveState, Surface, progressive, scattered};
 use crate::TriangleMesh;
 
@@ -153,4 +154,27 @@ fn scattered_particles_fill_every_face_by_its_area() {
     }
     assert_eq!(scattered(&surface, 1000, 9), particles[..1000]);
     assert!(scattered(&Surface::new(&mesh, |_| false), 10, 9).is_empty());
+}
+
+#[test]
+fn particles_side_by_side_are_those_one_by_one() {
+    // Normals that cancel each other have none between them.
+    let mut bent =
+        patches(2, &[&|x, y| (Vec3::new(x, y, 0.2 * x), if x < 0.0 { Vec3::Y } else { -Vec3::Y })]);
+    bent.normals[4] = Vec3::ZERO;
+    let mut without_normals = ball();
+    without_normals.normals.fill(Vec3::ZERO);
+    let meshes = [ball(), creased_sheet(), rod_and_speck(), bent, without_normals];
+    for (body, mesh) in meshes.iter().enumerate() {
+        let surface = Surface::new(mesh, |_| true);
+        let candidates = Candidates::new(&surface, 11);
+        let one_by_one: Vec<Particle> = (0..1000).map(|number| candidates.particle(number)).collect();
+        assert_eq!(bits(&scattered(&surface, 1000, 11)), bits(&one_by_one), "body {body}");
+        let darts = candidates.darts(77..333);
+        assert_eq!(darts.len(), 256);
+        for (dart, number) in darts.iter().zip(77..) {
+            let one = candidates.dart(number);
+            assert_eq!((dart.number, dart.face, dart.position), (number, one.face, one.position));
+        }
+    }
 }

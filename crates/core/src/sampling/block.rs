@@ -1,0 +1,184 @@
+//! Candidates side by side, so that chance and normals are computed in wide vectors.
+
+use glam::Vec3;
+
+use super::candidates::Throw;
+use super::{Particle, Surface};
+use crate::wide::{Wide, widest};
+
+/// Candidates of a block.
+pub(super) const LANES: usize = 64;
+
+/// The block that a number belongs to, by its first number, and where in it.
+#[inline]
+pub(super) fn of(number: u32) -> (u32, usize) {
+    let lane = number % LANES as u32;
+    (number - lane, lane as usize)
+}
+
+/// [`LANES`] candidates in a row.
+pub(super) struct Block {
+    faces: [u32; LANES],
+    /// Weights of the second and third corners.
+    barycentric: [[f32; LANES]; 2],
+}
+
+impl Block {
+    /// The candidates from `first` on; `face` finds one by the area that comes before it and the step of area that it is in.
+    #[inline]
+    pub(super) fn new(
+        (seed, first): (u32, u32),
+        (steps, area): (usize, f64),
+        face: impl Fn(f64, i32) -> u32,
+    ) -> Self {
+        let thrown = widest(Throwing { seed, first, steps, area });
+        let mut faces = [0; LANES];
+        for (face_of, (&area, &step)) in faces.iter_mut().zip(thrown.areas.iter().zip(&thrown.steps)) {
+            *face_of = face(area, step);
+        }
+        Self { faces, barycentric: thrown.barycentric }
+    }
+
+    /// Where one lies: its face, and the weights of the face's second and third corner.
+    #[inline]
+    pub(super) fn place(&self, lane: usize) -> (usize, [f32; 2]) {
+        (self.faces[lane] as usize, self.barycentric.each_ref().map(|weights| weights[lane]))
+    }
+
+    /// Puts all of them into `particles`, as [`Surface::particle`] gives them.
+    #[inline]
+    pub(super) fn particles(&self, surface: &Surface<'_>, particles: &mut Vec<Particle>) {
+        let mut corners = Corners::EMPTY;
+        for lane in 0..LANES {
+            let face = surface.faces[self.faces[lane] as usize];
+            let triangle = surface.mesh.triangles[face.triangle as usize];
+            for (corner, vertex) in triangle.into_iter().enumerate() {
+                let position = surface.mesh.positions[vertex as usize].to_array();
+                let normal = surface.mesh.normals[vertex as usize].to_array();
+                for axis in 0..3 {
+                    corners.positions[corner][axis][lane] = position[axis];
+                    corners.normals[corner][axis][lane] = normal[axis];
+                }
+            }
+            corners.sides[lane] = if face.flipped { -1.0 } else { 1.0 };
+        }
+        let placed = widest(Placing { corners: &corners, barycentric: &self.barycentric });
+        particles.clear();
+        particles.extend((0..LANES).map(|lane| {
+            let (face, barycentric) = self.place(lane);
+            if placed.bent[lane] {
+                return surface.particle(face, barycentric);
+            }
+            let face = surface.faces[face];
+            let of = |axes: &[[f32; LANES]; 3]| Vec3::from_array(axes.each_ref().map(|axis| axis[lane]));
+            Particle {
+                triangle: face.triangle,
+                barycentric,
+                flipped: face.flipped,
+                position: of(&placed.positions),
+                normal: of(&placed.normals),
+            }
+        }));
+    }
+}
+
+/// What chance says of a block.
+struct Throwing {
+    seed: u32,
+    first: u32,
+    /// Of area, equally large.
+    steps: usize,
+    /// Of the surface.
+    area: f64,
+}
+
+struct Thrown {
+    areas: [f64; LANES],
+    steps: [i32; LANES],
+    barycentric: [[f32; LANES]; 2],
+}
+
+impl Wide for Throwing {
+    type Output = Thrown;
+
+    #[inline(always)]
+    fn run(self) -> Thrown {
+        let mut thrown = Thrown { areas: [0.0; LANES], steps: [0; LANES], barycentric: [[0.0; LANES]; 2] };
+        for lane in 0..LANES {
+            let throw = Throw::new(self.seed, self.first.wrapping_add(lane as u32));
+            thrown.areas[lane] = throw.area(self.area);
+            thrown.steps[lane] = throw.step(self.steps);
+            let [v, w] = throw.barycentric();
+            thrown.barycentric[0][lane] = v;
+            thrown.barycentric[1][lane] = w;
+        }
+        thrown
+    }
+}
+
+/// Of each candidate's triangle: by corner, then by axis.
+struct Corners {
+    positions: [[[f32; LANES]; 3]; 3],
+    normals: [[[f32; LANES]; 3]; 3],
+    /// −1 on its back.
+    sides: [f32; LANES],
+}
+
+impl Corners {
+    const EMPTY: Self =
+        Self { positions: [[[0.0; LANES]; 3]; 3], normals: [[[0.0; LANES]; 3]; 3], sides: [0.0; LANES] };
+}
+
+/// [`Particle::on`] for a block, bit by bit.
+struct Placing<'a> {
+    corners: &'a Corners,
+    barycentric: &'a [[f32; LANES]; 2],
+}
+
+struct Placed {
+    positions: [[f32; LANES]; 3],
+    normals: [[f32; LANES]; 3],
+    /// Where the normals of the corners cancel each other.
+    bent: [bool; LANES],
+}
+
+impl Wide for Placing<'_> {
+    type Output = Placed;
+
+    #[inline(always)]
+    fn run(self) -> Placed {
+        let Self { corners, barycentric: [vs, ws] } = self;
+        let mut placed =
+            Placed { positions: [[0.0; LANES]; 3], normals: [[0.0; LANES]; 3], bent: [false; LANES] };
+        for lane in 0..LANES {
+            let (v, w) = (vs[lane], ws[lane]);
+            let u = 1.0 - v - w;
+            let of = |axes: &[[f32; LANES]; 3]| [axes[0][lane], axes[1][lane], axes[2][lane]];
+            let ([a, b, c], [na, nb, nc]) = (
+                [of(&corners.positions[0]), of(&corners.positions[1]), of(&corners.positions[2])],
+                [of(&corners.normals[0]), of(&corners.normals[1]), of(&corners.normals[2])],
+            );
+            let [bx, by, bz] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+            let [cx, cy, cz] = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
+            let across = [by * cz - cy * bz, bz * cx - cz * bx, bx * cy - cx * by];
+            let mixed = |a: [f32; 3], b: [f32; 3], c: [f32; 3]| {
+                [
+                    a[0] * u + b[0] * v + c[0] * w,
+                    a[1] * u + b[1] * v + c[1] * w,
+                    a[2] * u + b[2] * v + c[2] * w,
+                ]
+            };
+            let (position, smooth) = (mixed(a, b, c), mixed(na, nb, nc));
+            let facing = smooth[0] * across[0] + smooth[1] * across[1] + smooth[2] * across[2];
+            let turned = if facing * corners.sides[lane] < 0.0 { -1.0 } else { 1.0 };
+            let length_sq = smooth[0] * smooth[0] + smooth[1] * smooth[1] + smooth[2] * smooth[2];
+            let scale = 1.0 / length_sq.sqrt();
+            placed.bent[lane] = !((scale > 0.0) & (scale < f32::INFINITY));
+            for axis in 0..3 {
+                placed.positions[axis][lane] = position[axis];
+                placed.normals[axis][lane] = smooth[axis] * turned * scale;
+            }
+        }
+        placed
+    }
+}
