@@ -69,7 +69,7 @@ void main() {
     if (alpha <= 0.0) discard;
     float tint = texel.b * 2.0 - 1.0;
     if (body.z < FREE) {
-        vec2 here = surface_at(gl_FragCoord.xy);
+        vec2 here = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).xy;
         if (here.y != own.y) alpha *= past_body(here, tint);
     }
     vec3 color = max(paint.rgb + half_mixed * tint, 0.0);

@@ -26,8 +26,9 @@ pub struct TriangleMesh {
 
 impl TriangleMesh {
     /// The three corner positions of one triangle, in model space.
+    #[inline]
     pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
-        self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
+        of_corners(&self.positions, self.triangles[triangle])
     }
 
     /// Least and greatest corner of the axis-aligned box round the triangles' vertices, in model space;
@@ -42,4 +43,10 @@ impl TriangleMesh {
     pub fn polygon_count(&self) -> usize {
         self.polygon_of_triangle.last().map_or(0, |&last| last as usize + 1)
     }
+}
+
+/// What three vertices have. Written out: [`array::map`] is not always inlined.
+#[inline(always)]
+pub(crate) fn of_corners<T: Copy>(of_vertices: &[T], [a, b, c]: [u32; 3]) -> [T; 3] {
+    [of_vertices[a as usize], of_vertices[b as usize], of_vertices[c as usize]]
 }

@@ -11,6 +11,7 @@ mod progressive;
 use glam::{Vec2, Vec3};
 
 use crate::TriangleMesh;
+use crate::mesh::of_corners;
 use crate::shells::{Side, sides};
 use dart_grid::Dart;
 
@@ -39,8 +40,8 @@ impl Particle {
     #[inline]
     pub fn on(&self, mesh: &TriangleMesh, positions: &[Vec3], normals: &[Vec3]) -> Self {
         let corners = mesh.triangles[self.triangle as usize];
-        let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
-        let [na, nb, nc] = corners.map(|vertex| normals[vertex as usize]);
+        let [a, b, c] = of_corners(positions, corners);
+        let [na, nb, nc] = of_corners(normals, corners);
         let [v, w] = self.barycentric;
         let u = 1.0 - v - w;
         let mut across = (b - a).cross(c - a);

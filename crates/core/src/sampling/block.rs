@@ -9,14 +9,7 @@ use crate::wide::{Wide, widest};
 /// Candidates of a block.
 pub(super) const LANES: usize = 64;
 
-/// The block that a number belongs to, by its first number, and where in it.
-#[inline]
-pub(super) fn of(number: u32) -> (u32, usize) {
-    let lane = number % LANES as u32;
-    (number - lane, lane as usize)
-}
-
-/// [`LANES`] candidates in a row.
+/// [`LANES`] candidates.
 pub(super) struct Block {
     faces: [u32; LANES],
     /// Weights of the second and third corners.
@@ -24,14 +17,14 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// The candidates from `first` on; `face` finds one by the area that comes before it and the step of area that it is in.
+    /// The candidates of these numbers; `face` finds one by the area that comes before it and the step of area that it is in.
     #[inline]
     pub(super) fn new(
-        (seed, first): (u32, u32),
+        (seed, numbers): (u32, &[u32; LANES]),
         (steps, area): (usize, f64),
         face: impl Fn(f64, i32) -> u32,
     ) -> Self {
-        let thrown = widest(Throwing { seed, first, steps, area });
+        let thrown = widest(Throwing { seed, numbers, steps, area });
         let mut faces = [0; LANES];
         for (face_of, (&area, &step)) in faces.iter_mut().zip(thrown.areas.iter().zip(&thrown.steps)) {
             *face_of = face(area, step);
@@ -45,9 +38,9 @@ impl Block {
         (self.faces[lane] as usize, self.barycentric.each_ref().map(|weights| weights[lane]))
     }
 
-    /// Puts all of them into `particles`, as [`Surface::particle`] gives them.
+    /// All of them, as [`Surface::particle`] gives them.
     #[inline]
-    pub(super) fn particles(&self, surface: &Surface<'_>, particles: &mut Vec<Particle>) {
+    pub(super) fn particles(&self, surface: &Surface<'_>) -> [Particle; LANES] {
         let mut corners = Corners::EMPTY;
         for lane in 0..LANES {
             let face = surface.faces[self.faces[lane] as usize];
@@ -63,8 +56,7 @@ impl Block {
             corners.sides[lane] = if face.flipped { -1.0 } else { 1.0 };
         }
         let placed = widest(Placing { corners: &corners, barycentric: &self.barycentric });
-        particles.clear();
-        particles.extend((0..LANES).map(|lane| {
+        std::array::from_fn(|lane| {
             let (face, barycentric) = self.place(lane);
             if placed.bent[lane] {
                 return surface.particle(face, barycentric);
@@ -78,14 +70,14 @@ impl Block {
                 position: of(&placed.positions),
                 normal: of(&placed.normals),
             }
-        }));
+        })
     }
 }
 
 /// What chance says of a block.
-struct Throwing {
+struct Throwing<'a> {
     seed: u32,
-    first: u32,
+    numbers: &'a [u32; LANES],
     /// Of area, equally large.
     steps: usize,
     /// Of the surface.
@@ -98,14 +90,14 @@ struct Thrown {
     barycentric: [[f32; LANES]; 2],
 }
 
-impl Wide for Throwing {
+impl Wide for Throwing<'_> {
     type Output = Thrown;
 
     #[inline(always)]
     fn run(self) -> Thrown {
         let mut thrown = Thrown { areas: [0.0; LANES], steps: [0; LANES], barycentric: [[0.0; LANES]; 2] };
         for lane in 0..LANES {
-            let throw = Throw::new(self.seed, self.first.wrapping_add(lane as u32));
+            let throw = Throw::new(self.seed, self.numbers[lane]);
             thrown.areas[lane] = throw.area(self.area);
             thrown.steps[lane] = throw.step(self.steps);
             let [v, w] = throw.barycentric();

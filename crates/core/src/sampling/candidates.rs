@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::block::{self, Block};
+use super::block::{Block, LANES};
 use super::dart_grid::Dart;
 use super::{Particle, Surface, barycentric};
 use crate::hash;
@@ -16,17 +16,21 @@ pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle
         return Vec::new();
     }
     let candidates = Candidates::new(surface, seed);
-    let numbers = (0..count as u32).into_par_iter().with_min_len(16 * block::LANES);
-    let none = || (None, Vec::new());
-    numbers
-        .map_init(none, |(known, particles), number| {
-            let (first, lane) = block::of(number);
-            if *known != Some(first) {
-                *known = Some(first);
-                candidates.block(first).particles(surface, particles);
-            }
-            particles[lane]
-        })
+    let indices = (0..count).into_par_iter().with_min_len(16 * LANES);
+    indices
+        .map_init(
+            || None::<(usize, [Particle; LANES])>,
+            |known, index| {
+                let (first, lane) = (index - index % LANES, index % LANES);
+                match known {
+                    Some((known, particles)) if *known == first => particles[lane],
+                    _ => {
+                        let particles = candidates.block_from(first as u32).particles(surface);
+                        known.insert((first, particles)).1[lane]
+                    }
+                }
+            },
+        )
         .collect()
 }
 
@@ -88,9 +92,15 @@ impl<'a> Candidates<'a> {
 
     /// The candidates from `first` on, side by side.
     #[inline]
-    fn block(&self, first: u32) -> Block {
+    fn block_from(&self, first: u32) -> Block {
+        self.block(&std::array::from_fn(|lane| first.wrapping_add(lane as u32)))
+    }
+
+    /// Some candidates, side by side.
+    #[inline]
+    fn block(&self, numbers: &[u32; LANES]) -> Block {
         let (steps, total) = (self.guide.len() - 1, self.surface.area());
-        Block::new((self.seed, first), (steps, total), |area, step| self.face(area, step) as u32)
+        Block::new((self.seed, numbers), (steps, total), |area, step| self.face(area, step) as u32)
     }
 
     /// Where a candidate lies: its face, and the weights of the face's second and third corner.
@@ -127,15 +137,26 @@ impl<'a> Candidates<'a> {
     /// The same of some.
     pub(super) fn darts(&self, numbers: Range<u32>) -> Vec<Dart> {
         let mut darts = Vec::with_capacity(numbers.len());
-        for first in numbers.clone().step_by(block::LANES) {
-            let block = self.block(first);
-            for (lane, number) in (first..numbers.end).take(block::LANES).enumerate() {
+        for first in numbers.clone().step_by(LANES) {
+            let block = self.block_from(first);
+            for (lane, number) in (first..numbers.end).take(LANES).enumerate() {
                 let (face, place) = block.place(lane);
                 let position = self.surface.position(face, place);
                 darts.push(Dart { position, face: face as u32, number });
             }
         }
         darts
+    }
+
+    /// The whole of some candidates.
+    pub(super) fn particles(&self, numbers: &[u32]) -> Vec<Particle> {
+        let mut particles = Vec::with_capacity(numbers.len());
+        for numbers in numbers.chunks(LANES) {
+            let mut all = [0; LANES];
+            all[..numbers.len()].copy_from_slice(numbers);
+            particles.extend_from_slice(&self.block(&all).particles(self.surface)[..numbers.len()]);
+        }
+        particles
     }
 
     /// The whole candidate.

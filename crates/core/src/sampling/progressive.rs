@@ -88,11 +88,11 @@ impl ProgressiveState {
             let numbers: Vec<u32> = kept.iter().map(|dart| dart.number).collect();
             kept.iter_mut().zip(particles.len() as u32..).for_each(|(dart, number)| dart.number = number);
             if kept.len() < LEAST_CHUNK {
-                particles.extend(numbers.iter().map(|&number| field.candidates.particle(number)));
+                particles.extend(field.candidates.particles(&numbers));
                 grid.insert(&kept);
             } else {
-                let chosen = numbers.par_iter().with_min_len(LEAST_CHUNK);
-                let chosen = chosen.map(|&number| field.candidates.particle(number));
+                let chosen = numbers.par_chunks(LEAST_CHUNK);
+                let chosen = chosen.flat_map_iter(|numbers| field.candidates.particles(numbers));
                 rayon::join(|| particles.par_extend(chosen), || grid.insert(&kept));
             }
             *thrown = level.end;

@@ -209,14 +209,19 @@ impl RotatingStrokes {
         Ok(())
     }
 
-    /// Lays a layer of paint; in several pieces where somebody may ask to stop.
-    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
-        let Some(targets) = &self.targets else { return Ok(()) };
-        let strokes = &input.frame.strokes[layer.first as usize..][..layer.count as usize];
-        if input.frame.quality == Quality::Exact && strokes.iter().any(|stroke| stroke.paint.pickup > 0) {
+    /// Keeps the picture as it is before a layer whose strokes take some of it up.
+    fn keep_below(&self, input: &StyleInput<'_>, layer: LayerRun) {
+        let Some(targets) = &self.targets else { return };
+        let picks_up = strokes_of(input, layer).iter().any(|stroke| stroke.paint.pickup > 0);
+        if input.frame.quality == Quality::Exact && picks_up {
             targets.paint_pass.copy_to(&targets.below_pass);
             self.gpu.lap("below");
         }
+    }
+
+    /// Lays a layer of paint; in several pieces where somebody may ask to stop.
+    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
+        let strokes = strokes_of(input, layer);
         let shaped = strokes.iter().any(Stroke::is_shaped);
         let mut first = layer.first;
         let most_px = if watch.may_stop() { PIECE_PX } else { f32::INFINITY };
@@ -364,9 +369,14 @@ impl Style for RotatingStrokes {
         watch.passed("resolve")?;
         if let Some(targets) = &self.targets {
             let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
+            self.gpu.begin_pass(&targets.below_pass, clear);
             self.gpu.begin_pass(targets.strokes_pass(frame.quality), clear);
         }
-        for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
+        for (index, &layer) in frame.layers.iter().filter(|layer| layer.count > 0).enumerate() {
+            // Below the first there is nothing.
+            if index > 0 {
+                self.keep_below(input, layer);
+            }
             self.paint(input, layer, watch)?;
         }
         self.encode(input, output, watch)
@@ -375,6 +385,10 @@ impl Style for RotatingStrokes {
     fn as_strokes(&self) -> Option<&RotatingStrokes> {
         Some(self)
     }
+}
+
+fn strokes_of<'a>(input: &'a StyleInput<'_>, layer: LayerRun) -> &'a [Stroke] {
+    &input.frame.strokes[layer.first as usize..][..layer.count as usize]
 }
 
 /// Numbers of strokes, one run after the other, whose quads cover at most about so many pixels each.
