@@ -16,13 +16,26 @@ pub(crate) trait Wide {
 
 /// Runs the work.
 #[inline]
-#[expect(unsafe_code, reason = "a function compiled for AVX2 may only be called where AVX2 was found")]
+#[expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 pub(crate) fn widest<W: Wide>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
-        // SAFETY: AVX2 was found on this processor.
-        return unsafe { with_avx2(work) };
+    {
+        use std::arch::is_x86_feature_detected as found;
+        if found!("avx512f") && found!("avx512vl") && found!("avx512dq") && found!("avx512bw") {
+            // SAFETY: all four were found on this processor.
+            return unsafe { with_avx512(work) };
+        }
+        if found!("avx2") {
+            // SAFETY: AVX2 was found on this processor.
+            return unsafe { with_avx2(work) };
+        }
     }
+    work.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+fn with_avx512<W: Wide>(work: W) -> W::Output {
     work.run()
 }
 
