@@ -41,9 +41,13 @@ impl BakedChunk<'_> {
     /// Sets a particle of the chunk: position and unit normal in model space, and its lift.
     #[inline]
     pub fn set(&mut self, index: usize, (position, normal): (DVec3, DVec3), lift: Lift) {
-        let numbers = [position, normal, lift.along, lift.across].map(|vector| vector.to_array());
-        for (array, number) in self.arrays.iter_mut().zip(numbers.into_iter().flatten()) {
-            array[index] = number as f32;
+        let Lift { along, across } = lift;
+        let numbers = [
+            [position.x, position.y, position.z, normal.x, normal.y, normal.z],
+            [along.x, along.y, along.z, across.x, across.y, across.z],
+        ];
+        for (array, number) in self.arrays.iter_mut().zip(numbers.as_flattened()) {
+            array[index] = *number as f32;
         }
     }
 }
