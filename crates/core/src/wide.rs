@@ -44,3 +44,43 @@ fn with_avx512<W: Wide>(work: W) -> W::Output {
 fn with_avx2<W: Wide>(work: W) -> W::Output {
     work.run()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Products and sums that would round otherwise if they were fused.
+    #[derive(Clone, Copy)]
+    struct Sums<'a>(&'a [[f32; 3]]);
+
+    impl Wide for Sums<'_> {
+        type Output = Vec<u32>;
+
+        #[inline(always)]
+        fn run(self) -> Vec<u32> {
+            self.0.iter().map(|[a, b, c]| (a * b + c).sqrt().to_bits()).collect()
+        }
+    }
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    #[expect(unsafe_code, reason = "each build is run where the processor has what it needs")]
+    fn every_build_gives_the_same_bits() {
+        use std::arch::is_x86_feature_detected as found;
+        let number = |index: u32| crate::hash::unit(crate::hash::scramble(index));
+        let numbers: Vec<[f32; 3]> =
+            (0..999).map(|index| [0, 1, 2].map(|place| number(3 * index + place))).collect();
+        let fused: Vec<u32> = numbers.iter().map(|[a, b, c]| a.mul_add(*b, *c).sqrt().to_bits()).collect();
+        let (work, expected) = (Sums(&numbers), Sums(&numbers).run());
+        assert_ne!(expected, fused, "fusing would show");
+        assert_eq!(widest(work), expected);
+        if found!("avx2") {
+            // SAFETY: AVX2 was found on this processor.
+            assert_eq!(unsafe { with_avx2(work) }, expected);
+        }
+        if found!("avx512f") && found!("avx512vl") && found!("avx512dq") && found!("avx512bw") {
+            // SAFETY: all four were found on this processor.
+            assert_eq!(unsafe { with_avx512(work) }, expected);
+        }
+    }
+}
