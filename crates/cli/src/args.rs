@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use impasto_measure::Metric;
+use impasto_scene::document::{Style, StyleInfo};
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
@@ -99,17 +101,20 @@ pub(crate) enum DriverChoice {
     Osmesa,
 }
 
-/// How a scene is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub(crate) enum StyleChoice {
-    /// Brush strokes.
-    RotatingStrokes,
-    /// Ink on paper.
-    #[value(name = "sumi_e", alias = "sumi-e")]
-    SumiE,
-    /// The plain render that strokes take their colours from.
-    Reference,
+/// Reads the name of a style.
+fn style_parser() -> impl TypedValueParser<Value = Style> {
+    let value = |info: &StyleInfo| {
+        let value = PossibleValue::new(info.file_name).help(info.summary);
+        info.alias.map_or(value.clone(), |alias| value.alias(alias))
+    };
+    let values: Vec<PossibleValue> = Style::all().iter().map(|style| value(style.info())).collect();
+    PossibleValuesParser::new(values).try_map(|name| {
+        let is_called = |style: &Style| {
+            let info = style.info();
+            info.file_name == name || info.alias == Some(&name)
+        };
+        Style::all().into_iter().find(is_called).ok_or("there is no such style")
+    })
 }
 
 /// How strokes turn.
@@ -193,8 +198,8 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) alpha: bool,
     /// A style in place of the scene's own.
-    #[arg(long, value_enum)]
-    pub(crate) style: Option<StyleChoice>,
+    #[arg(long, value_parser = style_parser())]
+    pub(crate) style: Option<Style>,
     /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame,
     /// mapped lays them on the surface as a texture.
     #[arg(long, value_enum, default_value_t)]

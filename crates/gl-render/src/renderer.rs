@@ -1,18 +1,21 @@
 //! The renderer: long-lived, fed with one plain frame after the other.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
 use impasto_painting::Frame;
-use impasto_painting::frame::{FrameStyle, FrameView, Strokes};
+use impasto_painting::frame::{FrameView, Strokes, Style};
 
 use crate::context::{Context, ContextReport};
-use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, Texture};
+use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, ShaderTexts, Texture};
+use crate::lighting::LightSetup;
 use crate::motion::{MotionPass, MotionPixels};
 use crate::overlays::light_billboards::{LightBillboard, LightBillboards};
-use crate::reference::{LightSetup, ReferencePass, ReferenceTargets, targets_of_size};
-use crate::shader_files::ShaderTexts;
-use crate::styles::{self, RotatingStrokes, Style, StyleInput};
+use crate::reference::ReferencePass;
+use crate::reference_targets::ReferenceTargets;
+use crate::style_renderer::{StyleInput, StyleRenderer};
+use crate::styles;
 use crate::watch::Watch;
 
 /// A finished picture.
@@ -84,7 +87,8 @@ pub enum RenderError {
 /// Draws frames. Belongs to the thread that made it.
 pub struct Renderer {
     // Styles, passes and targets go before the context that they were made in.
-    styles: HashMap<FrameStyle, Box<dyn Style>>,
+    /// By the style's name; each is created when the first frame is drawn in it.
+    styles: HashMap<&'static str, Box<dyn StyleRenderer>>,
     reference: ReferencePass,
     motion: Option<MotionPass>,
     targets: Option<ReferenceTargets>,
@@ -96,7 +100,8 @@ pub struct Renderer {
     billboards_pass: Option<LightBillboards>,
     /// A picture with billboards over it.
     with_billboards: Option<Framebuffer>,
-    last_style: FrameStyle,
+    /// Name of the style of the last frame.
+    last_style: Option<&'static str>,
     context: Context,
 }
 
@@ -118,7 +123,7 @@ impl Renderer {
             billboards: Vec::new(),
             billboards_pass: None,
             with_billboards: None,
-            last_style: FrameStyle::Reference,
+            last_style: None,
             context,
         })
     }
@@ -132,21 +137,22 @@ impl Renderer {
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
         let before = gpu.set_shaders(texts.clone());
-        let styles = [FrameStyle::RotatingStrokes, FrameStyle::SumiE, FrameStyle::Reference];
         let made = (|| {
             let mut reference = ReferencePass::new(&gpu)?;
             reference.ready_all()?;
-            let mut opened = HashMap::new();
-            for style in styles {
-                let mut made = styles::open(&gpu, style)?;
-                made.ready_all()?;
-                opened.insert(style, made);
+            let mut motion = MotionPass::new(&gpu)?;
+            motion.ready_all()?;
+            let mut renderers = HashMap::new();
+            for style in Style::all() {
+                let mut renderer = styles::open(&gpu, &style)?;
+                renderer.ready_all()?;
+                renderers.insert(style.info().name, renderer);
             }
-            Ok::<_, GlError>((reference, opened, LightBillboards::new(&gpu)?))
+            Ok::<_, GlError>((reference, motion, renderers, LightBillboards::new(&gpu)?))
         })();
         match made {
-            Ok((reference, styles, billboards)) => {
-                (self.reference, self.styles, self.motion) = (reference, styles, None);
+            Ok((reference, motion, renderers, billboards)) => {
+                (self.reference, self.styles, self.motion) = (reference, renderers, Some(motion));
                 (self.billboards_pass, self.last_view) = (Some(billboards), None);
                 Ok(())
             }
@@ -257,7 +263,7 @@ impl Renderer {
             };
             let pass = self.billboards_pass.insert(pass);
             let reference = self.targets.as_ref().expect("the reference picture was drawn before");
-            pass.draw(&self.billboards, view, (over, &reference.depth_and_id))?;
+            pass.draw(&self.billboards, view, over, &reference.depth_and_id)?;
             gpu.lap("billboards");
             shown = over;
         }
@@ -269,7 +275,7 @@ impl Renderer {
 
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
         self.last_view = None;
-        let targets = targets_of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
+        let targets = ReferenceTargets::of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
         self.reference.draw(frame, targets, watch)
     }
@@ -289,12 +295,14 @@ impl Renderer {
             _ => output_target(gpu, frame.size_px)?,
         };
         let output = self.output.insert(output);
-        self.last_style = frame.style;
-        let style = match self.styles.entry(frame.style) {
-            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => entry.insert(styles::open(gpu, frame.style)?),
+        let name = frame.style.info().name;
+        self.last_style = Some(name);
+        let style = match self.styles.entry(name) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(styles::open(gpu, &frame.style)?),
         };
-        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies }, output, watch)?;
+        let tiles = self.reference.drawn_tiles();
+        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies, tiles }, output, watch)?;
         self.last_view = Some(frame.view);
         Ok(self.read_output(&frame.view)?)
     }
@@ -344,10 +352,7 @@ impl Renderer {
 
     /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.
     pub fn resolved_strokes(&self) -> Vec<ResolvedStroke> {
-        if self.context.gpu().make_current().is_err() {
-            return Vec::new();
-        }
-        let resolved = self.styles.get(&self.last_style).map_or_else(Vec::new, |style| style.read_resolved());
+        let resolved = self.last_renderer().map_or_else(Vec::new, |style| style.read_resolved());
         resolved
             .into_iter()
             .map(|[r, g, b, alpha, x, y, ..]| ResolvedStroke {
@@ -372,15 +377,14 @@ impl Renderer {
 
     /// The paint of the last frame without its ground: premultiplied, display-linear, top row first.
     pub fn read_paint(&self) -> Vec<[f32; 4]> {
-        let (Some(strokes), Some(output)) = (self.strokes(), &self.output) else { return Vec::new() };
-        top_row_first(&strokes.read_paint(), output.size_px()[0] as usize)
+        let (Some(style), Some(output)) = (self.last_renderer(), &self.output) else { return Vec::new() };
+        top_row_first(&style.read_paint(), output.size_px()[0] as usize)
     }
 
-    fn strokes(&self) -> Option<&RotatingStrokes> {
-        if self.context.gpu().make_current().is_err() {
-            return None;
-        }
-        self.styles.get(&self.last_style)?.as_strokes()
+    /// The renderer of the last frame's style, ready to be read from.
+    fn last_renderer(&self) -> Option<&dyn StyleRenderer> {
+        self.context.gpu().make_current().ok()?;
+        self.styles.get(self.last_style?).map(Box::as_ref)
     }
 }
 

@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::ShaderTexts;
+use crate::gl::ShaderTexts;
 
 /// More than this is no shader.
 const MOST_BYTES: u64 = 1 << 20;

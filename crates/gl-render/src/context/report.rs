@@ -121,7 +121,9 @@ impl fmt::Display for ContextReport {
 
 pub(super) fn describe(
     gpu: &Gpu,
-    (driver, way, device): (Driver, &'static str, String),
+    driver: Driver,
+    way: &'static str,
+    device: String,
     tried: Vec<FailedAttempt>,
 ) -> ContextReport {
     let limits = gpu.limits();

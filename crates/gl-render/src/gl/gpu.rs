@@ -7,9 +7,7 @@ use std::time::Instant;
 
 use glow::HasContext as _;
 
-use super::GlError;
-use crate::context::{DriverMessages, Platform};
-use crate::shader_files::ShaderTexts;
+use super::{DriverMessages, GlError, Platform, ShaderTexts};
 
 /// A context, shared by everything that was made in it; it goes away after the last of them.
 #[derive(Clone)]

@@ -1,8 +1,7 @@
 //! Shader files: `#include`, and driver messages that name our files and lines.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
-
-use crate::shader_files::ShaderTexts;
 
 /// A shader file that is part of the program.
 #[derive(Clone, Copy, Debug)]
@@ -11,6 +10,22 @@ pub(crate) struct ShaderFile {
     pub path: &'static str,
     /// The whole text.
     pub text: &'static str,
+}
+
+/// Texts that replace some of the program's own shader files, for people who work on a look of their own.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ShaderTexts(pub(crate) BTreeMap<&'static str, String>);
+
+impl ShaderTexts {
+    /// Whether nothing is replaced.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The text that replaces the file at this path.
+    pub(crate) fn get(&self, path: &str) -> Option<&str> {
+        self.0.get(path).map(String::as_str)
+    }
 }
 
 /// A file with its includes put in.

@@ -87,11 +87,10 @@ fn camera_axes(view: &FrameView) -> [Vec3; 2] {
     [view.view_from_world.row(0), view.view_from_world.row(1)].map(|row| row.truncate())
 }
 
-const BILLBOARD: ProgramSource = ProgramSource {
-    vertex: "light_billboards/billboard.vert",
-    fragment: Some("light_billboards/billboard.frag"),
-    captured: &[],
-    uniforms: &[
+const BILLBOARD: ProgramSource = ProgramSource::new(
+    "light_billboards/billboard.vert",
+    Some("light_billboards/billboard.frag"),
+    &[&[
         "corner_00",
         "corner_01",
         "corner_10",
@@ -107,9 +106,8 @@ const BILLBOARD: ProgramSource = ProgramSource {
         "ink",
         "depth",
         "softness",
-    ],
-    defined: &[],
-};
+    ]],
+);
 
 /// Straight pieces of a ring.
 const RING_PIECES: u32 = 64;
@@ -147,7 +145,8 @@ impl LightBillboards {
         &self,
         billboards: &[LightBillboard],
         view: &FrameView,
-        (output, depth_and_id): (&Framebuffer, &Texture),
+        output: &Framebuffer,
+        depth_and_id: &Texture,
     ) -> Result<(), GlError> {
         let mut seen: Vec<(f32, &LightBillboard, [Vec3; 4])> = billboards
             .iter()
