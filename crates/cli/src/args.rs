@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use impasto_measure::Metric;
-use impasto_scene::document::{Style, StyleInfo};
+use impasto_scene::document::Style;
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
@@ -101,20 +101,13 @@ pub(crate) enum DriverChoice {
     Osmesa,
 }
 
-/// Reads the name of a style.
-fn style_parser() -> impl TypedValueParser<Value = Style> {
-    let value = |info: &StyleInfo| {
-        let value = PossibleValue::new(info.file_name).help(info.summary);
-        info.alias.map_or(value.clone(), |alias| value.alias(alias))
+/// The names of all styles.
+fn style_names() -> PossibleValuesParser {
+    let name = |style: &Style| {
+        let info = style.info();
+        PossibleValue::new(info.file_name).help(info.summary).aliases(info.alias)
     };
-    let values: Vec<PossibleValue> = Style::all().iter().map(|style| value(style.info())).collect();
-    PossibleValuesParser::new(values).try_map(|name| {
-        let is_called = |style: &Style| {
-            let info = style.info();
-            info.file_name == name || info.alias == Some(&name)
-        };
-        Style::all().into_iter().find(is_called).ok_or("there is no such style")
-    })
+    Style::all().iter().map(name).collect::<Vec<_>>().into()
 }
 
 /// How strokes turn.
@@ -198,8 +191,8 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) alpha: bool,
     /// A style in place of the scene's own.
-    #[arg(long, value_parser = style_parser())]
-    pub(crate) style: Option<Style>,
+    #[arg(long, value_parser = style_names())]
+    pub(crate) style: Option<String>,
     /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame,
     /// mapped lays them on the surface as a texture.
     #[arg(long, value_enum, default_value_t)]

@@ -12,6 +12,7 @@ use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Picture, Renderer};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
+use impasto_scene::document::Style;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
@@ -71,10 +72,10 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         loaded = impasto_measure::turntable(&loaded);
     }
     // A scene that is in this style already keeps its settings.
-    if let Some(style) = &arguments.style
+    if let Some(style) = arguments.style.as_deref().and_then(Style::named)
         && style.info() != loaded.scene.style.info()
     {
-        loaded.scene.style = style.clone();
+        loaded.scene.style = style;
     }
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));

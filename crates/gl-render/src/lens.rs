@@ -12,7 +12,7 @@ pub(crate) const LENS_UNIFORMS: [&str; 4] =
 /// The same for shaders that stay in view space.
 pub(crate) const VIEW_LENS_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
 
-/// Their values in one frame.
+/// The values of these uniforms in one frame.
 #[derive(Clone, Copy)]
 pub(crate) struct LensSetup {
     world_from_view: Mat4,

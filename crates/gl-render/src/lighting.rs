@@ -20,7 +20,7 @@ pub(crate) const LIGHT_UNIFORMS: [&str; 8] = [
     "ambient_below",
 ];
 
-/// Their values in one frame.
+/// The values of these uniforms in one frame.
 pub(crate) struct LightSetup {
     /// A column for each light: the first row says where it is, the second what it radiates.
     lights: Texture,

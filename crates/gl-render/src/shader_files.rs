@@ -1,4 +1,4 @@
-//! The shader files, part of the binary, so that an install cannot lose them.
+//! The shader files, built into the binary so that an installation cannot lose them.
 
 use crate::gl::{ShaderFile, ShaderTexts};
 
@@ -24,7 +24,7 @@ impl ShaderTexts {
     }
 }
 
-/// All of them.
+/// All shader files.
 const ALL: &[&[ShaderFile]] =
     &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES, SUMI_E, NOISE_DISPLACE];
 

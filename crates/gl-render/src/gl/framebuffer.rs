@@ -1,4 +1,4 @@
-//! What is drawn into.
+//! Framebuffers: textures that passes draw into.
 
 use std::rc::Rc;
 
@@ -6,7 +6,7 @@ use glow::{HasContext as _, PixelPackData};
 
 use super::{Format, GlError, Gpu, Texture};
 
-/// Textures that are drawn into together.
+/// Textures that a pass draws into together.
 pub(crate) struct Framebuffer {
     gpu: Gpu,
     id: glow::Framebuffer,
@@ -105,7 +105,7 @@ impl Framebuffer {
 
     fn read(&self, color: usize, format: u32, kind: u32, bytes: &mut [u8]) {
         let gl = self.gpu.gl();
-        // SAFETY: the context is current; both callers hand as many bytes as the format takes, rows without padding.
+        // SAFETY: the context is current; both callers pass as many bytes as the format takes, rows without padding.
         unsafe {
             gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(self.id));
             gl.read_buffer(glow::COLOR_ATTACHMENT0 + color as u32);

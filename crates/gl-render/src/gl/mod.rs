@@ -1,4 +1,4 @@
-//! The OpenGL that Impasto needs, as safe types: nothing above this module can call OpenGL any other way.
+//! The part of OpenGL that Impasto needs, as safe types. The rest of the crate calls OpenGL only through them.
 
 #![expect(
     unsafe_code,

@@ -1,4 +1,4 @@
-//! Shader programs whose uniforms are known by name and checked once.
+//! Shader programs. Their uniforms are set by name, and the names are checked when the program is created.
 
 use std::cell::Cell;
 
@@ -144,7 +144,7 @@ impl Program {
         }
     }
 
-    /// Finds every uniform that the linked program has, and gives each sampler a texture unit of its own.
+    /// Lists the uniforms of the linked program, and gives each sampler a texture unit of its own.
     fn reflect(&mut self) {
         let gl = self.gpu.gl();
         let mut next_unit = 0;
@@ -198,7 +198,7 @@ impl Program {
         GlError::Uniform { program: self.name.clone(), uniform: uniform.to_owned(), fault }
     }
 
-    /// Starts a draw. Textures must be bound for every draw; values stay until they are set again.
+    /// Starts a draw. Textures must be bound for every draw; other values stay until they are set again.
     pub(crate) fn bind(&self) -> Bound<'_> {
         // SAFETY: the context is current and the program is linked.
         unsafe { self.gpu.gl().use_program(Some(self.id)) };

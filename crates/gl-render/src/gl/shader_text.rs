@@ -1,4 +1,4 @@
-//! Shader files: `#include`, and driver messages that name our files and lines.
+//! Shader texts: `#include`, and driver messages that name our files and lines.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -32,18 +32,18 @@ impl ShaderTexts {
 #[derive(Debug)]
 pub(super) struct Expanded {
     pub text: String,
-    /// Paths by the number that `#line` gives to the compiler.
+    /// Paths, in the order of the numbers that `#line` gives to the compiler.
     paths: Vec<&'static str>,
 }
 
-/// Files, and texts that stand in for some of them.
+/// Files, and texts that replace some of them.
 #[derive(Clone, Copy)]
 pub(super) struct Sources<'a> {
     pub files: &'a [&'a [ShaderFile]],
     pub replaced: &'a ShaderTexts,
 }
 
-/// Puts every `#include "path"` in, each file once, after `#define`s of these names. Paths start at `shaders/`.
+/// `#define`s these names, then replaces every `#include "path"` by its file, each file once. Paths start at `shaders/`.
 pub(super) fn expand(sources: Sources<'_>, path: &str, defined: &[&str]) -> Result<Expanded, String> {
     let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
     for name in defined {
@@ -92,7 +92,7 @@ fn included(line: &str) -> Option<&str> {
 }
 
 impl Expanded {
-    /// Puts our file names into the compiler's words: `1:12(5)`, `1(12)` and `ERROR: 1:12` all become `path:12`.
+    /// Puts our file names into the compiler's messages: `1:12(5)`, `1(12)` and `ERROR: 1:12` all become `path:12`.
     pub(super) fn name_places(&self, log: &str) -> String {
         log.lines().map(|line| self.name_place(line)).collect::<Vec<_>>().join("\n").trim().to_owned()
     }

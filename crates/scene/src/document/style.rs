@@ -30,6 +30,12 @@ impl Style {
         [Self::default(), Self::SumiE(SumiE::default()), Self::Reference]
     }
 
+    /// The style of this name on the command line, with its usual settings.
+    pub fn named(name: &str) -> Option<Self> {
+        let is_called = |info: &StyleInfo| info.file_name == name || info.alias == Some(name);
+        Self::all().into_iter().find(|style| is_called(style.info()))
+    }
+
     /// The settings, as every style has them.
     pub fn settings(&self) -> &dyn StyleSettings {
         match self {
@@ -119,6 +125,7 @@ mod tests {
         for (index, style) in styles.iter().enumerate() {
             let info = style.info();
             assert!(Style::EXAMPLES.contains(info.name), "{} is not among the examples", info.name);
+            assert_eq!(Style::named(info.file_name).as_ref(), Some(style));
             assert!(info.preset.is_none_or(|preset| presets::names().any(|name| name == preset)));
             for other in styles[..index].iter().map(Style::info) {
                 assert!(other.name != info.name && other.file_name != info.file_name);
