@@ -11,7 +11,7 @@ uniform vec3 to_light;               // unit, in the picture's space
 uniform vec4 canvas_axes;            // canvas tiles per pixel: along x, along y
 uniform vec2 canvas_origin;          // canvas tiles at the picture's lower left corner
 #endif
-uniform vec4 ground;                 // premultiplied, display-linear
+uniform vec4 background;             // premultiplied, display-linear
 #ifndef DRAFT
 uniform vec4 tone;                   // of the ground under paint, and how far it hides a wash of the body's colour
 #endif
@@ -35,7 +35,7 @@ vec4 toned_ground(ivec2 at) {
     float hides = wash;
 #endif
     // Ground that is left out (transparent) stays out.
-    return vec4(mix(ground.rgb, under, hides * body.a * ground.a), ground.a);
+    return vec4(mix(background.rgb, under, hides * body.a * background.a), background.a);
 }
 
 #ifndef DRAFT

@@ -4,7 +4,7 @@
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D wide;          // the same, run far
 uniform sampler2D strokes;       // what ink takes away, and how often it was gone over
-uniform vec4 ground;             // alpha 0 where the paper is left out
+uniform vec4 background;         // alpha 0 where the paper is left out
 uniform vec3 ink;
 uniform vec3 seal;
 uniform vec4 amounts;            // of the wash, of strokes, density, silhouette
@@ -64,7 +64,7 @@ void main() {
     vec3 washed = amounts.x > 0.0 ? wash_at(at, here, slow) : vec3(0.0);
     vec3 drawn = amounts.y > 0.0 ? amounts.y * strokes_at(here) : vec3(0.0);
     vec3 through = (1.0 - washed) * (1.0 - drawn);
-    if (ground.a > 0.0) {
+    if (background.a > 0.0) {
         laid = vec4(bare_paper(here) * through, 1.0);
         return;
     }

@@ -2,7 +2,7 @@
 #include "sumi_e/paper.glsl"
 uniform sampler2D interior;
 uniform sampler2D silhouette;
-uniform vec4 ground;             // alpha 0 where the paper is left out
+uniform vec4 background;         // alpha 0 where the paper is left out
 
 out vec4 mixed;
 
@@ -23,7 +23,7 @@ float at_corner(sampler2D picture, bool wraps) {
 void main() {
     vec3 c1 = vec3(at_corner(interior, false));
     vec3 c2 = vec3(at_corner(silhouette, true));
-    vec3 c3 = ground.a > 0.0 ? bare_paper(felt(paper_at(gl_FragCoord.xy))) : vec3(1.0);
+    vec3 c3 = background.a > 0.0 ? bare_paper(felt(paper_at(gl_FragCoord.xy))) : vec3(1.0);
     vec3 laid = 1.0 - clamp((1.0 - c1) + (1.0 - c2) + (1.0 - c3), 0.0, 1.0);
-    mixed = ground.a > 0.0 ? vec4(laid, 1.0) : vec4(vec3(0.0), 1.0 - laid.r);
+    mixed = background.a > 0.0 ? vec4(laid, 1.0) : vec4(vec3(0.0), 1.0 - laid.r);
 }

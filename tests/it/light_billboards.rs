@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use glam::{Mat4, Vec3};
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{BillboardIcon, BillboardSize, LightBillboard, Picture};
-use impasto_painting::frame::{Frame, FrameStyle};
+use impasto_painting::frame::{Frame, Style};
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::document::{Lens, ObjectKey, Scale};
 use impasto_tests::pictures::renderer;
@@ -28,7 +28,7 @@ fn painting(lens: Lens) -> Frame {
     let mut scene = shapes::scene(vec![wall]);
     scene.camera.lens = lens;
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(1)])).unwrap();
-    painting.in_style(FrameStyle::Reference).at(0.0, &FrameOptions::new(SIZE_PX))
+    painting.in_style(Style::Reference).at(0.0, &FrameOptions::new(SIZE_PX))
 }
 
 fn lamp(position: Vec3) -> LightBillboard {

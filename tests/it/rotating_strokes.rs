@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Picture, RenderError, Renderer};
-use impasto_painting::frame::{Brushes, Finish, FrameStyle, LayerKind, LayerRun, Stroke, StrokeSource};
+use impasto_painting::frame::{Brushes, Finish, LayerKind, LayerRun, Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, prepare};
 use impasto_scene::document::Canvas;
 use impasto_scene::document::{Color, MaterialOverride, ObjectKey, RotatingStrokes, Scale, Scene, Style};
@@ -472,6 +472,6 @@ fn odd_sizes_and_empty_frames_are_drawn() {
     huge.size_px = [1_000_000, 2];
     assert!(matches!(renderer.render(&huge), Err(RenderError::TooLarge { .. })));
     let mut plain = painting.at(0.0, &options([64, 36]));
-    plain.style = FrameStyle::Reference;
+    plain.style = Style::Reference;
     assert!(renderer.render(&plain).unwrap().rgba8.chunks(4).any(|pixel| pixel[0] == 255 && pixel[1] == 0));
 }

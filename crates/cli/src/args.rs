@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use impasto_measure::Metric;
+use impasto_scene::document::Style;
 
 /// Paints 3D scenes with brush strokes that turn with what they lie on.
 #[derive(Debug, Parser)]
@@ -99,17 +101,13 @@ pub(crate) enum DriverChoice {
     Osmesa,
 }
 
-/// How a scene is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub(crate) enum StyleChoice {
-    /// Brush strokes.
-    RotatingStrokes,
-    /// Ink on paper.
-    #[value(name = "sumi_e", alias = "sumi-e")]
-    SumiE,
-    /// The plain render that strokes take their colours from.
-    Reference,
+/// The names of all styles.
+fn style_names() -> PossibleValuesParser {
+    let name = |style: &Style| {
+        let info = style.info();
+        PossibleValue::new(info.file_name).help(info.summary).aliases(info.alias)
+    };
+    Style::all().iter().map(name).collect::<Vec<_>>().into()
 }
 
 /// How strokes turn.
@@ -193,8 +191,8 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) alpha: bool,
     /// A style in place of the scene's own.
-    #[arg(long, value_enum)]
-    pub(crate) style: Option<StyleChoice>,
+    #[arg(long, value_parser = style_names())]
+    pub(crate) style: Option<String>,
     /// How strokes turn, for comparison: off leaves them as in the reference pose, random turns them anew in each frame,
     /// mapped lays them on the surface as a texture.
     #[arg(long, value_enum, default_value_t)]

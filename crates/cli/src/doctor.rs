@@ -6,8 +6,7 @@ use std::sync::Arc;
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{ContextReport, Driver, Mend, OpenOptions, open};
 use impasto_painting::frame::{
-    Brushes, Finish, Frame, FrameLights, FrameStyle, FrameView, LayerKind, LayerRun, Quality, Stroke,
-    StrokeSource,
+    Brushes, Finish, Frame, FrameLights, FrameView, LayerKind, LayerRun, Quality, Stroke, StrokeSource, Style,
 };
 
 use crate::args::DoctorArguments;
@@ -157,8 +156,7 @@ fn test_frame() -> Frame {
         brushes: Arc::new(Brushes::of_names(&["flat"])),
         palettes: Arc::default(),
         finish: Finish::default(),
-        style: FrameStyle::RotatingStrokes,
-        sumi_e: None,
+        style: Style::default(),
         quality: Quality::Exact,
     }
 }

@@ -12,10 +12,10 @@ use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::shader_folder::ShaderFolder;
 use impasto_gl_render::{Picture, Renderer};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
-use impasto_scene::document::{Style, SumiE};
+use impasto_scene::document::Style;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::args::{ColorsChoice, RenderArguments, RotationChoice, StyleChoice};
+use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::failure::Failure;
 use crate::in_order::{Workers, in_order};
 use crate::movie::{self, Movie};
@@ -71,15 +71,11 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     if arguments.turntable {
         loaded = impasto_measure::turntable(&loaded);
     }
-    match arguments.style {
-        Some(StyleChoice::Reference) => loaded.scene.style = Style::Reference,
-        Some(StyleChoice::RotatingStrokes) if !matches!(loaded.scene.style, Style::RotatingStrokes(_)) => {
-            loaded.scene.style = Style::default();
-        }
-        Some(StyleChoice::SumiE) if !matches!(loaded.scene.style, Style::SumiE(_)) => {
-            loaded.scene.style = Style::SumiE(SumiE::default());
-        }
-        Some(StyleChoice::RotatingStrokes | StyleChoice::SumiE) | None => {}
+    // A scene that is in this style already keeps its settings.
+    if let Some(style) = arguments.style.as_deref().and_then(Style::named)
+        && style.info() != loaded.scene.style.info()
+    {
+        loaded.scene.style = style;
     }
     let timeline = &loaded.scene.timeline;
     let frames = frames.unwrap_or_else(|| FrameList::whole(timeline.first, timeline.last));

@@ -34,13 +34,7 @@ type Question = [Vec2; 5];
 fn found_by(driver: Driver, questions: &[Question]) -> Vec<[f32; 2]> {
     let context = open(driver, &OpenOptions { debug: true }).unwrap_or_else(|error| panic!("{error}"));
     let gpu = context.gpu();
-    let source = ProgramSource {
-        vertex: "probe.vert",
-        fragment: None,
-        captured: &["found"],
-        uniforms: &[],
-        defined: &[],
-    };
+    let source = ProgramSource { captured: &["found"], ..ProgramSource::new("probe.vert", None, &[]) };
     let program = Program::new(gpu, &[PROBE, SHARED], &source).expect("it compiles");
     let mut input = Buffer::new(gpu, BufferUse::Fixed).expect("there is room");
     input

@@ -1,35 +1,33 @@
-//! What strokes of any style are made of on the GPU: their records as inputs of shaders, and brush marks: every mark of every brush
-//! a layer of one array, with levels, so that small strokes show no comb.
+//! Brush marks on the GPU: an array texture with a layer for each mark of each brush, with levels, so that small strokes show
+//! no comb.
 
 mod bounds;
 
 use std::sync::Arc;
 
 use impasto_core::brush::{Mark, SIZE, VARIANTS};
-use impasto_painting::frame::{Brushes, Stroke};
+use impasto_painting::frame::Brushes;
 use rayon::prelude::*;
 
-use crate::gl::{Attribute, Buffer, Format, GlError, Gpu, Texture};
+use crate::gl::{Format, GlError, Gpu, Texture};
+use bounds::Texel;
 
-/// The marks of the brushes of some frame, kept while frames use the same.
+/// The marks of a frame's brushes; uploaded again only when the brushes change.
 pub(crate) struct Marks {
     brushes: Arc<Brushes>,
     pub(crate) texture: Texture,
-    /// For each mark a row: where there is more paint than so much.
+    /// A row for each mark: the box around all texels with more than a given amount of paint.
     pub(crate) bounds: Texture,
 }
 
-/// Paint, height, tint, unused.
-type Texel = [u8; 4];
-
 impl Marks {
-    /// Those of `brushes`; uploads them unless `kept` already are.
-    pub(crate) fn of(gpu: &Gpu, kept: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
-        if let Some(kept) = kept
-            && (Arc::ptr_eq(&kept.brushes, brushes)
-                || kept.brushes.names == brushes.names && kept.brushes == *brushes)
+    /// The marks of `brushes`: those of `before` where the brushes are the same, else uploaded.
+    pub(crate) fn of(gpu: &Gpu, before: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
+        if let Some(before) = before
+            && (Arc::ptr_eq(&before.brushes, brushes)
+                || before.brushes.names == brushes.names && before.brushes == *brushes)
         {
-            return Ok(kept);
+            return Ok(before);
         }
         let marks: Vec<&Mark> = brushes.marks.iter().flat_map(|marks| marks.iter()).collect();
         let texels = |mark: &&Mark| -> Vec<Texel> {
@@ -50,7 +48,7 @@ impl Marks {
     }
 }
 
-/// All marks of a level behind each other, finest level first.
+/// For each level, finest first, the texels of all marks one after the other.
 fn levels(mut layers: Vec<Vec<Texel>>) -> Vec<Vec<u8>> {
     if layers.is_empty() {
         layers.push(vec![[0; 4]; SIZE[0] * SIZE[1]]);
@@ -70,7 +68,7 @@ fn levels(mut layers: Vec<Vec<Texel>>) -> Vec<Vec<u8>> {
     }
 }
 
-/// Box filter to the next level.
+/// The next coarser level: means of four texels.
 fn halved(texels: &[Texel], size: [usize; 2], half: [usize; 2]) -> Vec<Texel> {
     let mut smaller = Vec::with_capacity(half[0] * half[1]);
     for y in 0..half[1] {
@@ -86,51 +84,6 @@ fn halved(texels: &[Texel], size: [usize; 2], half: [usize; 2]) -> Vec<Texel> {
         }
     }
     smaller
-}
-
-/// Bytes of what the resolve pass of a style keeps of a stroke: its colour and presence, then what else the style found.
-pub(crate) const RESOLVED_BYTES: usize = 32;
-
-/// What was resolved of strokes from number `first` on, one for each billboard.
-pub(crate) fn resolved_inputs(resolved: &Buffer, first: i32) -> [Attribute<'_>; 2] {
-    let stride = RESOLVED_BYTES as i32;
-    [(6, 0), (7, 16)].map(|(location, offset)| Attribute {
-        location,
-        buffer: resolved,
-        components: 4,
-        integer: false,
-        stride_bytes: stride,
-        offset_bytes: first * stride + offset,
-        per_instance: true,
-    })
-}
-
-/// The fields of [`Stroke`] as shader inputs, from stroke `first` on.
-pub(crate) fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribute<'_>> {
-    let stride = size_of::<Stroke>() as i32;
-    let input = |location: u32, components: i32, offset: usize, integer: bool| Attribute {
-        location,
-        buffer,
-        components,
-        integer,
-        stride_bytes: stride,
-        offset_bytes: first * stride + offset as i32,
-        per_instance,
-    };
-    vec![
-        input(0, 4, std::mem::offset_of!(Stroke, center_px), false),
-        input(1, 4, std::mem::offset_of!(Stroke, length_px), false),
-        input(2, 4, std::mem::offset_of!(Stroke, bits), true),
-        input(3, 2, std::mem::offset_of!(Stroke, paint), true),
-        input(4, 4, std::mem::offset_of!(Stroke, normal_in_world), false),
-        input(5, 4, std::mem::offset_of!(Stroke, overrun_px), false),
-    ]
-}
-
-/// The shape of strokes from number `first` on, beside another of their inputs.
-pub(crate) fn shape_input<'a>(beside: &Attribute<'a>, first: i32) -> Attribute<'a> {
-    let offset = first * size_of::<Stroke>() as i32 + std::mem::offset_of!(Stroke, taper) as i32;
-    Attribute { location: 8, components: 2, offset_bytes: offset, ..*beside }
 }
 
 #[cfg(test)]

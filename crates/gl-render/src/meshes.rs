@@ -1,4 +1,4 @@
-//! Surfaces on the GPU, kept as long as some frame holds them.
+//! Surfaces on the GPU: each is uploaded once and stays until no frame uses it any more.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -7,9 +7,15 @@ use std::sync::{Arc, Weak};
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use impasto_core::shells::Side;
-use impasto_painting::frame::BodySurface;
+use impasto_painting::frame::{BodySurface, FrameBody};
 
-use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, VertexArray};
+use crate::gl::{Attribute, Buffer, BufferUse, Format, GlError, Gpu, Texture, VertexArray, Vertices};
+
+/// A body of a frame, with its surface on the GPU.
+pub(crate) struct DrawnBody<'a> {
+    pub(crate) body: &'a FrameBody,
+    pub(crate) mesh: Rc<MeshOnGpu>,
+}
 
 /// One uploaded surface.
 pub(crate) struct MeshOnGpu {
@@ -17,13 +23,13 @@ pub(crate) struct MeshOnGpu {
     pub(crate) parts: Vec<Part>,
     vertices: Buffer,
     _indices: Buffer,
-    /// Made when the first draft is drawn.
+    /// Created when the first draft is drawn.
     front: RefCell<Option<FrontFaces>>,
-    /// Least and greatest corner, model space.
+    /// Lowest and highest corner of the bounding box, model space.
     pub(crate) bounds: Option<(Vec3, Vec3)>,
 }
 
-/// The triangles of a mesh that may show, looked for anew in each draft.
+/// The triangles of a mesh that face the eye, found anew for each draft.
 struct FrontFaces {
     array: Rc<VertexArray>,
     indices: Buffer,
@@ -33,10 +39,17 @@ struct FrontFaces {
 pub(crate) struct Part {
     pub(crate) first_index: u32,
     pub(crate) index_count: u32,
-    /// The same as the mesh counts them.
+    /// The same triangles, as the mesh numbers them.
     triangles: Vec<u32>,
     pub(crate) material: usize,
     pub(crate) texture: Rc<Texture>,
+}
+
+impl Part {
+    /// What to draw of the mesh for this part.
+    pub(crate) fn vertices(&self) -> Vertices {
+        Vertices::Indexed { first: self.first_index, count: self.index_count }
+    }
 }
 
 /// All surfaces on the GPU.
@@ -51,13 +64,13 @@ struct Vertex {
     position: [f32; 3],
     normal: [f32; 3],
     uv: [f32; 2],
-    /// Where a morph takes the vertex; its own position and normal without one.
+    /// Where the morph takes the vertex; without a morph, its own position and normal.
     target_position: [f32; 3],
     target_normal: [f32; 3],
 }
 
 impl MeshOnGpu {
-    /// Whether an eye (as in [`MeshOnGpu::front`]) is outside the box round the mesh, by a little more than nothing.
+    /// Whether an eye (as in [`MeshOnGpu::front`]) is clearly outside the mesh's bounding box.
     pub(crate) fn is_outside(&self, eye_in_model: Vec4) -> bool {
         let Some((low, high)) = self.bounds else { return true };
         let margin = (high - low) * 0.05;
@@ -65,8 +78,8 @@ impl MeshOnGpu {
         eye_in_model.w == 0.0 || eye.cmplt(low - margin).any() || eye.cmpgt(high + margin).any()
     }
 
-    /// The triangles that may show to an eye (model space, w 0 where it is a far one's direction), and where those of each
-    /// part begin and how many indices they have. On a closed shell those that turn away are hidden behind the others.
+    /// The triangles that face an eye (model space; w is 0 for parallel rays, and the eye then a direction), with the first
+    /// index and the number of indices of each part. On a closed shell, triangles that face away are hidden by the others.
     pub(crate) fn front(
         &self,
         gpu: &Gpu,
@@ -93,17 +106,17 @@ impl MeshOnGpu {
             ranges.push([first, indices.len() - first].map(|count| count as u32 * 3));
         }
         let mut front = self.front.borrow_mut();
-        let kept = match front.take() {
-            Some(kept) => kept,
+        let faces = match front.take() {
+            Some(faces) => faces,
             None => {
                 let indices = Buffer::new(gpu, BufferUse::Streamed)?;
                 let array = VertexArray::new(gpu, &inputs(&self.vertices), Some(&indices))?;
                 FrontFaces { array: Rc::new(array), indices }
             }
         };
-        let kept = front.insert(kept);
-        kept.indices.upload(bytemuck::cast_slice(&indices))?;
-        Ok((Rc::clone(&kept.array), ranges))
+        let faces = front.insert(faces);
+        faces.indices.upload(bytemuck::cast_slice(&indices))?;
+        Ok((Rc::clone(&faces.array), ranges))
     }
 }
 
@@ -132,7 +145,7 @@ impl MeshCache {
         Ok(Self { entries: Vec::new(), white: Rc::new(white) })
     }
 
-    /// The surface on the GPU; uploads it the first time, and forgets surfaces that nobody holds any more.
+    /// The surface on the GPU. Uploads it the first time, and frees surfaces that no frame uses any more.
     pub(crate) fn get(&mut self, gpu: &Gpu, surface: &Arc<BodySurface>) -> Result<Rc<MeshOnGpu>, GlError> {
         let here = |weak: &Weak<BodySurface>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(surface));
         if let Some((_, mesh)) = self.entries.iter().find(|(weak, _)| here(weak)) {
@@ -154,7 +167,7 @@ impl MeshCache {
             .map(|index| Vertex {
                 position: mesh.positions[index].to_array(),
                 normal: mesh.normals[index].to_array(),
-                // Without texture coordinates, noise lies along X and Y; nothing else looks at them.
+                // Without texture coordinates, noise is laid along X and Y; nothing else reads these.
                 uv: mesh.uvs.get(index).copied().unwrap_or(mesh.positions[index].truncate()).to_array(),
                 target_position: target_positions[index].to_array(),
                 target_normal: target_normals[index].to_array(),

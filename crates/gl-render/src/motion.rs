@@ -1,14 +1,13 @@
-//! The motion pass: how far every surface point that shows in one picture lies from its place in another. For measuring, not
-//! for painting.
+//! The motion pass: how far each visible surface point moves from one picture to another. For measuring, not for painting.
 
 use std::rc::Rc;
 
-use glam::UVec2;
+use glam::{UVec2, Vec4};
 use impasto_painting::Frame;
 
-use crate::gl::{
-    DrawState, Filter, Format, Framebuffer, GlError, Gpu, Program, ProgramSource, Texture, Vertices,
-};
+use crate::body_program::{BodyProgram, lookup_rows};
+use crate::gl::{DrawState, Filter, Format, Framebuffer, GlError, Gpu, ProgramSource, Texture};
+use crate::meshes::DrawnBody;
 use crate::reference::ReferencePass;
 use crate::shader_files::{REFERENCE, SHARED};
 
@@ -29,7 +28,7 @@ pub struct MotionPixels {
 /// The program, and the target that it was last used with.
 pub(crate) struct MotionPass {
     gpu: Gpu,
-    program: Program,
+    program: BodyProgram,
     target: Option<Framebuffer>,
 }
 
@@ -37,12 +36,17 @@ impl MotionPass {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
         Ok(Self {
             gpu: gpu.clone(),
-            program: Program::new(gpu, &[SHARED, REFERENCE], &SOURCE)?,
+            program: BodyProgram::new(gpu, &[SHARED, REFERENCE], MOTION)?,
             target: None,
         })
     }
 
-    /// Draws the bodies of `now`. Those of both frames are in the same order; one that `then` lacks has not moved.
+    /// Creates at once every program that is otherwise created when it is first needed.
+    pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
+        self.program.ready_all()
+    }
+
+    /// Draws the bodies of `now`. Both frames have their bodies in the same order; a body that `then` lacks has not moved.
     pub(crate) fn draw(
         &mut self,
         reference: &mut ReferencePass,
@@ -60,27 +64,32 @@ impl MotionPass {
             }
         };
         let bodies = reference.bodies(now)?;
-        reference.noise.prepare(now)?;
+        let tiles = reference.tiles(now)?;
+        self.program.prepare(now)?;
         let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&target, state);
-        for (index, (body, mesh)) in bodies.iter().enumerate().filter(|(_, (body, _))| !body.hidden) {
+        for (index, DrawnBody { body, mesh }) in bodies.iter().enumerate() {
+            if body.hidden {
+                continue;
+            }
             let body_then = then.bodies.get(index).unwrap_or(body);
+            let noise_then = body_then.noise.as_ref().or(body.noise.as_ref());
+            let [u, v] = noise_then.map_or([Vec4::ZERO; 2], |noise| lookup_rows(&noise.lookup));
             for part in &mesh.parts {
-                let bound = reference
-                    .noise
-                    .bind_motion(&self.program, [body, body_then])
-                    .set("world_from_model", body.world_from_model)
+                let bound = self
+                    .program
+                    .bind(body, tiles)
                     .set("world_from_model_then", body_then.world_from_model)
-                    .set("morph", body.morph)
                     .set("morph_then", body_then.morph)
+                    .set("lookup_u_then", u)
+                    .set("lookup_v_then", v)
                     .set("view_from_world", now.view.view_from_world)
                     .set("view_from_world_then", then.view.view_from_world)
                     .set("clip_from_view", now.view.clip_from_view)
                     .set("clip_from_view_then", then.view.clip_from_view)
                     .set("size_px", UVec2::from(now.size_px).as_vec2())
                     .set("body_id", (index + 1) as f32);
-                let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
-                self.gpu.draw(bound, &mesh.array, vertices)?;
+                self.gpu.draw(bound, &mesh.array, part.vertices())?;
             }
         }
         let values = target.read_floats(0);
@@ -108,21 +117,20 @@ fn motion_pixels(size_px: [u32; 2], values: &[f32]) -> MotionPixels {
     motion
 }
 
-pub(crate) const SOURCE: ProgramSource<'static> = ProgramSource {
-    vertex: "reference/motion.vert",
-    fragment: Some("reference/motion.frag"),
-    captured: &[],
-    uniforms: &[
-        "world_from_model",
-        "world_from_model_then",
-        "morph",
-        "morph_then",
-        "view_from_world",
-        "view_from_world_then",
-        "clip_from_view",
-        "clip_from_view_then",
-        "size_px",
-        "body_id",
-    ],
-    defined: &[],
+const MOTION: ProgramSource<'static> = ProgramSource {
+    optional: &["lookup_u_then", "lookup_v_then"],
+    ..ProgramSource::new(
+        "reference/motion.vert",
+        Some("reference/motion.frag"),
+        &[&[
+            "world_from_model_then",
+            "morph_then",
+            "view_from_world",
+            "view_from_world_then",
+            "clip_from_view",
+            "clip_from_view_then",
+            "size_px",
+            "body_id",
+        ]],
+    )
 };

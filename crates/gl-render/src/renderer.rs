@@ -1,18 +1,21 @@
-//! The renderer: long-lived, fed with one plain frame after the other.
+//! The renderer: created once, then given one frame after the other.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
 use impasto_painting::Frame;
-use impasto_painting::frame::{FrameStyle, FrameView, Strokes};
+use impasto_painting::frame::{FrameView, Strokes, Style};
 
 use crate::context::{Context, ContextReport};
-use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, Texture};
+use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Halt, ShaderTexts, Texture};
+use crate::lighting::LightSetup;
 use crate::motion::{MotionPass, MotionPixels};
 use crate::overlays::light_billboards::{LightBillboard, LightBillboards};
-use crate::reference::{LightSetup, ReferencePass, ReferenceTargets, targets_of_size};
-use crate::shader_files::ShaderTexts;
-use crate::styles::{self, RotatingStrokes, Style, StyleInput};
+use crate::reference::ReferencePass;
+use crate::reference_targets::ReferenceTargets;
+use crate::style_renderer::{StyleInput, StyleRenderer};
+use crate::styles;
 use crate::watch::Watch;
 
 /// A finished picture.
@@ -24,12 +27,12 @@ pub struct Picture {
     pub rgba8: Vec<u8>,
 }
 
-/// What was painted of a stroke.
+/// A stroke as it was painted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResolvedStroke {
     /// Display-linear colour.
     pub color_linear: [f32; 3],
-    /// Presence times what can be seen of the stroke's centre, 0..=1.
+    /// Presence times the visible share of the stroke's centre, 0..=1.
     pub alpha: f32,
     /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
     pub center_px: [f32; 2],
@@ -38,7 +41,7 @@ pub struct ResolvedStroke {
 /// What a picture cost to draw.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cost {
-    /// The passes, in order; a layer of paint that is laid in several runs is there several times.
+    /// The passes, in order. A layer of paint that is laid in several runs is listed several times.
     pub passes: Vec<PassTime>,
     /// How many strokes laid paint on a pixel, on average.
     pub overdraw: f64,
@@ -83,20 +86,22 @@ pub enum RenderError {
 
 /// Draws frames. Belongs to the thread that made it.
 pub struct Renderer {
-    // Styles, passes and targets go before the context that they were made in.
-    styles: HashMap<FrameStyle, Box<dyn Style>>,
+    // Fields are dropped in this order: whatever was created in the context goes before the context.
+    /// By the style's name; each is created when the first frame is drawn in it.
+    styles: HashMap<&'static str, Box<dyn StyleRenderer>>,
     reference: ReferencePass,
     motion: Option<MotionPass>,
     targets: Option<ReferenceTargets>,
     output: Option<Framebuffer>,
-    /// The picture in `output`, once it is whole.
+    /// The camera of the picture in `output`; `None` while that is unfinished.
     last_view: Option<FrameView>,
     billboards: Vec<LightBillboard>,
-    /// Made when there is the first to draw.
+    /// Created when the first billboard is drawn.
     billboards_pass: Option<LightBillboards>,
-    /// A picture with billboards over it.
+    /// The picture with billboards over it.
     with_billboards: Option<Framebuffer>,
-    last_style: FrameStyle,
+    /// Name of the style of the last frame.
+    last_style: Option<&'static str>,
     context: Context,
 }
 
@@ -118,35 +123,35 @@ impl Renderer {
             billboards: Vec::new(),
             billboards_pass: None,
             with_billboards: None,
-            last_style: FrameStyle::Reference,
+            last_style: None,
             context,
         })
     }
 
-    /// Draws with these shader texts in place of the program's own from now on. Where one of them is broken, everything stays as
-    /// it was.
+    /// From now on, draws with these shader texts instead of the program's own. If one of them is broken, nothing changes.
     ///
     /// # Errors
-    /// The driver's words, with the file and the line.
+    /// The driver's message, with the file and the line.
     pub fn replace_shaders(&mut self, texts: &ShaderTexts) -> Result<(), RenderError> {
         let gpu = self.context.gpu().clone();
         gpu.make_current()?;
         let before = gpu.set_shaders(texts.clone());
-        let styles = [FrameStyle::RotatingStrokes, FrameStyle::SumiE, FrameStyle::Reference];
         let made = (|| {
             let mut reference = ReferencePass::new(&gpu)?;
             reference.ready_all()?;
-            let mut opened = HashMap::new();
-            for style in styles {
-                let mut made = styles::open(&gpu, style)?;
-                made.ready_all()?;
-                opened.insert(style, made);
+            let mut motion = MotionPass::new(&gpu)?;
+            motion.ready_all()?;
+            let mut renderers = HashMap::new();
+            for style in Style::all() {
+                let mut renderer = styles::open(&gpu, &style)?;
+                renderer.ready_all()?;
+                renderers.insert(style.info().name, renderer);
             }
-            Ok::<_, GlError>((reference, opened, LightBillboards::new(&gpu)?))
+            Ok::<_, GlError>((reference, motion, renderers, LightBillboards::new(&gpu)?))
         })();
         match made {
-            Ok((reference, styles, billboards)) => {
-                (self.reference, self.styles, self.motion) = (reference, styles, None);
+            Ok((reference, motion, renderers, billboards)) => {
+                (self.reference, self.styles, self.motion) = (reference, renderers, Some(motion));
                 (self.billboards_pass, self.last_view) = (Some(billboards), None);
                 Ok(())
             }
@@ -180,8 +185,8 @@ impl Renderer {
         whole(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
     }
 
-    /// As [`Renderer::render`], of a frame that has no strokes yet: `strokes` finds them while the driver is at work on what
-    /// they lie on, and they are laid on the frame.
+    /// As [`Renderer::render`], for a frame without strokes: `strokes` computes them while the driver draws the reference
+    /// picture, and they are put into the frame.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -200,8 +205,8 @@ impl Renderer {
         whole(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
     }
 
-    /// As [`Renderer::render`], but asks after every pass, and within the long ones, whether to `stop`; then there is no
-    /// picture. What was drawn last is then unfinished, and the next frame is drawn as if it had not been begun.
+    /// As [`Renderer::render`], but calls `stop` after every pass, and several times in long ones. When it returns true there
+    /// is no picture: the frame stays unfinished, and the next one is drawn as if this one had never begun.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -221,14 +226,14 @@ impl Renderer {
         }
     }
 
-    /// Lights that are drawn over every picture from now on: for windows, not for files. None at first.
+    /// Sets the light icons that are drawn over every picture from now on. They are for windows, not for files; at first
+    /// there are none.
     pub fn set_billboards(&mut self, billboards: &[LightBillboard]) {
         self.billboards.clear();
         self.billboards.extend_from_slice(billboards);
     }
 
-    /// The picture that was drawn last, with the lights over it that were set since; `None` where there is none, or it was
-    /// given up.
+    /// The last picture again, with the light icons that are set now; `None` where there is no finished picture.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -238,7 +243,7 @@ impl Renderer {
         Ok(Some(self.read_output(&view)?))
     }
 
-    /// Reads the finished picture, billboards over it.
+    /// Reads the finished picture, with billboards over it.
     fn read_output(&mut self, view: &FrameView) -> Result<Picture, GlError> {
         let gpu = self.context.gpu().clone();
         let output = self.output.as_ref().expect("a picture was drawn before");
@@ -257,7 +262,7 @@ impl Renderer {
             };
             let pass = self.billboards_pass.insert(pass);
             let reference = self.targets.as_ref().expect("the reference picture was drawn before");
-            pass.draw(&self.billboards, view, (over, &reference.depth_and_id))?;
+            pass.draw(&self.billboards, view, over, &reference.depth_and_id)?;
             gpu.lap("billboards");
             shown = over;
         }
@@ -269,12 +274,12 @@ impl Renderer {
 
     fn draw_reference(&mut self, frame: &Frame, watch: &mut Watch<'_>) -> Result<LightSetup, Halt> {
         self.last_view = None;
-        let targets = targets_of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
+        let targets = ReferenceTargets::of_size(self.context.gpu(), self.targets.take(), frame.size_px)?;
         let targets = self.targets.insert(targets);
         self.reference.draw(frame, targets, watch)
     }
 
-    /// Draws what lies on the reference picture, and reads the whole back.
+    /// Draws the style over the reference picture, and reads the result.
     fn draw_style(
         &mut self,
         frame: &Frame,
@@ -289,17 +294,19 @@ impl Renderer {
             _ => output_target(gpu, frame.size_px)?,
         };
         let output = self.output.insert(output);
-        self.last_style = frame.style;
-        let style = match self.styles.entry(frame.style) {
-            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => entry.insert(styles::open(gpu, frame.style)?),
+        let name = frame.style.info().name;
+        self.last_style = Some(name);
+        let style = match self.styles.entry(name) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(styles::open(gpu, &frame.style)?),
         };
-        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies }, output, watch)?;
+        let tiles = self.reference.drawn_tiles();
+        style.draw(&StyleInput { frame, reference, lights, bodies: &bodies, tiles }, output, watch)?;
         self.last_view = Some(frame.view);
         Ok(self.read_output(&frame.view)?)
     }
 
-    /// As [`Renderer::render`], with what it cost. Waits for the driver after each, so the whole is slower.
+    /// As [`Renderer::render`], with the time of each pass. Waits for the driver after every pass, so it is slower.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -312,8 +319,8 @@ impl Renderer {
         Ok((picture?, Cost { passes, overdraw: fragments as f64 / (pixels[0] * pixels[1]) }))
     }
 
-    /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both pictures have one size
-    /// and the same bodies in the same order. What was drawn last stays as it is.
+    /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both frames have the same size
+    /// and the same bodies in the same order. The last picture stays as it is.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -342,12 +349,9 @@ impl Renderer {
         Ok(())
     }
 
-    /// What was painted of each stroke of the last frame, parallel to its strokes; read back from the GPU.
+    /// The strokes of the last frame as they were painted, in its order; read back from the GPU.
     pub fn resolved_strokes(&self) -> Vec<ResolvedStroke> {
-        if self.context.gpu().make_current().is_err() {
-            return Vec::new();
-        }
-        let resolved = self.styles.get(&self.last_style).map_or_else(Vec::new, |style| style.read_resolved());
+        let resolved = self.last_renderer().map_or_else(Vec::new, |style| style.read_resolved());
         resolved
             .into_iter()
             .map(|[r, g, b, alpha, x, y, ..]| ResolvedStroke {
@@ -370,31 +374,30 @@ impl Renderer {
         ReferencePixels { depth, body_id }
     }
 
-    /// The paint of the last frame without its ground: premultiplied, display-linear, top row first.
+    /// The paint of the last frame without background: premultiplied, display-linear, top row first.
     pub fn read_paint(&self) -> Vec<[f32; 4]> {
-        let (Some(strokes), Some(output)) = (self.strokes(), &self.output) else { return Vec::new() };
-        top_row_first(&strokes.read_paint(), output.size_px()[0] as usize)
+        let (Some(style), Some(output)) = (self.last_renderer(), &self.output) else { return Vec::new() };
+        top_row_first(&style.read_paint(), output.size_px()[0] as usize)
     }
 
-    fn strokes(&self) -> Option<&RotatingStrokes> {
-        if self.context.gpu().make_current().is_err() {
-            return None;
-        }
-        self.styles.get(&self.last_style)?.as_strokes()
+    /// The renderer of the last frame's style, ready to be read from.
+    fn last_renderer(&self) -> Option<&dyn StyleRenderer> {
+        self.context.gpu().make_current().ok()?;
+        self.styles.get(self.last_style?).map(Box::as_ref)
     }
 }
 
-/// What a finished picture is drawn into.
+/// A target for finished pictures.
 fn output_target(gpu: &Gpu, size_px: [u32; 2]) -> Result<Framebuffer, GlError> {
     let color = Rc::new(Texture::target(gpu, Format::Rgba8, size_px, Filter::Nearest)?);
     Framebuffer::new(gpu, &[&color], None)
 }
 
-/// A picture that nobody could give up.
+/// The result of drawing that nobody could stop.
 fn whole(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
     drawn.map_err(|halt| match halt {
         Halt::Gl(error) => error.into(),
-        Halt::GivenUp => unreachable!("nobody asked to give it up"),
+        Halt::GivenUp => unreachable!("only a watch with `stop` gives up"),
     })
 }
 

@@ -1,8 +1,6 @@
-//! The shader files, part of the binary, so that an install cannot lose them.
+//! The shader files, built into the binary so that an installation cannot lose them.
 
-use std::collections::BTreeMap;
-
-use crate::gl::ShaderFile;
+use crate::gl::{ShaderFile, ShaderTexts};
 
 macro_rules! shader_files {
     ($($path:literal),* $(,)?) => {
@@ -10,17 +8,13 @@ macro_rules! shader_files {
     };
 }
 
-/// Texts that stand in for shader files of the program: for whoever works on a look of their own.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ShaderTexts(BTreeMap<&'static str, String>);
-
 impl ShaderTexts {
-    /// Every path that a text may stand at, below the folder of shaders.
+    /// The paths of all shader files, below the folder of shaders.
     pub fn paths() -> impl Iterator<Item = &'static str> {
         ALL.iter().flat_map(|group| group.iter()).map(|file| file.path)
     }
 
-    /// Puts a text in place of the file at a path; whether the program has such a file.
+    /// Replaces the file at this path; returns whether the program has such a file.
     pub fn put(&mut self, path: &str, text: String) -> bool {
         let known = Self::paths().find(|known| *known == path);
         if let Some(known) = known {
@@ -28,18 +22,9 @@ impl ShaderTexts {
         }
         known.is_some()
     }
-
-    /// Whether all files are the program's own.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    pub(crate) fn get(&self, path: &str) -> Option<&str> {
-        self.0.get(path).map(String::as_str)
-    }
 }
 
-/// All of them.
+/// All shader files.
 const ALL: &[&[ShaderFile]] =
     &[SHARED, REFERENCE, LIGHT_BILLBOARDS, ROTATING_STROKES, SUMI_E, NOISE_DISPLACE];
 
@@ -52,20 +37,22 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/oklab.glsl",
     "shared/inverse_bilinear.glsl",
     "shared/stroke_shape.glsl",
+    "shared/body.glsl",
+    "noise_displace/displace.glsl",
 ];
 
-/// Bodies that noise displaces and colours.
+/// Bodies that noise colours.
 pub(crate) const NOISE_DISPLACE: &[ShaderFile] = shader_files![
     "noise_displace/look.vert",
     "noise_displace/look.frag",
     "noise_displace/place.frag",
-    "noise_displace/ground.frag",
+    "noise_displace/background.frag",
     "noise_displace/gather.frag",
     "noise_displace/spread.frag",
     "noise_displace/bloom.frag",
 ];
 
-/// The reference pass, and how its surfaces move from one picture to another.
+/// The reference pass and the motion pass.
 pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/lighting.glsl",
     "reference/surface.vert",
@@ -76,7 +63,6 @@ pub(crate) const REFERENCE: &[ShaderFile] = shader_files![
     "reference/light.frag",
     "reference/motion.vert",
     "reference/motion.frag",
-    "noise_displace/displace.glsl",
 ];
 
 /// Lights as icons that face the camera.

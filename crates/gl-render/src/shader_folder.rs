@@ -1,43 +1,44 @@
-//! A folder of shaders that stand in for the program's own, looked at now and then: for whoever works on a look of their own.
+//! A folder with the user's own shaders, which replace those of the program and are read again when they change.
 
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use crate::ShaderTexts;
+use crate::gl::ShaderTexts;
 
-/// More than this is no shader.
+/// A larger file is not a shader.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// Size and time of a file; none where it is not there.
-type Look = Option<(u64, Option<SystemTime>)>;
+/// Size and time of a file; `None` where it does not exist.
+type FileStamp = Option<(u64, Option<SystemTime>)>;
 
-/// The folder, and how its files looked last.
+/// The folder, and the files that were last read from it.
 #[derive(Debug)]
 pub struct ShaderFolder {
     path: PathBuf,
-    known: Vec<Look>,
-    /// As they looked a moment ago, where that is other: they may still be being written.
-    seen: Option<Vec<Look>>,
+    /// The files that were read last.
+    read: Vec<FileStamp>,
+    /// The files a moment ago, if they differ from those: they may still be being written.
+    changing: Option<Vec<FileStamp>>,
 }
 
 impl ShaderFolder {
-    /// A folder laid out as the program's own `shaders/`; it may hold any of those files. Also what they say now.
+    /// Opens a folder laid out like the program's own `shaders/`, with any of those files in it, and reads them.
     ///
     /// # Errors
-    /// Words for people: nothing of it is there, or a file cannot be read.
+    /// A message: none of the files exists, or one cannot be read.
     pub fn open(path: &Path) -> Result<(Self, ShaderTexts), String> {
-        let known = looks(path);
+        let stamps = stamps(path);
         let texts = read(path)?;
         if texts.is_empty() {
             let paths: Vec<&str> = ShaderTexts::paths().take(3).collect();
             return Err(format!(
-                "{} holds no shader: its files are called as those of the program, such as {}",
+                "{} holds no shader: its files need the names of the program's own, such as {}",
                 path.display(),
                 paths.join(", ")
             ));
         }
-        Ok((Self { path: path.to_owned(), known, seen: None }, texts))
+        Ok((Self { path: path.to_owned(), read: stamps, changing: None }, texts))
     }
 
     /// The folder.
@@ -45,32 +46,32 @@ impl ShaderFolder {
         &self.path
     }
 
-    /// Looks once. What the files say, where they changed since they were read last, and have come to rest since: they look the
-    /// same twice. Files that are gone leave their place to the program's own.
+    /// Checks once, and reads the files again if they have changed since they were last read, and no more since the last
+    /// check. The program's own text replaces a file that is gone.
     ///
     /// # Errors
-    /// Words for people: a file cannot be read.
+    /// A message: a file cannot be read.
     pub fn look(&mut self) -> Option<Result<ShaderTexts, String>> {
-        let now = looks(&self.path);
-        if now == self.known {
-            self.seen = None;
+        let now = stamps(&self.path);
+        if now == self.read {
+            self.changing = None;
             return None;
         }
-        if self.seen.as_ref() != Some(&now) {
-            self.seen = Some(now);
+        if self.changing.as_ref() != Some(&now) {
+            self.changing = Some(now);
             return None;
         }
-        (self.known, self.seen) = (now, None);
+        (self.read, self.changing) = (now, None);
         Some(read(&self.path))
     }
 }
 
-fn looks(folder: &Path) -> Vec<Look> {
-    let look = |path: &str| {
+fn stamps(folder: &Path) -> Vec<FileStamp> {
+    let stamp = |path: &str| {
         let metadata = std::fs::metadata(folder.join(path)).ok().filter(std::fs::Metadata::is_file)?;
         Some((metadata.len(), metadata.modified().ok()))
     };
-    ShaderTexts::paths().map(look).collect()
+    ShaderTexts::paths().map(stamp).collect()
 }
 
 fn read(folder: &Path) -> Result<ShaderTexts, String> {

@@ -1,30 +1,33 @@
-//! Between passes: how long each took, and whether the picture is still wanted.
+//! What happens between passes: they are timed, and the caller may stop.
 
 use crate::gl::{Gpu, Halt};
 
-/// Is told of every pass that was drawn.
+/// Is called after every pass.
 pub(crate) struct Watch<'a> {
     gpu: Gpu,
     stop: Option<&'a mut dyn FnMut() -> bool>,
 }
 
 impl<'a> Watch<'a> {
-    /// Asks `stop`, where there is one, whether to give up.
+    /// Calls `stop`, if there is one, after every pass; true means to stop.
     pub(crate) fn new(gpu: &Gpu, stop: Option<&'a mut dyn FnMut() -> bool>) -> Self {
         Self { gpu: gpu.clone(), stop }
     }
 
-    /// Whether anybody may ask to give up.
+    /// Whether the caller may stop.
     pub(crate) fn may_stop(&self) -> bool {
         self.stop.is_some()
     }
 
-    /// A pass was drawn.
+    /// Call this after a pass.
+    ///
+    /// # Errors
+    /// [`Halt::GivenUp`] when the caller stops.
     pub(crate) fn passed(&mut self, pass: &'static str) -> Result<(), Halt> {
         self.gpu.lap(pass);
         match &mut self.stop {
             Some(stop) => {
-                // Else the question would come long before the work.
+                // The driver works in the background: without waiting, this would be asked long before the pass is done.
                 self.gpu.finish();
                 if stop() { Err(Halt::GivenUp) } else { Ok(()) }
             }

@@ -127,7 +127,7 @@ fn each_settings(scene: &mut Scene, edit: impl Fn(&mut StrokeSettings)) {
 fn edit_style(scene: &mut Scene, edit: impl FnOnce(&mut RotatingStrokes)) {
     let mut style = match &scene.style {
         Style::RotatingStrokes(style) => style.clone(),
-        Style::SumiE(_) | Style::Reference => RotatingStrokes::default(),
+        _ => RotatingStrokes::default(),
     };
     edit(&mut style);
     scene.style = Style::RotatingStrokes(style);

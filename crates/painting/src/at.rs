@@ -9,12 +9,12 @@ use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::solve::{BakedParticles, ParticleView, SolvedParticle, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
-use impasto_scene::document::{InkDrawing, InkRule, Solver, Style};
+use impasto_scene::document::Solver;
 use impasto_scene::house_mesh;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::coat::Coat;
-use crate::frame::{BodySurface, Frame, FrameBody, FrameStyle, Quality, Strokes};
+use crate::frame::{BodySurface, Frame, FrameBody, Quality, Strokes};
 use crate::gate::Gate;
 use crate::lights;
 use crate::noise_displace::BodyShape;
@@ -164,11 +164,7 @@ impl Painting {
             brushes: Arc::clone(&self.brushes),
             palettes: Arc::clone(&self.palettes),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
-            style: self.style,
-            sumi_e: match &scene.style {
-                Style::SumiE(ink) => Some(Arc::new(ink.clone())),
-                Style::RotatingStrokes(_) | Style::Reference => None,
-            },
+            style: self.style.clone(),
             quality: options.quality,
         }
     }
@@ -182,22 +178,11 @@ impl Painting {
         options: &FrameOptions,
         recall: Option<&Recall>,
     ) -> Strokes {
-        if !self.has_strokes() {
+        if !self.style.settings().preparation().has_strokes {
             return Strokes::default();
         }
         let look = self.look(camera, frame, options, |_| true);
         Look { recall: recall.filter(|recall| recall.is_of(self)), ..look }.strokes()
-    }
-
-    /// Whether anything is painted in strokes.
-    fn has_strokes(&self) -> bool {
-        match (self.style, &self.scene().style) {
-            (FrameStyle::RotatingStrokes, _) => true,
-            (FrameStyle::SumiE, Style::SumiE(ink)) => {
-                ink.rule == InkRule::Painter && ink.drawing != InkDrawing::Wash
-            }
-            (FrameStyle::SumiE | FrameStyle::Reference, _) => false,
-        }
     }
 
     fn px_scale(&self, options: &FrameOptions) -> f32 {

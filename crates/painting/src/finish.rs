@@ -1,7 +1,7 @@
 //! The paint as a body and what it lies on, from the document to a frame.
 
 use glam::{Affine2, DAffine3, DMat2, DVec2, DVec3};
-use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, Scene};
+use impasto_scene::document::{CanvasFollows, Preparation, Scene};
 use impasto_scene::presets;
 
 use crate::frame::{Finish, Ground};
@@ -24,20 +24,20 @@ pub(crate) struct FinishRule {
 }
 
 impl FinishRule {
-    pub(crate) fn new(scene: &Scene, settings: &RotatingStrokes, reference: &PictureView) -> Self {
+    pub(crate) fn new(scene: &Scene, style: &Preparation, reference: &PictureView) -> Self {
         let paper = presets::is_paper(scene);
         let ground = presets::ground(scene);
-        let toned = settings.underpainting && !paper;
+        let toned = style.underpainting && !paper;
         let strength = |value: f64| if paper { 0.0 } else { value as f32 };
         let finish = Finish {
             ground: toned.then(|| Ground { color: lights::linear(ground.color), hides: ground.opacity }),
-            weave: if settings.canvas == Canvas::Linen { strength(settings.weave) } else { 0.0 },
+            weave: strength(style.weave),
             canvas_from_px: Affine2::IDENTITY,
-            relief: strength(settings.relief),
+            relief: strength(style.relief),
             to_relief_light: relief_light(scene, reference),
-            varnish: strength(settings.varnish),
+            varnish: strength(style.varnish),
         };
-        let follows = settings.canvas_follows == CanvasFollows::Camera;
+        let follows = style.canvas_follows == CanvasFollows::Camera;
         let anchor = follows.then_some(reference.pose.target);
         Self { finish, anchor, reference: reference.clone() }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{Affine2, Mat4, Vec3};
+use glam::{Affine2, Mat4, Vec3, Vec4};
 use impasto_core::TriangleMesh;
 use impasto_core::brush::Mark;
 use impasto_core::shells::Side;
@@ -13,7 +13,7 @@ mod stroke;
 
 use crate::noise_displace::FrameNoise;
 
-pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, SumiE};
+pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, Style, SumiE};
 pub use impasto_scene::presets::LayerKind;
 pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
 
@@ -44,15 +44,18 @@ pub struct Frame {
     pub palettes: Arc<Vec<Vec<[f32; 3]>>>,
     /// Canvas, relief and varnish.
     pub finish: Finish,
-    /// How to draw.
-    pub style: FrameStyle,
-    /// The ink, where the style is [`FrameStyle::SumiE`].
-    pub sumi_e: Option<Arc<SumiE>>,
+    /// How to draw, with the settings of that style.
+    pub style: Style,
     /// How much care to take.
     pub quality: Quality,
 }
 
 impl Frame {
+    /// The background as a premultiplied colour; transparent where there is none.
+    pub fn background_premultiplied(&self) -> Vec4 {
+        self.background.map_or(Vec4::ZERO, |[r, g, b]| Vec4::new(r, g, b, 1.0))
+    }
+
     /// Puts these strokes in the place of those that it has.
     pub fn lay(&mut self, strokes: Strokes) {
         let Strokes { strokes, sources, layers } = strokes;
@@ -68,17 +71,6 @@ pub enum Quality {
     Exact,
     /// For a view that moves: the same strokes at the same places, looked at with fewer taps and laid as flat paint.
     Draft,
-}
-
-/// The style, with what it needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrameStyle {
-    /// Brush strokes over a ground.
-    RotatingStrokes,
-    /// Ink on paper, as [`Frame::sumi_e`] says.
-    SumiE,
-    /// The lit reference picture itself.
-    Reference,
 }
 
 /// The camera of a frame.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::{DAffine3, Vec3};
 use impasto_core::direction::singularities::Singularity;
 use impasto_core::sampling::Particle;
-use impasto_scene::document::{Lens, RotatingStrokes, Scene, Solver, Style};
+use impasto_scene::document::{Lens, Scene, Solver, Style};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::presets::LayerKind;
 use impasto_scene::{motion, presets};
@@ -18,7 +18,7 @@ use crate::brushes;
 use crate::coat::{Coat, KeptObject, ObjectInputs};
 use crate::field::BodyField;
 use crate::finish::FinishRule;
-use crate::frame::{BodySurface, Brushes, FrameStyle};
+use crate::frame::{BodySurface, Brushes};
 use crate::lights;
 use crate::noise_displace::{BodyNoise, BodyShape, NoiseInputs};
 use crate::order::{OrderInputs, PaintingOrder};
@@ -54,7 +54,7 @@ pub struct Painting {
     /// Of each object.
     pub(crate) noises: Vec<Option<Arc<BodyNoise>>>,
     pub(crate) solver: Solver,
-    pub(crate) style: FrameStyle,
+    pub(crate) style: Style,
     pub(crate) shadow_bounds: (Vec3, f32),
     steps: Vec<Step>,
 }
@@ -143,7 +143,7 @@ impl Preparer {
             brushes: &brushes,
             solver: *solver,
             paper,
-            underpainting: settings(scene).underpainting && !paper,
+            underpainting: scene.style.settings().preparation().underpainting && !paper,
             orthographic: matches!(scene.camera.lens, Lens::Orthographic { .. }),
         };
         let of_body: Vec<Arc<BodyReferences>> =
@@ -222,7 +222,7 @@ impl Preparer {
         let inputs = surface_inputs(loaded)?;
         let mut kept = self.take_kept(&loaded.scene);
         build(loaded, &mut kept, &inputs);
-        let plain = plain(loaded, &kept).in_style(FrameStyle::Reference);
+        let plain = plain(loaded, &kept).in_style(Style::Reference);
         self.keep(&loaded.scene, kept);
         Ok(plain)
     }
@@ -273,7 +273,7 @@ impl Painting {
     }
 
     /// The same painting, drawn in another style.
-    pub fn in_style(&self, style: FrameStyle) -> Self {
+    pub fn in_style(&self, style: Style) -> Self {
         Self { style, ..self.clone() }
     }
 
@@ -341,18 +341,6 @@ impl Painting {
     }
 }
 
-fn settings(scene: &Scene) -> RotatingStrokes {
-    match &scene.style {
-        Style::RotatingStrokes(settings) => settings.clone(),
-        Style::SumiE(ink) => RotatingStrokes {
-            underpainting: false,
-            canvas_follows: ink.paper_follows,
-            ..RotatingStrokes::default()
-        },
-        Style::Reference => RotatingStrokes::default(),
-    }
-}
-
 /// Builds the surfaces of all objects, and their noise.
 fn build(loaded: &LoadedScene, kept: &mut [KeptObject], inputs: &[SurfaceInputs]) {
     kept.par_iter_mut().zip(inputs).zip(&loaded.scene.objects).for_each(|((kept, inputs), object)| {
@@ -378,7 +366,7 @@ fn shapes(scene: &Scene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<B
 /// All that a painting has but for particles, of objects whose surfaces are built.
 fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
     let scene = &loaded.scene;
-    let settings = settings(scene);
+    let style = scene.style.settings().preparation();
     let rules = regions::rules(scene);
     let (palettes, palette_of_rule) = regions::palettes(&rules);
     let references = SceneReferences::of(scene);
@@ -401,18 +389,14 @@ fn plain(loaded: &Arc<LoadedScene>, kept: &[KeptObject]) -> Painting {
         palettes: Arc::new(palettes),
         palette_of_rule,
         brushes: Arc::default(),
-        finish: FinishRule::new(scene, &settings, &references.own().view),
+        finish: FinishRule::new(scene, &style, &references.own().view),
         rules: Arc::new(rules),
         order: Arc::default(),
         reference_shapes: Arc::new(reference_shapes),
         noises,
         references: Arc::new(references),
-        solver: if presets::is_paper(scene) { Solver::HornExact } else { settings.solver },
-        style: match scene.style {
-            Style::RotatingStrokes(_) => FrameStyle::RotatingStrokes,
-            Style::SumiE(_) => FrameStyle::SumiE,
-            Style::Reference => FrameStyle::Reference,
-        },
+        solver: if presets::is_paper(scene) { Solver::HornExact } else { style.solver },
+        style: scene.style.clone(),
         shadow_bounds: lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice())),
         steps: Vec::new(),
     }

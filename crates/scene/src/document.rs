@@ -1,24 +1,30 @@
 //! The scene document: every field of a scene file, with its default. Degrees, frames and sRGB colours, as a
 //! person writes them; nothing here is solved or resolved.
 
+mod color;
 mod noise_displace;
 mod paint;
 mod regions;
+mod rotating_strokes;
+mod style;
+mod style_settings;
 mod sumi_e;
 
 use serde::Deserialize;
 
+pub use color::Color;
 pub use noise_displace::{
     NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals, NoiseSpace, SurfaceNoise,
     VertexNoise,
 };
-pub use paint::{
-    BrushMix, Canvas, CanvasFollows, Edges, LayerSettings, RotatingStrokes, Solver, StrokeSettings, Style,
-};
+pub use paint::{BrushMix, Edges, LayerSettings, StrokeSettings};
 pub use regions::{
     Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, PatchRef, Region, Seam,
     Seed, Selector, Sense,
 };
+pub use rotating_strokes::{Canvas, RotatingStrokes};
+pub use style::Style;
+pub use style_settings::{CanvasFollows, Preparation, SettingRule, Solver, StyleInfo, StyleSettings};
 pub use sumi_e::{InkDrawing, InkLight, InkNumber, InkRule, SumiE};
 
 /// A whole scene file.
@@ -71,10 +77,6 @@ impl Scene {
 fn default_size() -> (u32, u32) {
     (1280, 720)
 }
-
-/// An sRGB colour, each channel in 0..=1; in the file `"#rrggbb"`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Color(pub [f32; 3]);
 
 /// Frame range and rate.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -380,20 +382,6 @@ impl ObjectKey {
     pub fn at(frame: f64) -> Self {
         let ease = Ease::default();
         Self { frame, translation: [0.0; 3], rotation_deg: [0.0; 3], scale: 1.0, morph: 0.0, ease }
-    }
-}
-
-impl Color {
-    /// White.
-    pub fn white() -> Self {
-        Self([1.0; 3])
-    }
-}
-
-impl Default for Color {
-    /// A toned ground: warm grey paper.
-    fn default() -> Self {
-        Self([0xe4 as f32 / 255.0, 0xdc as f32 / 255.0, 0xcb as f32 / 255.0])
     }
 }
 

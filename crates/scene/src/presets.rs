@@ -2,7 +2,7 @@
 
 mod table;
 
-use crate::document::{BrushMix, Color, Edges, LayerSettings, Scene, StrokeSettings, Style};
+use crate::document::{BrushMix, Color, Edges, LayerSettings, Scene, StrokeSettings};
 
 use table::{PRESETS, Preset};
 
@@ -148,11 +148,11 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// The settings of region `region` of the scene; of everything that no region covers where it is `None`.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
-/// default preset (in ink, the ink's). An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
+/// style's own preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
     // Presets are meant for a picture 720 high.
     let size = scene.size.1 as f32 / 720.0;
-    let usual = if matches!(scene.style, Style::SumiE(_)) { INK_PRESET } else { DEFAULT_PRESET };
+    let usual = scene.style.info().preset.unwrap_or(DEFAULT_PRESET);
     let usual = PRESETS.iter().find(|preset| preset.name == usual).unwrap_or(&PRESETS[0]);
     let mut strokes = ResolvedStrokes::of_preset(usual, size);
     strokes.apply(&scene.strokes, size);

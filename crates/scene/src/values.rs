@@ -1,13 +1,11 @@
 //! How small values are written in a scene file: colours as `"#rrggbb"`, scales as one number or three, brushes as one
-//! name or a list, a style as its name with its fields.
+//! name or a list.
 
 use std::fmt;
-use std::marker::PhantomData;
 
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{self, Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
-use crate::document::{BrushMix, Color, RotatingStrokes, Scale, Style, SumiE};
+use crate::document::{BrushMix, Color, Scale};
 
 impl Color {
     /// Reads `#rgb` or `#rrggbb`; `None` for anything else.
@@ -103,46 +101,5 @@ impl<'de> Deserialize<'de> for BrushMix {
             }
         }
         deserializer.deserialize_any(MixVisitor)
-    }
-}
-
-impl<'de> Deserialize<'de> for Style {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(serde::Deserialize)]
-        #[serde(variant_identifier)]
-        enum Name {
-            RotatingStrokes,
-            SumiE,
-            Reference,
-        }
-        struct FieldsVisitor<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for FieldsVisitor<T> {
-            type Value = T;
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("the fields of a style, as in (relief: 0.5)")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
-                T::deserialize(MapAccessDeserializer::new(map))
-            }
-        }
-        struct StyleVisitor;
-        impl<'de> Visitor<'de> for StyleVisitor {
-            type Value = Style;
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("a style such as RotatingStrokes()")
-            }
-            fn visit_enum<A: EnumAccess<'de>>(self, style: A) -> Result<Style, A::Error> {
-                match style.variant()? {
-                    (Name::RotatingStrokes, fields) => fields
-                        .struct_variant(RotatingStrokes::FIELDS, FieldsVisitor(PhantomData))
-                        .map(Style::RotatingStrokes),
-                    (Name::SumiE, fields) => {
-                        fields.struct_variant(SumiE::FIELDS, FieldsVisitor(PhantomData)).map(Style::SumiE)
-                    }
-                    (Name::Reference, nothing) => nothing.unit_variant().map(|()| Style::Reference),
-                }
-            }
-        }
-        deserializer.deserialize_enum("Style", &["RotatingStrokes", "SumiE", "Reference"], StyleVisitor)
     }
 }

@@ -11,7 +11,7 @@ use impasto_editor_model::picking::Picker;
 use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
-use impasto_painting::frame::FrameStyle;
+use impasto_painting::frame::Style;
 use impasto_painting::{
     Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, Quality, Recall, StrokeColors,
 };
@@ -388,7 +388,7 @@ pub(super) fn frame_of(
 /// The scene stays as it was prepared: only the style differs.
 fn styled(painting: &Painting, shading: Shading) -> Cow<'_, Painting> {
     match shading {
-        Shading::Shaded => Cow::Owned(painting.in_style(FrameStyle::Reference)),
+        Shading::Shaded => Cow::Owned(painting.in_style(Style::Reference)),
         Shading::Painted | Shading::Trust => Cow::Borrowed(painting),
     }
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use impasto_gl_render::context::{self, OpenOptions};
 use impasto_gl_render::{BillboardIcon, Renderer};
-use impasto_painting::frame::FrameStyle;
+use impasto_painting::frame::Style;
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::motion;
@@ -62,7 +62,7 @@ fn is_exact(report: &Report) -> bool {
     matches!(report, Report::Picture(picture) if picture.exact)
 }
 
-fn rendered(loaded: &Arc<LoadedScene>, view: &ViewJob, style: Option<FrameStyle>) -> Vec<u8> {
+fn rendered(loaded: &Arc<LoadedScene>, view: &ViewJob, style: Option<Style>) -> Vec<u8> {
     let mut painting = prepare(Arc::clone(loaded)).unwrap();
     if let Some(style) = style {
         painting = painting.in_style(style);
@@ -112,7 +112,7 @@ fn a_later_job_ends_the_rest_of_the_one_before() {
 fn at_rest_comes_what_a_file_would_get() {
     let loaded = scene();
     let worker = worker();
-    for (shading, style) in [(Shading::Painted, None), (Shading::Shaded, Some(FrameStyle::Reference))] {
+    for (shading, style) in [(Shading::Painted, None), (Shading::Shaded, Some(Style::Reference))] {
         let view = ViewJob { shading, ..view(&loaded, 3.0) };
         worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view.clone()] });
         let told = until(&worker, is_exact);
@@ -140,7 +140,7 @@ fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
     assert!(!glimpse.exact && glimpse.strokes == 0);
     let small = ViewJob { size_px: glimpse.image.size.map(|side| side as u32), ..view(&loaded, 3.0) };
     // A draft's shadows have hard edges.
-    let (seen, exact) = (bytes(glimpse), rendered(&loaded, &small, Some(FrameStyle::Reference)));
+    let (seen, exact) = (bytes(glimpse), rendered(&loaded, &small, Some(Style::Reference)));
     let differs: usize = seen.iter().zip(&exact).map(|(one, other)| usize::from(one.abs_diff(*other))).sum();
     assert!(differs < 2 * seen.len(), "{differs} over {} bytes", seen.len());
     until(&worker, is_exact);

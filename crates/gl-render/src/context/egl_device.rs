@@ -1,6 +1,7 @@
 //! EGL devices: every graphics card and the software rasteriser, without a display.
 
-use super::{OpenOptions, Opened};
+#[cfg(target_vendor = "apple")]
+use super::opening::{OpenOptions, Opened};
 
 #[cfg(not(target_vendor = "apple"))]
 pub(super) use with_devices::open;
@@ -23,8 +24,8 @@ mod with_devices {
     use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
     use glutin::display::GlDisplay as _;
 
-    use super::super::{Platform, VERSIONS};
-    use super::{OpenOptions, Opened};
+    use super::super::opening::{OpenOptions, Opened, VERSIONS};
+    use crate::gl::Platform;
 
     /// Opens the first device that works, those of real graphics cards first.
     pub(in super::super) fn open(options: &OpenOptions) -> Result<Opened, String> {

@@ -5,7 +5,9 @@ use std::rc::Rc;
 
 use libloading::Library;
 
-use super::{OpenOptions, Opened, Platform, VERSIONS};
+use super::library::{first_library, symbol};
+use super::opening::{OpenOptions, Opened, VERSIONS};
+use crate::gl::Platform;
 
 type Handle = *mut c_void;
 type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
@@ -51,7 +53,7 @@ struct Functions {
 
 impl Functions {
     fn load() -> Result<Self, String> {
-        let library = super::osmesa::first_library(&LIBRARIES)?;
+        let library = first_library(&LIBRARIES)?;
         // SAFETY: the names and signatures are those of the EGL 1.5 specification.
         unsafe {
             let get_proc_address: GetProcAddress = symbol(&library, c"eglGetProcAddress")?;
@@ -76,16 +78,6 @@ impl Functions {
             })
         }
     }
-}
-
-/// # Safety
-///
-/// `T` is the type of the function of that name.
-pub(super) unsafe fn symbol<T: Copy>(library: &Library, name: &CStr) -> Result<T, String> {
-    // SAFETY: the caller vouches for the type.
-    unsafe { library.get::<T>(name.to_bytes_with_nul()) }
-        .map(|found| *found)
-        .map_err(|error| error.to_string())
 }
 
 /// Opens a context on the surfaceless platform.
@@ -113,17 +105,13 @@ pub(super) fn open(options: &OpenOptions) -> Result<Opened, String> {
         }
         display
     };
-    let context = create(&egl, (display, config), options)?;
+    let context = create(&egl, display, config, options)?;
     let platform = Surfaceless { egl, display, context };
     platform.make_current()?;
     Ok(Opened { platform: Box::new(platform), device: "surfaceless".to_owned() })
 }
 
-fn create(
-    egl: &Functions,
-    (display, config): (Handle, Handle),
-    options: &OpenOptions,
-) -> Result<Handle, String> {
+fn create(egl: &Functions, display: Handle, config: Handle, options: &OpenOptions) -> Result<Handle, String> {
     for (major, minor) in VERSIONS {
         let mut attributes = vec![CONTEXT_MAJOR, major.into(), CONTEXT_MINOR, minor.into()];
         attributes.extend([CONTEXT_PROFILE_MASK, CORE_PROFILE]);

@@ -1,32 +1,26 @@
 //! Getting an OpenGL context on a machine that may have no display.
 //!
-//! Three ways, tried in this order by [`Driver::Auto`]: an EGL device (a GPU before the software one), EGL's
-//! surfaceless platform, and OSMesa, Mesa's off-screen library. All of them are loaded at run time, so the program
-//! starts, and can say what is missing, where none is installed.
+//! There are three ways, which [`Driver::Auto`] tries in this order: an EGL device (graphics cards before software),
+//! EGL's surfaceless platform, and OSMesa, Mesa's off-screen library. All are loaded at run time, so that the program
+//! starts even where none is installed, and can say what is missing.
 
 #![expect(unsafe_code, reason = "contexts are made by calls into C libraries that are loaded at run time")]
 
-mod driver_messages;
 mod egl_device;
 mod egl_surfaceless;
+mod library;
+mod opening;
 mod osmesa;
 mod report;
 
-use std::ffi::{CStr, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use crate::gl::{Gpu, Limits};
+use crate::gl::{DriverMessages, Gpu, Limits};
+use opening::Opened;
 
-pub use driver_messages::DriverMessages;
+pub use opening::OpenOptions;
 pub use report::{ContextError, ContextReport, Driver, FailedAttempt, Mend};
-
-/// How to open a context.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct OpenOptions {
-    /// Asks the driver for its debug output; [`crate::Renderer::render`] then fails where the driver complained.
-    pub debug: bool,
-}
 
 /// An OpenGL context of version 3.3 core or later, with no window.
 ///
@@ -62,36 +56,19 @@ impl Context {
     }
 }
 
-/// What a driver hands over: a current context and the way to find its functions.
-struct Opened {
-    platform: Box<dyn Platform>,
-    device: String,
-}
-
-/// The part of a context that the windowing library owns. Dropping it destroys the context.
-pub(crate) trait Platform {
-    /// Makes the context current on this thread.
-    fn make_current(&self) -> Result<(), String>;
-    /// The address of an OpenGL function, null where there is none.
-    fn function_address(&self, name: &CStr) -> *const c_void;
-}
-
-/// OpenGL versions asked for, best first. Mesa refuses 4.6 where it has only 4.5, and nothing here needs it.
-const VERSIONS: [(u8, u8); 4] = [(4, 5), (4, 3), (4, 1), (3, 3)];
-
 type Opener = fn(&OpenOptions) -> Result<Opened, String>;
 
 /// Opens a context with the wanted driver.
 ///
 /// # Errors
 ///
-/// [`ContextError`] lists every way that was tried, why it failed, and which package would mend it.
+/// [`ContextError`] lists every way that was tried, why it failed, and which packages would help.
 pub fn open(driver: Driver, options: &OpenOptions) -> Result<Context, ContextError> {
     let mut failed = Vec::new();
     for (candidate, way, opener) in ways(driver) {
         match guarded(|| opener(options).and_then(|opened| finish(opened, options))) {
             Ok((gpu, device)) => {
-                let report = report::describe(&gpu, (candidate, way, device), failed);
+                let report = report::describe(&gpu, candidate, way, device, failed);
                 return Ok(Context { gpu, report });
             }
             Err(reason) => failed.push(FailedAttempt { driver: candidate, way, reason }),

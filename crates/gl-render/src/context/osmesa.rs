@@ -5,8 +5,9 @@ use std::ffi::{CStr, c_char, c_void};
 
 use libloading::Library;
 
-use super::egl_surfaceless::symbol;
-use super::{OpenOptions, Opened, Platform, VERSIONS};
+use super::library::{first_library, symbol};
+use super::opening::{OpenOptions, Opened, VERSIONS};
+use crate::gl::Platform;
 
 type Handle = *mut c_void;
 type CreateContextAttribs = unsafe extern "C" fn(*const i32, Handle) -> Handle;
@@ -35,19 +36,6 @@ const LIBRARIES: [&str; 1] = ["osmesa.dll"];
 const LIBRARIES: [&str; 2] = ["libOSMesa.8.dylib", "libOSMesa.dylib"];
 #[cfg(not(any(target_os = "windows", target_vendor = "apple")))]
 const LIBRARIES: [&str; 3] = ["libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"];
-
-/// The first of these libraries that loads.
-pub(super) fn first_library(names: &[&str]) -> Result<Library, String> {
-    let mut first_reason = None;
-    for name in names {
-        // SAFETY: these are system libraries whose start-up code does nothing but set itself up.
-        match unsafe { Library::new(name) } {
-            Ok(library) => return Ok(library),
-            Err(error) => first_reason = first_reason.or(Some(error.to_string())),
-        }
-    }
-    Err(first_reason.unwrap_or_else(|| "no library is known for this system".to_owned()))
-}
 
 /// Opens a context in memory.
 pub(super) fn open(_options: &OpenOptions) -> Result<Opened, String> {

@@ -1,4 +1,4 @@
-//! What was tried, what was taken, and what would help.
+//! Reports on drivers: which were tried, which one is used, and which packages would help.
 
 use std::fmt;
 
@@ -26,12 +26,12 @@ impl fmt::Display for Driver {
     }
 }
 
-/// A way to a context that did not work.
+/// An attempt to open a context that failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FailedAttempt {
-    /// Whose way it was.
+    /// The driver.
     pub driver: Driver,
-    /// Which way, in words.
+    /// How it was to be opened, in words.
     pub way: &'static str,
     /// Why it failed, as one line.
     pub reason: String,
@@ -54,10 +54,10 @@ impl Mend {
     ];
 }
 
-/// No driver gave a context.
+/// No driver could open a context.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct ContextError {
-    /// Every way that was tried, in order.
+    /// Every attempt, in order.
     pub tried: Vec<FailedAttempt>,
 }
 
@@ -87,9 +87,9 @@ impl fmt::Display for ContextError {
 /// The driver in use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ContextReport {
-    /// The driver that was taken.
+    /// The driver.
     pub driver: Driver,
-    /// The way to it, in words, such as "EGL device".
+    /// How it was opened, in words, such as "EGL device".
     pub way: &'static str,
     /// The device, where the driver names one.
     pub device: String,
@@ -103,9 +103,9 @@ pub struct ContextReport {
     pub shading_language: String,
     /// The longest side of a picture, in pixels.
     pub max_side_px: u32,
-    /// Whether the driver's debug output is being listened to.
+    /// Whether the driver's debug output is collected.
     pub debug_output: bool,
-    /// Ways that were tried before and why they were not taken.
+    /// Attempts that failed before.
     pub tried: Vec<FailedAttempt>,
 }
 
@@ -121,7 +121,9 @@ impl fmt::Display for ContextReport {
 
 pub(super) fn describe(
     gpu: &Gpu,
-    (driver, way, device): (Driver, &'static str, String),
+    driver: Driver,
+    way: &'static str,
+    device: String,
     tried: Vec<FailedAttempt>,
 ) -> ContextReport {
     let limits = gpu.limits();

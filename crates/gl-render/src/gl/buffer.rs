@@ -1,4 +1,4 @@
-//! Buffers that grow.
+//! Buffers on the GPU that grow as needed.
 
 use glow::HasContext as _;
 
@@ -23,7 +23,7 @@ pub(crate) struct Buffer {
     capacity: usize,
 }
 
-/// The largest buffer: sizes are `i32` in places, and no frame comes near it.
+/// The largest allowed buffer: OpenGL has sizes as `i32` in places, and no frame needs as much.
 const MAX_BYTES: usize = 1 << 30;
 
 impl Buffer {
@@ -43,7 +43,7 @@ impl Buffer {
         self.id
     }
 
-    /// Makes room for that many bytes; what was in it is lost when it grows.
+    /// Makes room for this many bytes. The contents are lost when the buffer grows.
     pub(crate) fn reserve(&mut self, bytes: usize) -> Result<(), GlError> {
         if bytes <= self.capacity {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What is drawn into.
+//! Framebuffers: textures that passes draw into.
 
 use std::rc::Rc;
 
@@ -6,7 +6,7 @@ use glow::{HasContext as _, PixelPackData};
 
 use super::{Format, GlError, Gpu, Texture};
 
-/// Textures that are drawn into together.
+/// Textures that a pass draws into together.
 pub(crate) struct Framebuffer {
     gpu: Gpu,
     id: glow::Framebuffer,
@@ -86,7 +86,7 @@ impl Framebuffer {
     /// Reads one colour texture as bytes, bottom row first, four channels a pixel.
     pub(crate) fn read_bytes(&self, color: usize) -> Vec<u8> {
         let mut bytes = vec![0; self.pixels() * 4];
-        self.read(color, (glow::RGBA, glow::UNSIGNED_BYTE), &mut bytes);
+        self.read(color, glow::RGBA, glow::UNSIGNED_BYTE, &mut bytes);
         bytes
     }
 
@@ -95,7 +95,7 @@ impl Framebuffer {
         let channels = if self.colors[color].format() == Format::Rg32F { 2 } else { 4 };
         let mut values = vec![0.0_f32; self.pixels() * channels];
         let format = if channels == 2 { glow::RG } else { glow::RGBA };
-        self.read(color, (format, glow::FLOAT), bytemuck::cast_slice_mut(&mut values));
+        self.read(color, format, glow::FLOAT, bytemuck::cast_slice_mut(&mut values));
         values
     }
 
@@ -103,9 +103,9 @@ impl Framebuffer {
         self.size_px[0] as usize * self.size_px[1] as usize
     }
 
-    fn read(&self, color: usize, (format, kind): (u32, u32), bytes: &mut [u8]) {
+    fn read(&self, color: usize, format: u32, kind: u32, bytes: &mut [u8]) {
         let gl = self.gpu.gl();
-        // SAFETY: the context is current; both callers hand as many bytes as the format takes, rows without padding.
+        // SAFETY: the context is current; both callers pass as many bytes as the format takes, rows without padding.
         unsafe {
             gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(self.id));
             gl.read_buffer(glow::COLOR_ATTACHMENT0 + color as u32);

@@ -7,11 +7,9 @@ use std::time::Instant;
 
 use glow::HasContext as _;
 
-use super::GlError;
-use crate::context::{DriverMessages, Platform};
-use crate::shader_files::ShaderTexts;
+use super::{DriverMessages, GlError, Platform, ShaderTexts};
 
-/// A context, shared by everything that was made in it; it goes away after the last of them.
+/// A context, shared by everything that was created in it; it is destroyed after the last of them.
 #[derive(Clone)]
 pub(crate) struct Gpu {
     shared: Rc<Shared>,
@@ -26,14 +24,14 @@ struct Shared {
     platform: Box<dyn Platform>,
 }
 
-/// Times passes from one lap to the next.
+/// Measures the time from one pass to the next.
 struct PassClock {
     since: Instant,
     laps: Vec<(&'static str, f64)>,
     fragments: u64,
 }
 
-/// What the driver says of itself.
+/// What the driver reports about itself.
 #[derive(Clone, Debug)]
 pub(crate) struct Limits {
     pub vendor: String,
@@ -82,7 +80,7 @@ impl Gpu {
         Self { shared: Rc::new(Shared { gl, clock, messages, limits, shaders, platform }) }
     }
 
-    /// Texts that programs made from now on have in place of the program's own; returns those before.
+    /// Sets the texts that replace shader files in programs created from now on; returns those before.
     pub(crate) fn set_shaders(&self, texts: ShaderTexts) -> ShaderTexts {
         self.shared.shaders.replace(texts)
     }
@@ -99,25 +97,25 @@ impl Gpu {
         &self.shared.limits
     }
 
-    /// Starts timing passes. Each lap waits for the driver, so a timed frame is slower than one that is not.
+    /// Starts to time passes. Each lap waits for the driver, so a timed frame is slower.
     pub(crate) fn start_clock(&self) {
         *self.shared.clock.borrow_mut() =
             Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
     }
 
-    /// Lets the driver begin with what it was told so far.
+    /// Lets the driver start with the commands so far.
     pub(crate) fn flush(&self) {
         // SAFETY: the context is current.
         unsafe { self.gl().flush() };
     }
 
-    /// Waits until all is drawn.
+    /// Waits until everything is drawn.
     pub(crate) fn finish(&self) {
         // SAFETY: the context is current.
         unsafe { self.gl().finish() };
     }
 
-    /// What was drawn since the last lap was this; nothing unless passes are timed.
+    /// Ends a pass: everything since the last lap belongs to it. Does nothing unless passes are timed.
     pub(crate) fn lap(&self, pass: &'static str) {
         if let Some(clock) = self.shared.clock.borrow_mut().as_mut() {
             self.finish();
@@ -126,7 +124,7 @@ impl Gpu {
         }
     }
 
-    /// While passes are timed, counts the fragments that `draw` lays down.
+    /// Draws; while passes are timed, also counts the fragments.
     pub(super) fn counting_fragments(&self, draw: impl FnOnce()) {
         let mut clock = self.shared.clock.borrow_mut();
         let Some(clock) = clock.as_mut() else { return draw() };
@@ -142,33 +140,33 @@ impl Gpu {
         }
     }
 
-    /// Stops timing: passes with their seconds, in order, and how many fragments strokes laid down.
+    /// Stops timing. Returns the passes with their seconds, in order, and the number of fragments of all strokes.
     pub(crate) fn stop_clock(&self) -> (Vec<(&'static str, f64)>, u64) {
         self.shared.clock.borrow_mut().take().map(|clock| (clock.laps, clock.fragments)).unwrap_or_default()
     }
 
-    /// Whether the driver's debug output is being kept.
+    /// Whether the driver's debug output is collected.
     pub(crate) fn listens(&self) -> bool {
         self.shared.messages.is_some()
     }
 
-    /// The functions, for whoever else draws in this context.
+    /// OpenGL's functions, for others that draw in this context.
     pub(crate) fn functions(&self) -> Arc<glow::Context> {
         self.shared.gl.clone()
     }
 
-    /// Makes the context current on this thread; to be called before a run of calls into it.
+    /// Makes the context current on this thread; call it before a series of OpenGL calls.
     pub(crate) fn make_current(&self) -> Result<(), GlError> {
         self.shared.platform.make_current().map_err(GlError::Context)
     }
 
-    /// The driver's complaints since the last call, as an error.
+    /// What the driver has reported since the last call, as an error.
     pub(crate) fn complaints(&self) -> Result<(), GlError> {
-        let said = self.shared.messages.as_ref().map(DriverMessages::take).unwrap_or_default();
-        if said.is_empty() { Ok(()) } else { Err(GlError::Driver(said)) }
+        let messages = self.shared.messages.as_ref().map(DriverMessages::take).unwrap_or_default();
+        if messages.is_empty() { Ok(()) } else { Err(GlError::Driver(messages)) }
     }
 
-    /// Checks that what was just made fits the memory.
+    /// Checks that the driver had memory for what was just created.
     pub(super) fn check_memory(&self, what: &str) -> Result<(), GlError> {
         // SAFETY: the context is current.
         match unsafe { self.gl().get_error() } {

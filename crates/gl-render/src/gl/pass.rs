@@ -1,11 +1,11 @@
-//! A pass: draws into one framebuffer with one state.
+//! A pass: draws into one framebuffer with one fixed state.
 
 use glow::HasContext as _;
 
 use super::program::Bound;
 use super::{Buffer, Framebuffer, GlError, Gpu, VertexArray};
 
-/// How a new colour meets the old one.
+/// How a new colour combines with the old one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Blend {
     /// It replaces it.
@@ -19,16 +19,16 @@ pub(crate) enum Blend {
     Under,
 }
 
-/// Fixed state of a pass; everything else is set to its default each time, whoever used the context before.
+/// The state of a pass. Everything else is reset to its default each time, because others may use the context too.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrawState {
     pub depth_test: bool,
-    /// Depth is that of the pass before, and what is as near counts as nearer.
+    /// Keeps the depth of earlier passes, and draws what is equally near.
     pub depth_kept: bool,
     pub blend: Blend,
     /// Clears every colour target to this.
     pub clear: Option<[f32; 4]>,
-    /// Pushes surfaces away from the eye a little, against shadows that fall on their own caster.
+    /// Pushes surfaces away from the eye a little, so that they cast no shadow on themselves.
     pub depth_offset: bool,
 }
 
@@ -44,7 +44,7 @@ pub(crate) enum Vertices {
 }
 
 impl Gpu {
-    /// Starts a pass: binds the target, sets the state, clears.
+    /// Begins a pass: binds the target, sets the state, clears.
     pub(crate) fn begin_pass(&self, target: &Framebuffer, state: DrawState) {
         let gl = self.gl();
         let [width, height] = target.size_px();
@@ -123,8 +123,8 @@ impl Gpu {
         Ok(())
     }
 
-    /// Runs a vertex shader over points and keeps what it computes: `count` records of `record_bytes`, from record
-    /// `first` of `output` on. Nothing is drawn.
+    /// Runs a vertex shader over points and writes its outputs into `output`: `count` records of `record_bytes`, from record
+    /// `first` on. Nothing is drawn.
     pub(crate) fn capture(
         &self,
         bound: Bound<'_>,

@@ -1,4 +1,4 @@
-//! Shader programs whose uniforms are known by name and checked once.
+//! Shader programs. Their uniforms are set by name, and the names are checked when the program is created.
 
 use std::cell::Cell;
 
@@ -13,14 +13,32 @@ use super::{GlError, Gpu, ShaderFile, Texture};
 pub(crate) struct ProgramSource<'a> {
     /// Path of the vertex shader below `shaders/`.
     pub vertex: &'static str,
-    /// Path of the fragment shader; none where only the vertex shader's results are kept.
+    /// Path of the fragment shader; `None` where only the vertex shader's outputs are captured.
     pub fragment: Option<&'static str>,
-    /// Outputs of the vertex shader that are captured.
+    /// Outputs of the vertex shader that are captured into a buffer.
     pub captured: &'static [&'static str],
-    /// Every uniform that the Rust side sets.
-    pub uniforms: &'a [&'static str],
-    /// Names that the shaders find defined.
-    pub defined: &'static [&'static str],
+    /// Every uniform that the Rust side sets, in groups.
+    pub uniforms: &'a [&'a [&'static str]],
+    /// Further uniforms, which the shader may leave out; setting one that is left out does nothing.
+    pub optional: &'a [&'static str],
+    /// Names that are `#define`d for the shaders.
+    pub defined: &'a [&'static str],
+}
+
+impl<'a> ProgramSource<'a> {
+    /// A program of these shaders and uniforms, with nothing captured and nothing defined.
+    pub(crate) const fn new(
+        vertex: &'static str,
+        fragment: Option<&'static str>,
+        uniforms: &'a [&'a [&'static str]],
+    ) -> Self {
+        Self { vertex, fragment, captured: &[], uniforms, optional: &[], defined: &[] }
+    }
+
+    /// A pass over every pixel of the picture.
+    pub(crate) const fn screen(fragment: &'static str, uniforms: &'a [&'a [&'static str]]) -> Self {
+        Self::new("shared/screen.vert", Some(fragment), uniforms)
+    }
 }
 
 /// A linked program.
@@ -29,8 +47,10 @@ pub(crate) struct Program {
     id: glow::Program,
     name: String,
     uniforms: Vec<Uniform>,
-    /// Shaders of one's own may leave out what the program's own use.
-    lenient: bool,
+    /// Uniforms that the shader may leave out.
+    optional: Vec<&'static str>,
+    /// Whether the shader may leave out any uniform, because the user's own text replaces one of ours.
+    is_replaced: bool,
 }
 
 struct Uniform {
@@ -77,8 +97,14 @@ impl Program {
         let gl = gpu.gl();
         // SAFETY: the context is current.
         let id = unsafe { gl.create_program() }.map_err(fault)?;
-        let lenient = !gpu.shaders().is_empty();
-        let mut program = Self { gpu: gpu.clone(), id, name: name.clone(), uniforms: Vec::new(), lenient };
+        let mut program = Self {
+            gpu: gpu.clone(),
+            id,
+            name: name.clone(),
+            uniforms: Vec::new(),
+            optional: source.optional.to_vec(),
+            is_replaced: !gpu.shaders().is_empty(),
+        };
         let stages = [(glow::VERTEX_SHADER, Some(source.vertex)), (glow::FRAGMENT_SHADER, source.fragment)];
         for (stage, path) in stages {
             if let Some(path) = path {
@@ -98,7 +124,7 @@ impl Program {
             }
         }
         program.reflect();
-        program.compare(source.uniforms)?;
+        program.compare(&source.uniforms.concat())?;
         Ok(program)
     }
 
@@ -118,7 +144,7 @@ impl Program {
         }
     }
 
-    /// Finds every uniform that the linked program has, and gives each sampler a texture unit of its own.
+    /// Lists the uniforms of the linked program, and gives each sampler a texture unit of its own.
     fn reflect(&mut self) {
         let gl = self.gpu.gl();
         let mut next_unit = 0;
@@ -151,11 +177,12 @@ impl Program {
     }
 
     fn compare(&self, known: &[&str]) -> Result<(), GlError> {
-        let unknown = self.uniforms.iter().find(|uniform| !known.contains(&uniform.name.as_str()));
+        let is_known = |name: &str| known.contains(&name) || self.optional.contains(&name);
+        let unknown = self.uniforms.iter().find(|uniform| !is_known(&uniform.name));
         if let Some(uniform) = unknown {
             return Err(self.fault(&uniform.name, "is not known to the Rust side"));
         }
-        let unused = known.iter().find(|name| !self.lenient && self.find(name).is_none());
+        let unused = known.iter().find(|name| self.find(name).is_none() && !self.may_lack(name));
         unused.map_or(Ok(()), |name| Err(self.fault(name, "is not used by the shader")))
     }
 
@@ -163,11 +190,15 @@ impl Program {
         self.uniforms.iter().find(|uniform| uniform.name == name)
     }
 
+    fn may_lack(&self, uniform: &str) -> bool {
+        self.is_replaced || self.optional.contains(&uniform)
+    }
+
     fn fault(&self, uniform: &str, fault: &'static str) -> GlError {
         GlError::Uniform { program: self.name.clone(), uniform: uniform.to_owned(), fault }
     }
 
-    /// Starts a draw. Textures must be bound for every draw; values stay until they are set again.
+    /// Starts a draw. Textures must be bound for every draw; other values stay until they are set again.
     pub(crate) fn bind(&self) -> Bound<'_> {
         // SAFETY: the context is current and the program is linked.
         unsafe { self.gpu.gl().use_program(Some(self.id)) };
@@ -189,7 +220,7 @@ impl Drop for Program {
     }
 }
 
-/// A program with the values of one draw. The first fault is kept and returned by the draw.
+/// A program with the values of one draw. The first mistake is remembered, and the draw returns it.
 pub(crate) struct Bound<'a> {
     program: &'a Program,
     fault: Option<GlError>,
@@ -205,7 +236,7 @@ impl Bound<'_> {
                 self.send(&uniform.location, value);
             }
             Some(_) => self.keep(name, "has another type in the shader"),
-            None if self.program.lenient => {}
+            None if self.program.may_lack(name) => {}
             None => self.keep(name, "does not exist"),
         }
         self
@@ -224,7 +255,7 @@ impl Bound<'_> {
                     gl.bind_sampler(unit, None);
                 }
             }
-            None if self.program.lenient && self.program.find(name).is_none() => {}
+            None if self.program.may_lack(name) && self.program.find(name).is_none() => {}
             None => self.keep(name, "is not a sampler of the shader"),
         }
         self

@@ -1,8 +1,7 @@
-//! Shader files: `#include`, and driver messages that name our files and lines.
+//! Shader texts: `#include`, and driver messages that name our files and lines.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
-
-use crate::shader_files::ShaderTexts;
 
 /// A shader file that is part of the program.
 #[derive(Clone, Copy, Debug)]
@@ -13,22 +12,38 @@ pub(crate) struct ShaderFile {
     pub text: &'static str,
 }
 
+/// Texts that replace some of the program's own shader files, for people who work on a look of their own.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ShaderTexts(pub(crate) BTreeMap<&'static str, String>);
+
+impl ShaderTexts {
+    /// Whether nothing is replaced.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The text that replaces the file at this path.
+    pub(crate) fn get(&self, path: &str) -> Option<&str> {
+        self.0.get(path).map(String::as_str)
+    }
+}
+
 /// A file with its includes put in.
 #[derive(Debug)]
 pub(super) struct Expanded {
     pub text: String,
-    /// Paths by the number that `#line` gives to the compiler.
+    /// Paths, in the order of the numbers that `#line` gives to the compiler.
     paths: Vec<&'static str>,
 }
 
-/// Files, and texts that stand in for some of them.
+/// Files, and texts that replace some of them.
 #[derive(Clone, Copy)]
 pub(super) struct Sources<'a> {
     pub files: &'a [&'a [ShaderFile]],
     pub replaced: &'a ShaderTexts,
 }
 
-/// Puts every `#include "path"` in, each file once, after `#define`s of these names. Paths start at `shaders/`.
+/// `#define`s these names, then replaces every `#include "path"` by its file, each file once. Paths start at `shaders/`.
 pub(super) fn expand(sources: Sources<'_>, path: &str, defined: &[&str]) -> Result<Expanded, String> {
     let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
     for name in defined {
@@ -77,7 +92,7 @@ fn included(line: &str) -> Option<&str> {
 }
 
 impl Expanded {
-    /// Puts our file names into the compiler's words: `1:12(5)`, `1(12)` and `ERROR: 1:12` all become `path:12`.
+    /// Puts our file names into the compiler's messages: `1:12(5)`, `1(12)` and `ERROR: 1:12` all become `path:12`.
     pub(super) fn name_places(&self, log: &str) -> String {
         log.lines().map(|line| self.name_place(line)).collect::<Vec<_>>().join("\n").trim().to_owned()
     }

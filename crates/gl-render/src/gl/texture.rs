@@ -1,4 +1,4 @@
-//! Textures, both those that are read from files and those that are drawn into.
+//! Textures: pictures that shaders read, and targets that passes draw into.
 
 use glow::{HasContext as _, PixelUnpackData};
 
@@ -66,7 +66,7 @@ pub(crate) struct Texture {
 }
 
 impl Texture {
-    /// A texture with undefined contents, made to be drawn into.
+    /// A texture to draw into, with undefined contents.
     pub(crate) fn target(
         gpu: &Gpu,
         format: Format,
@@ -92,7 +92,7 @@ impl Texture {
         Ok(texture)
     }
 
-    /// A texture for surfaces, with levels made by the driver.
+    /// A texture that repeats, with mipmap levels computed by the driver.
     pub(crate) fn with_driver_levels(
         gpu: &Gpu,
         format: Format,
@@ -108,7 +108,7 @@ impl Texture {
         Ok(texture)
     }
 
-    /// An array of textures, every level given, finest first.
+    /// An array of textures with all mipmap levels given, finest first.
     pub(crate) fn array_with_levels(
         gpu: &Gpu,
         format: Format,
@@ -156,8 +156,8 @@ impl Texture {
         let (internal, format, kind) = self.format.names();
         let gl = self.gpu.gl();
         let side = |pixels: u32| (pixels >> level).max(1) as i32;
-        // SAFETY: the context is current; glow checks nothing, but each caller hands as many texels as the shape
-        // has, rows packed without padding.
+        // SAFETY: the context is current; glow checks nothing, but each caller passes as many texels as the shape
+        // has, rows without padding.
         unsafe {
             gl.bind_buffer(glow::PIXEL_UNPACK_BUFFER, None);
             gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);

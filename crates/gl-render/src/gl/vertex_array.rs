@@ -1,4 +1,4 @@
-//! Where a draw finds its vertices.
+//! Vertex arrays: where a draw finds its vertices.
 
 use glow::HasContext as _;
 
@@ -25,7 +25,7 @@ pub(crate) struct VertexArray {
 }
 
 impl VertexArray {
-    /// A draw that computes its vertices from their number.
+    /// No inputs: the shader computes vertices from their number.
     pub(crate) fn empty(gpu: &Gpu) -> Result<Self, GlError> {
         // SAFETY: the context is current.
         let id = unsafe { gpu.gl().create_vertex_array() }
@@ -33,7 +33,7 @@ impl VertexArray {
         Ok(Self { gpu: gpu.clone(), id })
     }
 
-    /// A draw from buffers.
+    /// Inputs from buffers.
     pub(crate) fn new(
         gpu: &Gpu,
         attributes: &[Attribute<'_>],

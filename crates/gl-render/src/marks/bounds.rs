@@ -1,19 +1,21 @@
-//! Where on a mark there is paint: most of a mark's rectangle is room for ragged ends, and what is there of a dry or faint stroke
-//! is less than the mark. A quad that is cut to it looks the same and covers far fewer pixels.
+//! Where on a mark there is paint. Most of a mark's rectangle is room for ragged ends, and a dry or faint stroke covers even
+//! less. A quad that is cut to the painted box looks the same and covers far fewer pixels.
 
 use impasto_core::brush::SIZE;
 use rayon::prelude::*;
 
-use super::Texel;
 use crate::gl::{Format, GlError, Gpu, Texture};
 
-/// How many amounts of paint are told apart; `paint.vert` counts them too.
+/// A texel of a mark: paint, height, tint, unused.
+pub(super) type Texel = [u8; 4];
+
+/// How many amounts of paint have a box of their own; `paint.vert` has the same number.
 const STEPS: usize = 32;
 
-/// Least and greatest texel along and across, as shares of the mark; the least are above the greatest where there is none.
+/// The box: from and to along the mark, then across, as shares of the mark. From is above to where there is no paint.
 type Bounds = [f32; 4];
 
-/// A row of [`STEPS`] for each mark.
+/// A row of [`STEPS`] boxes for each mark.
 pub(super) fn texture(gpu: &Gpu, marks: &[Vec<Texel>]) -> Result<Texture, GlError> {
     let mut rows: Vec<Bounds> = marks.par_iter().flat_map_iter(|texels| of_mark(texels)).collect();
     // A texture has at least one row.
@@ -24,7 +26,7 @@ pub(super) fn texture(gpu: &Gpu, marks: &[Vec<Texel>]) -> Result<Texture, GlErro
 
 const NOWHERE: Bounds = [1.0, 0.0, 1.0, 0.0];
 
-/// For each step, where the mark has more paint than that.
+/// For each step, the box around the texels with more paint than that.
 fn of_mark(texels: &[Texel]) -> [Bounds; STEPS] {
     let (mut along, mut across) = ([0; SIZE[0]], [0; SIZE[1]]);
     for (y, row) in texels.chunks_exact(SIZE[0]).enumerate() {

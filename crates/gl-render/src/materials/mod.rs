@@ -1,3 +1,3 @@
-//! Materials that the reference pass alone does not know: each in a file of its own.
+//! Materials that need passes of their own: one file each.
 
 pub(crate) mod noise_displace;

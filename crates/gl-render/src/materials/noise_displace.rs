@@ -1,56 +1,52 @@
-//! Bodies that noise displaces and colours.
+//! Bodies that noise colours: several layers of noise that travel over a body, blended over what is behind it, and that may
+//! glow. They are drawn after the rest of the reference picture, the farthest first.
 //!
-//! Displaced vertices go through the reference pass's own programs with another vertex stage. Coloured bodies are drawn behind
-//! it, the farthest first. Targets: `glow`, two of a quarter of its size. Passes: for each body place (depth and id) and look
-//! (colour, blended); ground (the background where nothing else is behind); where something glows, gather, spread (twice),
-//! bloom.
+//! Targets: `glow`, and two of a quarter of its size. Passes: for each body place (depth and id) and look (colour, blended);
+//! background (where nothing else is behind); where something glows, gather, spread (twice), bloom.
+//!
+//! That noise also displaces vertices is not done here but in `body_program`.
 
 mod bloom;
-mod programs;
 
 use std::rc::Rc;
-use std::sync::{Arc, Weak};
 
 use glam::{Vec2, Vec3, Vec4};
-use impasto_core::noise_displace::{Along, Lookup, Tile, gaussian};
-use impasto_painting::Frame;
 use impasto_painting::frame::FrameBody;
-use impasto_painting::{FrameNoise, NoiseLayers};
+use impasto_painting::{Frame, NoiseLayers};
 
+use crate::body_program::BodyProgram;
 use crate::gl::{
-    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray,
-    Vertices,
+    Blend, Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource,
+    ShaderFile, Texture, VertexArray, Vertices,
 };
-use crate::meshes::MeshOnGpu;
-use crate::reference::ReferenceTargets;
-use crate::styles::ground;
+use crate::meshes::DrawnBody;
+use crate::noise_tiles::NoiseTiles;
+use crate::reference_targets::ReferenceTargets;
+use crate::shader_files::{NOISE_DISPLACE, SHARED};
 use crate::watch::Watch;
 use bloom::Bloom;
-use programs::{Programs, Variants};
 
-/// A program of the reference pass.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Stage {
-    Surface,
-    Shadow,
-    Motion,
-}
-
-/// All that such bodies need on the GPU; made when the first one is drawn.
+/// Draws the bodies that noise colours.
 pub(crate) struct NoiseDisplace {
     gpu: Gpu,
     screen: VertexArray,
-    variants: Option<Variants>,
+    /// Created when the first such body is drawn.
     programs: Option<Programs>,
+    /// Created when the first of them glows.
     bloom: Option<Bloom>,
-    tiles: Vec<(Weak<Tile>, Rc<Texture>)>,
     targets: Option<Targets>,
 }
 
+struct Programs {
+    place: BodyProgram,
+    look: BodyProgram,
+    background: Program,
+}
+
 struct Targets {
-    /// Of the reference picture that these go with.
+    /// Of the reference picture that these belong to.
     color: Rc<Texture>,
-    place: Rc<Texture>,
+    depth_and_id: Rc<Texture>,
     glow: Rc<Texture>,
     place_pass: Framebuffer,
     look_pass: Framebuffer,
@@ -58,14 +54,9 @@ struct Targets {
     color_pass: Framebuffer,
 }
 
-/// Whether a body is coloured by noise: it is drawn behind the reference pass, and casts no shadow.
+/// Whether noise colours a body. Then it is drawn after the rest of the reference picture, and casts no shadow.
 pub(crate) fn is_coloured(body: &FrameBody) -> bool {
     layers(body).is_some()
-}
-
-/// Whether noise moves a body's vertices.
-pub(crate) fn is_displaced(body: &FrameBody) -> bool {
-    body.noise.as_ref().is_some_and(|noise| noise.noise.vertex.is_some())
 }
 
 fn layers(body: &FrameBody) -> Option<&NoiseLayers> {
@@ -77,105 +68,28 @@ impl NoiseDisplace {
         Ok(Self {
             gpu: gpu.clone(),
             screen: VertexArray::empty(gpu)?,
-            variants: None,
             programs: None,
             bloom: None,
-            tiles: Vec::new(),
             targets: None,
         })
     }
 
-    /// Makes ready what a frame needs; nothing where no body has noise.
-    pub(crate) fn prepare(&mut self, frame: &Frame) -> Result<(), GlError> {
-        let noises = frame.bodies.iter().filter(|body| !body.hidden).filter_map(|body| body.noise.as_ref());
-        for FrameNoise { noise, .. } in noises {
-            if self.variants.is_none() {
-                self.variants = Some(Variants::new(&self.gpu)?);
-            }
-            self.upload(noise.vertex.as_ref().map_or_else(gaussian, |vertex| Arc::clone(&vertex.tile)))?;
-            if let Some(layers) = &noise.layers {
-                self.upload(Arc::clone(&layers.tile))?;
-                if self.programs.is_none() {
-                    self.programs = Some(Programs::new(&self.gpu)?);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Makes at once every program that otherwise waits until it is needed.
+    /// Creates at once every program that is otherwise created when it is first needed.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
-        self.variants = Some(Variants::new(&self.gpu)?);
-        self.programs = Some(Programs::new(&self.gpu)?);
+        let mut programs = Programs::new(&self.gpu)?;
+        programs.place.ready_all()?;
+        programs.look.ready_all()?;
+        self.programs = Some(programs);
         self.bloom = Some(Bloom::new(&self.gpu, [1, 1])?);
         Ok(())
     }
 
-    fn upload(&mut self, tile: Arc<Tile>) -> Result<(), GlError> {
-        if self.tile(&tile).is_some() {
-            return Ok(());
-        }
-        self.tiles.retain(|(tile, _)| tile.strong_count() > 0);
-        let size = tile.size().map(|side| side as u32);
-        let texels = bytemuck::cast_slice(tile.texels());
-        let texture = Texture::with_driver_levels(&self.gpu, Format::Rgba32F, size, texels)?;
-        self.tiles.push((Arc::downgrade(&tile), Rc::new(texture)));
-        Ok(())
-    }
-
-    fn tile(&self, tile: &Arc<Tile>) -> Option<&Texture> {
-        let here = |weak: &Weak<Tile>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(tile));
-        self.tiles.iter().find(|(weak, _)| here(weak)).map(|(_, texture)| &**texture)
-    }
-
-    /// Starts a draw of a body in a pass of the reference: with the pass's usual program, or with one that displaces it.
-    pub(crate) fn bind<'a>(&'a self, usual: &'a Program, stage: Stage, body: &FrameBody) -> Bound<'a> {
-        let noise = body.noise.as_ref().filter(|_| is_displaced(body));
-        let Some((noise, variants)) = noise.zip(self.variants.as_ref()) else { return usual.bind() };
-        let moves_normals = noise.noise.vertex.as_ref().is_some_and(|vertex| vertex.moves_normals);
-        match stage {
-            Stage::Surface => {
-                self.displace(variants.surface.bind(), noise).set("moves_normals", f32::from(moves_normals))
-            }
-            Stage::Shadow => self.displace(variants.shadow.bind(), noise),
-            Stage::Motion => self.displace(variants.motion.bind(), noise),
-        }
-    }
-
-    /// As [`NoiseDisplace::bind`] of the motion pass, with where the body's vertices looked in the other picture.
-    pub(crate) fn bind_motion<'a>(&'a self, usual: &'a Program, [now, then]: [&FrameBody; 2]) -> Bound<'a> {
-        let bound = self.bind(usual, Stage::Motion, now);
-        match now.noise.as_ref().filter(|_| is_displaced(now)) {
-            Some(noise) => {
-                let [u, v] = rows(&then.noise.as_ref().unwrap_or(noise).lookup);
-                bound.set("lookup_u_then", u).set("lookup_v_then", v)
-            }
-            None => bound,
-        }
-    }
-
-    /// Sets the uniforms of `noise_displace/displace.glsl`, and where vertices look.
-    fn displace<'a>(&self, bound: Bound<'a>, noise: &FrameNoise) -> Bound<'a> {
-        let [u, v] = rows(&noise.lookup);
-        let vertex = noise.noise.vertex.as_ref();
-        let tile = vertex.map_or_else(gaussian, |vertex| Arc::clone(&vertex.tile));
-        let is_along_normal = vertex.is_some_and(|vertex| vertex.along == Along::Normal);
-        let bound = match self.tile(&tile) {
-            Some(texture) => bound.texture("vertex_noise", texture),
-            None => bound,
-        };
-        bound
-            .set("lookup_u", u)
-            .set("lookup_v", v)
-            .set("noise_scale", vertex.map_or(0.0, |vertex| vertex.scale as f32))
-            .set("along_normal", f32::from(is_along_normal))
-    }
-
-    /// Draws the bodies that noise colours into the reference picture: colour over what is there, depth and id in its place.
+    /// Draws the bodies that noise colours into the reference picture: blends their colour, and replaces depth and id.
     pub(crate) fn draw(
         &mut self,
         frame: &Frame,
-        bodies: &[(&FrameBody, Rc<MeshOnGpu>)],
+        bodies: &[DrawnBody<'_>],
+        tiles: &NoiseTiles,
         reference: &ReferenceTargets,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
@@ -187,111 +101,105 @@ impl NoiseDisplace {
             Some(targets) if Rc::ptr_eq(&targets.color, &reference.color) => targets,
             _ => Targets::new(&self.gpu, reference)?,
         };
-        self.targets = Some(targets);
-        self.draw_bodies(frame, bodies, &order)?;
+        let targets = self.targets.insert(targets);
+        let programs = match &mut self.programs {
+            Some(programs) => programs,
+            none => none.insert(Programs::new(&self.gpu)?),
+        };
+        programs.place.prepare(frame)?;
+        programs.look.prepare(frame)?;
+        let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
+        self.gpu.begin_pass(&targets.glow_pass, clear);
+        for &index in &order {
+            draw_body(&self.gpu, programs, targets, frame, tiles, (index + 1) as f32, &bodies[index])?;
+        }
+        if frame.background.is_some() {
+            let state = DrawState { blend: Blend::Under, ..DrawState::default() };
+            self.gpu.begin_pass(&targets.color_pass, state);
+            let bound = programs.background.bind().set("background", frame.background_premultiplied());
+            let bound = bound.texture("depth_and_id", &targets.depth_and_id);
+            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        }
         watch.passed("noise")?;
-        let glows = |&index: &usize| layers(bodies[index].0).is_some_and(|layers| layers.bloom > 0.0);
+        let glows = |&index: &usize| layers(bodies[index].body).is_some_and(|layers| layers.bloom > 0.0);
         if !order.iter().any(glows) {
             return Ok(());
         }
         let bloom = match self.bloom.take() {
-            Some(bloom) if bloom.is_of(frame.size_px) => bloom,
+            Some(bloom) if bloom.has_size(frame.size_px) => bloom,
             _ => Bloom::new(&self.gpu, frame.size_px)?,
         };
-        let bloom = &*self.bloom.insert(bloom);
-        if let Some(targets) = &self.targets {
-            bloom.draw(&self.gpu, &self.screen, (&targets.glow, &targets.color_pass))?;
-        }
+        let bloom = self.bloom.insert(bloom);
+        bloom.draw(&self.gpu, &self.screen, &targets.glow, &targets.color_pass)?;
         watch.passed("bloom")
-    }
-
-    fn draw_bodies(
-        &self,
-        frame: &Frame,
-        bodies: &[(&FrameBody, Rc<MeshOnGpu>)],
-        order: &[usize],
-    ) -> Result<(), GlError> {
-        let (Some(targets), Some(programs)) = (&self.targets, &self.programs) else { return Ok(()) };
-        let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
-        self.gpu.begin_pass(&targets.glow_pass, clear);
-        let kept = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
-        for &index in order {
-            let (body, mesh) = &bodies[index];
-            let (Some(noise), Some(layers)) = (&body.noise, layers(body)) else { continue };
-            self.gpu.begin_pass(&targets.place_pass, kept);
-            for part in &mesh.parts {
-                let bound = self.stand(programs.place.bind(), (frame, body), noise);
-                let bound = bound.set("body_id", (index + 1) as f32);
-                let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
-                self.gpu.draw(bound, &mesh.array, vertices)?;
-            }
-            self.gpu.begin_pass(&targets.look_pass, DrawState { blend: Blend::Over, ..kept });
-            for part in &mesh.parts {
-                let bound = self.stand(programs.look.bind(), (frame, body), noise);
-                let bound = self.layer(bound, layers, noise.travelled);
-                let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
-                self.gpu.draw(bound, &mesh.array, vertices)?;
-            }
-        }
-        if frame.background.is_some() {
-            self.gpu
-                .begin_pass(&targets.color_pass, DrawState { blend: Blend::Under, ..DrawState::default() });
-            let bound = programs.ground.bind().set("ground", ground(frame));
-            let bound = bound.texture("depth_and_id", &targets.place);
-            self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        }
-        Ok(())
-    }
-
-    /// Sets the uniforms of `noise_displace/look.vert`.
-    fn stand<'a>(
-        &self,
-        bound: Bound<'a>,
-        (frame, body): (&Frame, &FrameBody),
-        noise: &FrameNoise,
-    ) -> Bound<'a> {
-        self.displace(bound, noise)
-            .set("world_from_model", body.world_from_model)
-            .set("morph", body.morph)
-            .set("view_from_world", frame.view.view_from_world)
-            .set("clip_from_view", frame.view.clip_from_view)
-    }
-
-    /// Sets the uniforms of `noise_displace/look.frag`.
-    fn layer<'a>(&self, bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2) -> Bound<'a> {
-        let bound = match self.tile(&layers.tile) {
-            Some(texture) => bound.texture("layer_noise", texture),
-            None => bound,
-        };
-        bound
-            .set("layer_count", layers.count as i32)
-            .set("tiling", layers.tiling)
-            .set("tile_offset", layers.offset)
-            .set("travelled", travelled)
-            .set("speed", layers.speed)
-            .set("first_way", layers.first_way)
-            .set("exponent", layers.exponent)
-            .set("tint", Vec4::from_array([layers.tint[0], layers.tint[1], layers.tint[2], layers.opacity]))
-            .set("alpha_is_grey", f32::from(layers.alpha_is_grey))
-            .set("bloom", layers.bloom)
-            .set("threshold", layers.threshold)
     }
 }
 
-/// The bodies that are drawn here, by the depth of their middles, and what is within another before that; one that is wholly
-/// clear is not there.
-fn farthest_first(frame: &Frame, bodies: &[(&FrameBody, Rc<MeshOnGpu>)]) -> Vec<usize> {
-    let depth = |(body, mesh): &(&FrameBody, Rc<MeshOnGpu>)| {
-        let (low, high) = mesh.bounds.unwrap_or_default();
-        let middle = body.world_from_model.transform_point3((low + high) * 0.5);
-        -frame.view.view_from_world.transform_point3(middle).z
+fn draw_body(
+    gpu: &Gpu,
+    programs: &Programs,
+    targets: &Targets,
+    frame: &Frame,
+    tiles: &NoiseTiles,
+    body_id: f32,
+    DrawnBody { body, mesh }: &DrawnBody<'_>,
+) -> Result<(), GlError> {
+    let (Some(noise), Some(layers)) = (&body.noise, layers(body)) else { return Ok(()) };
+    let before_what_is_there = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
+    gpu.begin_pass(&targets.place_pass, before_what_is_there);
+    for part in &mesh.parts {
+        let bound = set_camera(programs.place.bind(body, tiles), frame).set("body_id", body_id);
+        gpu.draw(bound, &mesh.array, part.vertices())?;
+    }
+    gpu.begin_pass(&targets.look_pass, DrawState { blend: Blend::Over, ..before_what_is_there });
+    for part in &mesh.parts {
+        let bound =
+            set_layers(set_camera(programs.look.bind(body, tiles), frame), layers, noise.travelled, tiles);
+        gpu.draw(bound, &mesh.array, part.vertices())?;
+    }
+    Ok(())
+}
+
+/// Sets the other uniforms of `noise_displace/look.vert`.
+fn set_camera<'a>(bound: Bound<'a>, frame: &Frame) -> Bound<'a> {
+    bound.set("view_from_world", frame.view.view_from_world).set("clip_from_view", frame.view.clip_from_view)
+}
+
+/// Sets the uniforms of `noise_displace/look.frag`.
+fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles: &NoiseTiles) -> Bound<'a> {
+    let bound = match tiles.get(&layers.tile) {
+        Some(texture) => bound.texture("layer_noise", texture),
+        None => bound,
     };
-    let is_there = |body: &FrameBody| !body.hidden && layers(body).is_some_and(|layers| layers.opacity > 0.0);
+    let [red, green, blue] = layers.tint;
+    bound
+        .set("layer_count", layers.count as i32)
+        .set("tiling", layers.tiling)
+        .set("tile_offset", layers.offset)
+        .set("travelled", travelled)
+        .set("speed", layers.speed)
+        .set("first_way", layers.first_way)
+        .set("exponent", layers.exponent)
+        .set("tint", Vec4::new(red, green, blue, layers.opacity))
+        .set("alpha_is_grey", f32::from(layers.alpha_is_grey))
+        .set("bloom", layers.bloom)
+        .set("threshold", layers.threshold)
+}
+
+/// The bodies that are drawn here, sorted by the depth of their centres. A body inside another goes before it. Those that are
+/// fully transparent are left out.
+fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
+    let depth = |DrawnBody { body, mesh }: &DrawnBody<'_>| {
+        let (low, high) = mesh.bounds.unwrap_or_default();
+        let center = body.world_from_model.transform_point3((low + high) * 0.5);
+        -frame.view.view_from_world.transform_point3(center).z
+    };
+    let shows = |body: &FrameBody| !body.hidden && layers(body).is_some_and(|layers| layers.opacity > 0.0);
     let mut order: Vec<(usize, f32)> = bodies
         .iter()
         .enumerate()
-        .filter(|(_, (body, _))| is_there(body))
-        .map(|(index, body)| (index, depth(body)))
+        .filter(|(_, drawn)| shows(drawn.body))
+        .map(|(index, drawn)| (index, depth(drawn)))
         .collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut sorted: Vec<usize> = Vec::with_capacity(order.len());
@@ -302,33 +210,73 @@ fn farthest_first(frame: &Frame, bodies: &[(&FrameBody, Rc<MeshOnGpu>)]) -> Vec<
     sorted
 }
 
-/// Whether the box round a body lies in that of another, as that stands.
-fn is_within(inner: &(&FrameBody, Rc<MeshOnGpu>), outer: &(&FrameBody, Rc<MeshOnGpu>)) -> bool {
-    let (Some((low, high)), Some(room)) = (inner.1.bounds, outer.1.bounds) else { return false };
-    let outer_from_inner = outer.0.world_from_model.inverse() * inner.0.world_from_model;
-    let slack = (room.1 - room.0) * 0.05;
+/// Whether the bounding box of a body lies in that of another, along the other's axes.
+fn is_within(inner: &DrawnBody<'_>, outer: &DrawnBody<'_>) -> bool {
+    let (Some((low, high)), Some((outer_low, outer_high))) = (inner.mesh.bounds, outer.mesh.bounds) else {
+        return false;
+    };
+    let outer_from_inner = outer.body.world_from_model.inverse() * inner.body.world_from_model;
+    let slack = (outer_high - outer_low) * 0.05;
     (0..8).all(|corner| {
         let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
         let at = outer_from_inner.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
-        at.cmpge(room.0 - slack).all() && at.cmple(room.1 + slack).all()
+        at.cmpge(outer_low - slack).all() && at.cmple(outer_high + slack).all()
     })
 }
 
-fn rows(lookup: &Lookup) -> [Vec4; 2] {
-    lookup.rows.map(|row| row.as_vec4())
+impl Programs {
+    fn new(gpu: &Gpu) -> Result<Self, GlError> {
+        Ok(Self {
+            place: BodyProgram::new(gpu, FILES, PLACE)?,
+            look: BodyProgram::new(gpu, FILES, LOOK)?,
+            background: Program::new(gpu, FILES, &BACKGROUND)?,
+        })
+    }
 }
+
+const FILES: &[&[ShaderFile]] = &[SHARED, NOISE_DISPLACE];
+
+const PLACE: ProgramSource<'static> = ProgramSource::new(
+    "noise_displace/look.vert",
+    Some("noise_displace/place.frag"),
+    &[&["view_from_world", "clip_from_view", "body_id"]],
+);
+
+const LOOK: ProgramSource<'static> = ProgramSource::new(
+    "noise_displace/look.vert",
+    Some("noise_displace/look.frag"),
+    &[&[
+        "view_from_world",
+        "clip_from_view",
+        "layer_noise",
+        "layer_count",
+        "tiling",
+        "tile_offset",
+        "travelled",
+        "speed",
+        "first_way",
+        "exponent",
+        "tint",
+        "alpha_is_grey",
+        "bloom",
+        "threshold",
+    ]],
+);
+
+const BACKGROUND: ProgramSource<'static> =
+    ProgramSource::screen("noise_displace/background.frag", &[&["background", "depth_and_id"]]);
 
 impl Targets {
     fn new(gpu: &Gpu, reference: &ReferenceTargets) -> Result<Self, GlError> {
         let color = Rc::clone(&reference.color);
         let glow = Rc::new(Texture::target(gpu, Format::Rgba16F, color.size_px(), Filter::Nearest)?);
-        let (depth, place) = (&reference.depth, &reference.depth_and_id);
+        let (depth, depth_and_id) = (&reference.depth, &reference.depth_and_id);
         Ok(Self {
-            place_pass: Framebuffer::new(gpu, &[place], Some(depth))?,
+            place_pass: Framebuffer::new(gpu, &[depth_and_id], Some(depth))?,
             look_pass: Framebuffer::new(gpu, &[&color, &reference.glint, &glow], Some(depth))?,
             glow_pass: Framebuffer::new(gpu, &[&glow], None)?,
             color_pass: Framebuffer::new(gpu, &[&color], None)?,
-            place: Rc::clone(place),
+            depth_and_id: Rc::clone(depth_and_id),
             glow,
             color,
         })

@@ -1,8 +1,7 @@
 //! Lights as icons that face the camera.
 //!
-//! A quad's corners are its centre ± the camera's right ± its up, handed over as uniforms; the vertex shader tells them apart by
-//! `gl_VertexID`, and the fragment shader finds its texture coordinates from them by inverse bilinear interpolation. Nothing is
-//! read from a buffer.
+//! The corners of a quad (its centre ± the camera's right ± the camera's up) are uniforms. The vertex shader picks one by
+//! `gl_VertexID`, and the fragment shader finds its texture coordinates by inverse bilinear interpolation. No buffer is read.
 
 mod icons;
 
@@ -18,11 +17,11 @@ use crate::shader_files::{LIGHT_BILLBOARDS, SHARED};
 /// A picture that stands at a place and faces the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightBillboard {
-    /// Its middle, world space.
+    /// Its centre, world space.
     pub position: Vec3,
     /// What it shows.
     pub icon: BillboardIcon,
-    /// How large.
+    /// How large it is.
     pub size: BillboardSize,
     /// Encoded sRGB and straight alpha, 0..=1.
     pub ink: [f32; 4],
@@ -33,7 +32,7 @@ pub struct LightBillboard {
 pub enum BillboardIcon {
     /// A disc with rays: light from far away.
     Sun,
-    /// A bulb: light from a place.
+    /// A bulb: light from a point.
     Point,
     /// A dome over a line: light from all around.
     Ambient,
@@ -51,8 +50,8 @@ pub enum BillboardSize {
 }
 
 impl LightBillboard {
-    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture so many pixels high; `None` at the
-    /// eye, before the near plane or behind it, where there is nothing to be seen of it.
+    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height; `None` where it is
+    /// nearer than the near plane, and so not visible.
     pub fn corners(&self, view: &FrameView, height_px: u32) -> Option<[Vec3; 4]> {
         let depth = -view.view_from_world.transform_point3(self.position).z;
         let half = match self.size {
@@ -87,11 +86,10 @@ fn camera_axes(view: &FrameView) -> [Vec3; 2] {
     [view.view_from_world.row(0), view.view_from_world.row(1)].map(|row| row.truncate())
 }
 
-const BILLBOARD: ProgramSource = ProgramSource {
-    vertex: "light_billboards/billboard.vert",
-    fragment: Some("light_billboards/billboard.frag"),
-    captured: &[],
-    uniforms: &[
+const BILLBOARD: ProgramSource = ProgramSource::new(
+    "light_billboards/billboard.vert",
+    Some("light_billboards/billboard.frag"),
+    &[&[
         "corner_00",
         "corner_01",
         "corner_10",
@@ -107,14 +105,13 @@ const BILLBOARD: ProgramSource = ProgramSource {
         "ink",
         "depth",
         "softness",
-    ],
-    defined: &[],
-};
+    ]],
+);
 
-/// Straight pieces of a ring.
+/// A ring is drawn as this many straight pieces.
 const RING_PIECES: u32 = 64;
 
-/// An icon goes behind something over this share of its depth.
+/// An icon that passes behind something fades out over this share of its depth.
 const SOFTNESS: f32 = 0.03;
 
 /// Draws billboards.
@@ -122,7 +119,7 @@ pub(crate) struct LightBillboards {
     gpu: Gpu,
     program: Program,
     icons: Texture,
-    /// Has no inputs.
+    /// No inputs: corners are uniforms.
     no_vertices: VertexArray,
 }
 
@@ -142,12 +139,13 @@ impl LightBillboards {
         })
     }
 
-    /// Draws them over the picture in `output`, the farthest first. `depth_and_id` is what the scene has there.
+    /// Draws billboards over the picture in `output`, the farthest first. `depth_and_id` is the scene's.
     pub(crate) fn draw(
         &self,
         billboards: &[LightBillboard],
         view: &FrameView,
-        (output, depth_and_id): (&Framebuffer, &Texture),
+        output: &Framebuffer,
+        depth_and_id: &Texture,
     ) -> Result<(), GlError> {
         let mut seen: Vec<(f32, &LightBillboard, [Vec3; 4])> = billboards
             .iter()
@@ -187,7 +185,7 @@ impl LightBillboards {
 }
 
 impl BillboardIcon {
-    /// Layer of the texture; below 0 where there is none.
+    /// Layer of the icon texture; −1 for shapes that have none.
     fn layer(self) -> f32 {
         match self {
             Self::Sun => 0.0,

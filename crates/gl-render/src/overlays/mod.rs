@@ -1,3 +1,3 @@
-//! What may lie over a finished picture in a window, and never in a file.
+//! Overlays: drawn over a picture in a window, never into a file.
 
 pub(crate) mod light_billboards;

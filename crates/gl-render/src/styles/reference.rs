@@ -1,11 +1,11 @@
-//! The plain render itself. Targets: none of its own. Passes: encode.
+//! The plain render: shows the reference picture as it is. Targets: none of its own. Passes: encode.
 
-use super::{Style, StyleInput, ground};
 use crate::gl::{DrawState, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, VertexArray, Vertices};
 use crate::shader_files::SHARED;
+use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
 
-/// The style.
+/// Draws the plain render.
 pub(crate) struct Reference {
     gpu: Gpu,
     encode: Program,
@@ -14,13 +14,7 @@ pub(crate) struct Reference {
 
 impl Reference {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        let encode = ProgramSource {
-            vertex: "shared/screen.vert",
-            fragment: Some("shared/encode.frag"),
-            captured: &[],
-            uniforms: &["picture", "ground"],
-            defined: &[],
-        };
+        let encode = ProgramSource::screen("shared/encode.frag", &[&["picture", "background"]]);
         Ok(Self {
             gpu: gpu.clone(),
             encode: Program::new(gpu, &[SHARED], &encode)?,
@@ -29,7 +23,7 @@ impl Reference {
     }
 }
 
-impl Style for Reference {
+impl StyleRenderer for Reference {
     fn draw(
         &mut self,
         input: &StyleInput<'_>,
@@ -37,8 +31,11 @@ impl Style for Reference {
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         self.gpu.begin_pass(output, DrawState::default());
-        let bound =
-            self.encode.bind().texture("picture", &input.reference.color).set("ground", ground(input.frame));
+        let bound = self
+            .encode
+            .bind()
+            .texture("picture", &input.reference.color)
+            .set("background", input.frame.background_premultiplied());
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("encode")
     }

@@ -11,50 +11,44 @@ use std::rc::Rc;
 
 use glam::{Vec2, Vec4};
 use impasto_core::brush;
+use impasto_core::color::oklab_from_linear;
+use impasto_painting::Quality;
 use impasto_painting::frame::{LayerRun, Stroke};
-use impasto_painting::{Frame, Quality};
 
-use super::{Style, StyleInput, ground};
 use crate::gl::{
-    Blend, Buffer, BufferUse, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Records,
-    Texture, VertexArray, Vertices,
+    Blend, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray,
+    Vertices,
 };
-use crate::marks::{Marks, RESOLVED_BYTES, resolved_inputs, shape_input, stroke_inputs};
-use crate::reference::{LENS_UNIFORMS, LensSetup};
+use crate::lens::{LENS_UNIFORMS, LensSetup};
+use crate::palettes::palette_texture;
+use crate::stroke_buffers::StrokeBuffers;
+use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 
-/// How much of a body's own colour its toned ground carries.
+/// How much of a body's own colour shows in the toned ground under it.
 const WASH: f32 = 0.85;
 
-/// Side of a block in which what happens is looked at, pixels at the scene's size.
+/// Side of the blocks in which detail is looked for, pixels at the scene's size.
 const BLOCK_PX: f32 = 4.0;
 
-/// How far what happens at a place is spread over the body: the deviation of a Gaussian, pixels at the scene's size.
+/// How far detail is spread over its body: standard deviation of a Gaussian, pixels at the scene's size.
 const SPREAD_PX: f32 = 16.0;
 
-/// The most that is painted between two questions whether to stop, pixels of strokes.
+/// The most that is painted before the caller is asked again whether to stop, pixels of strokes.
 const PIECE_PX: f32 = 400_000.0;
 
-/// Texels in a row of palettes.
-const PALETTE: usize = 16;
-
-/// The style.
+/// Draws brush strokes.
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
     detail: Program,
     spread: Program,
     soften: Program,
     exact: StrokePrograms,
-    /// Made when the first draft is drawn.
+    /// Created when the first draft is drawn.
     draft: Option<StrokePrograms>,
     canvas: Texture,
-    marks: Option<Marks>,
-    strokes: Buffer,
-    resolved: Buffer,
-    stroke_count: usize,
-    stroke_points: VertexArray,
-    stroke_quads: VertexArray,
+    strokes: StrokeBuffers,
     screen: VertexArray,
     targets: Option<Targets>,
 }
@@ -86,7 +80,7 @@ impl Targets {
         let half = size_px.map(|side| side.div_ceil(2));
         let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;
         let blocks = size_px.map(|side| side.div_ceil(block_px));
-        // The id of a body and its share of a block in one number.
+        // One number holds both a body's id and its share of the block.
         let detail = [
             target(Format::Rgba32F, blocks, Filter::Nearest)?,
             target(Format::Rgba32F, blocks, Filter::Nearest)?,
@@ -111,7 +105,7 @@ impl Targets {
 }
 
 impl Targets {
-    /// What strokes are painted into.
+    /// The pass that strokes are painted in.
     fn strokes_pass(&self, quality: Quality) -> &Framebuffer {
         match quality {
             Quality::Exact => &self.paint_pass,
@@ -131,18 +125,13 @@ impl RotatingStrokes {
             exact: StrokePrograms::new(gpu, Quality::Exact)?,
             draft: None,
             canvas: Texture::with_driver_levels(gpu, Format::Rgba8, [side, side], &canvas::tile())?,
-            marks: None,
-            strokes: Buffer::new(gpu, BufferUse::Streamed)?,
-            resolved: Buffer::new(gpu, BufferUse::ReadBack)?,
-            stroke_count: 0,
-            stroke_points: VertexArray::empty(gpu)?,
-            stroke_quads: VertexArray::empty(gpu)?,
+            strokes: StrokeBuffers::new(gpu)?,
             screen: VertexArray::empty(gpu)?,
             targets: None,
         })
     }
 
-    /// The programs of a quality; makes those of drafts when they are first asked for.
+    /// The programs of a quality. Creates those of drafts when they are first asked for.
     fn ready(&mut self, quality: Quality) -> Result<&mut StrokePrograms, GlError> {
         Ok(match (quality, &mut self.draft) {
             (Quality::Exact, _) => &mut self.exact,
@@ -158,7 +147,7 @@ impl RotatingStrokes {
         }
     }
 
-    /// Where small strokes are wanted; the result lies in the first of the two targets.
+    /// Finds where small strokes are wanted. The result is in the first of the two targets.
     fn find_detail(&self, input: &StyleInput<'_>, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
@@ -171,7 +160,7 @@ impl RotatingStrokes {
             .set("px_scale", input.frame.px_scale)
             .set("block_px", targets.block_px as i32);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
-        // Two taps make a deviation.
+        // The blur's taps are half a standard deviation apart.
         let step = (0.5 * SPREAD_PX * input.frame.px_scale / targets.block_px as f32).max(1.0);
         for (from, to, axis) in [(0, 1, Vec2::X), (1, 0, Vec2::Y)] {
             self.gpu.begin_pass(&targets.detail_passes[to], DrawState::default());
@@ -184,11 +173,8 @@ impl RotatingStrokes {
     fn resolve(&mut self, input: &StyleInput<'_>) -> Result<(), GlError> {
         let Some(targets) = &self.targets else { return Ok(()) };
         let frame = input.frame;
-        self.stroke_count = frame.strokes.len();
-        self.strokes.upload(bytemuck::cast_slice(&frame.strokes))?;
-        self.resolved.reserve((self.stroke_count * RESOLVED_BYTES).max(RESOLVED_BYTES))?;
-        self.stroke_points.set(&stroke_inputs(&self.strokes, 0, false), None);
-        let palettes = palettes(&self.gpu, frame)?;
+        self.strokes.upload(frame)?;
+        let palettes = palette_texture(&self.gpu, frame, oklab_from_linear)?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
         for layer in &frame.layers {
             let bound = input
@@ -202,15 +188,13 @@ impl RotatingStrokes {
                 .set("view_from_world", frame.view.view_from_world)
                 .set("px_scale", frame.px_scale)
                 .set("kind", layer.kind as i32);
-            let records =
-                Records { first: layer.first, count: layer.count, record_bytes: RESOLVED_BYTES as u32 };
-            self.gpu.capture(bound, &self.stroke_points, &self.resolved, records)?;
+            self.strokes.resolve(bound, *layer)?;
         }
         Ok(())
     }
 
-    /// Keeps the picture as it is before a layer whose strokes take some of it up.
-    fn keep_below(&self, input: &StyleInput<'_>, layer: LayerRun) {
+    /// Copies the picture before a layer whose strokes pick up wet paint from it.
+    fn copy_below(&self, input: &StyleInput<'_>, layer: LayerRun) {
         let Some(targets) = &self.targets else { return };
         let picks_up = strokes_of(input, layer).iter().any(|stroke| stroke.paint.pickup > 0);
         if input.frame.quality == Quality::Exact && picks_up {
@@ -219,7 +203,7 @@ impl RotatingStrokes {
         }
     }
 
-    /// Lays a layer of paint; in several pieces where somebody may ask to stop.
+    /// Lays a layer of paint; in several pieces where the caller may want to stop.
     fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let strokes = strokes_of(input, layer);
         let shaped = strokes.iter().any(Stroke::is_shaped);
@@ -233,27 +217,15 @@ impl RotatingStrokes {
         Ok(())
     }
 
-    fn paint_piece(
-        &self,
-        input: &StyleInput<'_>,
-        layer: LayerRun,
-        shaped_strokes: bool,
-    ) -> Result<(), GlError> {
-        let (Some(targets), Some(marks)) = (&self.targets, &self.marks) else { return Ok(()) };
+    fn paint_piece(&self, input: &StyleInput<'_>, layer: LayerRun, has_shape: bool) -> Result<(), GlError> {
+        let (Some(targets), Some(marks)) = (&self.targets, self.strokes.marks()) else { return Ok(()) };
         let frame = input.frame;
-        let first = layer.first as i32;
         let programs = self.programs(frame.quality);
-        let mut inputs = stroke_inputs(&self.strokes, first, true);
-        // A layer without shaped strokes is drawn as if there were none.
-        let program = match &programs.shaped_paint {
-            Some(shaped) if shaped_strokes => {
-                inputs.push(shape_input(&inputs[0], first));
-                shaped
-            }
-            _ => &programs.paint,
+        // Layers without tapered or bent strokes use the cheaper program.
+        let (program, with_shape) = match &programs.shaped_paint {
+            Some(shaped) if has_shape => (shaped, true),
+            _ => (&programs.paint, false),
         };
-        inputs.extend(resolved_inputs(&self.resolved, first));
-        self.stroke_quads.set(&inputs, None);
         let pass = targets.strokes_pass(frame.quality);
         self.gpu.begin_pass(pass, DrawState { blend: Blend::Over, ..DrawState::default() });
         let lens = LensSetup::new(&frame.view, frame.size_px);
@@ -267,7 +239,7 @@ impl RotatingStrokes {
         if frame.quality == Quality::Exact {
             bound = bound.texture("below", &targets.below);
         }
-        self.gpu.draw(bound, &self.stroke_quads, Vertices::Quads { instances: layer.count })
+        self.strokes.draw(bound, layer, with_shape)
     }
 
     fn encode(
@@ -305,7 +277,7 @@ impl RotatingStrokes {
             .bind()
             .texture("picture", &targets.paint)
             .texture("reference_color", &input.reference.color)
-            .set("ground", ground(frame))
+            .set("background", frame.background_premultiplied())
             .set("wash", wash)
             .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale));
         if frame.quality == Quality::Exact {
@@ -321,25 +293,13 @@ impl RotatingStrokes {
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed("encode")
     }
-
-    /// Colour and alpha of every stroke of the last frame, then its fit, eight floats each.
-    pub(crate) fn read_resolved(&self) -> Vec<[f32; 8]> {
-        bytemuck::pod_collect_to_vec(&self.resolved.read(self.stroke_count * RESOLVED_BYTES))
-    }
-
-    /// The paint of the last frame, premultiplied and linear, without ground; bottom row first.
-    pub(crate) fn read_paint(&self) -> Vec<[f32; 4]> {
-        let targets = self.targets.as_ref();
-        targets
-            .map_or_else(Vec::new, |targets| bytemuck::pod_collect_to_vec(&targets.paint_pass.read_floats(0)))
-    }
 }
 
-impl Style for RotatingStrokes {
+impl StyleRenderer for RotatingStrokes {
     fn ready_all(&mut self) -> Result<(), GlError> {
         let gpu = self.gpu.clone();
         for quality in [Quality::Exact, Quality::Draft] {
-            self.ready(quality)?.make_shaped(&gpu, quality)?;
+            self.ready(quality)?.ready_shaped(&gpu, quality)?;
         }
         Ok(())
     }
@@ -361,9 +321,9 @@ impl Style for RotatingStrokes {
         let gpu = self.gpu.clone();
         let programs = self.ready(frame.quality)?;
         if frame.strokes.iter().any(Stroke::is_shaped) {
-            programs.make_shaped(&gpu, frame.quality)?;
+            programs.ready_shaped(&gpu, frame.quality)?;
         }
-        self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
+        self.strokes.upload_marks(frame)?;
         self.find_detail(input, watch)?;
         self.resolve(input)?;
         watch.passed("resolve")?;
@@ -373,17 +333,23 @@ impl Style for RotatingStrokes {
             self.gpu.begin_pass(targets.strokes_pass(frame.quality), clear);
         }
         for (index, &layer) in frame.layers.iter().filter(|layer| layer.count > 0).enumerate() {
-            // Below the first there is nothing.
+            // There is nothing below the first layer.
             if index > 0 {
-                self.keep_below(input, layer);
+                self.copy_below(input, layer);
             }
             self.paint(input, layer, watch)?;
         }
         self.encode(input, output, watch)
     }
 
-    fn as_strokes(&self) -> Option<&RotatingStrokes> {
-        Some(self)
+    fn read_resolved(&self) -> Vec<[f32; 8]> {
+        self.strokes.read_resolved()
+    }
+
+    fn read_paint(&self) -> Vec<[f32; 4]> {
+        let targets = self.targets.as_ref();
+        targets
+            .map_or_else(Vec::new, |targets| bytemuck::pod_collect_to_vec(&targets.paint_pass.read_floats(0)))
     }
 }
 
@@ -391,7 +357,7 @@ fn strokes_of<'a>(input: &'a StyleInput<'_>, layer: LayerRun) -> &'a [Stroke] {
     &input.frame.strokes[layer.first as usize..][..layer.count as usize]
 }
 
-/// Numbers of strokes, one run after the other, whose quads cover at most about so many pixels each.
+/// Splits strokes into runs whose quads cover about `most_px` pixels at most; returns how many strokes each run has.
 fn pieces(strokes: &[Stroke], most_px: f32) -> Vec<u32> {
     let mut pieces = vec![0];
     let mut covered_px = 0.0;
@@ -407,20 +373,4 @@ fn pieces(strokes: &[Stroke], most_px: f32) -> Vec<u32> {
         }
     }
     pieces
-}
-
-/// Palettes as a texture, a row each; one empty row where there are none.
-fn palettes(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
-    let mut texels: Vec<[f32; 4]> = Vec::new();
-    for palette in frame.palettes.iter() {
-        let pigments = palette.iter().take(PALETTE).map(|&color| {
-            let [lightness, a, b] = impasto_core::color::oklab_from_linear(color);
-            [lightness, a, b, 1.0]
-        });
-        texels.extend(pigments);
-        texels.resize(texels.len().next_multiple_of(PALETTE), [0.0; 4]);
-    }
-    texels.resize(texels.len().max(PALETTE), [0.0; 4]);
-    let size_px = [PALETTE as u32, (texels.len() / PALETTE) as u32];
-    Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))
 }

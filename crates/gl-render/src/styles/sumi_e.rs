@@ -3,7 +3,7 @@
 //! The source's rule. Targets, 8 bits each: `silhouette`, `blurred silhouette`, `interior`, `blurred interior`. Passes: those
 //! of [`SOURCE_PASSES`].
 //!
-//! Our own. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (what has run a little, and far),
+//! Our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash blurred a little, and far),
 //! `strokes`. Passes: wash, soften (four times), resolve (an ink, a presence and a place per stroke), ink strokes (a billboard
 //! each), lay.
 
@@ -14,13 +14,13 @@ mod targets;
 
 use glam::{Mat3, Vec2, Vec3, Vec4};
 use impasto_painting::Frame;
-use impasto_painting::frame::{InkDrawing, InkLight, InkRule, SumiE as Settings};
+use impasto_painting::frame::{InkDrawing, InkLight, InkRule, Style, SumiE as Settings};
 
-use super::{Style, StyleInput, ground};
-use crate::gl::{
-    Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Program, Texture, VertexArray, Vertices,
-};
-use crate::reference::{LENS_UNIFORMS, LensSetup};
+use crate::body_program::BodyProgram;
+use crate::gl::{Bound, DrawState, Format, Framebuffer, GlError, Gpu, Halt, Texture, VertexArray, Vertices};
+use crate::lens::{LENS_UNIFORMS, LensSetup};
+use crate::meshes::DrawnBody;
+use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
 use programs::{PainterPrograms, SourcePrograms};
 use strokes::InkStrokes;
@@ -29,21 +29,21 @@ use targets::{PainterTargets, SourceTargets, WIDE};
 /// The passes of the source, in order.
 const SOURCE_PASSES: [&str; 5] = ["silhouette", "blurred silhouette", "interior", "blurred interior", "mix"];
 
-/// Texels of the ramp of tones.
+/// Texels in the ramp of tones.
 const RAMP: u32 = 256;
 
 /// Half the width of the line where a body ends, pixels at the scene's size.
 const LINE_PX: f32 = 1.6;
 
-/// How much of the wash lies under strokes.
+/// How strong the wash is under strokes.
 const WASH_UNDER_STROKES: f32 = 0.6;
 
-/// The style.
+/// Draws ink on paper.
 pub(crate) struct SumiE {
     gpu: Gpu,
     fibres: Texture,
     screen: VertexArray,
-    /// Made when they are first used.
+    /// Created when a frame first uses this rule.
     source: Option<SourcePrograms>,
     painter: Option<PainterPrograms>,
     source_targets: Option<SourceTargets>,
@@ -70,7 +70,8 @@ impl SumiE {
     fn draw_source(
         &mut self,
         input: &StyleInput<'_>,
-        (settings, output): (&Settings, &Framebuffer),
+        settings: &Settings,
+        output: &Framebuffer,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
@@ -78,17 +79,17 @@ impl SumiE {
             Some(programs) => programs,
             none => none.insert(SourcePrograms::new(&self.gpu)?),
         };
-        let kept = self.source_targets.take().filter(|targets| targets.size_px() == frame.size_px);
-        let targets = self.source_targets.insert(match kept {
-            Some(kept) => kept,
+        let same_size = self.source_targets.take().filter(|targets| targets.size_px() == frame.size_px);
+        let targets = self.source_targets.insert(match same_size {
+            Some(targets) => targets,
             None => SourceTargets::new(&self.gpu, frame.size_px)?,
         });
         let gpu = &self.gpu;
         let tones = ramp(gpu, settings)?;
-        // The light goes with the eye: the highlight stays where it is in the picture.
+        // The light moves with the eye, so that the highlight keeps its place in the picture.
         let to_light = Vec3::from(settings.to_light.map(|axis| axis as f32));
         let range = silhouette_range(settings);
-        surfaces(gpu, input, (&programs.silhouette, &targets.silhouette_pass), |bound| {
+        draw_bodies(gpu, input, &programs.silhouette, &targets.silhouette_pass, |bound| {
             bound.set("silhouette", range)
         })?;
         watch.passed(SOURCE_PASSES[0])?;
@@ -96,7 +97,7 @@ impl SumiE {
         let bound = programs.low_pass.bind().texture("picture", &targets.silhouette);
         gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed(SOURCE_PASSES[1])?;
-        surfaces(gpu, input, (&programs.interior, &targets.interior_pass), |bound| {
+        draw_bodies(gpu, input, &programs.interior, &targets.interior_pass, |bound| {
             bound.set("to_light", to_light.normalize_or(Vec3::Z)).texture("tones", &tones)
         })?;
         watch.passed(SOURCE_PASSES[2])?;
@@ -109,7 +110,7 @@ impl SumiE {
             .texture("fibres", &self.fibres)
             .texture("interior", &targets.blurred_interior)
             .texture("silhouette", &targets.blurred_silhouette)
-            .set("ground", ground(frame));
+            .set("background", frame.background_premultiplied());
         gpu.draw(bound, &self.screen, Vertices::Screen)?;
         watch.passed(SOURCE_PASSES[4])
     }
@@ -118,7 +119,8 @@ impl SumiE {
     fn draw_painter(
         &mut self,
         input: &StyleInput<'_>,
-        (settings, output): (&Settings, &Framebuffer),
+        settings: &Settings,
+        output: &Framebuffer,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
@@ -126,9 +128,9 @@ impl SumiE {
             Some(programs) => programs,
             none => none.insert(PainterPrograms::new(&self.gpu)?),
         };
-        let kept = self.painter_targets.take().filter(|targets| targets.size_px() == frame.size_px);
-        let targets = self.painter_targets.insert(match kept {
-            Some(kept) => kept,
+        let same_size = self.painter_targets.take().filter(|targets| targets.size_px() == frame.size_px);
+        let targets = self.painter_targets.insert(match same_size {
+            Some(targets) => targets,
             None => PainterTargets::new(&self.gpu, frame.size_px)?,
         });
         let gpu = &self.gpu;
@@ -167,7 +169,7 @@ impl SumiE {
         ];
         for (from, to, axis, deviation) in runs {
             gpu.begin_pass(to, DrawState::default());
-            // Taps further apart where the reach is long.
+            // A wide blur has its taps further apart.
             let apart = (deviation * 2.6 / 24.0).max(1.0);
             let bound = programs
                 .soften
@@ -180,7 +182,7 @@ impl SumiE {
         }
         watch.passed("soften")?;
 
-        self.strokes.draw(input, (settings, programs), targets, watch)?;
+        self.strokes.draw(input, settings, programs, targets, &shares, watch)?;
 
         gpu.begin_pass(output, DrawState::default());
         let [of_wash, of_strokes] = match settings.drawing {
@@ -195,7 +197,7 @@ impl SumiE {
             .texture("soft", &targets.soft)
             .texture("wide", &targets.wide[1])
             .texture("strokes", &targets.strokes)
-            .set("ground", ground(frame))
+            .set("background", frame.background_premultiplied())
             .set("ink", Vec3::from(settings.ink.0))
             .set("seal", Vec3::from(settings.seal.0))
             .set("amounts", Vec4::new(of_wash, of_strokes, density, silhouette))
@@ -209,7 +211,7 @@ impl SumiE {
     }
 }
 
-impl Style for SumiE {
+impl StyleRenderer for SumiE {
     fn ready_all(&mut self) -> Result<(), GlError> {
         self.source = Some(SourcePrograms::new(&self.gpu)?);
         self.painter = Some(PainterPrograms::new(&self.gpu)?);
@@ -222,10 +224,10 @@ impl Style for SumiE {
         output: &Framebuffer,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
-        let settings = input.frame.sumi_e.as_deref().cloned().unwrap_or_default();
+        let Style::SumiE(settings) = &input.frame.style else { return Ok(()) };
         match settings.rule {
-            InkRule::Source => self.draw_source(input, (&settings, output), watch),
-            InkRule::Painter => self.draw_painter(input, (&settings, output), watch),
+            InkRule::Source => self.draw_source(input, settings, output, watch),
+            InkRule::Painter => self.draw_painter(input, settings, output, watch),
         }
     }
 
@@ -234,25 +236,26 @@ impl Style for SumiE {
     }
 }
 
-/// Draws every body into a target that is white before.
-fn surfaces(
+/// Clears a target to white and draws every body into it; `set_own` sets the program's own uniforms.
+fn draw_bodies(
     gpu: &Gpu,
     input: &StyleInput<'_>,
-    (program, pass): (&Program, &Framebuffer),
-    own: impl Fn(Bound<'_>) -> Bound<'_>,
+    program: &BodyProgram,
+    pass: &Framebuffer,
+    set_own: impl Fn(Bound<'_>) -> Bound<'_>,
 ) -> Result<(), GlError> {
     gpu.begin_pass(pass, DrawState { depth_test: true, clear: Some([1.0; 4]), ..DrawState::default() });
     let view = &input.frame.view;
-    for (body, mesh) in input.bodies.iter().filter(|(body, _)| !body.hidden && !body.is_backdrop) {
+    for DrawnBody { body, mesh } in input.bodies {
+        if body.hidden || body.is_backdrop {
+            continue;
+        }
         for part in &mesh.parts {
             let bound = program
-                .bind()
-                .set("world_from_model", body.world_from_model)
-                .set("morph", body.morph)
+                .bind(body, input.tiles)
                 .set("view_from_world", view.view_from_world)
                 .set("clip_from_view", view.clip_from_view);
-            let vertices = Vertices::Indexed { first: part.first_index, count: part.index_count };
-            gpu.draw(own(bound), &mesh.array, vertices)?;
+            gpu.draw(set_own(bound), &mesh.array, part.vertices())?;
         }
     }
     Ok(())
@@ -269,13 +272,13 @@ fn to_light(frame: &Frame, settings: &Settings) -> Vec3 {
     light.normalize_or(Vec3::Y)
 }
 
-/// The cosines between which the silhouette fades; never the same.
+/// The cosines between which the silhouette fades; never equal.
 fn silhouette_range(settings: &Settings) -> Vec2 {
     let from = settings.silhouette_from as f32;
     Vec2::new(from, (settings.silhouette_to as f32).max(from + 1e-4))
 }
 
-/// How much of its ink each body is given, a texel each: none to a backdrop.
+/// How much of its ink each body gets, a texel each: a backdrop gets none.
 fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
     let most = gpu.limits().max_side_px as usize;
     let mut texels: Vec<u8> =

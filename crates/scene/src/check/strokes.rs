@@ -3,22 +3,15 @@
 use std::collections::HashSet;
 
 use super::{Findings, did_you_mean, short, shown};
-use crate::document::{
-    BrushMix, Edges, LayerSettings, RotatingStrokes, Scene, Solver, StrokeSettings, Style, SumiE,
-};
+use crate::document::{BrushMix, Edges, LayerSettings, Scene, SettingRule, Solver, StrokeSettings};
 use crate::limits;
 use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};
 
 pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_settings("strokes", &scene.strokes, findings);
     check_flatness("strokes", scene, None, findings);
-    if let Style::RotatingStrokes(style) = &scene.style {
-        for (field, value) in [("weave", style.weave), ("relief", style.relief), ("varnish", style.varnish)] {
-            findings.number(&format!("style.{field}"), value, 0.0..=limits::MAX_STRENGTH);
-        }
-    }
-    if let Style::SumiE(ink) = &scene.style {
-        check_ink(ink, findings);
+    for rule in scene.style.settings().rules() {
+        check_style(&rule, findings);
     }
     if let Some((_, field_path)) = brush_pictures(scene).get(limits::MAX_BRUSH_PICTURES) {
         let message = "too many pictures that serve as brushes".to_owned();
@@ -26,20 +19,16 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-/// Ranges of the ink, and what must go up: the tones, and where the silhouette begins and ends.
-fn check_ink(ink: &SumiE, findings: &mut Findings) {
-    for number in SumiE::NUMBERS {
-        findings.number(&format!("style.{}", number.field), ink.value(number), 0.0..=number.most);
-    }
-    findings.direction("style.to_light", ink.to_light);
-    let rises = ink.tones.windows(2).all(|pair| pair[0] <= pair[1]);
-    if !rises || ink.tones.iter().any(|tone| !(0.0..=1.0).contains(tone)) {
-        let message = "the four tones do not go from dark to light".to_owned();
-        findings.error("style.tones", message, "give four numbers from 0 to 1, none below the one before");
-    }
-    if ink.silhouette_from >= ink.silhouette_to {
-        let message = "the silhouette ends before it begins".to_owned();
-        findings.error("style.silhouette_from", message, "give a number below silhouette_to");
+/// Reports a rule of the style that is broken.
+fn check_style(rule: &SettingRule, findings: &mut Findings) {
+    match *rule {
+        SettingRule::Range { field, value, most } => {
+            findings.number(&format!("style.{field}"), value, 0.0..=most);
+        }
+        SettingRule::Direction { field, value } => findings.direction(&format!("style.{field}"), value),
+        SettingRule::Broken { field, message, advice } => {
+            findings.error(format!("style.{field}"), message, advice);
+        }
     }
 }
 
@@ -84,15 +73,10 @@ pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, f
 fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, findings: &mut Findings) {
     let stated = region.map_or(&scene.strokes, |index| &scene.regions[index].strokes).flatness;
     let Some(flatness) = stated.filter(|flatness| (0.0..1.0).contains(flatness)) else { return };
-    let needs = match &scene.style {
+    let needs = match scene.style.settings().preparation().solver {
         _ if presets::is_paper(scene) => format!("the preset \"{PAPER_PRESET}\""),
-        Style::RotatingStrokes(RotatingStrokes {
-            solver: solver @ (Solver::Horn | Solver::HornExact),
-            ..
-        }) => {
-            format!("the solver {solver:?}")
-        }
-        Style::RotatingStrokes(_) | Style::SumiE(_) | Style::Reference => return,
+        solver @ (Solver::Horn | Solver::HornExact) => format!("the solver {solver:?}"),
+        Solver::Tangent => return,
     };
     let message = format!("a flatness of {} does not go with {needs}", short(flatness));
     findings.error(format!("{strokes_path}.flatness"), message, "use the solver Tangent, or a flatness of 1");

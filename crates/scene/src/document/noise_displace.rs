@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::Color;
+use super::color::Color;
 
 /// Noise that moves the vertices of an object, and noise that it is coloured by.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

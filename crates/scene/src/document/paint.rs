@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{Color, SumiE};
+use super::color::Color;
 
 /// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -105,93 +105,4 @@ pub enum Edges {
     Overrun(f64),
     /// Strokes end where they end.
     Free,
-}
-
-/// How the scene is drawn.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Style {
-    /// Brush strokes that turn with what they lie on.
-    RotatingStrokes(RotatingStrokes),
-    /// Ink on paper.
-    SumiE(SumiE),
-    /// The plain render that strokes take their colours from.
-    Reference,
-}
-
-/// Brush strokes: how they turn, and what the paint is like as a body.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RotatingStrokes {
-    /// How the turn is found.
-    pub solver: Solver,
-    /// Large thin strokes under the body layer, so that no hole shows the ground.
-    pub underpainting: bool,
-    /// What is painted on.
-    pub canvas: Canvas,
-    /// How much of the canvas is felt where paint is thin, 0 and up; 1 is quiet linen.
-    pub weave: f64,
-    /// What the canvas moves with.
-    pub canvas_follows: CanvasFollows,
-    /// How much the paint stands up, 0 flat; 1 oil paint.
-    pub relief: f64,
-    /// A coat over the finished picture: deeper darks, fuller colour; 0 none, 1 thin.
-    pub varnish: f64,
-}
-
-/// What is painted on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum Canvas {
-    /// A smooth board.
-    Board,
-    /// Woven linen.
-    #[default]
-    Linen,
-}
-
-/// What the canvas moves with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum CanvasFollows {
-    /// It stands still, as a picture on an easel.
-    #[default]
-    Picture,
-    /// It slides and turns as what the camera looked at in the reference pose does.
-    Camera,
-}
-
-/// How the turn of a stroke is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum Solver {
-    /// From the surface's tangent plane, in closed form.
-    #[default]
-    Tangent,
-    /// The source paper's estimate over neighbours, depth-weighted, baked once.
-    Horn,
-    /// The source paper's full sum over neighbours in every frame.
-    HornExact,
-}
-
-impl Default for Style {
-    fn default() -> Self {
-        Self::RotatingStrokes(RotatingStrokes::default())
-    }
-}
-
-impl Default for RotatingStrokes {
-    fn default() -> Self {
-        Self {
-            solver: Solver::default(),
-            underpainting: true,
-            canvas: Canvas::default(),
-            weave: 1.0,
-            canvas_follows: CanvasFollows::default(),
-            relief: 1.0,
-            varnish: 1.0,
-        }
-    }
-}
-
-impl RotatingStrokes {
-    /// The names of the fields in a scene file.
-    pub(crate) const FIELDS: &'static [&'static str] =
-        &["solver", "underpainting", "canvas", "weave", "canvas_follows", "relief", "varnish"];
 }

@@ -2,7 +2,9 @@
 
 use serde::Deserialize;
 
-use super::{Color, Reference, StrokeSettings, one};
+use super::color::Color;
+use super::paint::StrokeSettings;
+use super::{Reference, one};
 
 /// A part of the scene with settings of its own.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -2,7 +2,8 @@
 
 use serde::Deserialize;
 
-use super::{CanvasFollows, Color};
+use super::color::Color;
+use super::style_settings::{CanvasFollows, Preparation, SettingRule, StyleInfo, StyleSettings};
 
 /// Ink on paper: a dark silhouette over an interior of four tones.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -177,6 +178,55 @@ impl SumiE {
     /// The value of a number.
     pub fn value(&self, number: &InkNumber) -> f64 {
         *(number.of)(&mut self.clone())
+    }
+}
+
+impl StyleSettings for SumiE {
+    fn info(&self) -> &'static StyleInfo {
+        &StyleInfo {
+            name: "SumiE",
+            file_name: "sumi_e",
+            alias: Some("sumi-e"),
+            label: "Ink",
+            summary: "Ink on paper",
+            preset: Some("ink"),
+        }
+    }
+
+    fn preparation(&self) -> Preparation {
+        Preparation {
+            has_strokes: self.rule == InkRule::Painter && self.drawing != InkDrawing::Wash,
+            underpainting: false,
+            canvas_follows: self.paper_follows,
+            ..Preparation::default()
+        }
+    }
+
+    /// The numbers' ranges, and what must go up: the tones, and where the silhouette begins and ends.
+    fn rules(&self) -> Vec<SettingRule> {
+        let range = |number: &InkNumber| SettingRule::Range {
+            field: number.field,
+            value: self.value(number),
+            most: number.most,
+        };
+        let mut rules: Vec<SettingRule> = Self::NUMBERS.iter().map(range).collect();
+        rules.push(SettingRule::Direction { field: "to_light", value: self.to_light });
+        let rises = self.tones.windows(2).all(|pair| pair[0] <= pair[1]);
+        if !rises || self.tones.iter().any(|tone| !(0.0..=1.0).contains(tone)) {
+            rules.push(SettingRule::Broken {
+                field: "tones",
+                message: "the four tones do not go from dark to light",
+                advice: "give four numbers from 0 to 1, none below the one before",
+            });
+        }
+        if self.silhouette_from >= self.silhouette_to {
+            rules.push(SettingRule::Broken {
+                field: "silhouette_from",
+                message: "the silhouette ends before it begins",
+                advice: "give a number below silhouette_to",
+            });
+        }
+        rules
     }
 }
 

@@ -7,7 +7,7 @@ use ron::error::{Position, SpannedError};
 use ron::extensions::Extensions;
 
 use super::source::{self, error_in};
-use crate::document::Scene;
+use crate::document::{Scene, Style};
 use crate::limits;
 use crate::locate::{Field, Inside, Located, Node};
 use crate::nearest::nearest;
@@ -364,7 +364,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "mix" => "Root or Mean",
         "alpha" => "Texture or Grey",
         "material" => "a colour or a texture, as in (color: \"#b3262a\")",
-        "style" => "RotatingStrokes(), SumiE() or Reference",
+        "style" => Style::EXAMPLES,
         "rule" => "Painter or Source",
         "drawing" => "Both, Wash or Strokes",
         "light" => "Scene or Eye",

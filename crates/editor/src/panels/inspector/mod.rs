@@ -11,6 +11,7 @@ mod paint_layers;
 mod parts;
 mod pose;
 mod region;
+mod rotating_strokes;
 mod scene;
 mod strokes;
 

@@ -2,12 +2,12 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit, Time};
-use impasto_scene::document::{Canvas, CanvasFollows, Reference, RotatingStrokes, Solver, Style, SumiE};
-use impasto_scene::limits::{MAX_SIDE_PX, MAX_STRENGTH};
+use impasto_scene::document::{Reference, Style};
+use impasto_scene::limits::MAX_SIDE_PX;
 
 use super::number::Number;
-use super::parts::{head, note, pick, row, section, seen};
-use super::{Asker, ink, strokes};
+use super::parts::{head, note, row, section, seen};
+use super::{Asker, ink, rotating_strokes, strokes};
 use crate::panels::Ask;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
@@ -84,82 +84,20 @@ fn time(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
 fn style(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     let [shown, stored] = [asker.scene(), asker.stored()].map(|scene| scene.style.clone());
     row(ui, "Style", |ui| {
-        let mut chosen = match shown {
-            Style::RotatingStrokes(_) => 0,
-            Style::SumiE(_) => 1,
-            Style::Reference => 2,
-        };
-        if widgets::segmented_of(ui, "Style", &["Strokes", "Ink", "Plain"], &mut chosen).changed() {
-            let (style, words) = match chosen {
-                0 => (Style::default(), "Style: strokes"),
-                1 => (Style::SumiE(SumiE::default()), "Style: ink"),
-                _ => (Style::Reference, "Style: plain"),
-            };
-            asker.ask(Command::Scene(SceneEdit::SetStyle(style, words.to_owned())));
+        let all = Style::all();
+        let labels = all.each_ref().map(|style| style.info().label);
+        let mut chosen = all.iter().position(|style| style.info() == shown.info()).unwrap_or(0);
+        if widgets::segmented_of(ui, "Style", &labels, &mut chosen).changed() {
+            let words = format!("Style: {}", labels[chosen].to_lowercase());
+            asker.ask(Command::Scene(SceneEdit::SetStyle(all[chosen].clone(), words)));
         }
     });
-    if let (Style::SumiE(shown), Style::SumiE(stored)) = (&shown, &stored) {
-        ink::show(ui, asker, [shown, stored]);
-    }
-    let (Style::RotatingStrokes(shown), Style::RotatingStrokes(stored)) = (shown, stored) else { return };
-    let set = |style: RotatingStrokes, words: String| {
-        Command::Scene(SceneEdit::SetStyle(Style::RotatingStrokes(style), words))
-    };
-    row(ui, "Solver", |ui| {
-        let solvers = [Solver::Tangent, Solver::Horn, Solver::HornExact];
-        let words = ["Tangent plane", "Neighbours, baked", "Neighbours, exact"];
-        let tip = Tip { name: "Solver", effect: "How the turn of a stroke is found.", ..Tip::default() };
-        let chosen = solvers.iter().position(|solver| *solver == shown.solver).unwrap_or(0);
-        if let Some(picked) = pick(ui, tip, &words, chosen) {
-            let words = format!("Solver: {}", words[picked].to_lowercase());
-            asker.ask(set(RotatingStrokes { solver: solvers[picked], ..stored.clone() }, words));
+    match (&shown, &stored) {
+        (Style::SumiE(shown), Style::SumiE(stored)) => ink::show(ui, asker, [shown, stored]),
+        (Style::RotatingStrokes(shown), Style::RotatingStrokes(stored)) => {
+            rotating_strokes::show(ui, asker, [shown, stored]);
         }
-    });
-    row(ui, "Canvas", |ui| {
-        let mut board = usize::from(shown.canvas == Canvas::Board);
-        if widgets::segmented_of(ui, "Canvas", &["Linen", "Board"], &mut board).changed() {
-            let (canvas, words) =
-                if board == 1 { (Canvas::Board, "Canvas: board") } else { (Canvas::Linen, "Canvas: linen") };
-            asker.ask(set(RotatingStrokes { canvas, ..stored.clone() }, words.to_owned()));
-        }
-    });
-    row(ui, "Canvas follows", |ui| {
-        let mut camera = usize::from(shown.canvas_follows == CanvasFollows::Camera);
-        if widgets::segmented_of(ui, "Canvas follows", &["Picture", "Camera"], &mut camera).changed() {
-            let (canvas_follows, words) = if camera == 1 {
-                (CanvasFollows::Camera, "Canvas follows the camera")
-            } else {
-                (CanvasFollows::Picture, "Canvas follows the picture")
-            };
-            asker.ask(set(RotatingStrokes { canvas_follows, ..stored.clone() }, words.to_owned()));
-        }
-    });
-    type OfStyle = fn(&mut RotatingStrokes) -> &mut f64;
-    let numbers: [(&str, &str, OfStyle); 3] = [
-        ("Weave", "How much of the canvas is felt where paint is thin.", |style| &mut style.weave),
-        ("Relief", "How much the paint stands up: 0 flat, 1 oil paint.", |style| &mut style.relief),
-        ("Varnish", "Deeper darks and fuller colour: 0 none, 1 thin.", |style| &mut style.varnish),
-    ];
-    for (name, effect, of) in numbers {
-        let number = Number {
-            range: 0.0..=3.0,
-            limits: Some(0.0..=MAX_STRENGTH),
-            step: (0.05, 2),
-            default: Some(1.0),
-            ..Number::new(name, effect)
-        };
-        let values = [&shown, &stored].map(|style| *of(&mut style.clone()));
-        asker.number(ui, &number, values, |to| {
-            let mut style = stored.clone();
-            let to = to.unwrap_or(1.0);
-            *of(&mut style) = to;
-            set(style, format!("{name} {to:.2}"))
-        });
-    }
-    let mut underpainting = shown.underpainting;
-    if widgets::checkbox(ui, "Underpainting", &mut underpainting).changed() {
-        let words = if underpainting { "Underpainting" } else { "No underpainting" };
-        asker.ask(set(RotatingStrokes { underpainting, ..stored.clone() }, words.to_owned()));
+        _ => {}
     }
 }
 

@@ -1,4 +1,4 @@
-//! What glows is spread over what is round it.
+//! Bloom: light from glowing bodies spreads over what is around them.
 
 use std::rc::Rc;
 
@@ -10,10 +10,10 @@ use crate::gl::{
 };
 use crate::shader_files::{NOISE_DISPLACE, SHARED};
 
-/// The glow's deviation, as a share of the picture's height.
+/// Standard deviation of the blur, as a share of the picture's height.
 const SPREAD: f32 = 0.02;
 
-/// A pixel of the gathered glow stands for so many pixels of the picture, along each side.
+/// Pixels of the picture per pixel of the blurred glow, along each side.
 const GATHERED: u32 = 4;
 
 pub(super) struct Bloom {
@@ -27,11 +27,8 @@ pub(super) struct Bloom {
 
 impl Bloom {
     pub(super) fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GlError> {
-        let program = |fragment: &'static str, uniforms: &'static [&'static str]| {
-            let vertex = "shared/screen.vert";
-            let source =
-                ProgramSource { vertex, fragment: Some(fragment), captured: &[], uniforms, defined: &[] };
-            Program::new(gpu, &[SHARED, NOISE_DISPLACE], &source)
+        let program = |fragment: &'static str, uniforms: &[&'static str]| {
+            Program::new(gpu, &[SHARED, NOISE_DISPLACE], &ProgramSource::screen(fragment, &[uniforms]))
         };
         let small = size_px.map(|side| side.div_ceil(GATHERED));
         let target = || Texture::target(gpu, Format::Rgba16F, small, Filter::LinearInLevel).map(Rc::new);
@@ -49,7 +46,7 @@ impl Bloom {
         })
     }
 
-    pub(super) fn is_of(&self, size_px: [u32; 2]) -> bool {
+    pub(super) fn has_size(&self, size_px: [u32; 2]) -> bool {
         self.size_px == size_px
     }
 
@@ -58,7 +55,8 @@ impl Bloom {
         &self,
         gpu: &Gpu,
         screen: &VertexArray,
-        (glow, picture): (&Texture, &Framebuffer),
+        glow: &Texture,
+        picture: &Framebuffer,
     ) -> Result<(), GlError> {
         gpu.begin_pass(&self.passes[0], DrawState::default());
         gpu.draw(self.gather.bind().texture("glow", glow), screen, Vertices::Screen)?;

@@ -14,7 +14,7 @@ const LINE: f32 = 0.055;
 /// Radius of the disc.
 const DISC: f32 = 0.94;
 
-/// How far a place is outside of what is drawn; negative inside. Places are −1..1 both ways, up is up.
+/// Distance of a point to the drawn shape; negative inside. Points are in −1..1 both ways, Y up.
 type Outline = fn(Vec2) -> f32;
 
 const ICONS: [Outline; COUNT as usize] = [sun, bulb, dome];

@@ -1,4 +1,4 @@
-//! The weave of linen, one tile that repeats: height and its slopes.
+//! Woven linen, one tile that repeats: height and slopes.
 
 use impasto_core::hash;
 use impasto_core::presence::smoothstep;
@@ -6,17 +6,17 @@ use impasto_core::presence::smoothstep;
 /// Side of the tile in texels; one texel a pixel at the scene's size.
 pub(super) const SIDE: u32 = 288;
 
-/// From one thread to the next, pixels: 80 threads to the tile.
+/// Distance from one thread to the next, pixels: 80 threads in a tile.
 const PITCH_PX: f32 = 3.6;
 
-/// How much threads differ in thickness, and how far they wander, in pitches.
+/// How much threads differ in thickness, and how far they stray from a straight line, in pitches.
 const THREAD_JITTER: f32 = 0.18;
 const WANDER: f32 = 0.35;
 
-/// Cycles of the wander in one tile.
+/// How often a thread strays and returns in one tile.
 const WANDER_CYCLES: u32 = 3;
 
-/// Height and its slope in x and in y (per texel, times 4), around 128; four bytes a texel, bottom row first.
+/// Height, and its slopes in x and in y (per texel, times 4), each centred on 128; four bytes a texel, bottom row first.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
     let heights: Vec<f32> = (0..side * side).map(|index| height(index % side, index / side)).collect();
@@ -33,7 +33,7 @@ pub(super) fn tile() -> Vec<u8> {
         .collect()
 }
 
-/// Threads over and under each other; about 0..1.
+/// Height of the threads, which go over and under each other; about 0..1.
 fn height(x: usize, y: usize) -> f32 {
     let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
     let threads = (SIDE as f32 / PITCH_PX).round();
@@ -53,7 +53,7 @@ fn height(x: usize, y: usize) -> f32 {
     warp.max(weft)
 }
 
-/// Slow noise that repeats with the tile, in pitches.
+/// How far a thread strays here, in pitches; repeats with the tile.
 fn wander(which: u32, x: f32, y: f32) -> f32 {
     let scale = WANDER_CYCLES as f32 / SIDE as f32;
     let (u, v) = (x * scale, y * scale);

@@ -1,4 +1,4 @@
-//! The paper, one tile that repeats: clouds of pulp, fibres that lie anyhow, and its tooth.
+//! The paper, one tile that repeats: clouds of pulp, fibres at random, and fine tooth.
 
 use impasto_core::hash;
 use impasto_core::presence::smoothstep;
@@ -10,7 +10,7 @@ pub(super) const SIDE: u32 = 512;
 const FIBRES: u32 = 1100;
 const LENGTH: [f32; 2] = [14.0, 90.0];
 
-/// Clouds, fibres and tooth, each around 128; four bytes a texel, bottom row first.
+/// Clouds, fibres and tooth, each centred on 128; four bytes a texel, bottom row first.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
     let noise = |at: usize| {
@@ -27,18 +27,18 @@ pub(super) fn tile() -> Vec<u8> {
     (0..side * side).flat_map(|at| [byte(clouds[at]), byte(fibres[at]), byte(teeth[at]), 255]).collect()
 }
 
-/// The same values with their mean taken away.
+/// The same values minus their mean.
 fn level(values: Vec<f32>) -> Vec<f32> {
     let mean = values.iter().sum::<f32>() / values.len() as f32;
     values.into_iter().map(|value| value - mean).collect()
 }
 
-/// A random number of a place of a lattice, −1..1.
+/// The random number at a lattice point, −1..1.
 fn lattice(which: u32, x: u32, y: u32) -> f32 {
     hash::unit(hash::combine(hash::combine(which, x), y)) * 2.0 - 1.0
 }
 
-/// Smooth noise of so many cells each way and so much of it, summed; repeats with the tile.
+/// A sum of smooth noises that repeat with the tile; each part has a number of cells per side and a weight.
 fn octaves(which: u32, at: [f32; 2], parts: &[(u32, f32)]) -> f32 {
     let one = |cells: u32| {
         let [u, v] = at.map(|at| at * cells as f32);
@@ -53,7 +53,7 @@ fn octaves(which: u32, at: [f32; 2], parts: &[(u32, f32)]) -> f32 {
     parts.iter().map(|&(cells, share)| share * one(cells)).sum()
 }
 
-/// Curved fibres over the whole tile, some lighter than the pulp and some darker.
+/// Curved fibres all over the tile, some lighter than the pulp and some darker.
 fn fibres() -> Vec<f32> {
     let side = SIDE as usize;
     let mut values = vec![0.0f32; side * side];
@@ -76,7 +76,7 @@ fn fibres() -> Vec<f32> {
     values
 }
 
-/// Adds to the four texels round a place, by how near they are.
+/// Adds to the four texels around a point, by distance.
 fn add_spot(values: &mut [f32], [x, y]: [f32; 2], strength: f32) {
     let side = SIDE as i32;
     let (left, below) = (x.floor(), y.floor());

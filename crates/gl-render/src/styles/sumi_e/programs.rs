@@ -1,20 +1,22 @@
 //! The shader programs of the style.
 
+use crate::body_program::BodyProgram;
 use crate::gl::{GlError, Gpu, Program, ProgramSource, ShaderFile};
+use crate::lens::{LENS_UNIFORMS, VIEW_LENS_UNIFORMS};
 use crate::shader_files::{SHARED, SUMI_E};
 
-/// What their files may include.
+/// The shader files that the style's own may include.
 const FILES: &[&[ShaderFile]] = &[SHARED, SUMI_E];
 
-/// Those of the source's five passes.
+/// The programs of the source's five passes. Bodies are drawn without the noise that displaces them.
 pub(super) struct SourcePrograms {
-    pub(super) silhouette: Program,
-    pub(super) interior: Program,
+    pub(super) silhouette: BodyProgram,
+    pub(super) interior: BodyProgram,
     pub(super) low_pass: Program,
     pub(super) mix: Program,
 }
 
-/// Those of our own rule.
+/// The programs of our own rule.
 pub(super) struct PainterPrograms {
     pub(super) wash: Program,
     pub(super) soften: Program,
@@ -26,8 +28,8 @@ pub(super) struct PainterPrograms {
 impl SourcePrograms {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
         Ok(Self {
-            silhouette: Program::new(gpu, FILES, &SILHOUETTE)?,
-            interior: Program::new(gpu, FILES, &INTERIOR)?,
+            silhouette: BodyProgram::new(gpu, FILES, SILHOUETTE)?,
+            interior: BodyProgram::new(gpu, FILES, INTERIOR)?,
             low_pass: Program::new(gpu, FILES, &LOW_PASS)?,
             mix: Program::new(gpu, FILES, &MIX)?,
         })
@@ -46,103 +48,64 @@ impl PainterPrograms {
     }
 }
 
-const SILHOUETTE: ProgramSource = ProgramSource {
-    vertex: "sumi_e/surface.vert",
-    fragment: Some("sumi_e/silhouette.frag"),
-    captured: &[],
-    uniforms: &["world_from_model", "morph", "view_from_world", "clip_from_view", "silhouette"],
-    defined: &[],
-};
+/// The uniforms of `sumi_e/paper.glsl`.
+const PAPER: &[&str] = &["fibres", "paper", "fibre_strength", "paper_axes", "paper_origin"];
 
-const INTERIOR: ProgramSource = ProgramSource {
-    vertex: "sumi_e/surface.vert",
-    fragment: Some("sumi_e/interior.frag"),
-    captured: &[],
-    uniforms: &["world_from_model", "morph", "view_from_world", "clip_from_view", "to_light", "tones"],
-    defined: &[],
-};
+const SILHOUETTE: ProgramSource<'static> = ProgramSource::new(
+    "sumi_e/surface.vert",
+    Some("sumi_e/silhouette.frag"),
+    &[&["view_from_world", "clip_from_view", "silhouette"]],
+);
 
-const LOW_PASS: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("sumi_e/low_pass.frag"),
-    captured: &[],
-    uniforms: &["picture"],
-    defined: &[],
-};
+const INTERIOR: ProgramSource<'static> = ProgramSource::new(
+    "sumi_e/surface.vert",
+    Some("sumi_e/interior.frag"),
+    &[&["view_from_world", "clip_from_view", "to_light", "tones"]],
+);
 
-const MIX: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("sumi_e/mix.frag"),
-    captured: &[],
-    uniforms: &[
-        "fibres",
-        "paper",
-        "fibre_strength",
-        "paper_axes",
-        "paper_origin",
-        "interior",
-        "silhouette",
-        "ground",
+const LOW_PASS: ProgramSource<'static> = ProgramSource::screen("sumi_e/low_pass.frag", &[&["picture"]]);
+
+const MIX: ProgramSource<'static> =
+    ProgramSource::screen("sumi_e/mix.frag", &[PAPER, &["interior", "silhouette", "background"]]);
+
+const WASH: ProgramSource<'static> = ProgramSource::screen(
+    "sumi_e/wash.frag",
+    &[
+        &LENS_UNIFORMS,
+        &[
+            "tones",
+            "shares",
+            "normal",
+            "depth_and_id",
+            "albedo_and_lit",
+            "to_light",
+            "silhouette",
+            "own_tone",
+            "seal",
+            "line_px",
+        ],
     ],
-    defined: &[],
-};
+);
 
-const WASH: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("sumi_e/wash.frag"),
-    captured: &[],
-    uniforms: &[
-        "world_from_view",
-        "size_px",
-        "px_per_unit_at_1",
-        "orthographic",
-        "tones",
-        "shares",
-        "normal",
-        "depth_and_id",
-        "albedo_and_lit",
-        "to_light",
-        "silhouette",
-        "own_tone",
-        "seal",
-        "line_px",
-    ],
-    defined: &[],
-};
+const SOFTEN: ProgramSource<'static> =
+    ProgramSource::screen("sumi_e/soften.frag", &[&["picture", "axis", "deviation", "target_px"]]);
 
-const SOFTEN: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("sumi_e/soften.frag"),
-    captured: &[],
-    uniforms: &["picture", "axis", "deviation", "target_px"],
-    defined: &[],
-};
-
-const RESOLVE: ProgramSource = ProgramSource {
-    vertex: "sumi_e/resolve.vert",
-    fragment: None,
+const RESOLVE: ProgramSource<'static> = ProgramSource {
     captured: &["resolved", "fitted"],
-    uniforms: &[
-        "size_px",
-        "px_per_unit_at_1",
-        "orthographic",
-        "view_from_world",
-        "depth_and_id",
-        "shares",
-        "soft",
-        "pigments",
-        "ink",
-        "seal",
-        "kind",
-    ],
-    defined: &[],
+    ..ProgramSource::new(
+        "sumi_e/resolve.vert",
+        None,
+        &[
+            &VIEW_LENS_UNIFORMS,
+            &["view_from_world", "depth_and_id", "shares", "soft", "pigments", "ink", "seal", "kind"],
+        ],
+    )
 };
 
-const PAINT: ProgramSource = ProgramSource {
-    vertex: "sumi_e/paint.vert",
-    fragment: Some("sumi_e/paint.frag"),
-    captured: &[],
-    uniforms: &[
+const PAINT: ProgramSource<'static> = ProgramSource::new(
+    "sumi_e/paint.vert",
+    Some("sumi_e/paint.frag"),
+    &[&[
         "size_px",
         "mark_rows",
         "dryness",
@@ -150,29 +113,10 @@ const PAINT: ProgramSource = ProgramSource {
         "depth_and_id",
         "units_per_px_at_1",
         "orthographic",
-    ],
-    defined: &[],
-};
+    ]],
+);
 
-const LAY: ProgramSource = ProgramSource {
-    vertex: "shared/screen.vert",
-    fragment: Some("sumi_e/lay.frag"),
-    captured: &[],
-    uniforms: &[
-        "fibres",
-        "paper",
-        "fibre_strength",
-        "paper_axes",
-        "paper_origin",
-        "soft",
-        "wide",
-        "strokes",
-        "ground",
-        "ink",
-        "seal",
-        "amounts",
-        "wetness",
-        "size_px",
-    ],
-    defined: &[],
-};
+const LAY: ProgramSource<'static> = ProgramSource::screen(
+    "sumi_e/lay.frag",
+    &[PAPER, &["soft", "wide", "strokes", "background", "ink", "seal", "amounts", "wetness", "size_px"]],
+);

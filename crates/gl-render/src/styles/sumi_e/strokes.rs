@@ -2,73 +2,58 @@
 
 use glam::Vec3;
 use impasto_core::{brush, color};
-use impasto_painting::Frame;
 use impasto_painting::frame::{LayerRun, SumiE as Settings};
 
 use super::programs::PainterPrograms;
 use super::targets::PainterTargets;
-use crate::gl::{
-    Blend, Buffer, BufferUse, DrawState, Format, GlError, Gpu, Halt, Records, Texture, VertexArray, Vertices,
-};
-use crate::marks::{Marks, RESOLVED_BYTES, resolved_inputs, shape_input, stroke_inputs};
-use crate::reference::{LENS_UNIFORMS, LensSetup};
-use crate::styles::StyleInput;
+use crate::gl::{Blend, DrawState, GlError, Gpu, Halt, Texture};
+use crate::lens::{LensSetup, VIEW_LENS_UNIFORMS};
+use crate::palettes::palette_texture;
+use crate::stroke_buffers::StrokeBuffers;
+use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
-/// The most strokes that are laid between two questions whether to stop.
+/// The most strokes that are laid before the caller is asked again whether to stop.
 const PIECE: u32 = 4096;
 
-/// Pigments in a row of palettes.
-const PALETTE: usize = 16;
-
-/// The strokes of a frame on the GPU.
+/// Draws the strokes of a frame.
 pub(super) struct InkStrokes {
     gpu: Gpu,
-    marks: Option<Marks>,
-    strokes: Buffer,
-    resolved: Buffer,
-    count: usize,
-    points: VertexArray,
-    quads: VertexArray,
+    buffers: StrokeBuffers,
 }
 
 impl InkStrokes {
     pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
-        Ok(Self {
-            gpu: gpu.clone(),
-            marks: None,
-            strokes: Buffer::new(gpu, BufferUse::Streamed)?,
-            resolved: Buffer::new(gpu, BufferUse::ReadBack)?,
-            count: 0,
-            points: VertexArray::empty(gpu)?,
-            quads: VertexArray::empty(gpu)?,
-        })
+        Ok(Self { gpu: gpu.clone(), buffers: StrokeBuffers::new(gpu)? })
     }
 
-    /// Lays all strokes of the frame; none leave the target empty.
+    /// Lays all strokes of the frame; without strokes the target stays empty. `shares` says how much ink each body gets.
     pub(super) fn draw(
         &mut self,
         input: &StyleInput<'_>,
-        (settings, programs): (&Settings, &PainterPrograms),
+        settings: &Settings,
+        programs: &PainterPrograms,
         targets: &PainterTargets,
+        shares: &Texture,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
         let frame = input.frame;
-        self.count = frame.strokes.len();
         let clear = DrawState { clear: Some([0.0; 4]), ..DrawState::default() };
         self.gpu.begin_pass(&targets.strokes_pass, clear);
-        if self.count == 0 {
+        if frame.strokes.is_empty() {
+            self.buffers.clear();
             return Ok(());
         }
-        self.marks = Some(Marks::of(&self.gpu, self.marks.take(), &frame.brushes)?);
-        self.resolve(input, (settings, programs), targets)?;
+        self.buffers.upload_marks(frame)?;
+        self.buffers.upload(frame)?;
+        self.resolve(input, settings, programs, targets, shares)?;
         watch.passed("resolve")?;
         for &layer in frame.layers.iter().filter(|layer| layer.count > 0) {
             let most = if watch.may_stop() { PIECE } else { u32::MAX };
             let mut first = layer.first;
             while first < layer.first + layer.count {
                 let count = most.min(layer.first + layer.count - first);
-                self.paint(input, (settings, programs), targets, LayerRun { first, count, ..layer })?;
+                self.paint(input, settings, programs, targets, LayerRun { first, count, ..layer })?;
                 watch.passed("ink strokes")?;
                 first += count;
             }
@@ -77,32 +62,28 @@ impl InkStrokes {
     }
 
     fn resolve(
-        &mut self,
+        &self,
         input: &StyleInput<'_>,
-        (settings, programs): (&Settings, &PainterPrograms),
+        settings: &Settings,
+        programs: &PainterPrograms,
         targets: &PainterTargets,
+        shares: &Texture,
     ) -> Result<(), GlError> {
         let frame = input.frame;
-        self.strokes.upload(bytemuck::cast_slice(&frame.strokes))?;
-        self.resolved.reserve((self.count * RESOLVED_BYTES).max(RESOLVED_BYTES))?;
-        self.points.set(&stroke_inputs(&self.strokes, 0, false), None);
-        let pigments = pigments(&self.gpu, frame)?;
-        let shares = super::shares(&self.gpu, frame)?;
+        let pigments = palette_texture(&self.gpu, frame, |linear| linear.map(color::srgb_from_linear))?;
         let lens = LensSetup::new(&frame.view, frame.size_px);
-        for layer in &frame.layers {
+        for &layer in &frame.layers {
             let bound = lens
-                .set(programs.resolve.bind(), &LENS_UNIFORMS[1..])
+                .set(programs.resolve.bind(), &VIEW_LENS_UNIFORMS)
                 .texture("depth_and_id", &input.reference.depth_and_id)
-                .texture("shares", &shares)
+                .texture("shares", shares)
                 .texture("soft", &targets.soft)
                 .texture("pigments", &pigments)
                 .set("view_from_world", frame.view.view_from_world)
                 .set("ink", Vec3::from(settings.ink.0))
                 .set("seal", Vec3::from(settings.seal.0))
                 .set("kind", layer.kind as i32);
-            let records =
-                Records { first: layer.first, count: layer.count, record_bytes: RESOLVED_BYTES as u32 };
-            self.gpu.capture(bound, &self.points, &self.resolved, records)?;
+            self.buffers.resolve(bound, layer)?;
         }
         Ok(())
     }
@@ -110,17 +91,13 @@ impl InkStrokes {
     fn paint(
         &self,
         input: &StyleInput<'_>,
-        (settings, programs): (&Settings, &PainterPrograms),
+        settings: &Settings,
+        programs: &PainterPrograms,
         targets: &PainterTargets,
         run: LayerRun,
     ) -> Result<(), GlError> {
-        let Some(marks) = &self.marks else { return Ok(()) };
+        let Some(marks) = self.buffers.marks() else { return Ok(()) };
         let frame = input.frame;
-        let first = run.first as i32;
-        let mut inputs = stroke_inputs(&self.strokes, first, true);
-        inputs.push(shape_input(&inputs[0], first));
-        inputs.extend(resolved_inputs(&self.resolved, first));
-        self.quads.set(&inputs, None);
         let state = DrawState { blend: Blend::Largest, ..DrawState::default() };
         self.gpu.begin_pass(&targets.strokes_pass, state);
         let lens = LensSetup::new(&frame.view, frame.size_px);
@@ -131,13 +108,12 @@ impl InkStrokes {
             .set("dryness", settings.dryness as f32)
             .texture("brush_marks", &marks.texture)
             .texture("depth_and_id", &input.reference.depth_and_id);
-        self.gpu.draw(bound, &self.quads, Vertices::Quads { instances: run.count })
+        self.buffers.draw(bound, run, true)
     }
 
     /// Linear colour and alpha of every stroke of the last frame, then its place and how dark it is, eight floats each.
     pub(super) fn read_resolved(&self) -> Vec<[f32; 8]> {
-        let mut resolved: Vec<[f32; 8]> =
-            bytemuck::pod_collect_to_vec(&self.resolved.read(self.count * RESOLVED_BYTES));
+        let mut resolved = self.buffers.read_resolved();
         for stroke in &mut resolved {
             for channel in 0..3 {
                 let pigment = stroke[channel];
@@ -146,19 +122,4 @@ impl InkStrokes {
         }
         resolved
     }
-}
-
-/// Palettes as a texture, a row each, display values; one empty row where there are none.
-fn pigments(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
-    let mut texels: Vec<[f32; 4]> = Vec::new();
-    for palette in frame.palettes.iter() {
-        texels.extend(palette.iter().take(PALETTE).map(|linear| {
-            let [r, g, b] = linear.map(color::srgb_from_linear);
-            [r, g, b, 1.0]
-        }));
-        texels.resize(texels.len().next_multiple_of(PALETTE), [0.0; 4]);
-    }
-    texels.resize(texels.len().max(PALETTE), [0.0; 4]);
-    let size_px = [PALETTE as u32, (texels.len() / PALETTE) as u32];
-    Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))
 }

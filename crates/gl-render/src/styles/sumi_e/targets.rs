@@ -1,13 +1,13 @@
-//! What the passes draw into.
+//! The targets of the passes.
 
 use std::rc::Rc;
 
 use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
 
-/// How many pixels a side share a texel of what has run far.
+/// Pixels of the picture per texel of the wide blur, along each side.
 pub(super) const WIDE: u32 = 4;
 
-/// Those of the source's rule.
+/// The targets of the source's rule.
 pub(super) struct SourceTargets {
     pub(super) silhouette: Rc<Texture>,
     pub(super) blurred_silhouette: Rc<Texture>,
@@ -42,7 +42,7 @@ impl SourceTargets {
     }
 }
 
-/// Those of our own.
+/// The targets of our own rule.
 pub(super) struct PainterTargets {
     pub(super) wash: Rc<Texture>,
     pub(super) between: Rc<Texture>,

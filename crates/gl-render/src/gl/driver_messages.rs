@@ -1,20 +1,20 @@
-//! The driver's own complaints (KHR_debug).
+//! Errors that the driver itself reports (KHR_debug).
 
 use std::sync::{Arc, Mutex};
 
 use glow::HasContext as _;
 
-/// Complaints of the driver since they were last taken.
+/// What the driver has reported since it was last asked.
 ///
-/// A panic inside the driver's callback would be swallowed, so messages are kept and looked at after each frame.
+/// A panic inside the driver's callback would be swallowed, so messages are collected and looked at after each frame.
 #[derive(Clone, Debug, Default)]
-pub struct DriverMessages {
+pub(crate) struct DriverMessages {
     pending: Arc<Mutex<Vec<String>>>,
 }
 
 impl DriverMessages {
-    /// Starts to listen; `None` where the driver has no debug output.
-    pub(super) fn install(gl: &mut glow::Context) -> Option<Self> {
+    /// Starts to collect; `None` where the driver has no debug output.
+    pub(crate) fn install(gl: &mut glow::Context) -> Option<Self> {
         if !gl.supports_debug() {
             return None;
         }
@@ -35,14 +35,14 @@ impl DriverMessages {
 
     fn push(&self, text: &str) {
         let mut pending = self.pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        // A fault in a loop would otherwise fill the memory.
+        // Otherwise an error in a loop would fill the memory.
         if pending.len() < 64 {
             pending.push(text.trim_end().to_owned());
         }
     }
 
-    /// Takes what has been said so far.
-    pub fn take(&self) -> Vec<String> {
+    /// Takes the messages so far.
+    pub(crate) fn take(&self) -> Vec<String> {
         std::mem::take(&mut *self.pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
     }
 }

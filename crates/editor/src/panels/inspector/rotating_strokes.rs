@@ -1,0 +1,74 @@
+//! The settings of brush strokes that hold for the whole scene: how they turn, and the paint as a body.
+
+use egui::Ui;
+use impasto_editor_model::command::{Command, SceneEdit};
+use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, Solver, Style};
+use impasto_scene::limits::MAX_STRENGTH;
+
+use super::Asker;
+use super::number::Number;
+use super::parts::{pick, row};
+use crate::widgets::{self, Tip};
+
+/// All of them; `shown` with what is tried out, `stored` without.
+pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&RotatingStrokes; 2]) {
+    let set = |style: RotatingStrokes, words: String| {
+        Command::Scene(SceneEdit::SetStyle(Style::RotatingStrokes(style), words))
+    };
+    row(ui, "Solver", |ui| {
+        let solvers = [Solver::Tangent, Solver::Horn, Solver::HornExact];
+        let words = ["Tangent plane", "Neighbours, baked", "Neighbours, exact"];
+        let tip = Tip { name: "Solver", effect: "How the turn of a stroke is found.", ..Tip::default() };
+        let chosen = solvers.iter().position(|solver| *solver == shown.solver).unwrap_or(0);
+        if let Some(picked) = pick(ui, tip, &words, chosen) {
+            let words = format!("Solver: {}", words[picked].to_lowercase());
+            asker.ask(set(RotatingStrokes { solver: solvers[picked], ..stored.clone() }, words));
+        }
+    });
+    row(ui, "Canvas", |ui| {
+        let mut board = usize::from(shown.canvas == Canvas::Board);
+        if widgets::segmented_of(ui, "Canvas", &["Linen", "Board"], &mut board).changed() {
+            let (canvas, words) =
+                if board == 1 { (Canvas::Board, "Canvas: board") } else { (Canvas::Linen, "Canvas: linen") };
+            asker.ask(set(RotatingStrokes { canvas, ..stored.clone() }, words.to_owned()));
+        }
+    });
+    row(ui, "Canvas follows", |ui| {
+        let mut camera = usize::from(shown.canvas_follows == CanvasFollows::Camera);
+        if widgets::segmented_of(ui, "Canvas follows", &["Picture", "Camera"], &mut camera).changed() {
+            let (canvas_follows, words) = if camera == 1 {
+                (CanvasFollows::Camera, "Canvas follows the camera")
+            } else {
+                (CanvasFollows::Picture, "Canvas follows the picture")
+            };
+            asker.ask(set(RotatingStrokes { canvas_follows, ..stored.clone() }, words.to_owned()));
+        }
+    });
+    type OfStyle = fn(&mut RotatingStrokes) -> &mut f64;
+    let numbers: [(&str, &str, OfStyle); 3] = [
+        ("Weave", "How much of the canvas is felt where paint is thin.", |style| &mut style.weave),
+        ("Relief", "How much the paint stands up: 0 flat, 1 oil paint.", |style| &mut style.relief),
+        ("Varnish", "Deeper darks and fuller colour: 0 none, 1 thin.", |style| &mut style.varnish),
+    ];
+    for (name, effect, of) in numbers {
+        let number = Number {
+            range: 0.0..=3.0,
+            limits: Some(0.0..=MAX_STRENGTH),
+            step: (0.05, 2),
+            default: Some(1.0),
+            ..Number::new(name, effect)
+        };
+        let values = [shown, stored].map(|style| *of(&mut style.clone()));
+        asker.number(ui, &number, values, |to| {
+            let mut style = stored.clone();
+            let to = to.unwrap_or(1.0);
+            *of(&mut style) = to;
+            set(style, format!("{name} {to:.2}"))
+        });
+    }
+    let mut underpainting = shown.underpainting;
+    if widgets::checkbox(ui, "Underpainting", &mut underpainting).changed() {
+        let words = if underpainting { "Underpainting" } else { "No underpainting" };
+        asker.ask(set(RotatingStrokes { underpainting, ..stored.clone() }, words.to_owned()));
+    }
+}

@@ -1,0 +1,20 @@
+//! What every way of opening a context takes and gives.
+
+use crate::gl::Platform;
+
+/// How to open a context.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OpenOptions {
+    /// Asks the driver for its debug output; [`crate::Renderer::render`] then fails where the driver complained.
+    pub debug: bool,
+}
+
+/// What a driver hands over: a current context and the way to find its functions.
+pub(super) struct Opened {
+    pub(super) platform: Box<dyn Platform>,
+    /// The device's name.
+    pub(super) device: String,
+}
+
+/// OpenGL versions to ask for, best first. Mesa refuses 4.6 where it has only 4.5, and nothing here needs it.
+pub(super) const VERSIONS: [(u8, u8); 4] = [(4, 5), (4, 3), (4, 1), (3, 3)];

@@ -1,0 +1,11 @@
+//! What the OpenGL wrapper needs from whatever library opened the context.
+
+use std::ffi::{CStr, c_void};
+
+/// The part of a context that the windowing library owns. Dropping it destroys the context.
+pub(crate) trait Platform {
+    /// Makes the context current on this thread.
+    fn make_current(&self) -> Result<(), String>;
+    /// The address of an OpenGL function, null where there is none.
+    fn function_address(&self, name: &CStr) -> *const c_void;
+}

@@ -1,0 +1,47 @@
+//! The camera of a frame as shaders read it: the uniforms of `shared/lens.glsl`.
+
+use glam::{Mat4, UVec2, Vec2};
+use impasto_painting::frame::FrameView;
+
+use crate::gl::Bound;
+
+/// The uniforms of `shared/lens.glsl`.
+pub(crate) const LENS_UNIFORMS: [&str; 4] =
+    ["world_from_view", "size_px", "px_per_unit_at_1", "orthographic"];
+
+/// The same for shaders that stay in view space.
+pub(crate) const VIEW_LENS_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
+
+/// The values of these uniforms in one frame.
+#[derive(Clone, Copy)]
+pub(crate) struct LensSetup {
+    world_from_view: Mat4,
+    size_px: Vec2,
+    /// Pixels per world unit at a depth of 1.
+    pub(crate) px_per_unit_at_1: f32,
+    orthographic: f32,
+}
+
+impl LensSetup {
+    pub(crate) fn new(view: &FrameView, size_px: [u32; 2]) -> Self {
+        Self {
+            world_from_view: view.view_from_world.inverse(),
+            size_px: UVec2::from(size_px).as_vec2(),
+            px_per_unit_at_1: view.clip_from_view.y_axis.y * 0.5 * size_px[1] as f32,
+            orthographic: f32::from(view.orthographic),
+        }
+    }
+
+    /// Sets those of the uniforms that are named.
+    pub(crate) fn set<'a>(&self, mut bound: Bound<'a>, names: &[&str]) -> Bound<'a> {
+        for &name in names {
+            bound = match name {
+                "world_from_view" => bound.set(name, self.world_from_view),
+                "size_px" => bound.set(name, self.size_px),
+                "px_per_unit_at_1" => bound.set(name, self.px_per_unit_at_1),
+                _ => bound.set(name, self.orthographic),
+            };
+        }
+        bound
+    }
+}

@@ -1,0 +1,81 @@
+//! The lights of a frame as shaders read them: the uniforms of `reference/lighting.glsl`.
+
+use std::rc::Rc;
+
+use glam::{Mat4, Vec3, Vec4};
+use impasto_painting::frame::FrameLights;
+
+use crate::gl::{Bound, Format, GlError, Gpu, Texture};
+use crate::shadow::{self, ShadowMap};
+
+/// The uniforms of `reference/lighting.glsl`.
+pub(crate) const LIGHT_UNIFORMS: [&str; 8] = [
+    "lights",
+    "light_count",
+    "shadowed_light",
+    "shadow_depth",
+    "shadow_from_world",
+    "shadow_texel",
+    "ambient_above",
+    "ambient_below",
+];
+
+/// The values of these uniforms in one frame.
+pub(crate) struct LightSetup {
+    /// A column for each light: the first row says where it is, the second what it radiates.
+    lights: Texture,
+    light_count: i32,
+    /// Index of the light that casts shadows; −1 without one.
+    shadowed_light: i32,
+    shadow_depth: Rc<Texture>,
+    shadow_from_world: Mat4,
+    /// Side of a texel of the shadow map, world units.
+    shadow_texel: f32,
+    ambient_above: Vec3,
+    ambient_below: Vec3,
+}
+
+impl LightSetup {
+    pub(crate) fn new(gpu: &Gpu, lights: &FrameLights, shadow: &ShadowMap) -> Result<Self, GlError> {
+        let suns = lights.suns.iter().map(|sun| (sun.to_light.extend(0.0), sun.radiance));
+        let points = lights.points.iter().map(|point| (point.position.extend(1.0), point.radiance));
+        let (places, radiances): (Vec<Vec4>, Vec<Vec3>) = suns.chain(points).unzip();
+        let count = places.len();
+        let columns = count.max(1);
+        let mut texels: Vec<[f32; 4]> = places.iter().map(Vec4::to_array).collect();
+        texels.resize(columns, [0.0; 4]);
+        texels.extend(radiances.iter().map(|radiance| radiance.extend(0.0).to_array()));
+        texels.resize(2 * columns, [0.0; 4]);
+        let size_px = [columns as u32, 2];
+        let (center, radius) = lights.shadow_bounds;
+        let to_light = lights.suns.first().map_or(Vec3::Y, |sun| sun.to_light);
+        Ok(Self {
+            lights: Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))?,
+            light_count: count as i32,
+            shadowed_light: if lights.suns.is_empty() { -1 } else { 0 },
+            shadow_depth: Rc::clone(shadow.depth()),
+            shadow_from_world: shadow::shadow_from_world(center, radius, to_light),
+            shadow_texel: 2.0 * radius / shadow::SIDE as f32,
+            ambient_above: lights.ambient_above,
+            ambient_below: lights.ambient_below,
+        })
+    }
+
+    /// From world space to the clip space of the shadow map; `None` where no light casts shadows.
+    pub(crate) fn shadow_from_world(&self) -> Option<Mat4> {
+        (self.shadowed_light >= 0).then_some(self.shadow_from_world)
+    }
+
+    /// Sets the uniforms.
+    pub(crate) fn set<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
+        bound
+            .texture("lights", &self.lights)
+            .set("light_count", self.light_count)
+            .set("shadowed_light", self.shadowed_light)
+            .texture("shadow_depth", &self.shadow_depth)
+            .set("shadow_from_world", self.shadow_from_world)
+            .set("shadow_texel", self.shadow_texel)
+            .set("ambient_above", self.ambient_above)
+            .set("ambient_below", self.ambient_below)
+    }
+}

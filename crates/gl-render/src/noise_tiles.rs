@@ -1,0 +1,52 @@
+//! Tiles of noise on the GPU: each is uploaded once and stays until no frame uses it any more.
+
+use std::rc::Rc;
+use std::sync::{Arc, Weak};
+
+use impasto_core::noise_displace::Tile;
+use impasto_painting::Frame;
+
+use crate::gl::{Format, GlError, Gpu, Texture};
+
+/// All tiles on the GPU.
+pub(crate) struct NoiseTiles {
+    gpu: Gpu,
+    tiles: Vec<(Weak<Tile>, Rc<Texture>)>,
+}
+
+impl NoiseTiles {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self { gpu: gpu.clone(), tiles: Vec::new() }
+    }
+
+    /// Uploads the tiles of a frame's visible bodies that are not there yet.
+    pub(crate) fn prepare(&mut self, frame: &Frame) -> Result<(), GlError> {
+        let noises = frame.bodies.iter().filter(|body| !body.hidden).filter_map(|body| body.noise.as_ref());
+        for noise in noises {
+            let of_vertices = noise.noise.vertex.as_ref().map(|vertex| &vertex.tile);
+            let of_layers = noise.noise.layers.as_ref().map(|layers| &layers.tile);
+            for tile in of_vertices.into_iter().chain(of_layers) {
+                self.upload(tile)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A tile of the frame that was prepared last.
+    pub(crate) fn get(&self, tile: &Arc<Tile>) -> Option<&Texture> {
+        let is_it = |weak: &Weak<Tile>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(tile));
+        self.tiles.iter().find(|(weak, _)| is_it(weak)).map(|(_, texture)| &**texture)
+    }
+
+    fn upload(&mut self, tile: &Arc<Tile>) -> Result<(), GlError> {
+        if self.get(tile).is_some() {
+            return Ok(());
+        }
+        self.tiles.retain(|(tile, _)| tile.strong_count() > 0);
+        let size = tile.size().map(|side| side as u32);
+        let texels = bytemuck::cast_slice(tile.texels());
+        let texture = Texture::with_driver_levels(&self.gpu, Format::Rgba32F, size, texels)?;
+        self.tiles.push((Arc::downgrade(tile), Rc::new(texture)));
+        Ok(())
+    }
+}

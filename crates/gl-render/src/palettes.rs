@@ -1,0 +1,28 @@
+//! Palettes as a texture.
+
+use impasto_painting::Frame;
+
+use crate::gl::{Format, GlError, Gpu, Texture};
+
+/// Texels in a row: the most pigments that a palette has.
+const PIGMENTS: usize = 16;
+
+/// The palettes of a frame, a row each, with their linear colours as `encode` gives them; one empty row where there are none.
+/// Alpha is 1 for a pigment and 0 past the last.
+pub(crate) fn palette_texture(
+    gpu: &Gpu,
+    frame: &Frame,
+    encode: impl Fn([f32; 3]) -> [f32; 3],
+) -> Result<Texture, GlError> {
+    let mut texels: Vec<[f32; 4]> = Vec::new();
+    for palette in frame.palettes.iter() {
+        texels.extend(palette.iter().take(PIGMENTS).map(|&linear| {
+            let [a, b, c] = encode(linear);
+            [a, b, c, 1.0]
+        }));
+        texels.resize(texels.len().next_multiple_of(PIGMENTS), [0.0; 4]);
+    }
+    texels.resize(texels.len().max(PIGMENTS), [0.0; 4]);
+    let size_px = [PIGMENTS as u32, (texels.len() / PIGMENTS) as u32];
+    Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&texels))
+}

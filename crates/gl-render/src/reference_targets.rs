@@ -1,0 +1,67 @@
+//! What the reference pass leaves behind: the plain picture, and what is where in it.
+
+use std::rc::Rc;
+
+use crate::gl::{Filter, Format, Framebuffer, GlError, Gpu, Texture};
+
+/// The textures of the reference pass, all of the picture's size but for `openness`.
+pub(crate) struct ReferenceTargets {
+    size_px: [u32; 2],
+    /// The lit picture, display-linear.
+    pub(crate) color: Rc<Texture>,
+    pub(crate) normal: Rc<Texture>,
+    /// Depth along the gaze, and the body's index plus 1; 0 where nothing is.
+    pub(crate) depth_and_id: Rc<Texture>,
+    /// How strong the highlight is.
+    pub(crate) glint: Rc<Texture>,
+    pub(crate) depth: Rc<Texture>,
+    /// Unlit colour, and whether light falls on it.
+    pub(crate) albedo: Rc<Texture>,
+    /// How open each place is to ambient light; half the size.
+    pub(crate) openness: Rc<Texture>,
+    pub(crate) surface_pass: Framebuffer,
+    pub(crate) openness_pass: Framebuffer,
+    pub(crate) light_pass: Framebuffer,
+}
+
+impl ReferenceTargets {
+    fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GlError> {
+        let target = |format: Format, size_px: [u32; 2], filter: Filter| {
+            Texture::target(gpu, format, size_px, filter).map(Rc::new)
+        };
+        let half = size_px.map(|side| side.div_ceil(2));
+        let color = target(Format::Rgba16F, size_px, Filter::Nearest)?;
+        let glint = target(Format::R16F, size_px, Filter::Nearest)?;
+        let albedo = target(Format::Rgba16F, size_px, Filter::Nearest)?;
+        let normal = target(Format::Rgba16F, size_px, Filter::Nearest)?;
+        let depth_and_id = target(Format::Rg32F, size_px, Filter::Nearest)?;
+        let openness = target(Format::Rgba8, half, Filter::LinearInLevel)?;
+        let depth = target(Format::Depth32F, size_px, Filter::Nearest)?;
+        Ok(Self {
+            size_px,
+            surface_pass: Framebuffer::new(gpu, &[&albedo, &normal, &depth_and_id], Some(&depth))?,
+            openness_pass: Framebuffer::new(gpu, &[&openness], None)?,
+            light_pass: Framebuffer::new(gpu, &[&color, &glint], None)?,
+            color,
+            glint,
+            depth,
+            normal,
+            depth_and_id,
+            albedo,
+            openness,
+        })
+    }
+
+    /// The same targets where they have this size already, else new ones.
+    pub(crate) fn of_size(gpu: &Gpu, before: Option<Self>, size_px: [u32; 2]) -> Result<Self, GlError> {
+        match before {
+            Some(targets) if targets.size_px == size_px => Ok(targets),
+            _ => Self::new(gpu, size_px),
+        }
+    }
+
+    /// Depth along the gaze and body id of every pixel, bottom row first.
+    pub(crate) fn read_depth_and_id(&self) -> Vec<f32> {
+        self.surface_pass.read_floats(2)
+    }
+}

@@ -1,0 +1,49 @@
+//! What every style's renderer takes, and what it can be asked.
+
+use impasto_painting::Frame;
+
+use crate::gl::{Framebuffer, GlError, Halt};
+use crate::lighting::LightSetup;
+use crate::meshes::DrawnBody;
+use crate::noise_tiles::NoiseTiles;
+use crate::reference_targets::ReferenceTargets;
+use crate::watch::Watch;
+
+/// What a style starts from.
+pub(crate) struct StyleInput<'a> {
+    pub(crate) frame: &'a Frame,
+    pub(crate) reference: &'a ReferenceTargets,
+    pub(crate) lights: &'a LightSetup,
+    /// The bodies of the frame, in its order.
+    pub(crate) bodies: &'a [DrawnBody<'a>],
+    /// Their noise.
+    pub(crate) tiles: &'a NoiseTiles,
+}
+
+/// Draws frames in one style.
+pub(crate) trait StyleRenderer {
+    /// Runs the style's passes. The last one writes sRGB bytes with straight alpha into `output`.
+    fn draw(
+        &mut self,
+        input: &StyleInput<'_>,
+        output: &Framebuffer,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt>;
+
+    /// Creates at once every program that is otherwise created when it is first needed.
+    fn ready_all(&mut self) -> Result<(), GlError> {
+        Ok(())
+    }
+
+    /// What was resolved of each stroke of the last frame: colour and alpha, then its place, eight floats each. Empty for
+    /// styles without strokes.
+    fn read_resolved(&self) -> Vec<[f32; 8]> {
+        Vec::new()
+    }
+
+    /// The paint of the last frame, premultiplied and display-linear, without background, bottom row first. Empty for styles
+    /// that keep none.
+    fn read_paint(&self) -> Vec<[f32; 4]> {
+        Vec::new()
+    }
+}

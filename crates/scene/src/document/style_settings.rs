@@ -1,0 +1,122 @@
+//! What every style says of itself, so that the rest of the house can treat all styles alike.
+
+use serde::Deserialize;
+
+/// The settings of a style. Whatever the rest of the house needs to know of a style, it asks here.
+pub trait StyleSettings {
+    /// Names and words, the same for every scene in this style.
+    fn info(&self) -> &'static StyleInfo;
+
+    /// How a scene is prepared for this style.
+    fn preparation(&self) -> Preparation {
+        Preparation::default()
+    }
+
+    /// What has to hold of the settings, in the order in which it is reported.
+    fn rules(&self) -> Vec<SettingRule> {
+        Vec::new()
+    }
+}
+
+/// Names and words of a style.
+#[derive(Debug, PartialEq, Eq)]
+pub struct StyleInfo {
+    /// Its name in scene files.
+    pub name: &'static str,
+    /// Its name on the command line; its own files and folders are called the same.
+    pub file_name: &'static str,
+    /// Another spelling that the command line takes.
+    pub alias: Option<&'static str>,
+    /// Its name in the editor.
+    pub label: &'static str,
+    /// What it looks like, in a few words.
+    pub summary: &'static str,
+    /// The stroke preset of scenes that name none; `None` for the usual one.
+    pub preset: Option<&'static str>,
+}
+
+/// How a scene is prepared for a style.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preparation {
+    /// Whether strokes are painted at all.
+    pub has_strokes: bool,
+    /// How the turn of a stroke is found.
+    pub solver: Solver,
+    /// Whether there are large thin strokes and a tone under the body layer.
+    pub underpainting: bool,
+    /// How much of the canvas is felt where paint is thin; 0 for a smooth board.
+    pub weave: f64,
+    /// What the canvas, or the paper, moves with.
+    pub canvas_follows: CanvasFollows,
+    /// How much the paint stands up; 0 is flat.
+    pub relief: f64,
+    /// Strength of the varnish; 0 is none.
+    pub varnish: f64,
+}
+
+/// Something that has to hold of a style's settings.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SettingRule {
+    /// The number in this field lies between 0 and `most`.
+    Range {
+        /// The field.
+        field: &'static str,
+        /// The number.
+        value: f64,
+        /// The largest allowed number.
+        most: f64,
+    },
+    /// The three numbers in this field are a direction: not all of them are 0.
+    Direction {
+        /// The field.
+        field: &'static str,
+        /// The direction.
+        value: [f64; 3],
+    },
+    /// A rule of the style's own, which is broken.
+    Broken {
+        /// The field.
+        field: &'static str,
+        /// What is wrong.
+        message: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+    },
+}
+
+/// What the canvas moves with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum CanvasFollows {
+    /// It stands still, as a picture on an easel.
+    #[default]
+    Picture,
+    /// It slides and turns as what the camera looked at in the reference pose does.
+    Camera,
+}
+
+/// How the turn of a stroke is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Solver {
+    /// From the surface's tangent plane, in closed form.
+    #[default]
+    Tangent,
+    /// The source paper's estimate over neighbours, depth-weighted, baked once.
+    Horn,
+    /// The source paper's full sum over neighbours in every frame.
+    HornExact,
+}
+
+impl Default for Preparation {
+    /// For a style without strokes.
+    fn default() -> Self {
+        Self {
+            has_strokes: false,
+            solver: Solver::default(),
+            underpainting: true,
+            weave: 0.0,
+            canvas_follows: CanvasFollows::default(),
+            relief: 0.0,
+            varnish: 0.0,
+        }
+    }
+}
