@@ -1,9 +1,12 @@
-//! `cargo xtask layers`: arrows between crates are those that ARCHITECTURE.md allows, and no others.
+//! `cargo xtask layers`: arrows between crates are those that ARCHITECTURE.md allows, and no others; inside a crate, no files
+//! use each other in a circle.
 //!
 //! Two tables there are read, between `<!-- layers:begin -->` / `<!-- layers:end -->` (which crate of ours may use
 //! which) and `<!-- outside:begin -->` / `<!-- outside:end -->` (which outside crate is used by whom alone).
 
+mod circles;
 mod graph;
+mod modules;
 mod table;
 
 use std::path::Path;
@@ -11,10 +14,12 @@ use std::path::Path;
 use anyhow::{Context as _, bail};
 
 use crate::steps::{cargo, output};
+use circles::circles;
 use graph::Graph;
 use table::Rules;
 
-/// Fails, naming every offending path, unless the workspace at `root` keeps to the tables of its ARCHITECTURE.md.
+/// Fails, naming every offending path, unless the workspace at `root` keeps to the tables of its ARCHITECTURE.md and has no
+/// circles between files.
 pub fn run(root: &Path) -> anyhow::Result<()> {
     let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let version = output(root, &rustc, &["-vV"])?;
@@ -24,11 +29,18 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     let architecture = std::fs::read_to_string(root.join("ARCHITECTURE.md"))
         .context("ARCHITECTURE.md holds the table of allowed arrows")?;
     let rules = Rules::parse(&architecture)?;
-    let findings = findings(&graph, &rules);
+    let mut findings = findings(&graph, &rules);
+    let workspace = root.canonicalize()?;
+    for root in graph.roots() {
+        findings.extend(circles(&workspace, root)?);
+    }
     if !findings.is_empty() {
         bail!("{}", findings.join("\n"));
     }
-    println!("{} crates keep to the arrows of ARCHITECTURE.md", graph.ours().count());
+    println!(
+        "{} crates keep to the arrows of ARCHITECTURE.md, without circles between files",
+        graph.ours().count()
+    );
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The dependency graph, out of `cargo metadata`.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::path::PathBuf;
 
 use anyhow::Context as _;
 use serde_json::Value;
@@ -10,6 +11,7 @@ use serde_json::Value;
 pub struct Graph {
     ours: BTreeMap<String, String>,
     uses: BTreeMap<String, BTreeSet<String>>,
+    roots: Vec<PathBuf>,
 }
 
 impl Graph {
@@ -27,6 +29,13 @@ impl Graph {
             let (id, name) = (text(&package["id"]), text(&package["name"]));
             if members.contains(&id) {
                 graph.ours.insert(name.clone(), text(&package["manifest_path"]));
+                for target in list(&package["targets"], "targets")? {
+                    let is =
+                        |kind: &str| target["kind"].as_array().is_some_and(|all| all.contains(&kind.into()));
+                    if is("lib") || is("bin") {
+                        graph.roots.push(text(&target["src_path"]).into());
+                    }
+                }
             }
             names.insert(id, name);
         }
@@ -43,6 +52,11 @@ impl Graph {
     /// The crates of the workspace.
     pub fn ours(&self) -> impl Iterator<Item = &str> {
         self.ours.keys().map(String::as_str)
+    }
+
+    /// The root files of the libraries and programs of the workspace.
+    pub fn roots(&self) -> &[PathBuf] {
+        &self.roots
     }
 
     /// Whether `name` is a crate of the workspace.

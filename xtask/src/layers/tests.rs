@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::circles::circles;
 use super::run;
 
 const ARCHITECTURE: &str = "\
@@ -94,4 +95,98 @@ fn every_crate_has_a_row_and_every_row_a_crate() {
     assert!(error.contains("impasto-new has no row"), "{error}");
     let error = verdict(&[CORE, SCENE]).expect_err("`tests` is gone");
     assert!(error.contains("row for impasto-tests"), "{error}");
+}
+
+/// What is said of a crate with these files under `src`.
+fn circles_in(files: &[(&str, &str)]) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, text) in files {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        std::fs::write(path, text).expect("written");
+    }
+    circles(folder.path(), &folder.path().join("lib.rs")).expect("the files can be read")
+}
+
+#[test]
+fn files_that_use_each_other_are_a_circle() {
+    let found = circles_in(&[
+        ("lib.rs", "mod a; mod b; pub use a::A;"),
+        ("a.rs", "use crate::b::{self, B}; pub struct A(B);"),
+        ("b.rs", "pub struct B; fn of(_: Option<crate::a::A>) {}"),
+    ]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("a.rs uses `B` of b.rs\n    b.rs uses `A` of a.rs"), "{}", found[0]);
+}
+
+#[test]
+fn a_circle_of_three_is_told_with_what_hangs_on_it() {
+    let found = circles_in(&[
+        ("lib.rs", "mod a; mod b; mod c; mod d; mod e;"),
+        ("a.rs", "use crate::b::B; pub struct A(B);"),
+        ("b.rs", "use crate::c::C; use crate::d::D; pub struct B(C);"),
+        ("c.rs", "use crate::a; use crate::e::E; pub fn c() { a::A::new() } pub struct C;"),
+        ("d.rs", "use crate::e::E; use crate::a::A; use crate::b::B; pub struct D;"),
+        ("e.rs", "pub struct E;"),
+    ]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("b.rs uses `D` of d.rs\n    d.rs uses `B` of b.rs"), "{}", found[0]);
+    assert!(found[0].contains("tied to them: a.rs, c.rs"), "{}", found[0]);
+    let three = circles_in(&[
+        ("lib.rs", "mod a; mod b; mod c;"),
+        ("a.rs", "use crate::b::B; pub struct A(B);"),
+        ("b.rs", "use crate::c::C; pub struct B(C);"),
+        ("c.rs", "use crate::a; pub fn c() { a::A::new() } pub struct C;"),
+    ]);
+    let told = "a.rs uses `B` of b.rs\n    b.rs uses `C` of c.rs\n    c.rs uses `A` of a.rs";
+    assert!(three.len() == 1 && three[0].contains(told), "{three:?}");
+}
+
+#[test]
+fn a_child_may_use_its_parent_but_not_in_a_circle_through_others() {
+    let child = ("a/child.rs", "use super::A; pub struct Child(A);");
+    let parent = ("a.rs", "mod child; pub fn a(_: child::Child) {} pub struct A;");
+    assert_eq!(circles_in(&[("lib.rs", "mod a;"), parent, child]), Vec::<String>::new());
+    let child = ("a/child.rs", "use crate::b::B; pub struct Child(B);");
+    let other = ("b.rs", "use super::a::A; pub struct B(A);");
+    let found = circles_in(&[("lib.rs", "mod a; mod b;"), parent, child, other]);
+    let circle =
+        "a/child.rs uses `B` of b.rs\n    b.rs uses `A` of a.rs\n    a.rs uses `Child` of a/child.rs";
+    assert!(found.len() == 1 && found[0].contains(circle), "{found:?}");
+}
+
+#[test]
+fn what_is_handed_on_comes_from_where_it_stands() {
+    let found = circles_in(&[
+        ("lib.rs", "mod a;"),
+        ("a/mod.rs", "mod b; mod c; pub use b::B;"),
+        ("a/b.rs", "pub struct B(super::c::C);"),
+        ("a/c.rs", "use crate::a::B; pub struct C(B);"),
+    ]);
+    assert!(found.len() == 1 && found[0].contains("a/c.rs uses `B` of a/b.rs"), "{found:?}");
+    // To hand something on is not to use it.
+    let found = circles_in(&[
+        ("lib.rs", "mod a; mod b;"),
+        ("a.rs", "pub use crate::b::B; pub struct A;"),
+        ("b.rs", "use crate::a::A; pub struct B(A);"),
+    ]);
+    assert_eq!(found, Vec::<String>::new());
+}
+
+#[test]
+fn tests_and_comments_make_no_circle() {
+    let a = "/// See [`crate::b::B`].\npub struct A;\n#[cfg(test)]\nuse crate::b::B;\n#[cfg(test)]\nmod tests { use crate::b::B; }";
+    let b = "use crate::a::A; // crate::a\npub struct B(A);";
+    assert_eq!(circles_in(&[("lib.rs", "mod a; mod b;"), ("a.rs", a), ("b.rs", b)]), Vec::<String>::new());
+}
+
+#[test]
+fn a_circle_fails_the_workspace() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    workspace(folder.path(), &[CORE, SCENE, TESTS]);
+    let source = folder.path().join("crates/core/src");
+    std::fs::write(source.join("lib.rs"), "mod a; pub fn root() { a::a(); }").expect("written");
+    std::fs::write(source.join("a.rs"), "pub fn a() { crate::root(); }").expect("written");
+    let error = format!("{:#}", run(folder.path()).expect_err("a circle"));
+    assert!(error.contains("crates/core/src/a.rs uses `root` of crates/core/src/lib.rs"), "{error}");
 }
