@@ -6,8 +6,9 @@ use std::marker::PhantomData;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
+use serde::ser::{Serialize, Serializer};
 
-use crate::document::{BrushMix, Color, RotatingStrokes, Scale, Style, SumiE};
+use crate::document::{BrushMix, Color, Scale, Style};
 
 impl Color {
     /// Reads `#rgb` or `#rrggbb`; `None` for anything else.
@@ -37,6 +38,12 @@ impl Color {
     }
 }
 
+impl Serialize for Color {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.to_hex())
+    }
+}
+
 impl<'de> Deserialize<'de> for Color {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct HexVisitor;
@@ -50,6 +57,13 @@ impl<'de> Deserialize<'de> for Color {
             }
         }
         deserializer.deserialize_str(HexVisitor)
+    }
+}
+
+impl Serialize for Scale {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [x, y, z] = self.0;
+        if x == y && y == z { x.serialize(serializer) } else { self.0.serialize(serializer) }
     }
 }
 
@@ -80,6 +94,15 @@ impl<'de> Deserialize<'de> for Scale {
             }
         }
         deserializer.deserialize_any(ScaleVisitor)
+    }
+}
+
+impl Serialize for BrushMix {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [name] => name.serialize(serializer),
+            names => names.serialize(serializer),
+        }
     }
 }
 
@@ -133,11 +156,11 @@ impl<'de> Deserialize<'de> for Style {
             }
             fn visit_enum<A: EnumAccess<'de>>(self, style: A) -> Result<Style, A::Error> {
                 match style.variant()? {
-                    (Name::RotatingStrokes, fields) => fields
-                        .struct_variant(RotatingStrokes::FIELDS, FieldsVisitor(PhantomData))
-                        .map(Style::RotatingStrokes),
+                    (Name::RotatingStrokes, fields) => {
+                        fields.struct_variant(&[], FieldsVisitor(PhantomData)).map(Style::RotatingStrokes)
+                    }
                     (Name::SumiE, fields) => {
-                        fields.struct_variant(SumiE::FIELDS, FieldsVisitor(PhantomData)).map(Style::SumiE)
+                        fields.struct_variant(&[], FieldsVisitor(PhantomData)).map(Style::SumiE)
                     }
                     (Name::Reference, nothing) => nothing.unit_variant().map(|()| Style::Reference),
                 }
