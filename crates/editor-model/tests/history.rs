@@ -7,11 +7,10 @@ use impasto_editor_model::command::{
     Arrange, Command, Directions, Edit, Gesture, GuideSettings, KeyOf, Pose, PoseField, RegionTarget,
     Regions, SceneEdit, Shift, StrokeChange, StrokesOf, Time,
 };
-use impasto_editor_model::stroke_fields::STROKE_FIELDS;
 use impasto_editor_model::{Document, Item, Selection};
 use impasto_scene::document::{
     BrushMix, Color, Dab, Direction, Ease, Guide, GuidePoint, LightKind, MaterialOverride, ObjectKey, Region,
-    Scene, Seam, Selector, Sense, Style, SumiE,
+    STROKE_NUMBERS, Scene, Seam, Selector, Sense, Style, SumiE,
 };
 use impasto_scene::load::LoadOptions;
 use impasto_scene::motion;
@@ -71,7 +70,7 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
     let key_of = if other % 3 == 0 { KeyOf::Camera } else { KeyOf::Object(object.clone()) };
     let frame = f64::from(other % 24);
     let of = if other % 5 == 0 { StrokesOf::Scene } else { StrokesOf::Region(region.clone()) };
-    let field = &STROKE_FIELDS[usize::from(other) % STROKE_FIELDS.len()];
+    let field = &STROKE_NUMBERS[usize::from(other) % STROKE_NUMBERS.len()];
     match kind % 40 {
         0 => Command::Edit(Edit::Delete(vec![item])),
         1 => Command::Edit(Edit::Duplicate(vec![item])),
@@ -196,11 +195,10 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
                 0 => StrokeChange::Brush(Some(BrushMix(vec!["round".to_owned()]))),
                 1 => StrokeChange::Layer(Some(i32::from(other % 3))),
                 _ => StrokeChange::Number(
-                    field.name,
+                    field.number.field,
                     (other % 7 > 0).then(|| {
-                        (field.range.start()
-                            + (field.range.end() - field.range.start()) * (x.abs() / 4.0).min(1.0))
-                            * field.file_per_shown
+                        let (least, most) = (field.shown.drag.start(), field.shown.drag.end());
+                        (least + (most - least) * (x.abs() / 4.0).min(1.0)) * field.shown.file_per_shown
                     }),
                 ),
             },

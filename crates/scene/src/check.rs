@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
-use crate::document::Scene;
+use crate::document::{Number, Scene};
 use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::problem::Severity;
@@ -117,6 +117,26 @@ impl Findings {
         if !range.contains(&value) {
             let mend = format!("give a number from {} to {}", short(*range.start()), short(*range.end()));
             self.error(field_path, format!("{} is out of range", short(value)), mend);
+        }
+    }
+
+    /// All numbers of a table, of settings that stand at a path.
+    fn numbers<T: 'static>(
+        &mut self,
+        settings_path: &str,
+        settings: &T,
+        numbers: impl Iterator<Item = &'static Number<T>>,
+    ) {
+        for number in numbers {
+            let value = (number.get)(settings);
+            self.number(&format!("{settings_path}.{}", number.field), value, number.limits.clone());
+        }
+    }
+
+    /// A number that may be left out.
+    fn number_of<T>(&mut self, settings_path: &str, settings: &T, number: &Number<T, Option<f64>>) {
+        if let Some(value) = (number.get)(settings) {
+            self.number(&format!("{settings_path}.{}", number.field), value, number.limits.clone());
         }
     }
 

@@ -3,32 +3,37 @@
 
 mod color;
 mod noise_displace;
+mod numbers;
 mod paint;
 mod regions;
 mod rotating_strokes;
+mod strokes;
 mod style;
 mod style_settings;
 mod sumi_e;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub use color::Color;
 pub use noise_displace::{
     NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals, NoiseSpace, SurfaceNoise,
     VertexNoise,
 };
-pub use paint::{BrushMix, Edges, LayerSettings, StrokeSettings};
+pub use numbers::Number;
+pub use paint::{BrushMix, Edges, LayerNumber, LayerSettings, ResolvedLayer};
 pub use regions::{
     Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, PatchRef, Region, Seam,
     Seed, Selector, Sense,
 };
 pub use rotating_strokes::{Canvas, RotatingStrokes};
+pub(crate) use strokes::PresetNumbers;
+pub use strokes::{InspectorPlace, ResolvedStrokes, STROKE_NUMBERS, Shown, StrokeNumber, StrokeSettings};
 pub use style::Style;
 pub use style_settings::{CanvasFollows, Preparation, SettingRule, Solver, StyleInfo, StyleSettings};
-pub use sumi_e::{InkDrawing, InkLight, InkNumber, InkRule, SumiE};
+pub use sumi_e::{InkDrawing, InkLight, InkRule, SumiE};
 
 /// A whole scene file.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The schema's version; this build writes and reads [`Scene::VERSION`].
@@ -37,32 +42,32 @@ pub struct Scene {
     #[serde(default = "default_size")]
     pub size: (u32, u32),
     /// Changes every random choice at once.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub seed: u32,
     /// What is seen where nothing is painted.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub background: Color,
     /// Frames and their rate.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub timeline: Timeline,
     /// The pose in which stroke directions are stated.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub reference: Reference,
     /// More poses that directions may refer to: a surface that the reference does not face takes the one that faces it best.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub further_references: Vec<Reference>,
     /// The camera and its keys.
     pub camera: Camera,
     /// Lights; empty means the studio default.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub lights: Vec<Light>,
     /// What stands in the scene.
     pub objects: Vec<Object>,
     /// Stroke settings for everything that no region overrides.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub strokes: StrokeSettings,
     /// Parts of objects with settings of their own; a later region wins over an earlier one.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub regions: Vec<Region>,
     /// How the scene is drawn.
     #[serde(default)]
@@ -79,7 +84,7 @@ fn default_size() -> (u32, u32) {
 }
 
 /// Frame range and rate.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Timeline {
     /// Frames per second, greater than 0.
@@ -91,7 +96,7 @@ pub struct Timeline {
 }
 
 /// Which pose the stroke directions refer to.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Reference {
     /// The camera and the objects as they stand at this frame.
@@ -103,19 +108,19 @@ pub enum Reference {
         /// What it looks at, world space.
         target: [f64; 3],
         /// Turns the camera about its gaze.
-        #[serde(default)]
+        #[serde(default, skip_serializing_if = "is_default")]
         roll_deg: f64,
         /// Vertical field of view, degrees; left out, the lens's own.
-        #[serde(default)]
+        #[serde(default, skip_serializing_if = "is_default")]
         fov_y_deg: Option<f64>,
         /// The frame of the objects.
-        #[serde(default)]
+        #[serde(default, skip_serializing_if = "is_default")]
         frame: i64,
     },
 }
 
 /// How a value leaves its key.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Ease {
     /// Holds until the next key.
     Step,
@@ -127,18 +132,18 @@ pub enum Ease {
 }
 
 /// The camera: a lens and keyed poses.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// How the camera projects.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub lens: Lens,
     /// At least one key, frames strictly increasing.
     pub keys: Vec<CameraKey>,
 }
 
 /// Projection of the camera. Lengths in world units.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Lens {
     /// Central projection; `fov_y_deg` is the vertical field of view.
@@ -179,7 +184,7 @@ fn default_far() -> f64 {
 }
 
 /// One pose of the camera.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraKey {
     /// The frame; need not be whole.
@@ -189,18 +194,18 @@ pub struct CameraKey {
     /// What it looks at, world space; differs from `eye`, and not straight up or down from it.
     pub target: [f64; 3],
     /// Turns the camera about its gaze: +a turns the picture by −a.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub roll_deg: f64,
     /// Overrides the lens's field of view from here on (perspective lenses; interpolated between keys).
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub fov_y_deg: Option<f64>,
     /// How the pose leaves this key.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub ease: Ease,
 }
 
 /// A light with its name.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
     /// For people; unique.
@@ -208,24 +213,24 @@ pub struct Light {
     /// `Sun`, `Point` or `Ambient`.
     pub kind: LightKind,
     /// `Sun`: where the light travels to, world space, not zero.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub direction: Option<[f64; 3]>,
     /// `Point`: where it stands, world space.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub position: Option<[f64; 3]>,
     /// Colour; for `Ambient` the colour from above.
-    #[serde(default = "Color::white")]
+    #[serde(default = "Color::white", skip_serializing_if = "Color::is_white")]
     pub color: Color,
     /// `Ambient`: the colour from below; left out, a dim warm version of `color`.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub ground: Option<Color>,
     /// Multiplies the colour, ≥ 0. A point light of intensity 1 lights a facing surface at distance 1 as a sun of 1.
-    #[serde(default = "one")]
+    #[serde(default = "one", skip_serializing_if = "is_one")]
     pub intensity: f64,
 }
 
 /// What kind of light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum LightKind {
     /// Parallel light that casts shadows.
     Sun,
@@ -235,16 +240,29 @@ pub enum LightKind {
     Ambient,
 }
 
+/// What has its usual value is not saved.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 fn one() -> f64 {
     1.0
+}
+
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
 }
 
 fn one_frame() -> u32 {
     1
 }
 
+fn is_one_frame(frames: &u32) -> bool {
+    *frames == 1
+}
+
 /// Which axis of the mesh file points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Up {
     /// Y up, −Z forward (the usual OBJ export).
     #[default]
@@ -254,7 +272,7 @@ pub enum Up {
 }
 
 /// A thing in the scene: a mesh file or one group of it, placed and keyed.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
     /// Unique; strokes take their looks from it, so a renamed object is painted anew.
@@ -262,37 +280,37 @@ pub struct Object {
     /// Path of the mesh, relative to the scene file.
     pub mesh: String,
     /// Only this group of the mesh.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub group: Option<String>,
     /// Moves with this object.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub parent: Option<String>,
     /// How many particles; left out, found from the coverage.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub particles: Option<u64>,
+    /// Frames that each pose is held: 1 moves in every frame, 2 on twos, counted from the timeline's first frame.
+    #[serde(default = "one_frame", skip_serializing_if = "is_one_frame")]
+    pub hold: u32,
     /// Static scale of the mesh, applied before anything is sampled; not inherited by children.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub scale: Scale,
     /// Which way the mesh file points.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub up: Up,
     /// Path of a mesh of equal topology that keys may turn this one into.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub morph: Option<String>,
     /// Overrides the materials of the mesh file.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub material: Option<MaterialOverride>,
-    /// Frames that each pose is held: 1 moves in every frame, 2 on twos, counted from the timeline's first frame.
-    #[serde(default = "one_frame")]
-    pub hold: u32,
     /// Poses, frames strictly increasing; none means the identity.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub keys: Vec<ObjectKey>,
     /// Left out of the picture: no body, no shadow, no strokes. Its children stay.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub hidden: bool,
     /// An editor does not change it; nothing else takes notice.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub locked: bool,
 }
 
@@ -301,18 +319,23 @@ pub struct Object {
 pub struct Scale(pub [f64; 3]);
 
 /// Colour or texture that replaces what the mesh file says.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialOverride {
     /// Base colour.
+    #[serde(skip_serializing_if = "is_default")]
     pub color: Option<Color>,
     /// Picture file, relative to the scene file; multiplied by `color` (white when that is left out).
+    #[serde(skip_serializing_if = "is_default")]
     pub texture: Option<String>,
     /// Shown as it is, without light or shadow.
+    #[serde(skip_serializing_if = "is_default")]
     pub unlit: bool,
     /// Strength of highlights, 0 matt .. 1 glazed; left out, what the mesh file says.
+    #[serde(skip_serializing_if = "is_default")]
     pub gloss: Option<f64>,
     /// Noise that moves its vertices and colours it.
+    #[serde(skip_serializing_if = "is_default")]
     pub noise_displace: Option<NoiseDisplace>,
 }
 
@@ -325,25 +348,25 @@ impl MaterialOverride {
 }
 
 /// One pose of an object in its parent's space.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectKey {
     /// The frame; need not be whole.
     pub frame: f64,
     /// Translation, parent space.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub translation: [f64; 3],
     /// Euler angles in degrees: about X first, then Y, then Z; interpolated as numbers, so 0 to 720 is two turns.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub rotation_deg: [f64; 3],
     /// Size, > 0; children take part in it.
-    #[serde(default = "one")]
+    #[serde(default = "one", skip_serializing_if = "is_one")]
     pub scale: f64,
     /// How far the mesh has turned into the object's `morph`: 0 not at all, 1 wholly.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub morph: f64,
     /// How the pose leaves this key.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub ease: Ease,
 }
 

@@ -2,7 +2,8 @@
 
 mod table;
 
-use crate::document::{BrushMix, Color, Edges, LayerSettings, Scene, StrokeSettings};
+use crate::document::{BrushMix, Color, LayerNumber, LayerSettings, Scene, StrokeSettings};
+pub use crate::document::{ResolvedLayer, ResolvedStrokes};
 
 use table::{PRESETS, Preset};
 
@@ -54,66 +55,6 @@ impl LayerKind {
     }
 }
 
-/// Stroke settings with nothing left out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResolvedStrokes {
-    /// The layers, in the order of [`LayerKind::ALL`].
-    pub layers: [ResolvedLayer; 6],
-    /// 1 keeps strokes flat on the picture, 0 lets their direction follow the surface.
-    pub flatness: f32,
-    /// How far strokes stand off the surface, units of the object's own space.
-    pub offset: f32,
-    /// How far strokes grow with their surface, 0..=1.
-    pub size_follow: f32,
-    /// How much narrower strokes are at their end than at their start, −1..=1.
-    pub taper: f32,
-    /// How far strokes turn to their left from start to end, radians.
-    pub bend_rad: f32,
-    /// Standard deviation of the angle from stroke to stroke, radians.
-    pub angle_jitter_rad: f32,
-    /// Standard deviation of the slow swing of the angle, radians.
-    pub swing_rad: f32,
-    /// How far strokes near the limb lie along the contour, 0..=1.
-    pub contour: f32,
-    /// Standard deviation of the size, as a share of it.
-    pub size_jitter: f32,
-    /// How paint ends at its body's border.
-    pub edges: Edges,
-    /// Factor on the difference of colour from stroke to stroke.
-    pub color_jitter: f32,
-    /// Factor on the difference of temperature between light and shadow.
-    pub temperature: f32,
-    /// How far colours are pulled to a painter's values, 0..=1.
-    pub grading: f32,
-    /// Pigments; empty means any colour.
-    pub palette: Vec<Color>,
-    /// Higher layers are painted over lower ones.
-    pub layer: i32,
-}
-
-/// One layer of paint with nothing left out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ResolvedLayer {
-    /// Brushes by name; one named twice is taken twice as often. At least one.
-    pub brushes: Vec<String>,
-    /// Length in pixels at the scene's size.
-    pub length_px: f32,
-    /// Width in pixels at the scene's size.
-    pub width_px: f32,
-    /// Strokes per pixel × length × width where the layer is wanted.
-    pub coverage: f32,
-    /// How much of what lies under it a stroke hides, 0..=1.
-    pub opacity: f32,
-    /// Height of the paint; 1 is the lights' full brush.
-    pub thickness: f32,
-    /// Share of its mark that a brush leaves out.
-    pub dryness: f32,
-    /// How much wet paint it picks up, 0..=1.
-    pub pickup: f32,
-    /// How far past its body paint runs where the body layer runs one pixel.
-    pub overrun: f32,
-}
-
 impl ResolvedLayer {
     /// Strokes wanted per pixel of the picture at the scene's size.
     pub fn wanted_per_px(&self) -> f32 {
@@ -150,14 +91,22 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
 /// style's own preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
+    resolve_with(scene, &scene.strokes, region.map(|region| &scene.regions[region].strokes))
+}
+
+/// As [`resolve`], with these settings of the scene and of a region in place of those that `scene` has.
+pub fn resolve_with(
+    scene: &Scene,
+    of_scene: &StrokeSettings,
+    of_region: Option<&StrokeSettings>,
+) -> ResolvedStrokes {
     // Presets are meant for a picture 720 high.
     let size = scene.size.1 as f32 / 720.0;
     let usual = scene.style.info().preset.unwrap_or(DEFAULT_PRESET);
     let usual = PRESETS.iter().find(|preset| preset.name == usual).unwrap_or(&PRESETS[0]);
     let mut strokes = ResolvedStrokes::of_preset(usual, size);
-    strokes.apply(&scene.strokes, size);
-    if let Some(region) = region {
-        strokes.apply(&scene.regions[region].strokes, size);
+    for stated in [Some(of_scene), of_region].into_iter().flatten() {
+        strokes.apply(stated, size);
     }
     strokes
 }
@@ -190,22 +139,13 @@ impl ResolvedStrokes {
         }
         self.resize(settings);
         let body = &mut self.layers[LayerKind::Body as usize];
-        replace(&mut body.coverage, settings.coverage);
+        if let Some(coverage) = settings.coverage {
+            body.coverage = coverage as f32;
+        }
         if let Some(BrushMix(names)) = &settings.brush {
             body.brushes.clone_from(names);
         }
-        replace(&mut self.flatness, settings.flatness);
-        replace(&mut self.offset, settings.offset);
-        replace(&mut self.size_follow, settings.size_follow);
-        replace(&mut self.taper, settings.taper);
-        replace(&mut self.bend_rad, settings.bend_deg.map(f64::to_radians));
-        replace(&mut self.angle_jitter_rad, settings.angle_jitter_deg.map(f64::to_radians));
-        replace(&mut self.swing_rad, settings.swing_deg.map(f64::to_radians));
-        replace(&mut self.contour, settings.contour);
-        replace(&mut self.size_jitter, settings.size_jitter);
-        replace(&mut self.color_jitter, settings.color_jitter);
-        replace(&mut self.temperature, settings.temperature);
-        replace(&mut self.grading, settings.grading);
+        self.apply_numbers(settings);
         self.edges = settings.edges.unwrap_or(self.edges);
         if let Some(palette) = &settings.palette {
             self.palette.clone_from(palette);
@@ -241,19 +181,11 @@ impl ResolvedLayer {
         if let Some(BrushMix(names)) = &settings.brush {
             self.brushes.clone_from(names);
         }
-        replace(&mut self.length_px, settings.length_px);
-        replace(&mut self.width_px, settings.width_px);
-        replace(&mut self.coverage, settings.coverage);
-        replace(&mut self.opacity, settings.opacity);
-        replace(&mut self.thickness, settings.thickness);
-        replace(&mut self.dryness, settings.dryness);
-        replace(&mut self.pickup, settings.pickup);
-    }
-}
-
-fn replace(value: &mut f32, stated: Option<f64>) {
-    if let Some(stated) = stated {
-        *value = stated as f32;
+        for LayerNumber { number, resolved } in LayerSettings::NUMBERS {
+            if let Some(stated) = (number.get)(settings) {
+                *resolved(self) = stated as f32;
+            }
+        }
     }
 }
 

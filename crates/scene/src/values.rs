@@ -4,6 +4,7 @@
 use std::fmt;
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
+use serde::ser::{Serialize, Serializer};
 
 use crate::document::{BrushMix, Color, Scale};
 
@@ -35,6 +36,12 @@ impl Color {
     }
 }
 
+impl Serialize for Color {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.to_hex())
+    }
+}
+
 impl<'de> Deserialize<'de> for Color {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct HexVisitor;
@@ -48,6 +55,13 @@ impl<'de> Deserialize<'de> for Color {
             }
         }
         deserializer.deserialize_str(HexVisitor)
+    }
+}
+
+impl Serialize for Scale {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [x, y, z] = self.0;
+        if x == y && y == z { x.serialize(serializer) } else { self.0.serialize(serializer) }
     }
 }
 
@@ -78,6 +92,15 @@ impl<'de> Deserialize<'de> for Scale {
             }
         }
         deserializer.deserialize_any(ScaleVisitor)
+    }
+}
+
+impl Serialize for BrushMix {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [name] => name.serialize(serializer),
+            names => names.serialize(serializer),
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Regions and their strokes.
 
 use impasto_scene::document::{
-    BrushMix, Color, Dab, Edges, LayerSettings, Patch, Region, Scene, Seam, Selector, StrokeSettings,
+    BrushMix, Color, Dab, Edges, LayerSettings, Patch, Region, Scene, Seam, Selector, StrokeNumber,
+    StrokeSettings,
 };
 
 use super::{Done, region_mut, unlocked_region};
@@ -9,7 +10,6 @@ use crate::euler::tidy;
 use crate::names;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
-use crate::stroke_fields::stroke_field;
 
 /// Whose stroke settings.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -23,7 +23,7 @@ pub enum StrokesOf {
 /// One stroke setting; none leaves it to the scene and its preset.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StrokeChange {
-    /// A number of [`crate::stroke_fields::STROKE_FIELDS`], by its name in a scene file, in the file's units.
+    /// A number of [`impasto_scene::document::STROKE_NUMBERS`], by its name in a scene file, in the file's units.
     Number(&'static str, Option<f64>),
     /// The brush, or a mix of brushes.
     Brush(Option<BrushMix>),
@@ -146,8 +146,9 @@ fn paint(on: &mut Selector, dabs: &[Dab]) -> Result<(), Refusal> {
 fn set_stroke(settings: &mut StrokeSettings, change: &StrokeChange) -> Result<Done, Refusal> {
     let text = match change {
         StrokeChange::Number(name, value) => {
-            let field = stroke_field(name).ok_or_else(|| Refusal::unknown("stroke setting", name))?;
-            (field.set)(settings, value.map(super::finite).transpose()?.map(tidy));
+            let field = StrokeNumber::named(name).ok_or_else(|| Refusal::unknown("stroke setting", name))?;
+            *(field.number.of)(settings) = value.map(super::finite).transpose()?.map(tidy);
+            let field = &field.shown;
             match value {
                 Some(value) => {
                     let shown = value / field.file_per_shown;

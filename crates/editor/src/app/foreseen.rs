@@ -86,7 +86,7 @@ fn strokes(foreseen: &Foreseen, editor: &Editor, studio: &Studio) -> Option<Vec<
     let of_scene = foreseen.region.filter(|region| *region < scene.regions.len());
     let length_px = field_values(scene, of_scene)
         .iter()
-        .find(|value| value.field.name == "length_px")
+        .find(|value| value.field.number.field == "length_px")
         .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
     let hairs = painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
     let stroke = |hair: &impasto_painting::StrokeDirection| ForeseenStroke {

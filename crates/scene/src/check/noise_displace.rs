@@ -26,20 +26,16 @@ fn check_vertex(field_path: &str, vertex: &VertexNoise, findings: &mut Findings)
     for value in vertex.value {
         findings.number(&format!("{field_path}.value"), value, limits::NOISE_RATE);
     }
-    findings.number(&format!("{field_path}.scale"), vertex.scale, limits::NOISE_RATE);
+    findings.numbers(field_path, vertex, VertexNoise::numbers());
 }
 
 fn check_surface(field_path: &str, surface: &SurfaceNoise, findings: &mut Findings) {
     let layers = limits::NOISE_LAYERS;
     findings.number(&format!("{field_path}.layer_count"), f64::from(surface.layer_count), layers);
-    findings.number(&format!("{field_path}.speed"), surface.speed, limits::NOISE_RATE);
     for (field, values) in [("tiling", surface.tiling), ("tile_offset", surface.tile_offset)] {
         for value in values {
             findings.number(&format!("{field_path}.{field}"), value, limits::NOISE_RATE);
         }
     }
-    findings.number(&format!("{field_path}.intensity"), surface.intensity, 0.0..=limits::MAX_NOISE_INTENSITY);
-    findings.number(&format!("{field_path}.opacity"), surface.opacity, 0.0..=1.0);
-    findings.number(&format!("{field_path}.bloom"), surface.bloom, 0.0..=limits::MAX_STRENGTH);
-    findings.number(&format!("{field_path}.threshold"), surface.threshold, 0.0..=limits::MAX_NOISE_INTENSITY);
+    findings.numbers(field_path, surface, SurfaceNoise::numbers());
 }

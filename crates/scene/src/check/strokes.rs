@@ -3,7 +3,10 @@
 use std::collections::HashSet;
 
 use super::{Findings, did_you_mean, short, shown};
-use crate::document::{BrushMix, Edges, LayerSettings, Scene, SettingRule, Solver, StrokeSettings};
+use crate::document::{
+    BrushMix, Edges, LayerNumber, LayerSettings, STROKE_NUMBERS, Scene, SettingRule, Solver, StrokeNumber,
+    StrokeSettings,
+};
 use crate::limits;
 use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};
 
@@ -22,8 +25,8 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
 /// Reports a rule of the style that is broken.
 fn check_style(rule: &SettingRule, findings: &mut Findings) {
     match *rule {
-        SettingRule::Range { field, value, most } => {
-            findings.number(&format!("style.{field}"), value, 0.0..=most);
+        SettingRule::Range { field, value, ref limits } => {
+            findings.number(&format!("style.{field}"), value, limits.clone());
         }
         SettingRule::Direction { field, value } => findings.direction(&format!("style.{field}"), value),
         SettingRule::Broken { field, message, advice } => {
@@ -91,36 +94,9 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
         let message = format!("there is no preset \"{}\"", shown(preset));
         findings.error(path("preset"), message, did_you_mean(preset, known.iter().copied()));
     }
-    check_marks(strokes_path, &Marks::from(settings), findings);
-    for (field, value, most) in [
-        ("flatness", settings.flatness, 1.0),
-        ("size_follow", settings.size_follow, 1.0),
-        ("angle_jitter_deg", settings.angle_jitter_deg, 180.0),
-        ("swing_deg", settings.swing_deg, 180.0),
-        ("contour", settings.contour, 1.0),
-        ("size_jitter", settings.size_jitter, 1.0),
-        ("color_jitter", settings.color_jitter, limits::MAX_STRENGTH),
-        ("temperature", settings.temperature, limits::MAX_STRENGTH),
-        ("grading", settings.grading, 1.0),
-    ] {
-        if let Some(value) = value {
-            findings.number(&path(field), value, 0.0..=most);
-        }
-    }
-    for (field, value, most) in [("taper", settings.taper, 1.0), ("bend_deg", settings.bend_deg, 180.0)] {
-        if let Some(value) = value {
-            findings.number(&path(field), value, -most..=most);
-        }
-    }
-    if let Some(offset) = settings.offset {
-        findings.number(&path("offset"), offset, -limits::MAX_LENGTH..=limits::MAX_LENGTH);
-    }
-    if let Some(scale) = settings.scale.filter(|scale| !(0.01..=100.0).contains(scale)) {
-        findings.error(
-            path("scale"),
-            format!("{} is out of range", short(scale)),
-            "give a number from 0.01 to 100",
-        );
+    check_brush(strokes_path, settings.brush.as_ref(), findings);
+    for StrokeNumber { number, .. } in STROKE_NUMBERS {
+        findings.number_of(strokes_path, settings, number);
     }
     if let Some(Edges::Overrun(overrun_px)) = settings.edges {
         findings.number(&path("edges"), overrun_px, 0.0..=limits::MAX_STROKE_PX);
@@ -136,69 +112,20 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
     check_layers(strokes_path, &settings.layers, findings);
 }
 
-/// What the settings of strokes and of one layer have in common.
-struct Marks<'a> {
-    brush: Option<&'a BrushMix>,
-    length_px: Option<f64>,
-    width_px: Option<f64>,
-    coverage: Option<f64>,
-    /// A layer may be left out; all of them may not.
-    least_coverage: f64,
-}
-
-impl<'a> From<&'a StrokeSettings> for Marks<'a> {
-    fn from(settings: &'a StrokeSettings) -> Self {
-        Self {
-            brush: settings.brush.as_ref(),
-            length_px: settings.length_px,
-            width_px: settings.width_px,
-            coverage: settings.coverage,
-            least_coverage: 1e-3,
-        }
+fn check_brush(settings_path: &str, brush: Option<&BrushMix>, findings: &mut Findings) {
+    let Some(BrushMix(names)) = brush else { return };
+    let field_path = format!("{settings_path}.brush");
+    if names.is_empty() || names.len() > limits::MAX_BRUSHES {
+        let message = format!("a mix of {} brushes", names.len());
+        let mend = format!("name from 1 to {} brushes", limits::MAX_BRUSHES);
+        findings.error(&field_path, message, mend);
     }
-}
-
-impl<'a> From<&'a LayerSettings> for Marks<'a> {
-    fn from(settings: &'a LayerSettings) -> Self {
-        Self {
-            brush: settings.brush.as_ref(),
-            length_px: settings.length_px,
-            width_px: settings.width_px,
-            coverage: settings.coverage,
-            least_coverage: 0.0,
-        }
-    }
-}
-
-fn check_marks(settings_path: &str, marks: &Marks<'_>, findings: &mut Findings) {
-    let path = |field: &str| format!("{settings_path}.{field}");
-    if let Some(BrushMix(names)) = marks.brush {
-        if names.is_empty() || names.len() > limits::MAX_BRUSHES {
-            let message = format!("a mix of {} brushes", names.len());
-            let mend = format!("name from 1 to {} brushes", limits::MAX_BRUSHES);
-            findings.error(path("brush"), message, mend);
-        }
-        // A name with an ending is a picture; whoever reads it says what is wrong with it.
-        for name in names.iter().filter(|name| !presets::is_picture(name)) {
-            if !impasto_core::brush::NAMES.contains(&name.as_str()) {
-                let message = format!("there is no brush \"{}\"", shown(name));
-                let mend = did_you_mean(name, impasto_core::brush::NAMES.iter().copied());
-                findings.error(path("brush"), message, mend);
-            }
-        }
-    }
-    // A thousandth of a pixel is below anything that can be seen, and still a number in 32 bits.
-    for (field, value, least, most) in [
-        ("length_px", marks.length_px, 1e-3, limits::MAX_STROKE_PX),
-        ("width_px", marks.width_px, 1e-3, limits::MAX_STROKE_PX),
-        ("coverage", marks.coverage, marks.least_coverage, limits::MAX_COVERAGE),
-    ] {
-        if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
-            let mend = match least {
-                0.0 => format!("give a number from 0 to {most}"),
-                least => format!("give a number above 0 (from {least}), at most {most}"),
-            };
-            findings.error(path(field), format!("{} is out of range", short(value)), mend);
+    // A name with an ending is a picture; whoever reads it says what is wrong with it.
+    for name in names.iter().filter(|name| !presets::is_picture(name)) {
+        if !impasto_core::brush::NAMES.contains(&name.as_str()) {
+            let message = format!("there is no brush \"{}\"", shown(name));
+            let mend = did_you_mean(name, impasto_core::brush::NAMES.iter().copied());
+            findings.error(&field_path, message, mend);
         }
     }
 }
@@ -214,16 +141,9 @@ fn check_layers(strokes_path: &str, layers: &[LayerSettings], findings: &mut Fin
             let message = format!("there is no layer \"{}\"", shown(&layer.name));
             findings.error(path("name"), message, did_you_mean(&layer.name, known.clone()));
         }
-        check_marks(&layer_path, &Marks::from(layer), findings);
-        for (field, value, most) in [
-            ("opacity", layer.opacity, 1.0),
-            ("thickness", layer.thickness, limits::MAX_THICKNESS),
-            ("dryness", layer.dryness, 1.0),
-            ("pickup", layer.pickup, 1.0),
-        ] {
-            if let Some(value) = value {
-                findings.number(&path(field), value, 0.0..=most);
-            }
+        check_brush(&layer_path, layer.brush.as_ref(), findings);
+        for LayerNumber { number, .. } in LayerSettings::NUMBERS {
+            findings.number_of(&layer_path, layer, number);
         }
         check_ground(&layer_path, layer, strokes_path == "strokes", findings);
     }
@@ -247,10 +167,9 @@ fn check_ground(layer_path: &str, layer: &LayerSettings, of_scene: bool, finding
             "only the ground has a color; use a palette instead",
         );
     }
-    let has_marks = layer.brush.is_some()
-        || [layer.length_px, layer.width_px, layer.coverage, layer.thickness, layer.dryness, layer.pickup]
-            .iter()
-            .any(Option::is_some);
+    let is_of_strokes = |of: &&LayerNumber| of.number.field != "opacity";
+    let mut numbers = LayerSettings::NUMBERS.iter().filter(is_of_strokes);
+    let has_marks = layer.brush.is_some() || numbers.any(|of| (of.number.get)(layer).is_some());
     if is_ground && has_marks {
         findings.error(layer_path, "the ground has no strokes", "give it only color and opacity");
     }

@@ -1,94 +1,104 @@
 //! Strokes and paint as a scene file states them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::color::Color;
-
-/// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct StrokeSettings {
-    /// A named set of values to start from.
-    pub preset: Option<String>,
-    /// Brush of the body layer.
-    pub brush: Option<BrushMix>,
-    /// Length of the body layer's strokes in pixels at the scene's size; the other layers keep their proportion to it.
-    pub length_px: Option<f64>,
-    /// Width, likewise.
-    pub width_px: Option<f64>,
-    /// Makes the strokes of all layers larger or smaller; 1 leaves them.
-    pub scale: Option<f64>,
-    /// Strokes of the body layer per pixel × length × width.
-    pub coverage: Option<f64>,
-    /// 1 keeps strokes flat on the picture (the paper's similarity), 0 lets their direction follow the surface.
-    pub flatness: Option<f64>,
-    /// How far strokes stand off the surface along its normal, units of the object's own space.
-    pub offset: Option<f64>,
-    /// How far strokes grow and shrink with their surface: 0 keeps their size in pixels, 1 keeps it on the surface.
-    pub size_follow: Option<f64>,
-    /// How much narrower strokes are at their end than at their start, −1..=1: their width goes from 1 + taper times the mean
-    /// one to 1 − taper times.
-    pub taper: Option<f64>,
-    /// How far strokes turn to their left from start to end, degrees, −180..=180; in the middle they keep their direction. Differs
-    /// from stroke to stroke as sizes do.
-    pub bend_deg: Option<f64>,
-    /// Standard deviation of the angle from stroke to stroke, degrees.
-    pub angle_jitter_deg: Option<f64>,
-    /// Standard deviation of a slow swing of the angle over the surface, degrees.
-    pub swing_deg: Option<f64>,
-    /// How far strokes near a body's limb lie along its contour, 0..=1; this part of the direction follows the view.
-    pub contour: Option<f64>,
-    /// Standard deviation of the size, as a share of it.
-    pub size_jitter: Option<f64>,
-    /// How paint ends at the border of its body.
-    pub edges: Option<Edges>,
-    /// How much colours differ from stroke to stroke: 0 not at all, 1 as oil paint is mixed.
-    pub color_jitter: Option<f64>,
-    /// How much warmer lights and cooler shadows are than in the plain render, 0 and up.
-    pub temperature: Option<f64>,
-    /// How far colours are pulled to a painter's values: planes of one value, rich darks, an earthy underpainting; 0..=1.
-    pub grading: Option<f64>,
-    /// Pigments that all colours are mixed from, at most 16; empty means any colour.
-    pub palette: Option<Vec<Color>>,
-    /// Higher layers are painted over lower ones.
-    pub layer: Option<i32>,
-    /// What differs from the preset in single layers of paint, by name.
-    pub layers: Vec<LayerSettings>,
-}
+use super::numbers::number;
+use super::{Number, is_default};
+use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX, MAX_THICKNESS};
 
 /// One layer of paint: its own strokes, laid over those of the layers before it.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LayerSettings {
     /// `underpainting`, `body`, `form`, `scumble`, `accents` or `lights`; `ground` is the tone under all of them.
     pub name: String,
     /// Brush, or a mix of brushes.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub brush: Option<BrushMix>,
     /// Length in pixels at the scene's size.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub length_px: Option<f64>,
     /// Width in pixels at the scene's size.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub width_px: Option<f64>,
     /// Strokes per pixel × length × width where the layer is wanted; 0 leaves the layer out.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub coverage: Option<f64>,
     /// How much of what lies under a stroke it hides, 0..=1; of the ground: how far its tone hides the body's own wash.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub opacity: Option<f64>,
     /// Height of the paint, 0 none, 1 the lights' full brush.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub thickness: Option<f64>,
     /// Share of its mark that a brush leaves out, 0 wet .. 1 nothing left.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub dryness: Option<f64>,
     /// How much wet paint from the layers below a stroke picks up, 0..=1.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub pickup: Option<f64>,
     /// Tone of the ground; for `ground` alone.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub color: Option<Color>,
+}
+
+/// A number of [`LayerSettings`].
+#[derive(Clone, Debug)]
+pub struct LayerNumber {
+    /// Its name, its range in a scene file, what it does, and where it is kept.
+    pub number: Number<LayerSettings, Option<f64>>,
+    /// Where it is kept once resolved.
+    pub resolved: fn(&mut ResolvedLayer) -> &mut f32,
+}
+
+macro_rules! layer_number {
+    ($field:ident, $limits:expr, $effect:expr) => {
+        LayerNumber { number: number!($field, $limits, $effect), resolved: |layer| &mut layer.$field }
+    };
+}
+
+impl LayerSettings {
+    /// Every number of a layer.
+    pub const NUMBERS: &'static [LayerNumber] = &[
+        layer_number!(length_px, 0.001..=MAX_STROKE_PX, "How long strokes are, pixels at the scene's size."),
+        layer_number!(width_px, 0.001..=MAX_STROKE_PX, "How wide strokes are, pixels at the scene's size."),
+        layer_number!(
+            coverage,
+            0.0..=MAX_COVERAGE,
+            "How many strokes lie over each other; 0 leaves the layer out."
+        ),
+        layer_number!(opacity, 0.0..=1.0, "How much a stroke hides of what lies under it."),
+        layer_number!(
+            thickness,
+            0.0..=MAX_THICKNESS,
+            "How high the paint stands; 1 is the lights' full brush."
+        ),
+        layer_number!(dryness, 0.0..=1.0, "How much of its mark the brush leaves out."),
+        layer_number!(pickup, 0.0..=1.0, "How much wet paint a stroke takes up from below."),
+    ];
+}
+
+/// One layer of paint with nothing left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResolvedLayer {
+    /// Brushes by name; one named twice is taken twice as often. At least one.
+    pub brushes: Vec<String>,
+    /// Length in pixels at the scene's size.
+    pub length_px: f32,
+    /// Width in pixels at the scene's size.
+    pub width_px: f32,
+    /// Strokes per pixel × length × width where the layer is wanted.
+    pub coverage: f32,
+    /// How much of what lies under it a stroke hides, 0..=1.
+    pub opacity: f32,
+    /// Height of the paint; 1 is the lights' full brush.
+    pub thickness: f32,
+    /// Share of its mark that a brush leaves out.
+    pub dryness: f32,
+    /// How much wet paint it picks up, 0..=1.
+    pub pickup: f32,
+    /// How far past its body paint runs where the body layer runs one pixel.
+    pub overrun: f32,
 }
 
 /// A brush by name, a PNG of one's own (grey is paint), or a list of them: one named twice is taken twice as often.
@@ -96,7 +106,7 @@ pub struct LayerSettings {
 pub struct BrushMix(pub Vec<String>);
 
 /// How paint ends at the border of its body.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Edges {
     /// Cut off along the border.

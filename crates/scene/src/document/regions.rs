@@ -1,13 +1,11 @@
 //! Regions, their directions, and the guides that comb them, as a scene file states them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-use super::color::Color;
-use super::paint::StrokeSettings;
-use super::{Reference, one};
+use super::{Color, Reference, StrokeSettings, is_default, is_one, one};
 
 /// A part of the scene with settings of its own.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
     /// Unique.
@@ -15,40 +13,40 @@ pub struct Region {
     /// What it covers.
     pub on: Selector,
     /// Base direction of its strokes.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub direction: Direction,
     /// Gestures on the surface that strokes follow: within their radius, or, where the direction is `Auto`, everywhere in
     /// the region; a later one over an earlier one.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub guides: Vec<Guide>,
     /// How its directions meet those of the regions that it lies on.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub seam: Seam,
     /// Whether its strokes have a beginning and an end.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub sense: Sense,
     /// The pose that its directions refer to; left out, the scene's.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub reference: Option<Reference>,
     /// Settings that differ from the scene's.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub strokes: StrokeSettings,
     /// Turns all its directions, stated and combed: degrees counter-clockwise, as seen in the reference pose.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub turn_deg: f64,
     /// Its strokes are left out of the picture; all else stays as it was.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub hidden: bool,
     /// An editor does not change it; nothing else takes notice.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub locked: bool,
     /// Its colour in an editor's overlays; nothing else takes notice.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub color: Option<Color>,
 }
 
 /// What a region covers.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Selector {
     /// All objects.
@@ -69,7 +67,7 @@ pub enum Selector {
 }
 
 /// One piece of what a region covers on its object.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Patch {
     /// All of it.
@@ -85,7 +83,7 @@ pub enum Patch {
 }
 
 /// Where a flood begins: at the face of the surface that is nearest and faces likewise; in the object's own space.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seed {
     /// Where.
@@ -95,7 +93,7 @@ pub struct Seed {
 }
 
 /// One touch of a brush on a surface; all in the object's own space.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dab {
     /// Where.
@@ -105,12 +103,12 @@ pub struct Dab {
     /// How far it reaches, > 0.
     pub radius: f64,
     /// Whether it takes what it touches out again, rather than in.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub take_away: bool,
 }
 
 /// Base direction of strokes.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Direction {
     /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops. Guides
@@ -134,7 +132,7 @@ pub enum Direction {
 }
 
 /// Which of the two principal curvatures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Bend {
     /// Where the surface bends least: along a log.
     Min,
@@ -143,7 +141,7 @@ pub enum Bend {
 }
 
 /// How directions meet at a region's border.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Seam {
     /// They change from one stroke to the next.
@@ -154,7 +152,7 @@ pub enum Seam {
 }
 
 /// Whether strokes have a beginning and an end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Sense {
     /// Turned by half a turn, a direction is the same: a field of lines.
     #[default]
@@ -165,35 +163,35 @@ pub enum Sense {
 
 /// A gesture on the surface of an object that strokes follow; all in the object's own space, so that it holds at any frame
 /// and survives a new mesh.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
     /// What it does with the strokes that it reaches.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub mode: GuideMode,
     /// Set point by point, as one curve. Strokes follow it alike; lists of guides say so.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub curve: bool,
     /// The object, where the region covers more than one.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub object: Option<String>,
     /// The view that it was drawn in: seen from there, strokes show as drawn. Left out, the reference.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<GuideView>,
     /// At least two points of the surface, in the order of the gesture.
     pub points: Vec<GuidePoint>,
     /// How far it reaches, > 0.
     pub radius: f64,
     /// How far strokes on it follow it, 0 not at all .. 1 wholly.
-    #[serde(default = "one")]
+    #[serde(default = "one", skip_serializing_if = "is_one")]
     pub strength: f64,
     /// How its strength falls off towards its radius.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub falloff: Falloff,
 }
 
 /// What a guide does with the strokes that it reaches.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum GuideMode {
     /// They lie along it.
     #[default]
@@ -204,7 +202,7 @@ pub enum GuideMode {
 }
 
 /// Where a guide was looked at from when it was drawn.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GuideView {
     /// The eye.
@@ -214,7 +212,7 @@ pub struct GuideView {
 }
 
 /// One point of a guide.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GuidePoint {
     /// Where.
@@ -223,12 +221,12 @@ pub struct GuidePoint {
     pub normal: [f64; 3],
     /// How far strokes are turned from the gesture's own line here: degrees counter-clockwise, as seen in the guide's view;
     /// between two points, in between.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub turn_deg: f64,
 }
 
 /// How the strength of a guide falls off.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Falloff {
     /// (1 − (r/R)²)².
     #[default]

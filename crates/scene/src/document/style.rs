@@ -11,7 +11,7 @@ use super::style_settings::{StyleInfo, StyleSettings};
 use super::sumi_e::SumiE;
 
 /// How the scene is drawn, with the settings of that style.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub enum Style {
     /// Brush strokes that turn with what they lie on.
     RotatingStrokes(RotatingStrokes),
@@ -100,11 +100,11 @@ impl<'de> Deserialize<'de> for Style {
             }
             fn visit_enum<A: EnumAccess<'de>>(self, style: A) -> Result<Style, A::Error> {
                 match style.variant()? {
-                    (Name::RotatingStrokes, fields) => fields
-                        .struct_variant(RotatingStrokes::FIELDS, FieldsVisitor(PhantomData))
-                        .map(Style::RotatingStrokes),
+                    (Name::RotatingStrokes, fields) => {
+                        fields.struct_variant(&[], FieldsVisitor(PhantomData)).map(Style::RotatingStrokes)
+                    }
                     (Name::SumiE, fields) => {
-                        fields.struct_variant(SumiE::FIELDS, FieldsVisitor(PhantomData)).map(Style::SumiE)
+                        fields.struct_variant(&[], FieldsVisitor(PhantomData)).map(Style::SumiE)
                     }
                     (Name::Reference, nothing) => nothing.unit_variant().map(|()| Style::Reference),
                 }

@@ -1,6 +1,10 @@
 //! What every style says of itself, so that the rest of the house can treat all styles alike.
 
-use serde::Deserialize;
+use std::ops::RangeInclusive;
+
+use serde::{Deserialize, Serialize};
+
+use super::numbers::Number;
 
 /// The settings of a style. Whatever the rest of the house needs to know of a style, it asks here.
 pub trait StyleSettings {
@@ -57,14 +61,14 @@ pub struct Preparation {
 /// Something that has to hold of a style's settings.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SettingRule {
-    /// The number in this field lies between 0 and `most`.
+    /// The number in this field lies within its limits.
     Range {
         /// The field.
         field: &'static str,
         /// The number.
         value: f64,
-        /// The largest allowed number.
-        most: f64,
+        /// What a scene file may say.
+        limits: RangeInclusive<f64>,
     },
     /// The three numbers in this field are a direction: not all of them are 0.
     Direction {
@@ -84,8 +88,15 @@ pub enum SettingRule {
     },
 }
 
+impl SettingRule {
+    /// The limits of a number, and its value in these settings.
+    pub(crate) fn range<T>(number: &Number<T>, settings: &T) -> Self {
+        Self::Range { field: number.field, value: (number.get)(settings), limits: number.limits.clone() }
+    }
+}
+
 /// What the canvas moves with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum CanvasFollows {
     /// It stands still, as a picture on an easel.
     #[default]
@@ -95,7 +106,7 @@ pub enum CanvasFollows {
 }
 
 /// How the turn of a stroke is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Solver {
     /// From the surface's tangent plane, in closed form.
     #[default]

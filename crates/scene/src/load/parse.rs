@@ -7,7 +7,7 @@ use ron::error::{Position, SpannedError};
 use ron::extensions::Extensions;
 
 use super::source::{self, error_in};
-use crate::document::{Scene, Style};
+use crate::document::{LayerSettings, RotatingStrokes, STROKE_NUMBERS, Scene, Style, SumiE, SurfaceNoise};
 use crate::limits;
 use crate::locate::{Field, Inside, Located, Node};
 use crate::nearest::nearest;
@@ -312,12 +312,7 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "layer" => "a whole number, as in 1 or -1",
         "size" => "two whole numbers, as in (1280, 720)",
         "fps" | "frame" | "roll_deg" | "turn_deg" | "fov_y_deg" | "near" | "far" | "height" | "intensity"
-        | "length_px" | "width_px" | "coverage" | "flatness" | "angle_jitter_deg" | "size_jitter"
-        | "swing_deg" | "contour" | "color_jitter" | "temperature" | "grading" | "opacity" | "thickness"
-        | "dryness" | "pickup" | "weave" | "relief" | "varnish" | "gloss" | "offset" | "size_follow"
-        | "radius" | "strength" | "taper" | "bend_deg" | "period_secs" | "speed" | "bloom" | "threshold" => {
-            "one number, as in 2.5"
-        }
+        | "gloss" | "radius" | "strength" | "period_secs" => A_NUMBER,
         "eye" | "target" | "position" | "translation" | "rotation_deg" | "at" | "normal" => {
             "three numbers, as in (0, 1.5, -2)"
         }
@@ -379,8 +374,20 @@ fn what_goes_into(field: &str) -> Option<&'static str> {
         "direction" => {
             "a direction: Auto, Angle(35), Crossing(-58, 4), Along((1, 0, 0)), Around((0, 1, 0)), Toward((0, 1, 0)), Curvature(Min) or Up in a region, (x, y, z) in a light"
         }
-        _ => return None,
+        _ => return is_number_of_a_table(field).then_some(A_NUMBER),
     })
+}
+
+const A_NUMBER: &str = "one number, as in 2.5";
+
+/// Whether one of the document's tables has a number of this name.
+fn is_number_of_a_table(field: &str) -> bool {
+    let strokes = STROKE_NUMBERS.iter().map(|of| of.number.field);
+    let layers = LayerSettings::NUMBERS.iter().map(|of| of.number.field);
+    let styles = RotatingStrokes::numbers().map(|of| of.field);
+    let ink = SumiE::numbers().map(|of| of.field);
+    let noise = SurfaceNoise::numbers().map(|of| of.field);
+    strokes.chain(layers).chain(styles).chain(ink).chain(noise).any(|known| known == field)
 }
 
 fn lower_first(text: &str) -> String {

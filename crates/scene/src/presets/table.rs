@@ -1,21 +1,16 @@
 //! The presets, as numbers. Pixels are those of a picture 720 high.
 
-use super::{DEFAULT_PRESET, INK_PRESET, PAPER_PRESET, ResolvedLayer, ResolvedStrokes};
-use crate::document::Edges;
+use super::{DEFAULT_PRESET, INK_PRESET, PAPER_PRESET};
+use crate::document::{Edges, PresetNumbers, ResolvedLayer, ResolvedStrokes};
 
 /// A complete set of values under a name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Preset {
     pub(super) name: &'static str,
     layers: [Layer; 6],
-    angle_jitter_deg: f32,
-    swing_deg: f32,
-    contour: f32,
-    size_jitter: f32,
-    edges: Edges,
-    color_jitter: f32,
-    temperature: f32,
-    grading: f32,
+    /// How far past the border paint runs.
+    overrun_px: f64,
+    numbers: PresetNumbers,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -103,14 +98,8 @@ pub(super) const PRESETS: [Preset; 6] = [
     Preset {
         name: DEFAULT_PRESET,
         layers: [UNDERPAINTING, BODY, FORM, SCUMBLE, ACCENTS, LIGHTS],
-        angle_jitter_deg: 7.0,
-        swing_deg: 6.0,
-        contour: 0.0,
-        size_jitter: 0.16,
-        edges: Edges::Overrun(3.0),
-        color_jitter: 1.0,
-        temperature: 1.0,
-        grading: 1.0,
+        overrun_px: 3.0,
+        numbers: PresetNumbers::USUAL,
     },
     // Short, loaded dabs of broken colour, side by side.
     Preset {
@@ -131,14 +120,16 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { size_px: [15.0, 6.0], thickness: 1.0, ..ACCENTS },
             LIGHTS,
         ],
-        angle_jitter_deg: 14.0,
-        swing_deg: 9.0,
-        contour: 0.0,
-        size_jitter: 0.2,
-        edges: Edges::Overrun(4.0),
-        color_jitter: 2.4,
-        temperature: 2.4,
-        grading: 0.8,
+        overrun_px: 4.0,
+        numbers: PresetNumbers {
+            angle_jitter_deg: 14.0,
+            swing_deg: 9.0,
+            size_jitter: 0.2,
+            color_jitter: 2.4,
+            temperature: 2.4,
+            grading: 0.8,
+            ..PresetNumbers::USUAL
+        },
     },
     // Little paint on a stiff brush: hairs, and what lies under them.
     Preset {
@@ -159,14 +150,8 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { brushes: &[("rigger", 2), ("dry", 3)], thickness: 0.3, ..ACCENTS },
             Layer { brushes: &[("dry", 1), ("round", 1)], thickness: 0.7, ..LIGHTS },
         ],
-        angle_jitter_deg: 6.0,
-        swing_deg: 6.0,
-        contour: 0.0,
-        size_jitter: 0.16,
-        edges: Edges::Overrun(4.0),
-        color_jitter: 0.8,
-        temperature: 1.0,
-        grading: 1.0,
+        overrun_px: 4.0,
+        numbers: PresetNumbers { angle_jitter_deg: 6.0, color_jitter: 0.8, ..PresetNumbers::USUAL },
     },
     // Flat, opaque and crisp: planes of one colour.
     Preset {
@@ -186,14 +171,8 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { opacity: 1.0, thickness: 0.08, pickup: 0.0, ..ACCENTS },
             Layer { opacity: 1.0, thickness: 0.12, pickup: 0.0, ..LIGHTS },
         ],
-        angle_jitter_deg: 6.0,
-        swing_deg: 6.0,
-        contour: 0.0,
-        size_jitter: 0.16,
-        edges: Edges::Overrun(1.5),
-        color_jitter: 0.7,
-        temperature: 1.0,
-        grading: 1.0,
+        overrun_px: 1.5,
+        numbers: PresetNumbers { angle_jitter_deg: 6.0, color_jitter: 0.7, ..PresetNumbers::USUAL },
     },
     // Few strokes of a wet brush, some of a dry one, and a line where the form ends.
     Preset {
@@ -231,14 +210,16 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { coverage: 0.2, thickness: 0.0, pickup: 0.0, ..ACCENTS },
             Layer { coverage: 0.0, ..LIGHTS },
         ],
-        angle_jitter_deg: 5.0,
-        swing_deg: 5.0,
-        contour: 0.9,
-        size_jitter: 0.24,
-        edges: Edges::Overrun(4.0),
-        color_jitter: 1.0,
-        temperature: 0.0,
-        grading: 0.0,
+        overrun_px: 4.0,
+        numbers: PresetNumbers {
+            angle_jitter_deg: 5.0,
+            swing_deg: 5.0,
+            contour: 0.9,
+            size_jitter: 0.24,
+            temperature: 0.0,
+            grading: 0.0,
+            ..PresetNumbers::USUAL
+        },
     },
     Preset {
         name: PAPER_PRESET,
@@ -257,14 +238,16 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { coverage: 0.0, ..ACCENTS },
             Layer { coverage: 0.0, ..LIGHTS },
         ],
-        angle_jitter_deg: 0.0,
-        swing_deg: 0.0,
-        contour: 0.0,
-        size_jitter: 0.0,
-        edges: Edges::Overrun(2.6),
-        color_jitter: 0.0,
-        temperature: 0.0,
-        grading: 0.0,
+        overrun_px: 2.6,
+        numbers: PresetNumbers {
+            angle_jitter_deg: 0.0,
+            swing_deg: 0.0,
+            size_jitter: 0.0,
+            color_jitter: 0.0,
+            temperature: 0.0,
+            grading: 0.0,
+            ..PresetNumbers::USUAL
+        },
     },
 ];
 
@@ -276,27 +259,8 @@ impl ResolvedStrokes {
             (layer.length_px, layer.width_px) = (layer.length_px * size, layer.width_px * size);
             layer
         };
-        Self {
-            layers: preset.layers.map(sized),
-            flatness: 1.0,
-            offset: 0.0,
-            size_follow: 0.0,
-            taper: 0.0,
-            bend_rad: 0.0,
-            angle_jitter_rad: preset.angle_jitter_deg.to_radians(),
-            swing_rad: preset.swing_deg.to_radians(),
-            contour: preset.contour,
-            size_jitter: preset.size_jitter,
-            edges: match preset.edges {
-                Edges::Overrun(px) => Edges::Overrun(px * f64::from(size)),
-                edges => edges,
-            },
-            color_jitter: preset.color_jitter,
-            temperature: preset.temperature,
-            grading: preset.grading,
-            palette: Vec::new(),
-            layer: 0,
-        }
+        let edges = Edges::Overrun(preset.overrun_px * f64::from(size));
+        Self::new(preset.layers.map(sized), preset.numbers, edges)
     }
 }
 

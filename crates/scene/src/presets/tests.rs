@@ -1,5 +1,5 @@
 use super::*;
-use crate::document::{Camera, Direction, Region, Selector};
+use crate::document::{Camera, Direction, Edges, Region, Selector};
 
 fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
     Scene {

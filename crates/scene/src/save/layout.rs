@@ -5,54 +5,25 @@
 pub(super) enum Value {
     /// Written as it is.
     Word(String),
-    /// `(a, b)`.
-    Tuple(Vec<Value>),
-    /// `[a, b]`.
-    List(Vec<Value>),
-    /// `Name(a, b)`.
-    Named(&'static str, Vec<Value>),
-    /// `Name(a: b)`; without a name `(a: b)`.
-    Fields(&'static str, Vec<(&'static str, Value)>),
+    /// In brackets.
+    Group(Group),
+}
+
+/// Values in brackets: `(a, b)`, `[a, b]`, `Name(a, b)`, `(field: a)` or `Name(field: a)`.
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    /// Before the bracket; empty for none.
+    pub(super) name: &'static str,
+    /// The opening and the closing one.
+    pub(super) brackets: [char; 2],
+    /// Each with its field, which is empty for none.
+    pub(super) items: Vec<(&'static str, Value)>,
 }
 
 /// Lines are broken where they would be longer; a text that is longer by itself stays whole.
 const LINE_CHARS: usize = 110;
 
 const INDENT: &str = "    ";
-
-/// Collects fields in the order in which they are written.
-#[derive(Debug)]
-pub(super) struct Fields(Vec<(&'static str, Value)>);
-
-impl Fields {
-    pub(super) fn new() -> Self {
-        Self(Vec::new())
-    }
-
-    pub(super) fn with(mut self, name: &'static str, value: Value) -> Self {
-        self.0.push((name, value));
-        self
-    }
-
-    pub(super) fn unless(self, is_default: bool, name: &'static str, value: impl FnOnce() -> Value) -> Self {
-        if is_default { self } else { self.with(name, value()) }
-    }
-
-    pub(super) fn maybe(self, name: &'static str, value: Option<Value>) -> Self {
-        match value {
-            Some(value) => self.with(name, value),
-            None => self,
-        }
-    }
-
-    pub(super) fn done(self) -> Value {
-        Value::Fields("", self.0)
-    }
-
-    pub(super) fn named(self, name: &'static str) -> Value {
-        Value::Fields(name, self.0)
-    }
-}
 
 /// The shortest digits that give the number back.
 pub(super) fn number(value: f64) -> Value {
@@ -99,33 +70,28 @@ pub(super) fn lay_out(value: &Value) -> String {
 fn write_flat(value: &Value, out: &mut String) {
     match value {
         Value::Word(word) => out.push_str(word),
-        _ => {
-            let (name, opening, closing) = brackets(value);
+        Value::Group(Group { name, brackets, items }) => {
             out.push_str(name);
-            out.push(opening);
-            for (index, (field, item)) in items(value).enumerate() {
+            out.push(brackets[0]);
+            for (index, (field, item)) in items.iter().enumerate() {
                 if index > 0 {
                     out.push_str(", ");
                 }
                 write_field(field, out);
                 write_flat(item, out);
             }
-            out.push(closing);
+            out.push(brackets[1]);
         }
     }
 }
 
 fn write_broken(value: &Value, depth: usize, out: &mut String) {
-    if let Value::Word(word) = value {
-        out.push_str(word);
-        return;
-    }
-    let (name, opening, closing) = brackets(value);
+    let Value::Group(Group { name, brackets, items }) = value else { return write_flat(value, out) };
     out.push_str(name);
-    out.push(opening);
+    out.push(brackets[0]);
     out.push('\n');
     let indent = INDENT.repeat(depth + 1);
-    for (field, item) in items(value) {
+    for (field, item) in items {
         let line_start = out.len();
         out.push_str(&indent);
         write_field(field, out);
@@ -133,19 +99,16 @@ fn write_broken(value: &Value, depth: usize, out: &mut String) {
         out.push_str(",\n");
     }
     out.push_str(&INDENT.repeat(depth));
-    out.push(closing);
+    out.push(brackets[1]);
 }
 
-/// Flat where it fits on the line that started at `line_start`, and is no list of more than one thing with fields.
+/// Flat where it fits on the line that started at `line_start`, and is no list of more than one thing.
 fn write_fitting(value: &Value, (line_start, depth): (usize, usize), out: &mut String) {
     let before = out.len();
     write_flat(value, out);
     let fits = out[line_start..].chars().count() < LINE_CHARS;
-    let is_table = matches!(value, Value::List(items) if items.len() > 1);
-    if fits && !is_table {
-        return;
-    }
-    if !matches!(value, Value::Word(_)) {
+    let is_table = matches!(value, Value::Group(group) if group.brackets[0] == '[' && group.items.len() > 1);
+    if is_table || !fits {
         out.truncate(before);
         write_broken(value, depth, out);
     }
@@ -155,23 +118,5 @@ fn write_field(field: &str, out: &mut String) {
     if !field.is_empty() {
         out.push_str(field);
         out.push_str(": ");
-    }
-}
-
-fn brackets(value: &Value) -> (&'static str, char, char) {
-    match value {
-        Value::List(_) => ("", '[', ']'),
-        Value::Named(name, _) | Value::Fields(name, _) => (name, '(', ')'),
-        Value::Tuple(_) | Value::Word(_) => ("", '(', ')'),
-    }
-}
-
-fn items(value: &Value) -> Box<dyn Iterator<Item = (&'static str, &Value)> + '_> {
-    match value {
-        Value::Word(_) => Box::new(std::iter::empty()),
-        Value::Tuple(items) | Value::List(items) | Value::Named(_, items) => {
-            Box::new(items.iter().map(|item| ("", item)))
-        }
-        Value::Fields(_, fields) => Box::new(fields.iter().map(|(name, value)| (*name, value))),
     }
 }

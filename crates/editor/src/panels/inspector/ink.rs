@@ -2,7 +2,9 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
-use impasto_scene::document::{CanvasFollows, Color, InkDrawing, InkLight, InkNumber, InkRule, Style, SumiE};
+use impasto_scene::document::{
+    CanvasFollows, Color, InkDrawing, InkLight, InkRule, Number as Of, Style, SumiE,
+};
 
 use super::Asker;
 use super::number::Number;
@@ -16,7 +18,7 @@ const APART: f64 = 0.01;
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     choices(ui, asker, [shown, stored]);
     let ours = shown.rule == InkRule::Painter;
-    for number in SumiE::NUMBERS.iter().filter(|number| ours || is_of_source(number)) {
+    for number in SumiE::numbers().filter(|number| ours || is_of_source(number)) {
         one_number(ui, asker, number, [shown, stored]);
     }
     for index in 0..4 {
@@ -87,11 +89,11 @@ fn choices(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2])
 }
 
 /// Whether the source's rule knows of a number.
-fn is_of_source(number: &InkNumber) -> bool {
+fn is_of_source(number: &Of<SumiE>) -> bool {
     ["silhouette_from", "silhouette_to", "softness", "fibres"].contains(&number.field)
 }
 
-fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &InkNumber, [shown, stored]: [&SumiE; 2]) {
+fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &Of<SumiE>, [shown, stored]: [&SumiE; 2]) {
     let (words, unit) = match of.field.strip_suffix("_px") {
         Some(words) => (words, "px"),
         None => (of.field, ""),
@@ -105,9 +107,9 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &InkNumber, [shown, st
     let limits = match of.field {
         "silhouette_from" => 0.0..=(stored.silhouette_to - APART).max(0.0),
         "silhouette_to" => (stored.silhouette_from + APART).min(1.0)..=1.0,
-        _ => 0.0..=of.most,
+        _ => of.limits.clone(),
     };
-    let usual = SumiE::default().value(of);
+    let usual = (of.get)(&SumiE::default());
     let step = if unit == "px" { (0.5, 1) } else { (0.05, 2) };
     let number = Number {
         unit,
@@ -117,7 +119,7 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &InkNumber, [shown, st
         default: Some(usual),
         ..Number::new(&name, of.effect)
     };
-    asker.number(ui, &number, [shown, stored].map(|ink| ink.value(of)), |to| {
+    asker.number(ui, &number, [shown, stored].map(of.get), |to| {
         let mut ink = stored.clone();
         let to = to.unwrap_or(usual);
         *(of.of)(&mut ink) = to;
@@ -146,7 +148,7 @@ fn tone(ui: &mut Ui, asker: &mut Asker<'_, '_>, index: usize, [shown, stored]: [
 }
 
 /// A field's name as words that begin large.
-fn sentence(field: &str) -> String {
+pub(super) fn sentence(field: &str) -> String {
     let words = field.replace('_', " ");
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

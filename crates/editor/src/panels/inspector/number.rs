@@ -24,6 +24,8 @@ pub(super) struct Number<'a> {
     pub(super) range: RangeInclusive<f64>,
     /// How far typing goes; none as far as a drag.
     pub(super) limits: Option<RangeInclusive<f64>>,
+    /// Whether the scene may refuse a number within these limits; it is then asked while one is typed.
+    pub(super) scene_decides: bool,
     /// One step, and digits behind the point.
     pub(super) step: (f64, usize),
     /// What the reset icon brings back.
@@ -47,6 +49,7 @@ impl<'a> Number<'a> {
             letter: "",
             range: ANY,
             limits: None,
+            scene_decides: true,
             step: (1.0, 0),
             default: None,
             unlabelled: None,
@@ -80,8 +83,10 @@ impl Asker<'_, '_> {
             .step(number.step.0, number.step.1)
             .warn(number.warns)
             .limits(number.limits.clone().unwrap_or(number.range.clone()))
-            .refused(&refused)
             .tip("", number.effect);
+        if number.scene_decides {
+            field = field.refused(&refused);
+        }
         if let Some(default) = number.default {
             field = field.default_value(default);
         }

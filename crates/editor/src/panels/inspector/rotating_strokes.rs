@@ -3,9 +3,9 @@
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
 use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, Solver, Style};
-use impasto_scene::limits::MAX_STRENGTH;
 
 use super::Asker;
+use super::ink;
 use super::number::Number;
 use super::parts::{pick, row};
 use crate::widgets::{self, Tip};
@@ -44,25 +44,20 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&Ro
             asker.ask(set(RotatingStrokes { canvas_follows, ..stored.clone() }, words.to_owned()));
         }
     });
-    type OfStyle = fn(&mut RotatingStrokes) -> &mut f64;
-    let numbers: [(&str, &str, OfStyle); 3] = [
-        ("Weave", "How much of the canvas is felt where paint is thin.", |style| &mut style.weave),
-        ("Relief", "How much the paint stands up: 0 flat, 1 oil paint.", |style| &mut style.relief),
-        ("Varnish", "Deeper darks and fuller colour: 0 none, 1 thin.", |style| &mut style.varnish),
-    ];
-    for (name, effect, of) in numbers {
+    for of in RotatingStrokes::numbers() {
+        let name = ink::sentence(of.field);
+        let usual = (of.get)(&RotatingStrokes::default());
         let number = Number {
             range: 0.0..=3.0,
-            limits: Some(0.0..=MAX_STRENGTH),
+            limits: Some(of.limits.clone()),
             step: (0.05, 2),
-            default: Some(1.0),
-            ..Number::new(name, effect)
+            default: Some(usual),
+            ..Number::new(&name, of.effect)
         };
-        let values = [shown, stored].map(|style| *of(&mut style.clone()));
-        asker.number(ui, &number, values, |to| {
+        asker.number(ui, &number, [shown, stored].map(of.get), |to| {
             let mut style = stored.clone();
-            let to = to.unwrap_or(1.0);
-            *of(&mut style) = to;
+            let to = to.unwrap_or(usual);
+            *(of.of)(&mut style) = to;
             set(style, format!("{name} {to:.2}"))
         });
     }

@@ -4,9 +4,8 @@ use egui::{Ui, vec2};
 use impasto_core::brush;
 use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange, StrokesOf};
 use impasto_editor_model::stroke_fields::{FieldValue, field_values};
-use impasto_scene::document::{BrushMix, Edges, Region, Scene, Selector, StrokeSettings};
+use impasto_scene::document::{BrushMix, Edges, InspectorPlace, Scene, StrokeSettings};
 use impasto_scene::limits::MAX_LAYER;
-use impasto_scene::new_scene;
 use impasto_scene::presets::{self, ResolvedStrokes};
 
 use super::number::Number;
@@ -47,14 +46,11 @@ impl<'a> Place<'a> {
     }
 
     /// What would hold with other settings here.
-    pub(super) fn resolve(&self, scene: &Scene, own: StrokeSettings) -> ResolvedStrokes {
-        let bare = Scene { size: scene.size, ..new_scene::empty() };
-        if self.index.is_none() {
-            return presets::resolve(&Scene { strokes: own, ..bare }, None);
+    pub(super) fn resolve(&self, scene: &Scene, own: &StrokeSettings) -> ResolvedStrokes {
+        match self.index {
+            Some(_) => presets::resolve_with(scene, &scene.strokes, Some(own)),
+            None => presets::resolve_with(scene, own, None),
         }
-        let region = Region { strokes: own, ..Region::new("", Selector::Everything) };
-        let alone = Scene { strokes: scene.strokes.clone(), regions: vec![region], ..bare };
-        presets::resolve(&alone, Some(0))
     }
 
     /// Changes one setting here.
@@ -93,24 +89,27 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
 fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, advanced: bool) {
     let shown = field_values(asker.scene(), place.index);
     let stored = field_values(asker.stored(), place.index);
-    for (shown, stored) in shown.iter().zip(&stored).filter(|(value, _)| value.field.is_advanced == advanced)
-    {
+    let is_here =
+        |value: &FieldValue| matches!(value.field.shown.place, InspectorPlace::Advanced(_)) == advanced;
+    for (shown, stored) in shown.iter().zip(&stored).filter(|(value, _)| is_here(value)) {
         number(ui, asker, place, [shown, stored]);
     }
 }
 
 fn number(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, [shown, stored]: [&FieldValue; 2]) {
     let field = shown.field;
+    let look = &field.shown;
     let number = Number {
-        unit: field.unit,
-        range: field.range.clone(),
-        limits: Some(field.range.start().min(0.0)..=f64::INFINITY),
-        step: (field.step, field.decimals),
+        unit: look.unit,
+        range: look.drag.clone(),
+        limits: Some(field.limits_shown()),
+        scene_decides: false,
+        step: (look.step, look.decimals),
         default: stored.is_own.then_some(shown.usual),
-        ..Number::new(field.label, field.effect)
+        ..Number::new(look.label, field.number.effect)
     };
     asker.number(ui, &number, [shown.shown, stored.shown], |to| {
-        place.set(StrokeChange::Number(field.name, to.map(|to| to * field.file_per_shown)))
+        place.set(StrokeChange::Number(field.number.field, to.map(|to| to * look.file_per_shown)))
     });
 }
 

@@ -175,25 +175,20 @@ fn any_brush() -> impl Strategy<Value = Option<BrushMix>> {
 }
 
 fn any_layer() -> impl Strategy<Value = LayerSettings> {
-    let numbers = prop::collection::vec(proptest::option::of(number()), 7);
+    let numbers = prop::collection::vec(proptest::option::of(number()), LayerSettings::NUMBERS.len());
     (name(), any_brush(), numbers, proptest::option::of(any_color())).prop_map(
-        |(name, brush, numbers, color)| LayerSettings {
-            name,
-            brush,
-            length_px: numbers[0],
-            width_px: numbers[1],
-            coverage: numbers[2],
-            opacity: numbers[3],
-            thickness: numbers[4],
-            dryness: numbers[5],
-            pickup: numbers[6],
-            color,
+        |(name, brush, numbers, color)| {
+            let mut layer = LayerSettings { name, brush, color, ..LayerSettings::default() };
+            for (of, value) in LayerSettings::NUMBERS.iter().zip(numbers) {
+                *(of.number.of)(&mut layer) = value;
+            }
+            layer
         },
     )
 }
 
 fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
-    let numbers = prop::collection::vec(proptest::option::of(number()), 16);
+    let numbers = prop::collection::vec(proptest::option::of(number()), STROKE_NUMBERS.len());
     let edges = prop_oneof![Just(Edges::Clip), number().prop_map(Edges::Overrun), Just(Edges::Free)];
     let lists = (
         proptest::option::of(prop::collection::vec(any_color(), 0..3)),
@@ -201,29 +196,13 @@ fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
     );
     let head = (proptest::option::of(name()), any_brush(), proptest::option::of(edges));
     (head, numbers, proptest::option::of(any::<i32>()), lists).prop_map(
-        |((preset, brush, edges), numbers, layer, (palette, layers))| StrokeSettings {
-            preset,
-            brush,
-            length_px: numbers[0],
-            width_px: numbers[1],
-            scale: numbers[2],
-            coverage: numbers[3],
-            flatness: numbers[4],
-            angle_jitter_deg: numbers[5],
-            swing_deg: numbers[6],
-            contour: numbers[7],
-            size_jitter: numbers[8],
-            edges,
-            color_jitter: numbers[9],
-            temperature: numbers[10],
-            grading: numbers[11],
-            offset: numbers[12],
-            size_follow: numbers[13],
-            taper: numbers[14],
-            bend_deg: numbers[15],
-            palette,
-            layer,
-            layers,
+        |((preset, brush, edges), numbers, layer, (palette, layers))| {
+            let mut strokes =
+                StrokeSettings { preset, brush, edges, palette, layer, layers, ..Default::default() };
+            for (of, value) in STROKE_NUMBERS.iter().zip(numbers) {
+                *(of.number.of)(&mut strokes) = value;
+            }
+            strokes
         },
     )
 }
@@ -252,14 +231,14 @@ fn any_style() -> impl Strategy<Value = Style> {
         prop_oneof![Just(InkLight::Scene), Just(InkLight::Eye)],
         prop_oneof![Just(CanvasFollows::Picture), Just(CanvasFollows::Camera)],
     );
-    let numbers = prop::collection::vec(number(), SumiE::NUMBERS.len() + 4);
+    let numbers = prop::collection::vec(number(), SumiE::numbers().count() + 4);
     let ink = (words, vector3(), numbers, (any_color(), any_color(), any_color())).prop_map(
         |((rule, drawing, light, paper_follows), to_light, numbers, (paper, ink, seal))| {
             let tones = [0, 1, 2, 3].map(|tone| numbers[tone]);
             let usual = SumiE::default();
             let mut style =
                 SumiE { rule, drawing, light, to_light, tones, paper, ink, seal, paper_follows, ..usual };
-            for (of, &value) in SumiE::NUMBERS.iter().zip(&numbers[4..]) {
+            for (of, &value) in SumiE::numbers().zip(&numbers[4..]) {
                 *(of.of)(&mut style) = value;
             }
             Style::SumiE(style)
