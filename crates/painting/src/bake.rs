@@ -1,4 +1,4 @@
-//! The lift of every particle of a body: its reference view, its base direction, its jitter.
+//! Baking: the lift of every particle, from its references, its base direction and its jitter.
 
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use impasto_scene::document::Solver;
 use rayon::prelude::*;
 
 use crate::field::{BodyField, FieldInputs};
-use crate::references::{BodyReference, BodyReferences, Views};
+use crate::references::{BodyReference, BodyReferences, SurfacePoint, Views};
 use crate::regions::RegionRule;
-use crate::seats::{KeptSeats, Seats};
-use crate::stated::{Point, Stated};
+use crate::stated::DirectionRules;
+use crate::traits::{TraitInputs, Traits};
 
-/// How references see the particles of a coat: what a picture still needs once lifts are baked.
+/// What lifts are computed from, as far as pictures still need it once they are baked.
 #[derive(Clone)]
-pub(crate) struct LiftGround {
-    pub(crate) seats: Arc<Seats>,
+pub(crate) struct LiftSources {
+    pub(crate) traits: Arc<Traits>,
     pub(crate) neighbours: Option<Arc<Neighbours>>,
     pub(crate) references: Arc<BodyReferences>,
     pub(crate) rules: Arc<Vec<RegionRule>>,
@@ -28,32 +28,33 @@ pub(crate) struct LiftGround {
 }
 
 /// All that the lifts of a coat depend on.
-#[derive(Clone)]
 pub(crate) struct BakeInputs {
-    pub(crate) ground: LiftGround,
-    /// The same seats, with what they are made from.
-    pub(crate) seats: Arc<KeptSeats>,
+    pub(crate) sources: LiftSources,
+    /// What the traits are made from.
+    pub(crate) trait_inputs: Arc<TraitInputs>,
+    /// What chance and slow noise add to the base angle of each particle, radians.
+    pub(crate) stray_rad: Arc<Vec<f64>>,
     pub(crate) solver: Solver,
     /// The rules that particles of the body may have.
     pub(crate) used: Arc<Vec<u16>>,
-    /// Where directions are not all stated outright: what combs them, with the samples each particle listens to.
+    /// Where directions are not all stated outright: what combs them.
     pub(crate) combed: Option<Combed>,
 }
 
 /// What combs the directions of a coat.
-#[derive(Clone)]
 pub(crate) struct Combed {
     pub(crate) inputs: Arc<FieldInputs>,
-    /// None where guides alone have a say.
+    /// None where only guides comb.
     pub(crate) field: Option<Arc<BodyField>>,
+    /// Which samples of the field each particle uses.
     pub(crate) stencils: Arc<Stencils>,
 }
 
-/// Equal but for how many particles there are.
+/// How many particles there are is not compared.
 impl PartialEq for BakeInputs {
     fn eq(&self, other: &Self) -> bool {
-        let (ground, before) = (&self.ground, &other.ground);
-        let same_lists = match (&ground.neighbours, &before.neighbours) {
+        let (sources, before) = (&self.sources, &other.sources);
+        let same_lists = match (&sources.neighbours, &before.neighbours) {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b),
             (a, b) => a.is_none() && b.is_none(),
         };
@@ -63,10 +64,10 @@ impl PartialEq for BakeInputs {
         };
         same_lists
             && same_combing
-            && self.seats.same_inputs(&other.seats)
-            && ground.references == before.references
+            && self.trait_inputs == other.trait_inputs
+            && sources.references == before.references
             && self.solver == other.solver
-            && ground.extent == before.extent
+            && sources.extent == before.extent
             && self.used == other.used
             && self.used.iter().all(|&rule| {
                 let of = |rules: &[RegionRule]| {
@@ -74,7 +75,8 @@ impl PartialEq for BakeInputs {
                     (*sense, *turn_rad, strokes.flatness, strokes.offset)
                 };
                 let direction = |rules: &'_ [RegionRule]| rules[usize::from(rule)].direction.clone();
-                of(&ground.rules) == of(&before.rules) && direction(&ground.rules) == direction(&before.rules)
+                of(&sources.rules) == of(&before.rules)
+                    && direction(&sources.rules) == direction(&before.rules)
             })
     }
 }
@@ -83,7 +85,8 @@ impl PartialEq for BakeInputs {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BakedBody {
     pub(crate) baked: BakedParticles,
-    /// θ₀ with jitter in the reference picture, radians: what `horn-exact` adds to its turn. Empty where N' alone turns.
+    /// θ₀ with jitter in the reference picture, radians, to which `horn-exact` adds its turn. Empty with the solver `Tangent`,
+    /// where N' alone tells the angle.
     base_angle_rad: Vec<f32>,
 }
 
@@ -92,7 +95,7 @@ impl BakedBody {
     pub(crate) fn base_angle_rad(&self, particle: usize, reference: &BodyReference) -> f64 {
         match self.base_angle_rad.get(particle) {
             Some(&angle_rad) => f64::from(angle_rad),
-            // What N' shows there.
+            // The angle at which N' shows there.
             None => {
                 let jacobian = reference.map.jacobian(self.baked.position_of(particle));
                 self.baked.lift_of(particle).map(jacobian).angle_rad()
@@ -105,60 +108,60 @@ impl BakedBody {
 const CHUNK: usize = 1024;
 
 impl BakeInputs {
-    /// The lifts of all particles; those `kept` are of the same inputs, and are cut or continued.
-    pub(crate) fn bake(&self, kept: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
-        let ground = &self.ground;
-        let count = ground.seats.particles.len();
-        if let Some(kept) = &kept
-            && kept.baked.len() == count
+    /// The lifts of all particles; those `before`, of the same inputs, are cut or continued.
+    pub(crate) fn bake(&self, before: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
+        let sources = &self.sources;
+        let count = sources.traits.particles.len();
+        if let Some(before) = &before
+            && before.baked.len() == count
         {
-            return Arc::clone(kept);
+            return Arc::clone(before);
         }
-        let mut body = kept.map_or_else(BakedBody::default, Arc::unwrap_or_clone);
+        let mut body = before.map_or_else(BakedBody::default, Arc::unwrap_or_clone);
         let first = body.baked.len().min(count);
         body.baked.resize(count);
         body.base_angle_rad.truncate(count);
         if self.solver != Solver::Tangent {
             body.base_angle_rad.resize(count, 0.0);
         }
-        let stated = ground.stated();
+        let stated = sources.stated();
         let mut angles = body.base_angle_rad.get_mut(first..).unwrap_or_default().chunks_mut(CHUNK);
         let chunks = body.baked.chunks_mut(first, CHUNK).into_iter();
         let chunks: Vec<_> = chunks.map(|baked| (baked, angles.next().unwrap_or_default())).collect();
         chunks.into_par_iter().enumerate().for_each(|(number, (mut baked, base_angles_rad))| {
             for offset in 0..CHUNK.min(count - first - number * CHUNK) {
                 let index = first + number * CHUNK + offset;
-                let point = ground.point(index, ground.seats.region(index));
+                let point = sources.point(index, sources.traits.region(index));
                 let (lift, base_rad) = self.lift(index, point, &stated);
-                baked.set(offset, (ground.lifted(point), point.normal), lift);
+                baked.set(offset, (sources.off_surface(point).position, point.normal), lift);
                 if let Some(base_angle_rad) = base_angles_rad.get_mut(offset) {
                     *base_angle_rad = base_rad as f32;
                 }
             }
         });
-        let flatness = |rule: u16| ground.rules[usize::from(rule)].strokes.flatness;
+        let flatness = |rule: u16| sources.rules[usize::from(rule)].strokes.flatness;
         body.baked.flatness.clear();
         let may_follow = self.used.iter().any(|&rule| flatness(rule) < 1.0);
-        if may_follow && (0..count).any(|index| flatness(ground.seats.region(index)) < 1.0) {
-            body.baked.flatness.extend((0..count).map(|index| flatness(ground.seats.region(index))));
+        if may_follow && (0..count).any(|index| flatness(sources.traits.region(index)) < 1.0) {
+            body.baked.flatness.extend((0..count).map(|index| flatness(sources.traits.region(index))));
         }
         Arc::new(body)
     }
 
-    /// N' of a particle, and, where N' does not tell it, its base angle in the reference picture.
-    fn lift(&self, index: usize, point: Point, stated: &Stated<'_>) -> (Lift, f64) {
-        let ground = &self.ground;
-        let views = ground.views(index, point, self.solver == Solver::Horn);
+    /// N' of a particle and, where N' does not tell it, its base angle in the reference picture, radians.
+    fn lift(&self, index: usize, point: SurfacePoint, stated: &DirectionRules<'_>) -> (Lift, f64) {
+        let sources = &self.sources;
+        let views = sources.views(index, point, self.solver == Solver::Horn);
         let base = stated.base(point, &views);
         let mut tangent = base.tangent;
         if let Some(combed) = &self.combed {
             if let Some(field) = &combed.field {
-                tangent = field.direction((&combed.stencils, index), point, &base);
+                tangent = field.direction(&combed.stencils, index, point, &base);
             }
-            let relaxed = || combed.field.as_ref()?.relaxed((&combed.stencils, index), point, &base);
+            let relaxed = || combed.field.as_ref()?.relaxed(&combed.stencils, index, point, &base);
             tangent = combed.inputs.with_guides(point, &views, tangent, relaxed);
         }
-        let stray = self.seats.stray_rad[index] + ground.rules[point.rule].turn_rad;
+        let stray = self.stray_rad[index] + sources.rules[point.rule].turn_rad;
         let lift = views.lift(tangent).turned(stray);
         if self.solver == Solver::Tangent {
             return (lift, 0.0);
@@ -172,46 +175,49 @@ impl BakeInputs {
     }
 }
 
-impl LiftGround {
-    fn stated(&self) -> Stated<'_> {
-        Stated {
+impl LiftSources {
+    fn stated(&self) -> DirectionRules<'_> {
+        DirectionRules {
             rules: &self.rules,
-            automatic: self.seats.parts.directions(self.references.own()),
+            automatic: self.traits.parts.directions(self.references.own()),
             extent: self.extent,
         }
     }
 
-    fn point(&self, index: usize, region: u16) -> Point {
-        let particle = self.seats.particles.at(index);
-        Point {
+    fn point(&self, index: usize, region: u16) -> SurfacePoint {
+        let particle = self.traits.particles.at(index);
+        SurfacePoint {
             position: particle.position.as_dvec3(),
             normal: particle.normal.as_dvec3(),
             rule: usize::from(region),
-            part: self.seats.part(index),
+            part: self.traits.part(index),
         }
     }
 
-    /// Where the stroke of a point is: off the surface by its region's offset.
-    fn lifted(&self, point: Point) -> DVec3 {
-        point.position + point.normal * f64::from(self.rules[point.rule].strokes.offset)
+    /// The point of a stroke: off the surface by its region's offset.
+    fn off_surface(&self, point: SurfacePoint) -> SurfacePoint {
+        let offset = f64::from(self.rules[point.rule].strokes.offset);
+        SurfacePoint { position: point.position + point.normal * offset, ..point }
     }
 
     /// Which particles lie near a singular point of their stated direction.
     pub(crate) fn poles(&self) -> Vec<bool> {
         let stated = self.stated();
         let up_in_model = self.references.own().up_in_model;
-        let is_pole = |index: usize| stated.is_pole(self.point(index, self.seats.region(index)), up_in_model);
-        (0..self.seats.particles.len()).map(is_pole).collect()
+        let is_pole =
+            |index: usize| stated.is_pole(self.point(index, self.traits.region(index)), up_in_model);
+        (0..self.traits.particles.len()).map(is_pole).collect()
     }
 
-    /// How the references see a particle; with Horn's estimate from its neighbours or the tangent plane's own.
-    fn views(&self, index: usize, point: Point, with_horn: bool) -> Views {
+    /// How the references see a particle; with Horn's estimate from its neighbours, or by its tangent plane.
+    fn views(&self, index: usize, point: SurfacePoint, with_horn: bool) -> Views {
         let lists = self.neighbours.as_deref().filter(|_| with_horn);
-        let position = self.lifted(point);
-        self.references.views((position, point.normal), point.rule, |reference| {
+        let point = self.off_surface(point);
+        let position = point.position;
+        self.references.views(point, |reference| {
             let neighbours = lists?.of(index);
             let center_px = reference.map.project(position);
-            let at = |other: &u32| self.seats.particles.at(*other as usize).position.as_dvec3();
+            let at = |other: &u32| self.traits.particles.at(*other as usize).position.as_dvec3();
             let in_front = neighbours.iter().map(at).filter(|&at| reference.map.depth(at) > reference.near);
             Some(Lift::horn(in_front.map(|at| {
                 let offset_px: DVec2 = reference.map.project(at) - center_px;
@@ -220,7 +226,7 @@ impl LiftGround {
         })
     }
 
-    /// The tangent plane's own lift, without base angle: what κ is measured with, whatever the solver.
+    /// The lift of the tangent plane, without base angle: κ is measured with it, whatever the solver.
     pub(crate) fn surface_lift(&self, index: usize, region: u16) -> Lift {
         self.views(index, self.point(index, region), false).bare_lift()
     }

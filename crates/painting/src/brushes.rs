@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::frame::Brushes;
 use crate::regions::RegionRule;
 
-/// Marks of the brushes that come with Impasto are made once, whatever is painted with them.
+/// The marks of the brushes that come with Impasto, made once in a process.
 static MARKS: [OnceLock<Arc<Vec<Mark>>>; brush::NAMES.len()] =
     [const { OnceLock::new() }; brush::NAMES.len()];
 
@@ -30,7 +30,7 @@ pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
     Brushes { names, marks }
 }
 
-/// Makes what is not there yet, on all threads. No lock is held meanwhile: whoever comes at the same time makes the same.
+/// Makes the marks that have not been made yet, on all threads. No lock is held meanwhile; two callers at once make the same.
 fn make_house_marks(names: &[String]) {
     let missing: Vec<(usize, u32)> = names
         .iter()
@@ -62,7 +62,7 @@ fn marks_of(loaded: &LoadedScene, name: &str) -> Arc<Vec<Mark>> {
         loaded.brushes.get(name).map(|picture| brush::marks_of_picture(picture.size_px, &picture.rgba8));
     match marks.filter(|marks| !marks.is_empty()) {
         Some(marks) => Arc::new(marks),
-        // A scene that was not checked; any mark will do.
+        // Only a scene that was not checked gets here; any mark will do.
         None => marks_of(loaded, brush::NAMES[0]),
     }
 }
@@ -78,15 +78,15 @@ impl Brushes {
         Self { names, marks }
     }
 
-    /// The marks of one layer, as numbers over all brushes: `[first mark of the brush]`, one entry per mention.
+    /// For each brush of a layer, as often as it is named, the index of its first mark among those of all brushes.
     pub(crate) fn first_marks(&self, layer: &ResolvedLayer) -> Vec<u32> {
         let index = |name: &String| self.names.binary_search(name).unwrap_or(0) as u32;
         layer.brushes.iter().map(|name| index(name) * brush::VARIANTS).collect()
     }
 }
 
-/// The mark of a stroke: which brush, which of its marks, and whether it is flipped. Golden-ratio steps over the order keep
-/// neighbours in rank from taking the same one.
+/// The mark of a stroke: which brush, which of its marks, and (bit 16) whether it is flipped. Steps by the golden ratio and its
+/// like keep neighbours in rank from taking the same one.
 pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let step = |ratio: f64, count: u32| {
         ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract()

@@ -1,4 +1,4 @@
-//! How many particles each coat of an object has: as the object states for its body layer, else as its sightings ask for.
+//! How many particles each coat of an object has: for the body layer as the object states, else as many as its views need.
 
 use std::sync::Arc;
 
@@ -6,11 +6,10 @@ use glam::DVec2;
 use impasto_core::sampling::Surface;
 use impasto_scene::presets::LayerKind;
 
-use crate::coat::ObjectInputs;
-use crate::frame::BodySurface;
+use crate::body::BodySurface;
+use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
 use crate::parts::{BodyParts, Cap};
-use crate::prepare::Context;
 use crate::regions::BodyRegions;
 
 const LAYERS: usize = LayerKind::ALL.len();
@@ -24,7 +23,7 @@ pub(crate) struct CountInputs {
     /// For each rule and layer its length, its width and its coverage.
     layers: Vec<[[f32; 3]; LAYERS]>,
     left_out: [bool; LAYERS],
-    /// As the object states.
+    /// The body layer's count, where the object states it.
     stated: Option<u64>,
     paper: bool,
 }
@@ -95,7 +94,7 @@ impl CountInputs {
     }
 }
 
-/// The most that a layer is wanted anywhere, where its coverage says 1; as `MOST_FULL` of the resolve shader.
+/// The most that a layer of coverage 1 is wanted anywhere; the resolve shader has the same number as `MOST_FULL`.
 pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
     if kind == LayerKind::Body { 1.35 } else { 1.0 }
 }

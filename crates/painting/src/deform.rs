@@ -5,12 +5,12 @@ use impasto_core::lift::Lift;
 use impasto_core::solve::BakedParticles;
 use rayon::prelude::*;
 
+use crate::body::Vertices;
 use crate::coat::Coat;
-use crate::surface::Vertices;
 
 impl Coat {
-    /// The baked particles as they are when the vertices of the surface, which were there when they were baked, have moved:
-    /// each rides its triangle, and its lift is carried by what the triangle's edges and normal have done, `N'' = F N'`.
+    /// The baked particles after the vertices of the surface have moved from where they were at the baking. Each particle stays
+    /// on its triangle, and its lift is carried by the triangle's deformation gradient F: `N'' = F N'`.
     pub(crate) fn deformed(&self, before: &Vertices, now: &Vertices) -> BakedParticles {
         let mesh = &self.surface.mesh;
         let places = self.sampled.particles.places();
@@ -19,14 +19,14 @@ impl Coat {
             .with_min_len(1024)
             .map(|index| {
                 let place = places[index];
-                let was = place.on_moved(mesh, &before.0, &before.1);
-                let is = place.on_moved(mesh, &now.0, &now.1);
+                let was = place.on_moved(mesh, &before.positions, &before.normals);
+                let is = place.on_moved(mesh, &now.positions, &now.normals);
                 let frame = |positions: &[glam::Vec3], normal: glam::Vec3| {
                     let corners = mesh.triangles[place.triangle()];
                     let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
                     DMat3::from_cols(b - a, c - a, normal.as_dvec3())
                 };
-                let (from, to) = (frame(&before.0, was.normal), frame(&now.0, is.normal));
+                let (from, to) = (frame(&before.positions, was.normal), frame(&now.positions, is.normal));
                 let lift = self.baked.baked.lift_of(index);
                 let carried = |v: DVec3| {
                     let there = to * (from.inverse() * v);

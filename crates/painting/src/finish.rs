@@ -1,4 +1,4 @@
-//! The paint as a body and what it lies on, from the document to a frame.
+//! The finish: ground, canvas, relief and varnish, from the document to a frame.
 
 use glam::{Affine2, DAffine3, DMat2, DVec2, DVec3};
 use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, Scene};
@@ -8,13 +8,13 @@ use crate::frame::{Finish, Ground};
 use crate::lights;
 use crate::view::PictureView;
 
-/// Light on the relief where the scene has no sun: from the upper left, as in most studios.
-const STUDIO_LIGHT: DVec3 = DVec3::new(-0.55, 0.62, 0.56);
+/// Towards the light on the relief where the scene has no sun: from the upper left, as in most studios.
+const DEFAULT_RELIEF_LIGHT: DVec3 = DVec3::new(-0.55, 0.62, 0.56);
 
-/// The relief's light stands at least this high over the canvas (sine), so that relief is always read as such.
+/// The light stands at least this high over the canvas (sine), so that its shading always reads as relief.
 const LEAST_HEIGHT: f64 = 0.45;
 
-/// A scene's finish before it is seen.
+/// A scene's finish, before a view places the canvas.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FinishRule {
     finish: Finish,
@@ -48,7 +48,8 @@ impl FinishRule {
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
     }
 
-    /// Slides, turns and scales with what the camera looked at in the reference pose; `None` when that is behind the eye.
+    /// Moves, turns and scales the canvas with the point that the camera looked at in the reference pose; `None` when that point is
+    /// behind the eye.
     fn canvas_from_px(&self, anchor: DVec3, view: &PictureView, shot_height_px: f64) -> Option<Affine2> {
         let (before, now) =
             (self.reference.screen_map(DAffine3::IDENTITY), view.screen_map(DAffine3::IDENTITY));
@@ -71,13 +72,13 @@ impl FinishRule {
     }
 }
 
-/// Towards the first sun as the reference pose sees it, lifted off the canvas.
+/// Towards the first sun, in the space of the reference picture, and at least [`LEAST_HEIGHT`] high.
 fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
     let lights = lights::resolve(scene, (glam::Vec3::ZERO, 1.0));
     let view = reference.pose.view_from_world();
     let seen = lights.suns.first().map(|sun| view.transform_vector3(sun.to_light.as_dvec3()));
     let flat = seen.map(|light| light.truncate()).filter(|flat| flat.length() > 1e-3);
-    let Some(flat) = flat else { return STUDIO_LIGHT.normalize().as_vec3().to_array() };
+    let Some(flat) = flat else { return DEFAULT_RELIEF_LIGHT.normalize().as_vec3().to_array() };
     let height = seen.map_or(0.0, |light| light.z).clamp(LEAST_HEIGHT, 0.7);
     let flat = flat.normalize() * (1.0 - height * height).sqrt();
     flat.extend(height).as_vec3().to_array()

@@ -1,18 +1,13 @@
-//! What one picture is made of, as plain data: the only thing that the renderer reads.
+//! A frame: one picture as plain data, all that the renderer reads.
 
 use std::sync::Arc;
 
 use glam::{Affine2, Mat4, Vec3};
-use impasto_core::TriangleMesh;
 use impasto_core::brush::Mark;
-use impasto_core::shells::Side;
-use impasto_scene::mesh_file::Texture;
-use impasto_scene::morph::MorphTarget;
 
 mod stroke;
 
-use crate::noise_displace::FrameNoise;
-
+pub use crate::body::{BodyMaterial, BodySurface, FrameNoise};
 pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, SumiE};
 pub use impasto_scene::presets::LayerKind;
 pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
@@ -30,7 +25,7 @@ pub struct Frame {
     pub background: Option<[f32; 3]>,
     /// Resolved lights.
     pub lights: FrameLights,
-    /// What stands in the scene, in the order of the scene file. Body `i` has id `i + 1` in the id target.
+    /// The scene's objects, in the order of the scene file. Body `i` has id `i + 1` in the id target.
     pub bodies: Vec<FrameBody>,
     /// Strokes in painting order: the regions' layers, the layers of paint, then rank from high to low.
     pub strokes: Vec<Stroke>,
@@ -53,20 +48,20 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Puts these strokes in the place of those that it has.
+    /// Replaces the strokes.
     pub fn lay(&mut self, strokes: Strokes) {
         let Strokes { strokes, sources, layers } = strokes;
         (self.strokes, self.sources, self.layers) = (strokes, sources, layers);
     }
 }
 
-/// How much care a picture is drawn with.
+/// Exact, or a quick draft.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Quality {
-    /// As films are drawn: the same bits whatever was drawn before.
+    /// As exported: the same bits whatever was drawn before.
     #[default]
     Exact,
-    /// For a view that moves: the same strokes at the same places, looked at with fewer taps and laid as flat paint.
+    /// For a view that moves: the same strokes at the same places, but fewer texture taps and flat paint.
     Draft,
 }
 
@@ -107,7 +102,7 @@ pub struct FrameLights {
     pub ambient_above: Vec3,
     /// Ambient light on a surface that faces down.
     pub ambient_below: Vec3,
-    /// A sphere (centre, radius) round everything over the whole timeline, so that the shadow map never slides.
+    /// A sphere (centre, radius) round everything over the whole timeline: with it the shadow map never moves.
     pub shadow_bounds: (Vec3, f32),
 }
 
@@ -132,9 +127,9 @@ pub struct PointLight {
 /// One object at one time.
 #[derive(Clone, Debug)]
 pub struct FrameBody {
-    /// Not drawn, and casts no shadow; it keeps its id.
+    /// Neither drawn nor casting a shadow; it keeps its id.
     pub hidden: bool,
-    /// Stands behind everything and is no part of the scene: ink leaves the paper bare there.
+    /// A backdrop: ink leaves the paper bare there.
     pub is_backdrop: bool,
     /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
     pub surface: Arc<BodySurface>,
@@ -146,34 +141,6 @@ pub struct FrameBody {
     pub noise: Option<FrameNoise>,
 }
 
-/// A surface with its materials, in model space (static scale applied).
-#[derive(Debug)]
-pub struct BodySurface {
-    /// The object's name.
-    pub name: String,
-    /// The triangles.
-    pub mesh: TriangleMesh,
-    /// For each triangle, the side that can be seen.
-    pub sides: Vec<Side>,
-    /// Where its vertices go, for a surface that changes its shape.
-    pub morph: Option<MorphTarget>,
-    /// Indexed by `mesh.material_of_triangle`.
-    pub materials: Vec<BodyMaterial>,
-}
-
-/// A resolved material.
-#[derive(Clone, Debug)]
-pub struct BodyMaterial {
-    /// Linear Rec. 709 albedo.
-    pub albedo: [f32; 3],
-    /// Multiplies `albedo`; sRGB bytes.
-    pub texture: Option<Arc<Texture>>,
-    /// Shown as it is, without light or shadow.
-    pub unlit: bool,
-    /// Strength of highlights, 0 matt .. 1 glazed.
-    pub gloss: f32,
-}
-
 /// The marks of the brushes in use.
 #[derive(Debug, Default, PartialEq)]
 pub struct Brushes {
@@ -183,30 +150,30 @@ pub struct Brushes {
     pub marks: Vec<Arc<Vec<Mark>>>,
 }
 
-/// The paint as a body, and what it lies on.
+/// What the paint lies on, and its relief and varnish.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
     /// The tone under the first layer where a body is; `None` leaves the background bare.
     pub ground: Option<Ground>,
-    /// How much the canvas is felt where paint is thin; 0 for a board.
+    /// How much the weave of the canvas shows where paint is thin; 0 for a board.
     pub weave: f32,
-    /// From pixels of the picture at the scene's size, origin in the middle, to pixels of the canvas.
+    /// From pixels of the picture (at the scene's size, origin in the middle) to pixels of the canvas.
     pub canvas_from_px: Affine2,
-    /// How much the paint stands up; 1 is oil.
+    /// Height of the paint; 1 is oil.
     pub relief: f32,
     /// Unit vector towards the light on the relief, in the picture's space (X right, Y up, Z towards the eye). The same in
-    /// every frame: the picture hangs in a room.
+    /// every frame, as if the picture hung in a room.
     pub to_relief_light: [f32; 3],
     /// Strength of the varnish.
     pub varnish: f32,
 }
 
-/// A toned ground.
+/// The ground: the tone under the paint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
     /// Linear Rec. 709.
     pub color: [f32; 3],
-    /// How far the tone hides the wash of each body's own colour, 0..=1.
+    /// How far the tone covers the wash of each body's own colour, 0..=1.
     pub hides: f32,
 }
 

@@ -2,44 +2,51 @@
 //!
 //! ```text
 //! LoadedScene ─▶ surfaces ─▶ sampling ─▶ neighbours (horn only) ─▶ lift ─▶ order ─▶ Painting
-//!                each step is kept as long as its inputs stay the same
+//!                a step runs again only when its inputs have changed
 //! Painting + frame number + picture size ─▶ Frame
 //! ```
 
 mod at;
 mod bake;
+mod body;
 mod brushes;
+mod cached;
 mod candidates;
 mod coat;
+mod context;
 mod counts;
 mod deform;
 mod field;
 mod finish;
 pub mod frame;
-mod gate;
-mod hairs;
+mod frame_options;
 mod lights;
 mod noise_displace;
+mod object_cache;
 mod order;
+mod painting;
+mod painting_view;
 mod paper;
 mod particle_count;
 mod particles;
 mod parts;
 mod prepare;
+mod presence_bound;
 mod recall;
 mod references;
 mod regions;
-mod seats;
-mod smooth;
 mod stated;
 mod stroke;
+mod stroke_directions;
 mod surface;
+mod traits;
 mod view;
 
-pub use at::{FrameOptions, Rotation, StrokeColors};
+pub use body::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
 pub use frame::{Frame, Quality};
-pub use hairs::{Hair, ShownDirection, SurfacePlace};
-pub use noise_displace::{BodyNoise, BodyShape, FrameNoise, NoiseLayers};
+pub use frame_options::{FrameOptions, Rotation, StrokeColors};
+pub use painting::Painting;
 pub use particles::Particles;
-pub use prepare::{Painting, PrepareError, PrepareOptions, Preparer, Step, prepare};
+pub use prepare::{PrepareError, PrepareOptions, Preparer, Step, prepare};
 pub use recall::Recall;
+pub use stroke_directions::{ShownDirection, StrokeDirection, SurfacePlace};

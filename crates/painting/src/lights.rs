@@ -15,8 +15,8 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
     Vec3::from(linear(color)) * intensity as f32
 }
 
-/// The lights of a scene; those of a studio when it names none: a warm sun from the upper left front, a cool sky, a
-/// warm floor.
+/// The lights of a scene. Where it names none: a warm sun from the upper left front, cool light from above, warm light from
+/// below.
 pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights {
     let mut lights = FrameLights { shadow_bounds, ..Default::default() };
     if scene.lights.is_empty() {
@@ -44,8 +44,8 @@ pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights 
             LightKind::Ambient => {
                 lights.ambient_above += radiance;
                 lights.ambient_below += match light.ground {
-                    Some(ground) => Vec3::from(linear(ground)) * light.intensity as f32,
-                    // What a warm floor throws back.
+                    Some(floor) => Vec3::from(linear(floor)) * light.intensity as f32,
+                    // As if bounced off a warm floor.
                     None => radiance * Vec3::new(0.5, 0.42, 0.34),
                 };
             }

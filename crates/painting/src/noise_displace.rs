@@ -1,9 +1,9 @@
-//! Noise-displaced materials: from the document to what displaces, colours and is drawn.
+//! Noise-displaced materials: from the document to the noise of a body, and what it does to vertices.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::{DAffine3, DQuat, DVec2, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DQuat, DVec2, DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::noise_displace::{
     Along, Lookup, Tile, VertexNoise, gaussian, perlin, travelled, vertex_shift,
@@ -16,92 +16,8 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::Texture;
 use rayon::prelude::*;
 
+use crate::body::{BodyNoise, FrameNoise, NoiseLayers, Vertices};
 use crate::lights::linear;
-use crate::surface::Vertices;
-
-/// The noise of one body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BodyNoise {
-    /// What moves its vertices.
-    pub vertex: Option<VertexNoise>,
-    /// What colours it.
-    pub layers: Option<NoiseLayers>,
-    stated: NoiseDisplace,
-}
-
-/// Layers of one texture that move against each other, multiplied.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NoiseLayers {
-    /// The texture.
-    pub tile: Arc<Tile>,
-    /// k, at least 1.
-    pub count: u32,
-    /// How fast layers move, and how far apart they begin.
-    pub speed: f32,
-    /// Texture coordinates times this, plus `offset`.
-    pub tiling: Vec2,
-    /// See `tiling`.
-    pub offset: Vec2,
-    /// Which way the first layer goes, 1 or −1; each one goes against the one before.
-    pub first_way: f32,
-    /// What the product is raised to.
-    pub exponent: f32,
-    /// Linear Rec. 709, intensity multiplied in: may shine brighter than 1.
-    pub tint: [f32; 3],
-    /// Multiplies alpha.
-    pub opacity: f32,
-    /// The first channel is the alpha too.
-    pub alpha_is_grey: bool,
-    /// How much of what is brighter than `threshold` is spread as a glow.
-    pub bloom: f32,
-    /// See `bloom`.
-    pub threshold: f32,
-}
-
-/// The noise of a body at one time.
-#[derive(Clone, Debug)]
-pub struct FrameNoise {
-    /// Shared between frames.
-    pub noise: Arc<BodyNoise>,
-    /// Where its vertices look their noise up.
-    pub lookup: Lookup,
-    /// How far the layers have gone, speed multiplied in, in lengths of the texture.
-    pub travelled: Vec2,
-}
-
-/// Whether surfaces stand alike; how they are coloured has no say.
-impl PartialEq for FrameNoise {
-    fn eq(&self, other: &Self) -> bool {
-        match (&self.noise.vertex, &other.noise.vertex) {
-            (Some(here), Some(there)) => self.lookup == other.lookup && here == there,
-            (here, there) => here.is_none() && there.is_none(),
-        }
-    }
-}
-
-/// How a surface that may change its shape stands.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct BodyShape {
-    /// How far it has turned into its morph, 0..=1.
-    pub morph: f64,
-    /// The noise that displaces it.
-    pub noise: Option<FrameNoise>,
-}
-
-impl From<f64> for BodyShape {
-    /// A share of a morph, and no noise.
-    fn from(morph: f64) -> Self {
-        Self { morph, noise: None }
-    }
-}
-
-impl BodyShape {
-    /// The noise that moves vertices, and where they look it up.
-    pub(crate) fn displacing(&self) -> Option<(&VertexNoise, &Lookup)> {
-        let noise = self.noise.as_ref()?;
-        Some((noise.noise.vertex.as_ref()?, &noise.lookup))
-    }
-}
 
 impl BodyNoise {
     /// The noise at a time, of a body in a pose.
@@ -116,7 +32,7 @@ impl BodyNoise {
         };
         let speed = self.stated.surface.as_ref().map_or(0.0, |surface| surface.speed);
         let travelled = travelled * speed;
-        // Whole textures are left out, so that late frames are as exact as early ones.
+        // Only the fraction matters to a texture that repeats, and it is exact at late frames too.
         FrameNoise { noise: Arc::clone(self), lookup, travelled: (travelled - travelled.floor()).as_vec2() }
     }
 
@@ -126,11 +42,11 @@ impl BodyNoise {
     }
 }
 
-/// What a body's noise depends on; while it stays equal, the noise is kept.
+/// What a body's noise depends on.
 #[derive(Clone, Default)]
 pub(crate) struct NoiseInputs {
     stated: Option<NoiseDisplace>,
-    /// Of the vertices and of the surface.
+    /// For the vertices and for the surface.
     pictures: [Option<Arc<Texture>>; 2],
 }
 
@@ -156,11 +72,11 @@ impl NoiseInputs {
         Self { stated: Some(stated), pictures }
     }
 
-    /// The noise; textures of `kept` are taken over where they are the same.
-    pub(crate) fn build(&self, kept: Option<&(Self, Option<Arc<BodyNoise>>)>) -> Option<Arc<BodyNoise>> {
+    /// The noise; textures are those of the noise `before` where their pictures are the same.
+    pub(crate) fn build(&self, before: Option<&(Self, Option<Arc<BodyNoise>>)>) -> Option<Arc<BodyNoise>> {
         let stated = self.stated.clone()?;
         let before = |index: usize| {
-            let (inputs, noise) = kept?;
+            let (inputs, noise) = before?;
             let (Some(was), Some(is)) = (&inputs.pictures[index], &self.pictures[index]) else { return None };
             let noise = noise.as_ref().filter(|_| Arc::ptr_eq(was, is))?;
             match index {
@@ -190,8 +106,8 @@ impl NoiseInputs {
 
 fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     let count = surface.layer_count.max(1);
-    // One layer has no look at the texture, and nothing to be raised.
-    let looks = match surface.mix {
+    // The product has 2(k − 1) factors; `Mean` takes their geometric mean, `Root` the k-th root. One layer has no factor.
+    let root_degree = match surface.mix {
         NoiseMix::Root => f64::from(count),
         NoiseMix::Mean => f64::from(2 * (count - 1).max(1)),
     };
@@ -202,7 +118,7 @@ fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
         tiling: DVec2::from(surface.tiling).as_vec2(),
         offset: DVec2::from(surface.tile_offset).as_vec2(),
         first_way: if surface.forward == NoiseForward::Odd { 1.0 } else { -1.0 },
-        exponent: (1.0 / looks) as f32,
+        exponent: (1.0 / root_degree) as f32,
         tint: linear(surface.tint).map(|channel| channel * surface.intensity as f32),
         opacity: surface.opacity as f32,
         alpha_is_grey: surface.alpha == NoiseAlpha::Grey,
@@ -211,19 +127,21 @@ fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     }
 }
 
-/// The vertices of a mesh where noise has moved them, with the normals of the surface as it is then: each is turned as the
-/// faces round it have turned.
+/// The vertices of a mesh after noise has moved them. Each normal turns as the mean of the faces round its vertex does.
 pub(crate) fn displaced(
     mesh: &TriangleMesh,
-    (positions, normals): Vertices,
-    (noise, lookup): (&VertexNoise, &Lookup),
+    vertices: &Vertices,
+    noise: &VertexNoise,
+    lookup: &Lookup,
 ) -> Vertices {
+    let Vertices { positions, normals } = vertices;
     let moved =
-        positions.par_iter().zip(&normals).with_min_len(1024).map(|(position, normal)| {
+        positions.par_iter().zip(normals).with_min_len(1024).map(|(position, normal)| {
             noise.displaced(position.as_dvec3(), normal.as_dvec3(), lookup).as_vec3()
         });
     let moved: Vec<Vec3> = moved.collect();
-    // Where texture coordinates part, a vertex is there twice; where the surface is hard, its normals differ.
+    // Along a seam of texture coordinates a vertex exists twice: equal positions and normals count as one vertex. Along a hard
+    // edge the normals differ, and so do the vertices.
     let bits = |index: usize| [positions[index], normals[index]].map(|v| v.to_array().map(f32::to_bits));
     let mut groups = HashMap::with_capacity(positions.len());
     let group_of: Vec<usize> = (0..positions.len())
@@ -238,7 +156,7 @@ pub(crate) fn displaced(
             let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
             (b - a).cross(c - a)
         };
-        let (before, now) = (across(&positions), across(&moved));
+        let (before, now) = (across(positions), across(&moved));
         for vertex in corners {
             let sum = &mut faces[group_of[*vertex as usize]];
             *sum = [sum[0] + before, sum[1] + now];
@@ -249,6 +167,6 @@ pub(crate) fn displaced(
         let turn = before.zip(now).map(|(before, now)| DQuat::from_rotation_arc(before, now));
         turn.map_or(*normal, |turn| (turn * normal.as_dvec3()).as_vec3())
     };
-    let turned = normals.iter().enumerate().map(turned).collect();
-    (moved, turned)
+    let normals = normals.iter().enumerate().map(turned).collect();
+    Vertices { positions: moved, normals }
 }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::coat::Coat;
 use crate::regions::RegionRule;
-use crate::seats::Seats;
+use crate::traits::Traits;
 
 /// A particle of a coat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub(crate) struct PaintingOrder {
 }
 
 impl PaintingOrder {
-    /// Flags of a word, of which every coat begins a new one.
+    /// Particles in a word of flags; every coat begins with a new word.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
     /// The numbers, in painting order.
@@ -55,13 +55,13 @@ struct OrderedCoat {
     kind: LayerKind,
     name_hash: u32,
     count: usize,
-    /// The regions of the particles, where those decide.
-    seats: Option<Arc<Seats>>,
+    /// Tells the regions of the particles, where regions have different layers.
+    traits: Option<Arc<Traits>>,
 }
 
 impl PartialEq for OrderedCoat {
     fn eq(&self, other: &Self) -> bool {
-        let same_regions = match (&self.seats, &other.seats) {
+        let same_regions = match (&self.traits, &other.traits) {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a.same_regions(b),
             (a, b) => a.is_none() && b.is_none(),
         };
@@ -83,15 +83,15 @@ impl OrderInputs {
             .iter()
             .map(|coat| OrderedCoat {
                 kind: coat.kind,
-                name_hash: coat.seats.name_hash,
+                name_hash: coat.traits.name_hash,
                 count: coat.sampled.particles.len(),
-                seats: (!one_layer).then(|| Arc::clone(&coat.seats)),
+                traits: (!one_layer).then(|| Arc::clone(&coat.traits)),
             })
             .collect();
         Self { coats, layers: if one_layer { Vec::new() } else { layers } }
     }
 
-    /// All particles in painting order; equal ranks of two objects by name.
+    /// All particles in painting order; equal ranks of two objects are ordered by the hash of their names.
     pub(crate) fn order(&self) -> PaintingOrder {
         let mut firsts = Vec::with_capacity(self.coats.len());
         let mut next = 0;
@@ -116,12 +116,12 @@ impl OrderInputs {
 impl OrderedCoat {
     /// The particles of each of the regions' layers, in progressive order.
     fn by_layer(&self, layers: &[i32]) -> BTreeMap<i32, LayerParticles> {
-        let Some(seats) = &self.seats else {
+        let Some(traits) = &self.traits else {
             return BTreeMap::from([(0, LayerParticles::First(self.count as u32))]);
         };
         let mut of_layer: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
         for particle in 0..self.count {
-            let layer = layers[usize::from(seats.region(particle))];
+            let layer = layers[usize::from(traits.region(particle))];
             of_layer.entry(layer).or_default().push(particle as u32);
         }
         of_layer.into_iter().map(|(layer, particles)| (layer, LayerParticles::These(particles))).collect()
@@ -135,7 +135,7 @@ enum LayerParticles {
     These(Vec<u32>),
 }
 
-/// What is left of the particles of a coat, the last of which is the next to be painted.
+/// The particles of a coat that are not painted yet; the last one is the next.
 struct Queue {
     /// The number of the coat's first particle.
     first: u32,
@@ -163,14 +163,13 @@ impl Queue {
         }
     }
 
-    /// The bits of the rank of a particle, which are in the ranks' own order. Twice the order plus one over the count is the
-    /// rank, compared without rounding.
+    /// The rank of a particle times two, (2 index + 1) / count, as bits: those of positive floats are in the floats' own order.
     fn rank(&self, particle: u32) -> u64 {
         ((u64::from(particle) * 2 + 1) as f64 / self.of as f64).to_bits()
     }
 }
 
-/// The next particle of a queue: its rank, then the name's hash, the particle and the queue, of which the least come first.
+/// The next particle of a queue: its rank; then, least first, the name's hash, the particle and the queue's index.
 type Head = (u64, Reverse<(u32, u32, usize)>);
 
 /// The numbers of the particles of queues, the highest rank first; each queue is sorted already.

@@ -7,7 +7,7 @@ use impasto_core::hash;
 use impasto_core::sampling::{PolygonParticle, Surface};
 use impasto_core::screen_map::area_px;
 
-/// Polygons of a body and where its particles belong.
+/// The polygons of a body, and which of them each particle belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PolygonCounts {
     /// Index into `sides` per particle, and the particle's number in it.
@@ -56,8 +56,8 @@ impl PolygonCounts {
         Self { of_particle, sides }
     }
 
-    /// How many particles of each polygon show in a view. What is left of a whole number is rounded at a threshold of the
-    /// polygon's own, fixed by its index, so that polygons smaller than a stroke are painted too, each in its turn.
+    /// How many particles of each polygon show in a view. Fractions are rounded at a threshold that is random but fixed for each
+    /// polygon, so that of polygons smaller than a stroke the right share is painted.
     pub(crate) fn shown(&self, map: &ScreenMap, wanted_per_px: f64) -> Vec<u32> {
         self.sides
             .iter()

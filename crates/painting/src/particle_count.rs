@@ -1,4 +1,4 @@
-//! How many particles an object needs when its scene does not say.
+//! How many particles an object needs where the scene does not state it.
 
 use glam::{DVec2, DVec3, Vec3};
 use impasto_core::ScreenMap;
@@ -10,10 +10,10 @@ use rayon::prelude::*;
 const LEAST: f64 = 64.0;
 const MOST: f64 = 400_000.0;
 
-/// Faces looked at, at most.
+/// At most this many faces are examined.
 const FACES: usize = 20_000;
 
-/// A pose in which the object is seen, at the scene's own size.
+/// One view of the object, at the scene's own size.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sighting {
     pub(crate) map: ScreenMap,
@@ -21,7 +21,7 @@ pub(crate) struct Sighting {
     pub(crate) near: f64,
 }
 
-/// A face as it is counted.
+/// A face, with what its strokes need.
 struct CountedFace<const LAYERS: usize> {
     center: DVec3,
     normal: DVec3,
@@ -30,8 +30,8 @@ struct CountedFace<const LAYERS: usize> {
     wanted_per_px: [f64; LAYERS],
 }
 
-/// For each layer, the count at which nine tenths of the picture of this surface, in its nearest sighting, get all the strokes
-/// that they want. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
+/// For each layer, the count with which nine tenths of the surface's picture have all the strokes wanted there, in the view that
+/// needs most. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
@@ -55,11 +55,11 @@ pub(crate) fn find<const LAYERS: usize>(
     let most = |a: [f64; LAYERS], b: [f64; LAYERS]| std::array::from_fn(|layer| a[layer].max(b[layer]));
     let needed_per_area =
         sightings.par_iter().map(|sighting| needed_per_area(&faces, sighting)).reduce(|| [0.0; LAYERS], most);
-    // A quarter more than a full supply, since the last ranks are still fading in at one.
+    // A quarter more, since the highest ranks are only half present at just the number wanted.
     needed_per_area.map(|needed| (needed * surface.area() * 1.25).clamp(LEAST, MOST).ceil() as usize)
 }
 
-/// Particles needed per unit of surface in one sighting, of each layer.
+/// Particles needed per unit of surface in one view, by layer.
 fn needed_per_area<const LAYERS: usize>(faces: &[CountedFace<LAYERS>], sighting: &Sighting) -> [f64; LAYERS] {
     let seen: Vec<(&CountedFace<LAYERS>, f64)> = faces
         .iter()
@@ -87,7 +87,7 @@ fn needed_per_area<const LAYERS: usize>(faces: &[CountedFace<LAYERS>], sighting:
     })
 }
 
-/// Of values with weights, the least at which the weights up to it add up to `target`.
+/// Weighted quantile: the least value such that the weights of all values up to it add up to `target`.
 fn reached(mut values: &mut [(f64, f64)], target: f64) -> Option<f64> {
     const FEW: usize = 32;
     let order = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0);

@@ -1,4 +1,4 @@
-//! A coat's particles: the beginning of a progressive order that may be kept longer than it is needed.
+//! A coat's particles: the first ones of a progressive order, of which more may have been sampled than the coat needs.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,19 +7,25 @@ use glam::Vec3;
 use impasto_core::sampling::{Particle, Place};
 use rayon::prelude::*;
 
-use crate::frame::BodySurface;
-use crate::surface::Vertices;
+use crate::body::{BodySurface, Vertices};
 
-/// The first particles of an order, on a surface. Only their places are kept; all else is computed when it is asked for.
+/// The first particles of an order, on a surface. Only their places are stored; all else is computed when it is asked for.
 #[derive(Clone)]
 pub struct Particles {
-    /// Stands for the order, whatever of it is there, and for how the surface stands.
+    /// The identity of the order on a surface of this shape, however many of its particles have been sampled.
     order: Arc<()>,
     all: Arc<Vec<Place>>,
     surface: Arc<BodySurface>,
-    /// Where the vertices have gone; none on a surface at rest.
+    /// The vertices of a surface that has changed its shape; none at rest.
     moved: Option<Arc<Vertices>>,
     count: usize,
+}
+
+/// Equal where they are the same particles of the same order.
+impl PartialEq for Particles {
+    fn eq(&self, other: &Self) -> bool {
+        self.same_order(other) && self.count == other.count
+    }
 }
 
 impl Particles {
@@ -29,7 +35,7 @@ impl Particles {
         Self { order: Arc::new(()), all, surface: Arc::clone(surface), moved: None, count }
     }
 
-    /// As many of the same order, if so many are there.
+    /// The first `count` of the same order, if so many have been sampled.
     pub(crate) fn first(&self, count: usize) -> Option<Self> {
         (count <= self.all.len()).then(|| Self { count, ..self.clone() })
     }
@@ -39,7 +45,7 @@ impl Particles {
         Self { count: count.min(all.len()), all, ..self.clone() }
     }
 
-    /// The same places where the surface's vertices have gone; an order of its own.
+    /// The same places on the surface after its vertices have moved; an order of its own.
     pub(crate) fn posed(&self, vertices: Vertices) -> Self {
         Self { order: Arc::new(()), moved: Some(Arc::new(vertices)), ..self.clone() }
     }
@@ -49,12 +55,7 @@ impl Particles {
         Arc::ptr_eq(&self.order, &other.order)
     }
 
-    /// Whether they are the very same.
-    pub(crate) fn same(&self, other: &Self) -> bool {
-        self.same_order(other) && self.count == other.count
-    }
-
-    /// The places of all that is there of the order.
+    /// The places of all particles of the order that have been sampled.
     pub(crate) fn places(&self) -> &Arc<Vec<Place>> {
         &self.all
     }
@@ -109,7 +110,7 @@ impl Particles {
     fn place_on_surface(&self, place: Place) -> Particle {
         let mesh = &self.surface.mesh;
         match &self.moved {
-            Some(vertices) => place.on_moved(mesh, &vertices.0, &vertices.1),
+            Some(vertices) => place.on_moved(mesh, &vertices.positions, &vertices.normals),
             None => place.on(mesh),
         }
     }

@@ -1,5 +1,4 @@
-//! The parts of a body as a painter sees them: how large a stroke each can carry, and which way it is brushed when nobody
-//! says.
+//! The parts of a body as a painter sees them: the largest stroke that each can carry, and its automatic direction.
 
 use glam::DVec3;
 use impasto_core::parts::{Part, parts};
@@ -8,11 +7,11 @@ use impasto_scene::document::Direction;
 
 use crate::references::BodyReference;
 
-/// A stroke is at most this share of its part's second extent wide, and of its longest long.
+/// A stroke is at most `WIDTH_SHARE` of its part's second extent wide, and `LENGTH_SHARE` of its longest one long.
 const WIDTH_SHARE: f64 = 0.42;
 const LENGTH_SHARE: f64 = 0.6;
 
-/// Caps never fall below this, pixels at the scene's size.
+/// The least cap, pixels at the scene's size.
 const LEAST_CAP_PX: f64 = 3.0;
 
 /// Strokes stay at least this much longer than wide.
@@ -36,7 +35,7 @@ pub(crate) struct BodyParts {
     pub(crate) of_triangle: Vec<u32>,
 }
 
-/// The largest strokes that a part carries, pixels at the scene's size. Fixed by the reference pose: a stroke keeps its size
+/// The largest strokes that a part carries, pixels at the scene's size. The reference pose decides: a stroke keeps its size
 /// however far away it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cap {
@@ -60,7 +59,7 @@ impl BodyParts {
         self.parts.iter().map(of_part).collect()
     }
 
-    /// How each part is brushed in the reference picture.
+    /// The automatic direction of each part.
     pub(crate) fn directions(&self, reference: &BodyReference) -> Vec<Direction> {
         self.parts.iter().map(|part| direction_of(part, reference)).collect()
     }
@@ -70,13 +69,13 @@ impl Cap {
     /// A stroke of this size, or as large as the part carries.
     pub(crate) fn apply(self, length_px: f32, width_px: f32) -> [f32; 2] {
         let width = width_px.min(self.width_px);
-        // One that was broader than long stays so.
+        // A stroke that is stated to be broader than long stays so.
         let aspect = LEAST_ASPECT.min(length_px / width_px.max(f32::MIN_POSITIVE));
         [length_px.min(self.length_px).max(width * aspect), width]
     }
 }
 
-/// Pixels per model unit at a part's middle; a part that the eye is inside of counts as a quarter of its length away.
+/// Pixels per model unit at a part's middle, which counts as at least a quarter of the part's length away from the eye.
 pub(crate) fn px_per_unit(map: &ScreenMap, part: &Part) -> f64 {
     let focal = (map.row_x.truncate().length() * map.row_y.truncate().length()).sqrt();
     let parallel = map.row_w.truncate() == DVec3::ZERO;

@@ -1,4 +1,4 @@
-//! The poses that directions refer to, as one body sees them, and the lift of a particle from them.
+//! The references (poses and views that directions are stated in), as one body sees them, and the lift of a particle from them.
 
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::ScreenMap;
@@ -10,11 +10,11 @@ use impasto_scene::motion;
 
 use crate::view::PictureView;
 
-/// A surface that a reference faces by less than this cosine is not stated by it; at `WHOLE`, wholly.
+/// Cosines between normal and eye: a reference states nothing about surfaces below `NONE`, and all from `WHOLE` on.
 const NONE: f64 = 0.2;
 const WHOLE: f64 = 0.5;
 
-/// A pose that directions refer to: a camera, and where every object stands.
+/// A reference: a camera, and the pose of every object.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ReferencePose {
     pub(crate) view: PictureView,
@@ -108,25 +108,36 @@ pub(crate) struct BodyReferences {
     of_rule: Vec<u16>,
 }
 
+/// A point of a body's surface, with its rule and its part.
+#[derive(Clone, Copy)]
+pub(crate) struct SurfacePoint {
+    /// Model space.
+    pub(crate) position: DVec3,
+    /// Unit, model space.
+    pub(crate) normal: DVec3,
+    pub(crate) rule: usize,
+    pub(crate) part: usize,
+}
+
 /// How the references see one point of a surface.
 pub(crate) struct Views {
-    /// The reference of its rule, then the further one that faces it best, each where it faces the point at all.
-    pub(crate) seen: [Option<Seen>; 2],
+    /// The reference of its rule, then the further one that faces it best; none where a reference does not face the point.
+    pub(crate) facing: [Option<FacingReference>; 2],
     pub(crate) normal: DVec3,
     /// Axes of the tangent plane, right and up as on a turntable.
     pub(crate) axes: [DVec3; 2],
-    /// The same as the reference's rolled camera would have them.
+    /// The same, turned by the roll of the reference's camera.
     pub(crate) rolled_axes: [DVec3; 2],
     px_per_unit: f64,
-    /// Of the reference of its rule, whether it faces the point or not.
+    /// Of the reference of its rule, even where that does not face the point.
     pub(crate) jacobian: [DVec3; 2],
 }
 
 /// A reference that faces a point.
 #[derive(Clone, Copy)]
-pub(crate) struct Seen {
+pub(crate) struct FacingReference {
     lift: Lift,
-    /// 1 where it faces the point squarely.
+    /// How far it states the direction, 0..=1; 1 where it faces the point well.
     pub(crate) share: f64,
     pub(crate) jacobian: [DVec3; 2],
 }
@@ -142,35 +153,36 @@ impl BodyReferences {
         &self.all[usize::from(self.of_rule[rule])]
     }
 
-    /// How a point is seen; `horn` stands in for the tangent plane's lift in the reference of its rule.
+    /// How a point is seen. `horn` may replace the tangent plane's lift in the reference of the point's rule: by another, or by
+    /// none, as if the reference did not face it.
     pub(crate) fn views(
         &self,
-        (position, normal): (DVec3, DVec3),
-        rule: usize,
+        point: SurfacePoint,
         horn: impl FnOnce(&BodyReference) -> Option<Option<Lift>>,
     ) -> Views {
+        let SurfacePoint { position, normal, rule, .. } = point;
         let own = self.of_rule(rule);
         let jacobian = own.map.jacobian(position);
         let px_per_unit = jacobian[0].cross(jacobian[1]).length().sqrt();
         let axes = turntable_axes(normal, own.up_in_model);
         let [sin, cos] = own.roll_sin_cos;
-        let mut seen = [own.seen_through(jacobian, (position, normal)), None];
-        if let Some(first) = &mut seen[0]
+        let mut facing = [own.facing_with(jacobian, position, normal), None];
+        if let Some(first) = &mut facing[0]
             && let Some(lift) = horn(own)
         {
             match lift {
                 Some(lift) => first.lift = lift,
-                None => seen[0] = None,
+                None => facing[0] = None,
             }
         }
-        if seen[0].is_none_or(|first| first.share < 1.0) {
+        if facing[0].is_none_or(|first| first.share < 1.0) {
             let others = self.all[1..=self.further].iter().filter(|other| !std::ptr::eq(*other, own));
-            seen[1] = others
-                .filter_map(|other| other.seen(position, normal))
+            facing[1] = others
+                .filter_map(|other| other.facing(position, normal))
                 .max_by(|a, b| a.share.total_cmp(&b.share));
         }
         Views {
-            seen,
+            facing,
             normal,
             axes,
             rolled_axes: [axes[0] * cos + axes[1] * sin, axes[1] * cos - axes[0] * sin],
@@ -181,23 +193,24 @@ impl BodyReferences {
 }
 
 impl BodyReference {
-    fn seen(&self, position: DVec3, normal: DVec3) -> Option<Seen> {
-        self.seen_through(self.map.jacobian(position), (position, normal))
+    /// This reference, if it faces a point.
+    fn facing(&self, position: DVec3, normal: DVec3) -> Option<FacingReference> {
+        self.facing_with(self.map.jacobian(position), position, normal)
     }
 
-    fn seen_through(&self, jacobian: [DVec3; 2], (position, normal): (DVec3, DVec3)) -> Option<Seen> {
+    fn facing_with(&self, jacobian: [DVec3; 2], position: DVec3, normal: DVec3) -> Option<FacingReference> {
         let share = f64::from(smoothstep(((facing(jacobian, normal) - NONE) / (WHOLE - NONE)) as f32));
         if self.map.depth(position) <= self.near || share.is_nan() || share <= 0.0 {
             return None;
         }
-        Lift::tangent(jacobian, normal).map(|lift| Seen { lift, share, jacobian })
+        Lift::tangent(jacobian, normal).map(|lift| FacingReference { lift, share, jacobian })
     }
 }
 
 impl Views {
-    /// How far any reference states the direction here, 0..=1.
+    /// How far the references together state the direction here, 0..=1.
     pub(crate) fn share(&self) -> f64 {
-        1.0 - self.seen.iter().flatten().map(|seen| 1.0 - seen.share).product::<f64>()
+        1.0 - self.facing.iter().flatten().map(|reference| 1.0 - reference.share).product::<f64>()
     }
 
     /// The tangent whose stroke, carried flat and without stretch, shows at this angle in a view.
@@ -207,25 +220,25 @@ impl Views {
         self.axes[0] * cos + self.axes[1] * sin
     }
 
-    /// The lift of a camera that looks straight at the surface, its strokes along `tangent`.
+    /// The lift of a camera that looks straight at the surface, for strokes along `tangent`.
     fn flat(&self, tangent: DVec3) -> Lift {
         let along = tangent / self.px_per_unit;
         Lift { along, across: self.normal.cross(along) }
     }
 
-    /// N' for strokes along `tangent` (unit): the references that face the point, each turned so that it agrees with
-    /// `tangent` in its own picture, over what a camera straight before it would see.
+    /// N' for strokes along `tangent` (unit): the lifts of the references that face the point, each turned so that strokes lie
+    /// along `tangent` in its own picture, blended over the lift of a camera that looks straight at the surface.
     pub(crate) fn lift(&self, tangent: DVec3) -> Lift {
         let flat = self.flat(tangent);
         let mut lift = flat;
-        for seen in self.seen.iter().rev().flatten() {
-            let here = seen.lift.turned(flat.map(seen.jacobian).angle_rad());
-            lift = if seen.share < 1.0 { here.blended(lift, 1.0 - seen.share, seen.jacobian) } else { here };
+        for FacingReference { lift: own, share, jacobian } in self.facing.iter().rev().flatten() {
+            let here = own.turned(flat.map(*jacobian).angle_rad());
+            lift = if *share < 1.0 { here.blended(lift, 1.0 - share, *jacobian) } else { here };
         }
         lift
     }
 
-    /// N, without any stroke's direction: what κ is measured with.
+    /// N, without any stroke's direction: κ is measured with it.
     pub(crate) fn bare_lift(&self) -> Lift {
         self.lift(self.rolled_axes[0])
     }

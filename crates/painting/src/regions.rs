@@ -1,4 +1,4 @@
-//! Which region each point of an object belongs to, and what holds there.
+//! Which region each point of an object belongs to, and the rule of each region.
 
 use std::collections::HashMap;
 
@@ -16,10 +16,10 @@ use impasto_scene::presets::{self, ResolvedStrokes};
 use crate::frame::ANY_COLOR;
 use crate::lights::linear;
 
-/// Surfaces turned away from a dab by more than this cosine are not touched by it.
+/// A dab touches only surfaces whose normal has a cosine above this with its own.
 const DAB_FACING: f32 = 0.0;
 
-/// What holds in a region.
+/// A rule: the resolved settings of a region.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RegionRule {
     pub(crate) direction: Direction,
@@ -64,7 +64,7 @@ pub(crate) struct BodyGuide {
 pub(crate) fn guides(scene: &Scene, object: &str) -> Vec<BodyGuide> {
     let mut guides = Vec::new();
     for (rule, region) in scene.regions.iter().enumerate() {
-        // One that smooths nothing would still have the body's field solved.
+        // One that smooths nothing would have the body's field solved for nothing.
         let is_idle = |guide: &&Guide| guide.mode == GuideMode::Smooth && guide.strength <= 0.0;
         for guide in region.guides.iter().filter(|guide| !is_idle(guide)) {
             if guide.object.as_deref().or(region.on.object()) == Some(object) {
@@ -109,7 +109,7 @@ pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
                 palettes.push(palette);
                 palettes.len() - 1
             });
-            // More palettes than a byte counts: the last ones are shared.
+            // A byte cannot count more palettes: all further ones share the last number.
             index.min(usize::from(ANY_COLOR) - 1) as u8
         })
         .collect();
@@ -119,22 +119,22 @@ pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
 /// The regions of one object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BodyRegions {
-    /// For each triangle, the last region that covers it whole; the implicit one where none does.
+    /// For each triangle, the last region without dabs that covers it; the implicit one where none does.
     of_triangle: Vec<u16>,
-    /// Regions that dabs belong to, in the order of the file.
+    /// Regions that have dabs, in the order of the file.
     dabbed: Vec<Dabbed>,
     implicit: u16,
 }
 
-/// A region that dabs belong to, sorted into cells as wide as the largest dab.
+/// A region with dabs, sorted into cells as wide as the largest one.
 #[derive(Clone, Debug, PartialEq)]
 struct Dabbed {
     rule: u16,
     cell: f32,
     dabs: Vec<PlacedDab>,
     in_cell: HashMap<IVec3, Vec<u32>>,
-    /// For each triangle, how many dabs come before the last patch that covers it whole, plus one; 0 where none does. Empty
-    /// where all patches are dabs.
+    /// For each triangle, one more than the number of dabs before the last patch (group, material, …) that covers it; 0 where no
+    /// patch does. Empty where all patches are dabs.
     whole: Vec<u32>,
 }
 
@@ -161,11 +161,11 @@ impl BodyRegions {
             let patches = region.on.patches();
             let dabs = patches.iter().any(|patch| matches!(patch, PatchRef::Dabs(dabs) if !dabs.is_empty()));
             if dabs {
-                regions.dabbed.push(Dabbed::new(index, &patches, (file, mesh)));
+                regions.dabbed.push(Dabbed::new(index, &patches, file, mesh));
                 continue;
             }
             for patch in patches {
-                cover(&mut regions.of_triangle, (file, mesh), patch, index);
+                cover(&mut regions.of_triangle, file, mesh, patch, index);
             }
         }
         regions
@@ -179,7 +179,7 @@ impl BodyRegions {
         covering.find(|dabbed| dabbed.covers(particle)).map_or(whole, |dabbed| dabbed.rule)
     }
 
-    /// The region of a triangle, where no dab has a say.
+    /// The region of a triangle, not counting dabs.
     #[inline]
     pub(crate) fn of_triangle(&self, triangle: usize) -> u16 {
         self.of_triangle[triangle]
@@ -190,7 +190,7 @@ impl BodyRegions {
         !self.dabbed.is_empty()
     }
 
-    /// The regions that may show on a triangle, without order.
+    /// The regions that may show on a triangle, in no order.
     pub(crate) fn on_triangle(&self, mesh: &TriangleMesh, triangle: usize) -> impl Iterator<Item = u16> + '_ {
         let [a, b, c] = mesh.corners(triangle);
         let center = (a + b + c) / 3.0;
@@ -211,10 +211,11 @@ impl BodyRegions {
     }
 }
 
-/// Writes `value` for each triangle that a patch covers whole; dabs cover none.
+/// Writes `value` for each triangle that a patch covers; dabs cover no whole triangle.
 fn cover<T: Copy>(
     of_triangle: &mut [T],
-    (file, mesh): (&MeshFile, &TriangleMesh),
+    file: &MeshFile,
+    mesh: &TriangleMesh,
     patch: PatchRef<'_>,
     value: T,
 ) {
@@ -244,15 +245,15 @@ fn cover<T: Copy>(
 }
 
 impl Dabbed {
-    fn new(rule: u16, patches: &[PatchRef<'_>], meshes: (&MeshFile, &TriangleMesh)) -> Self {
+    fn new(rule: u16, patches: &[PatchRef<'_>], file: &MeshFile, mesh: &TriangleMesh) -> Self {
         let mut dabs = Vec::new();
         let mut whole = Vec::new();
         for &patch in patches {
             match patch {
                 PatchRef::Dabs(own) => dabs.extend(own.iter().map(PlacedDab::of)),
                 _ => {
-                    whole.resize(meshes.1.triangles.len(), 0);
-                    cover(&mut whole, meshes, patch, dabs.len() as u32 + 1);
+                    whole.resize(mesh.triangles.len(), 0);
+                    cover(&mut whole, file, mesh, patch, dabs.len() as u32 + 1);
                 }
             }
         }
@@ -264,11 +265,11 @@ impl Dabbed {
         Self { rule, cell, dabs, in_cell, whole }
     }
 
-    /// What the last patch or dab that reaches the particle says.
+    /// Whether the last patch or dab that reaches the particle adds it to the region.
     fn covers(&self, particle: &Particle) -> bool {
         let whole = self.whole.get(particle.triangle as usize).copied().unwrap_or(0);
         let touching = self.near(particle.position, 1).filter(|&dab| {
-            // The dabs before the patch that covers the triangle have no say.
+            // The last patch that covers the triangle overrides the dabs before it.
             dab + 1 >= whole && self.dabs[dab as usize].touches(particle.position, particle.normal)
         });
         touching.max().map_or(whole > 0, |last| !self.dabs[last as usize].take_away)

@@ -1,40 +1,32 @@
-//! The direction that a region states at a point, before any guide or field has a say.
+//! The direction that a region states at a point, before guides and the field change it.
 
 use glam::{DVec2, DVec3};
 use impasto_core::direction::{self, Symmetry};
 use impasto_scene::document::{Direction, Sense};
 
-use crate::references::{Views, shown_rad};
+use crate::references::{SurfacePoint, Views, shown_rad};
 use crate::regions::RegionRule;
 
-/// What rules and parts say about directions on one body.
-pub(crate) struct Stated<'a> {
+/// The directions that the rules state on one body.
+pub(crate) struct DirectionRules<'a> {
     pub(crate) rules: &'a [RegionRule],
-    /// Of each part, where its rule says `Auto`.
+    /// Of each part: its direction where the rule says `Auto`.
     pub(crate) automatic: Vec<Direction>,
     /// Centre and length of the diagonal of the body's bounds, model space.
     pub(crate) extent: (DVec3, f64),
 }
 
-/// A stated direction.
+/// The stated direction at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Base {
+pub(crate) struct StatedDirection {
     /// Unit, in the tangent plane.
     pub(crate) tangent: DVec3,
-    /// 1 where it is stated outright; less where no reference faces the point and it is a guess.
+    /// 1 where it is stated outright; less where it is a guess, since no reference faces the point.
     pub(crate) exact: f64,
 }
 
-/// Where a point stands.
-#[derive(Clone, Copy)]
-pub(crate) struct Point {
-    pub(crate) position: DVec3,
-    pub(crate) normal: DVec3,
-    pub(crate) rule: usize,
-    pub(crate) part: usize,
-}
-
-/// What is stated at a point: a direction on the surface shows at another angle in each view, an angle is the same in all.
+/// What is stated at a point: a direction on the surface, which shows at a different angle in each view, or an angle, which is
+/// the same in all.
 enum Line {
     OnSurface(DVec3),
     /// Radians.
@@ -42,6 +34,7 @@ enum Line {
 }
 
 impl Line {
+    /// The angle at which it shows in a view, radians.
     fn angle_in(&self, jacobian: [DVec3; 2]) -> f64 {
         match *self {
             Self::OnSurface(tangent) => shown_rad(tangent, jacobian),
@@ -49,7 +42,7 @@ impl Line {
         }
     }
 
-    /// The tangent where no reference sees the point.
+    /// The tangent on surfaces that no reference sees.
     fn unseen(&self, views: &Views) -> DVec3 {
         match *self {
             Self::OnSurface(tangent) => tangent,
@@ -69,37 +62,38 @@ pub(crate) fn symmetry(rule: &RegionRule) -> Symmetry {
     }
 }
 
-impl Stated<'_> {
+impl DirectionRules<'_> {
     /// The direction of a point; of two crossing families, the first.
-    pub(crate) fn direction(&self, point: Point) -> &Direction {
+    pub(crate) fn direction(&self, point: SurfacePoint) -> &Direction {
         let stated = &self.rules[point.rule].direction;
         match stated {
-            // The bend is the field's to find; what is automatic stands in for it where there is none.
+            // The field finds the curvature; where there is no field, the automatic direction stands in.
             Direction::Auto | Direction::Curvature(_) => &self.automatic[point.part],
             _ => stated,
         }
     }
 
-    pub(crate) fn base(&self, point: Point, views: &Views) -> Base {
+    /// The stated direction at a point, from all references that face it.
+    pub(crate) fn base(&self, point: SurfacePoint, views: &Views) -> StatedDirection {
         let line = self.line(point);
         let symmetry = symmetry(&self.rules[point.rule]);
         let is_angle = matches!(line, Line::Shown(_));
         let (mut z, mut whole) = (None, None);
-        let mut left = views.seen.iter().flatten().count();
-        for seen in views.seen.iter().rev().flatten() {
+        let mut left = views.facing.iter().flatten().count();
+        for reference in views.facing.iter().rev().flatten() {
             left -= 1;
-            let here = views.tangent_at(line.angle_in(seen.jacobian), seen.jacobian);
-            if left == 0 && seen.share >= 1.0 {
+            let here = views.tangent_at(line.angle_in(reference.jacobian), reference.jacobian);
+            if left == 0 && reference.share >= 1.0 {
                 whole = Some(here);
                 break;
             }
             let there = symmetry.encode(here, views.axes);
             let unseen = z.unwrap_or_else(|| symmetry.encode(line.unseen(views), views.axes));
-            let mixed: DVec2 = there * seen.share + unseen * (1.0 - seen.share);
+            let mixed: DVec2 = there * reference.share + unseen * (1.0 - reference.share);
             z = Some(mixed.try_normalize().unwrap_or(there));
         }
-        Base {
-            // Through no number and back where one reference says it all: to the last bit.
+        StatedDirection {
+            // Where one reference states all, its tangent is taken as it is, exact to the last bit.
             tangent: whole.unwrap_or_else(|| {
                 let z = z.unwrap_or_else(|| symmetry.encode(line.unseen(views), views.axes));
                 symmetry.decode(z, views.axes)
@@ -109,13 +103,13 @@ impl Stated<'_> {
     }
 
     /// The stated direction as an angle in the reference picture of the point's rule, radians.
-    pub(crate) fn in_reference_rad(&self, point: Point, views: &Views) -> f64 {
+    pub(crate) fn in_reference_rad(&self, point: SurfacePoint, views: &Views) -> f64 {
         let angle_rad = self.line(point).angle_in(views.jacobian);
         if angle_rad.is_finite() { angle_rad } else { 0.0 }
     }
 
-    fn line(&self, point: Point) -> Line {
-        let Point { position, normal, .. } = point;
+    fn line(&self, point: SurfacePoint) -> Line {
+        let SurfacePoint { position, normal, .. } = point;
         let tangent = match *self.direction(point) {
             Direction::Around(axis) => {
                 let (center, size) = self.extent;
@@ -132,9 +126,9 @@ impl Stated<'_> {
         if tangent == DVec3::ZERO { Line::Shown(0.0) } else { Line::OnSurface(tangent) }
     }
 
-    /// Whether the surface faces along the axis that the direction of a point is stated by, within 26 degrees; for a stated
-    /// angle, along the world's up, which the guess about unseen surfaces goes by.
-    pub(crate) fn is_pole(&self, point: Point, up_in_model: DVec3) -> bool {
+    /// Whether the surface at a point faces along the axis that states its direction, within 26 degrees. For a stated angle that
+    /// is the world's up, by which directions are guessed on surfaces that no reference sees.
+    pub(crate) fn is_pole(&self, point: SurfacePoint, up_in_model: DVec3) -> bool {
         const COSINE: f64 = 0.9;
         let axis = match *self.direction(point) {
             Direction::Around(axis) | Direction::Along(axis) => DVec3::from(axis),

@@ -1,101 +1,120 @@
 //! From a particle in a view to its stroke: size, presence, mark, paint.
 
 use glam::{DVec2, DVec3};
+use impasto_core::ScreenMap;
 use impasto_core::angle::wrap_pi;
 use impasto_core::hash;
 use impasto_core::lift::PixelMap2;
 use impasto_core::presence::{self, smoothstep};
 use impasto_core::screen_map::facing;
+use impasto_core::solve::SolvedParticle;
 use impasto_scene::document::{Edges, Solver};
 use impasto_scene::presets::{LayerKind, ResolvedLayer, ResolvedStrokes};
 
-use crate::at::{Look, Rotation, SeenCoat, StrokeColors};
 use crate::brushes;
-use crate::candidates::Candidate;
 use crate::counts::most_wanted;
 use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
-use crate::seats::{
+use crate::frame_options::{Rotation, StrokeColors};
+use crate::order::OrderEntry;
+use crate::painting_view::{CoatView, PaintingView};
+use crate::presence_bound::LEAST_COUNTED_FADE;
+use crate::traits::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
 
-/// Deviations of length and width beside that of the whole size, as shares of it.
+/// Deviations of length and width of their own, as shares of the size jitter.
 const LENGTH_SHARE: f32 = 1.1;
 const WIDTH_SHARE: f32 = 0.75;
 
-/// Deviation of a stroke's thickness, as a share of it.
+/// Deviation of a stroke's thickness in ln.
 const THICKNESS_DEVIATION: f32 = 0.2;
 
-/// Deviation of the bow in half widths, where angles have their usual jitter.
+/// Deviation of the bow in half widths at the usual angle jitter, and the most that it is.
 const BOW_DEVIATION: f32 = 0.35;
 const MOST_BOW: f32 = 0.9;
 
-/// Deviation of how far strokes bend beside that of their size, as a share of it.
+/// Deviation of how far strokes bend, as a share of the size jitter.
 const BEND_SHARE: f32 = 1.5;
 
-/// Of the edges' slow noise, how far it carries paint past its body.
+/// How strongly the slow noise of edges changes the overrun.
 const EDGE_SWING: f32 = 0.6;
 
-/// A stroke's quad is this much larger than the stroke, for ragged ends.
+/// A stroke's quad over the stroke itself: there is room for ragged ends.
 const QUAD: f32 = 1.0 / impasto_core::brush::FILL;
 
-/// Near the limb, strokes that have faded to this are made up for by more of them.
-pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
-
-/// ln(D/u) of a stroke that is there whatever the rank.
+/// ln(D/u) of a stroke that is present whatever its rank.
 const WHOLE: f32 = 8.0;
 
-impl Look<'_> {
-    /// The stroke of a particle, unless it is absent whatever its layer is wanted for.
+/// A particle that may show, with what its stroke depends on.
+pub(crate) struct Candidate {
+    pub(crate) entry: OrderEntry,
+    /// Index in the painting order.
+    pub(crate) place: u32,
+    pub(crate) solved: SolvedParticle,
+    pub(crate) region: u16,
+    pub(crate) part: usize,
+    pub(crate) bits: u32,
+    pub(crate) drift: [f32; 2],
+    pub(crate) albedo_srgb8: u32,
+}
+
+impl PaintingView<'_> {
+    /// The stroke of a particle; `None` where it is absent however much its layer is wanted.
     pub(crate) fn stroke(&self, candidate: &Candidate) -> Option<(Stroke, StrokeSource)> {
         let &Candidate { entry, place, ref solved, region, part, bits, drift, .. } = candidate;
-        let (seen, index) = (&self.seen[entry.coat as usize], entry.particle as usize);
-        let coat = seen.coat;
+        let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
+        let coat = coat_view.coat;
         let strokes = &self.painting.rules[region as usize].strokes;
         let layer = strokes.layer_of(coat.kind);
         if layer.coverage <= 0.0 {
             return None;
         }
         let cap = self.painting.bodies[coat.object].caps[part];
-        let grown = seen.growth(index, self.painting, self.px_scale);
+        let grown = coat_view.growth(index, self.painting, self.px_scale);
         let size_px = cap.apply(layer.length_px, layer.width_px).map(|side| side * grown);
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
-        let supply_ln = match (&seen.shown, &coat.sampled.polygons) {
+        let supply_ln = match (&coat_view.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
             (Some(_), _) => return None,
             _ => {
                 let wanted_per_px = layer.coverage * patches / (size_px[0] * size_px[1]);
-                self.supply_ln((seen, index), solved.area_px, wanted_per_px)
+                self.supply_ln(coat_view, index, solved.area_px, wanted_per_px)
             }
         };
         if supply_ln + most_wanted(coat.kind).ln() - LEAST_COUNTED_FADE.ln() <= presence::ABSENT_LN {
             return None;
         }
-        let position = seen.baked.position_of(index);
-        let normal = seen.baked.normal_of(index);
-        let jacobian = seen.map.jacobian(position);
+        let position = coat_view.baked.position_of(index);
+        let normal = coat_view.baked.normal_of(index);
+        let jacobian = coat_view.map.jacobian(position);
         let facing = facing(jacobian, normal) as f32;
         if facing <= 0.0 {
             return None;
         }
-        // The paper's count knows no fading. In ours, where strokes fade more of them make up for it.
-        let facing_fade = if seen.shown.is_some() { 1.0 } else { presence::of_facing(facing) };
+        // The paper's count knows no fading. In ours, more strokes make up for those that fade.
+        let facing_fade = if coat_view.shown.is_some() { 1.0 } else { presence::of_facing(facing) };
         let supply_ln = supply_ln - facing_fade.max(LEAST_COUNTED_FADE).ln();
         if supply_ln + most_wanted(coat.kind).ln() <= presence::ABSENT_LN {
             return None;
         }
         let lift = match self.painting.solver {
-            Solver::Tangent => seen.baked.lift_of(index),
-            Solver::Horn | Solver::HornExact => coat.ground.surface_lift(index, region),
+            Solver::Tangent => coat_view.baked.lift_of(index),
+            Solver::Horn | Solver::HornExact => coat.lift_sources.surface_lift(index, region),
         };
         let map: PixelMap2 = lift.map(jacobian);
-        let angle_rad =
-            along_contour(self.angle_rad(seen, index, solved), strokes.contour, normal, (&seen.map, facing));
+        let angle_rad = along_contour(
+            self.angle_rad(coat_view, index, solved),
+            strokes.contour,
+            normal,
+            &coat_view.map,
+            facing,
+        );
         let chance = Chance { bits };
         let size_px = chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
         let flat = Shape { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
         let Shape { angle_rad, length_px, width_px, skew } = match self.rotation {
             Rotation::Mapped => {
-                let base = seen.base_angle_rad(index);
+                let base = coat_view.base_angle_rad(index);
                 let lift = match self.painting.solver {
                     Solver::Horn | Solver::HornExact => lift.turned(base),
                     Solver::Tangent => lift,
@@ -105,7 +124,7 @@ impl Look<'_> {
             Rotation::On | Rotation::Off | Rotation::Random => flat,
         };
         let (taper, bend_rad) = shape(coat.kind, strokes);
-        // Wherever it bends to.
+        // A stroke that bends may reach as far in either axis as it is long.
         let (sin, cos) = if bend_rad == 0.0 { angle_rad.sin_cos() } else { (1.0, 1.0) };
         let most_width_px = width_px * (1.0 + taper.abs());
         let reach_px = |along: f32, across: f32| {
@@ -136,7 +155,7 @@ impl Look<'_> {
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
             paint: chance.paint(layer, strokes.size_jitter > 0.0),
             mixing: mixing(strokes, self.painting.palette_of_rule[region as usize]),
-            normal_in_world: (seen.world_from_model.matrix3 * normal)
+            normal_in_world: (coat_view.world_from_model.matrix3 * normal)
                 .normalize_or_zero()
                 .as_vec3()
                 .to_array(),
@@ -162,11 +181,11 @@ impl Look<'_> {
         Some((stroke, source))
     }
 
-    /// ln of ρ*·A/(order + ½): strokes wanted per pixel over particles per pixel, over rank. How many particles there are
-    /// cancels out, so twice as many leave the first half as they were.
-    fn supply_ln(&self, (seen, index): (&SeenCoat<'_>, usize), area_px: f32, wanted_per_px: f32) -> f32 {
+    /// ln of ρ*·A/(index + ½): strokes wanted per pixel over particles per pixel, over rank. The number of particles cancels
+    /// out, so twice as many leave the first half as they were.
+    fn supply_ln(&self, coat: &CoatView<'_>, index: usize, area_px: f32, wanted_per_px: f32) -> f32 {
         let area_px = area_px / (self.px_scale * self.px_scale);
-        let wanted = f64::from(wanted_per_px * area_px) * seen.coat.sampled.area / (index as f64 + 0.5);
+        let wanted = f64::from(wanted_per_px * area_px) * coat.coat.sampled.area / (index as f64 + 0.5);
         wanted.ln() as f32
     }
 
@@ -190,7 +209,8 @@ struct Shape {
     skew: f32,
 }
 
-/// The outline that a screen map makes of a stroke which lay flat in the reference picture, of the scene's own size.
+/// The outline of a stroke that is mapped like a texture: `flat` is its outline in the reference picture, at the scene's own
+/// size, and `map` takes that picture to this one.
 fn mapped(map: PixelMap2, flat: Shape, px_scale: f64) -> Shape {
     let along = DVec2::new(map.x.x, map.y.x) * f64::from(flat.length_px) / px_scale;
     let across = DVec2::new(map.x.y, map.y.y) * f64::from(flat.width_px) / px_scale;
@@ -204,7 +224,7 @@ fn mapped(map: PixelMap2, flat: Shape, px_scale: f64) -> Shape {
     }
 }
 
-/// Red up to κ = 0.72 (a mirrored map has at most 0.71), yellow half-way, green from 0.9: sRGB, as it is.
+/// The colour of a trust: red up to κ = 0.72 (a mirrored map has at most 0.71), yellow half-way, green from 0.9.
 fn trust_srgb8(kappa: f32) -> u32 {
     const RED: [f32; 3] = [176.0, 38.0, 28.0];
     const YELLOW: [f32; 3] = [240.0, 205.0, 70.0];
@@ -215,12 +235,12 @@ fn trust_srgb8(kappa: f32) -> u32 {
     u32::from(Stroke::AS_IT_IS) << 24 | byte(2) << 16 | byte(1) << 8 | byte(0)
 }
 
-/// Taper and bend of a layer's strokes. What lies under all others is there to cover: it stays broad and straight.
+/// Taper and bend of a layer's strokes. The underpainting is there to cover: it stays broad and straight.
 fn shape(kind: LayerKind, strokes: &ResolvedStrokes) -> (f32, f32) {
     if kind == LayerKind::Underpainting { (0.0, 0.0) } else { (strokes.taper, strokes.bend_rad) }
 }
 
-/// Scumble lies in patches: how much of it, for slow noise of mean 0 and deviation 1.
+/// Scumble lies in patches: the share of it that is wanted where slow noise (mean 0, deviation 1) has this value.
 fn patch(noise: f32) -> f32 {
     smoothstep(0.5 + 0.45 * noise).max(0.02)
 }
@@ -235,13 +255,14 @@ fn mixing(strokes: &ResolvedStrokes, palette: u8) -> Mixing {
     }
 }
 
-/// Turns a stroke near the limb to lie along its body's contour, by the share `contour`; of two directions of the contour,
-/// towards the nearer.
+/// Turns a stroke near the limb towards its body's contour, by the share `contour`; of the contour's two directions, towards
+/// the nearer.
 pub(crate) fn along_contour(
     angle_rad: f32,
     contour: f32,
     normal: DVec3,
-    (map, facing): (&impasto_core::ScreenMap, f32),
+    map: &ScreenMap,
+    facing: f32,
 ) -> f32 {
     let weight = contour * 0.9 * (1.0 - smoothstep((facing - 0.10) / 0.50));
     let in_picture = DVec2::new(
@@ -255,12 +276,12 @@ pub(crate) fn along_contour(
     let twice = |angle: f32| DVec2::from_angle(2.0 * f64::from(angle));
     let mixed = twice(angle_rad) * f64::from(1.0 - weight) + twice(contour_rad) * f64::from(weight);
     let turned = 0.5 * mixed.to_angle();
-    // The stroke keeps its start where it was.
+    // The doubled angle has lost which end is the start: take the end nearer to the old one.
     let half_turns = ((f64::from(angle_rad) - turned) / std::f64::consts::PI).round();
     wrap_pi(turned + half_turns * std::f64::consts::PI) as f32
 }
 
-/// The chances of one particle.
+/// The random numbers of one particle.
 struct Chance {
     bits: u32,
 }
@@ -278,7 +299,7 @@ impl Chance {
         ]
     }
 
-    /// How much more than others it bends.
+    /// The factor on how far the stroke bends.
     fn bend(&self, jitter: f32) -> f32 {
         (BEND_SHARE * jitter * self.normal(BEND)).exp()
     }
@@ -304,7 +325,6 @@ impl Chance {
 mod tests {
     use super::*;
     use glam::{DAffine3, DMat4};
-    use impasto_core::ScreenMap;
     use impasto_core::screen_map::PixelLens;
 
     #[test]
@@ -315,7 +335,7 @@ mod tests {
         let at = |contour: f32, tilt_deg: f64, angle_deg: f32| {
             let normal = DVec3::new(tilt_deg.to_radians().sin(), 0.0, tilt_deg.to_radians().cos());
             let facing = normal.z as f32;
-            along_contour(angle_deg.to_radians(), contour, normal, (&map, facing)).to_degrees()
+            along_contour(angle_deg.to_radians(), contour, normal, &map, facing).to_degrees()
         };
         // The contour of a normal that leans to +x runs along y.
         assert!((at(1.0, 85.0, 40.0) - 88.0).abs() < 4.0, "{}", at(1.0, 85.0, 40.0));

@@ -13,14 +13,11 @@ use impasto_scene::mesh_file::{MeshFile, Texture};
 use impasto_scene::morph::{self, MorphTarget};
 use rayon::prelude::*;
 
-use crate::frame::{BodyMaterial, BodySurface};
+use crate::body::{BodyMaterial, BodyShape, BodySurface, Vertices};
 use crate::lights::linear;
-use crate::noise_displace::{self, BodyShape};
+use crate::noise_displace;
 
-/// Positions and normals, one each for every vertex of a mesh.
-pub(crate) type Vertices = (Vec<Vec3>, Vec<Vec3>);
-
-/// All that a body's surface depends on; while it stays equal, the surface is kept.
+/// What a body's surface depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct SurfaceInputs {
     pub(crate) name: String,
@@ -62,7 +59,7 @@ impl SurfaceInputs {
             group: object.group.clone(),
             scale: object.scale,
             up: object.up,
-            // Noise has no say in what is sampled.
+            // Noise moves vertices later; the surface is built and sampled without it.
             material: object.material.clone().map(|over| MaterialOverride { noise_displace: None, ..over }),
             texture: texture_name.and_then(|name| loaded.textures.get(name)).map(Arc::clone),
             morph: object.morph.as_ref().and_then(|name| loaded.meshes.get(name)).map(Arc::clone),
@@ -77,7 +74,7 @@ impl SurfaceInputs {
     pub(crate) fn build(&self) -> BodySurface {
         let mesh = placed(self.chosen(&self.file.mesh), self.scale, self.up);
         let materials = self.file.materials.iter().map(|material| self.material_of(material)).collect();
-        // `check` has seen to it that the topologies are equal.
+        // The scene's check refuses morphs of another topology.
         let target = self.morph.as_ref().and_then(|target| morph::target_of(&self.file, target).ok());
         let morph = target.map(|MorphTarget { positions, normals }| {
             let moved = TriangleMesh { positions, normals, ..self.file.mesh.clone() };
@@ -145,44 +142,44 @@ fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
 }
 
 impl BodySurface {
-    /// Positions and normals of the vertices of a surface that stands like this.
+    /// The vertices of the surface in this shape.
     pub(crate) fn vertices_at(&self, shape: &BodyShape) -> Vertices {
-        let (positions, normals) = self.morphed(shape.morph);
+        let morphed = self.morphed(shape.morph);
         match shape.displacing() {
-            Some(displacing) => noise_displace::displaced(&self.mesh, (positions, normals), displacing),
-            None => (positions, normals),
+            Some((noise, lookup)) => noise_displace::displaced(&self.mesh, &morphed, noise, lookup),
+            None => morphed,
         }
     }
 
-    /// Positions of the vertices of a surface that stands like this.
+    /// Positions of the vertices of the surface in this shape.
     pub fn positions_at(&self, shape: &BodyShape) -> Vec<Vec3> {
-        if self.is_at_rest(shape) { self.mesh.positions.clone() } else { self.vertices_at(shape).0 }
+        if self.is_at_rest(shape) { self.mesh.positions.clone() } else { self.vertices_at(shape).positions }
     }
 
-    /// Positions and normals of the vertices at a share of the morph.
+    /// The vertices at a share of the morph, 0..=1.
     fn morphed(&self, morph: f64) -> Vertices {
         let Some(target) = &self.morph else {
-            return (self.mesh.positions.clone(), self.mesh.normals.clone());
+            return Vertices { positions: self.mesh.positions.clone(), normals: self.mesh.normals.clone() };
         };
         let mix = |from: &[Vec3], to: &[Vec3]| -> Vec<Vec3> {
             from.iter().zip(to).map(|(from, to)| from.lerp(*to, morph as f32)).collect()
         };
         let normals = mix(&self.mesh.normals, &target.normals);
         let unit = normals.iter().zip(&self.mesh.normals);
-        (
-            mix(&self.mesh.positions, &target.positions),
-            unit.map(|(normal, usual)| normal.try_normalize().unwrap_or(*usual)).collect(),
-        )
+        Vertices {
+            positions: mix(&self.mesh.positions, &target.positions),
+            normals: unit.map(|(normal, usual)| normal.try_normalize().unwrap_or(*usual)).collect(),
+        }
     }
 
-    /// Whether a surface that stands like this is as its mesh has it.
+    /// Whether the surface in this shape is just as its mesh has it.
     pub fn is_at_rest(&self, shape: &BodyShape) -> bool {
         (self.morph.is_none() || shape.morph == 0.0) && shape.displacing().is_none()
     }
 
-    /// Particles of the mesh where they are on a surface that stands like this.
+    /// Particles of the mesh, moved to the surface in this shape.
     pub(crate) fn posed(&self, particles: &[Particle], shape: &BodyShape) -> Vec<Particle> {
-        let (positions, normals) = self.vertices_at(shape);
+        let Vertices { positions, normals } = self.vertices_at(shape);
         particles.iter().map(|particle| particle.on(&self.mesh, &positions, &normals)).collect()
     }
 
@@ -200,8 +197,7 @@ impl BodySurface {
         (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
     }
 
-    /// sRGB albedo of the particles of the surface, as far as it is kept: of each material, or, where one has a texture, of each
-    /// of `particles`.
+    /// sRGB albedo of each material, or, where one has a texture, of each of `particles`.
     pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
         if self.materials.iter().any(|material| material.texture.is_some()) {
             return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());
@@ -231,7 +227,7 @@ impl BodySurface {
     }
 }
 
-/// The albedo of what has no material.
+/// The albedo of triangles without a material.
 const NO_MATERIAL: u32 = 0xffcc_cccc;
 
 /// A linear albedo as [`BodySurface::albedo_srgb8`] gives it.
@@ -250,8 +246,8 @@ pub(crate) enum Albedo {
 }
 
 impl Albedo {
-    /// Of a particle on a triangle of the surface.
-    pub(crate) fn of(&self, surface: &BodySurface, (particle, triangle): (usize, usize)) -> u32 {
+    /// Of a particle, which lies on this triangle of the surface.
+    pub(crate) fn of(&self, surface: &BodySurface, particle: usize, triangle: usize) -> u32 {
         match self {
             Self::OfMaterial(all) => {
                 all.get(surface.material_of_triangle(triangle)).copied().unwrap_or(NO_MATERIAL)

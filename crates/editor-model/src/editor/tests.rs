@@ -214,11 +214,13 @@ fn strokes_are_foreseen_while_the_hand_moves_and_until_it_rests() {
         normal: foreseen.normal_in_model,
         radius: foreseen.radius,
     };
-    let near = painting.hairs_near(&place, (&camera, 0.0), &options, 40);
+    let near = painting.stroke_directions_near(&place, &camera, 0.0, &options, 40);
     assert_eq!(near.len(), 40);
-    let is_near = |hair: &impasto_painting::Hair| near.iter().any(|near| near.particle == hair.particle);
-    let of_object = |hair: &impasto_painting::Hair| hair.object == foreseen.object && is_near(hair);
-    let all = painting.hairs_where(&camera, 0.0, &options, (1.0, &of_object));
+    let is_near =
+        |hair: &impasto_painting::StrokeDirection| near.iter().any(|near| near.particle == hair.particle);
+    let of_object =
+        |hair: &impasto_painting::StrokeDirection| hair.object == foreseen.object && is_near(hair);
+    let all = painting.stroke_directions(&camera, 0.0, &options, 1.0, &of_object);
     assert!(all.len() > 30, "{}", all.len());
     for hair in &all {
         assert!(near.contains(hair), "{hair:?}");

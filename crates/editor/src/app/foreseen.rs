@@ -88,8 +88,8 @@ fn strokes(foreseen: &Foreseen, editor: &Editor, studio: &Studio) -> Option<Vec<
         .iter()
         .find(|value| value.field.name == "length_px")
         .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
-    let hairs = painting.hairs_near(&place, (&camera, editor.session.frame), &options, MOST);
-    let stroke = |hair: &impasto_painting::Hair| ForeseenStroke {
+    let hairs = painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
+    let stroke = |hair: &impasto_painting::StrokeDirection| ForeseenStroke {
         at_px: DVec2::from(hair.position_px.map(f64::from)),
         angle_rad: hair.angle_rad,
         length_px: length_px.clamp(6.0, LONGEST_PX),

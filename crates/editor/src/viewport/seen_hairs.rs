@@ -3,7 +3,7 @@
 use egui::Color32;
 use glam::DVec2;
 use impasto_editor_model::session::{Hairs, Overlays};
-use impasto_painting::{FrameOptions, Hair, Painting};
+use impasto_painting::{FrameOptions, Painting, StrokeDirection};
 use impasto_scene::motion::CameraPose;
 
 use super::overlay::{HairInk, HairMark};
@@ -47,17 +47,17 @@ pub fn hair_marks(
     while cells(apart) > MOST {
         apart *= 1.02;
     }
-    let place = |hair: &Hair| DVec2::from(hair.position_px.map(f64::from));
-    let shows = |hair: &Hair| map.shows(place(hair), f64::from(hair.depth), hair.object);
-    let hairs = painting.hairs_where(&framing.widened(camera), frame, &options, (apart as f32, &shows));
-    let ink = |hair: &Hair| match look.overlays {
+    let place = |hair: &StrokeDirection| DVec2::from(hair.position_px.map(f64::from));
+    let shows = |hair: &StrokeDirection| map.shows(place(hair), f64::from(hair.depth), hair.object);
+    let hairs = painting.stroke_directions(&framing.widened(camera), frame, &options, apart as f32, &shows);
+    let ink = |hair: &StrokeDirection| match look.overlays {
         Overlays { trust: true, .. } => HairInk::Trust(hair.kappa),
         Overlays { hairs: Hairs::ByRegion, .. } => {
             look.region_colours.get(hair.region).map_or(HairInk::Plain, |&colour| HairInk::Region(colour))
         }
         _ => HairInk::Plain,
     };
-    let mark = |hair: &Hair| HairMark {
+    let mark = |hair: &StrokeDirection| HairMark {
         at_px: place(hair),
         angle_rad: hair.angle_rad,
         ink: ink(hair),

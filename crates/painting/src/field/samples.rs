@@ -1,4 +1,4 @@
-//! The few places of a body at which its field is solved.
+//! The samples of a body: the few points at which its direction field is solved.
 
 use glam::Vec3;
 use impasto_core::direction::carry::Stencils;
@@ -6,17 +6,17 @@ use impasto_core::direction::field::MAX_SAMPLES;
 use impasto_core::neighbours::Points;
 use impasto_core::sampling::{self, Particle, Surface};
 
-use crate::frame::BodySurface;
-use crate::noise_displace::BodyShape;
+use crate::body::{BodyShape, BodySurface};
 use crate::particles::Particles;
 
 /// The samples of a body.
 #[derive(Debug)]
 pub(crate) struct FieldSamples {
-    pub(crate) particles: Vec<Particle>,
+    pub(super) particles: Vec<Particle>,
     pub(super) positions: Vec<Vec3>,
     pub(super) normals: Vec<Vec3>,
-    pub(crate) spacing: f64,
+    /// How far apart they are, model units.
+    pub(super) spacing: f64,
 }
 
 impl FieldSamples {
@@ -30,7 +30,7 @@ impl FieldSamples {
         }
     }
 
-    /// The samples where they are on a body that stands like this.
+    /// The samples, moved with the surface into this shape.
     pub(crate) fn posed(self, surface: &BodySurface, shape: &BodyShape) -> Self {
         if surface.is_at_rest(shape) {
             return self;
@@ -44,11 +44,11 @@ impl FieldSamples {
         }
     }
 
-    pub(super) fn points(&self) -> Points<'_> {
+    fn points(&self) -> Points<'_> {
         Points { positions: &self.positions, normals: &self.normals }
     }
 
-    /// Which samples each of these particles listens to.
+    /// Which samples each of these particles takes its direction from.
     pub(crate) fn stencils(&self, particles: &Particles) -> Stencils {
         let (positions, normals) = particles.points();
         Stencils::new(Points { positions: &positions, normals: &normals }, self.points(), self.spacing)

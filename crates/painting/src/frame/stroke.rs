@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use impasto_core::presence;
 use impasto_scene::presets::LayerKind;
 
-/// The palette number of strokes that may take any colour.
+/// The palette index of strokes that have no palette.
 pub const ANY_COLOR: u8 = 255;
 
 /// One brush stroke. Pixels, origin at the lower left, Y up.
@@ -26,7 +26,7 @@ pub struct Stroke {
     /// ln(D/u): strokes wanted per pixel over particles per pixel, over rank, where the layer is wanted in full. Half of
     /// the stroke is there at 0.
     pub supply_ln: f32,
-    /// Random bits that belong to the stroke for ever.
+    /// Random bits of the stroke, the same in every frame.
     pub bits: u32,
     /// Id of the body in the id target (index in `Frame::bodies` plus 1).
     pub body_id: u32,
@@ -43,7 +43,7 @@ pub struct Stroke {
     pub normal_in_world: [f32; 3],
     /// How far the mark bows to its left in the middle, in half widths.
     pub bow: f32,
-    /// How far paint may run past its own body, output pixels; at or over [`Stroke::FREE`], as far as it likes.
+    /// How far paint may run past its own body, output pixels; from [`Stroke::FREE`] on without limit.
     pub overrun_px: f32,
     /// Slow drifts over the surface, of hue and of how firm the body's edge is; mean 0, standard deviation 1.
     pub drift: [f32; 2],
@@ -51,7 +51,7 @@ pub struct Stroke {
     pub skew: f32,
     /// How much narrower the stroke is at its end than at its start, −1..=1; `width_px` is its mean width.
     pub taper: f32,
-    /// How far the stroke turns to its left from start to end, radians; in its middle it has its angle. At most
+    /// How far the stroke turns to its left from start to end, radians; its middle lies at `angle_rad`. At most
     /// [`Stroke::most_bend_rad`] either way.
     pub bend_rad: f32,
 }
@@ -78,7 +78,7 @@ pub struct Mixing {
     pub jitter: u8,
     /// Factor on the temperature, times [`Mixing::SCALE`].
     pub temperature: u8,
-    /// How far colours are pulled to a painter's values, times 255.
+    /// How far colours are graded towards a painter's values, times 255.
     pub grading: u8,
     /// Row of [`super::Frame::palettes`], or [`ANY_COLOR`].
     pub palette: u8,
@@ -95,7 +95,7 @@ impl Mixing {
 }
 
 impl Default for Stroke {
-    /// A whole, opaque stroke of the first brush, of no size and mixed without chance.
+    /// A whole, opaque stroke of the first brush, of no size and mixed without randomness.
     fn default() -> Self {
         Self {
             facing_fade: 1.0,
@@ -108,10 +108,10 @@ impl Default for Stroke {
 }
 
 impl Stroke {
-    /// The overrun of strokes that end where they end.
+    /// The overrun of strokes that are not clipped to their body.
     pub const FREE: f32 = 1e6;
 
-    /// The A of a stroke that has its own colour.
+    /// The A of a stroke whose colour is shown as it is.
     pub const AS_IT_IS: u8 = 128;
 
     /// The most that a stroke can bend, radians: half a turn, and less where its inner edge would reach the middle of the arc.
@@ -121,7 +121,7 @@ impl Stroke {
         (CLOSEST * self.length_px / half_quad_px.max(1e-6)).min(std::f32::consts::PI)
     }
 
-    /// Whether its quad is no plain rectangle.
+    /// Whether it tapers or bends.
     pub fn is_shaped(&self) -> bool {
         self.taper != 0.0 || self.bend_rad != 0.0
     }
@@ -133,7 +133,7 @@ impl Stroke {
     }
 }
 
-/// What a stroke is and how far it can be trusted.
+/// Where a stroke comes from, and how far its angle can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrokeSource {
     /// Index of the particle in the painting order of all particles.
@@ -142,7 +142,7 @@ pub struct StrokeSource {
     pub particle: u32,
     /// Index of the region in the scene; `regions.len()` for the implicit one.
     pub region: u32,
-    /// κ in 0..=1: how well a turn describes what the picture of the surface has done (1 = wholly).
+    /// κ in 0..=1: how well a rotation describes how the surface has moved in the picture (1 = wholly).
     pub kappa: f32,
     /// Cosine between the surface normal and the direction to the eye.
     pub facing: f32,

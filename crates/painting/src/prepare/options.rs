@@ -4,8 +4,6 @@ use std::time::Instant;
 
 use impasto_scene::document::{Scene, Solver};
 
-use crate::coat::KeptObject;
-
 /// Why a scene cannot be prepared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PrepareError {
@@ -17,10 +15,10 @@ pub enum PrepareError {
         /// Path of the mesh as written in the scene.
         mesh: String,
     },
-    /// Whoever asked wants it no more.
+    /// [`PrepareOptions::give_up`] said so.
     #[error("preparing was given up")]
     GivenUp,
-    /// There are too many particles for the memory that may be taken.
+    /// The particles need more memory than they may take.
     #[error(
         "{particles} particles take about {} MiB while they are prepared, and {} MiB may be taken: give object {object:?} \
          fewer than its {of_object} (particles), or larger strokes",
@@ -40,11 +38,11 @@ pub enum PrepareError {
     },
 }
 
-/// What preparing takes at most for each particle, bytes: with directions that are combed and Horn's lists of neighbours.
+/// Peak memory of preparing, bytes a particle: with a direction field, and with Horn's lists of neighbours as well.
 const PEAK_BYTES: u64 = 240;
 const PEAK_BYTES_WITH_LISTS: u64 = 520;
 
-/// Particles of all coats that can be told apart.
+/// Particles of all coats that a number can name.
 const MOST_PARTICLES: u64 = 1 << 31;
 
 /// How to prepare.
@@ -54,7 +52,7 @@ pub struct PrepareOptions<'a> {
     pub give_up: &'a (dyn Fn() -> bool + Sync),
     /// What particles may take in memory, bytes; `None` for as much as there is.
     pub memory_bytes: Option<u64>,
-    /// The most memory that was held since this was last asked, bytes, where that is known.
+    /// The process's peak memory since this was last called, bytes, where that is known.
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,
 }
 
@@ -72,37 +70,35 @@ pub struct Step {
     pub name: &'static str,
     /// Wall clock seconds.
     pub seconds: f64,
-    /// The most memory that the process held meanwhile, bytes, where whoever asked can tell.
+    /// The process's peak memory during the step, bytes, where that is known.
     pub peak_bytes: Option<u64>,
 }
 
-/// Whether the particles that were counted fit into memory.
+/// Whether the particles of all objects, `counts` by object, fit into memory.
 pub(super) fn fits(
     memory_bytes: Option<u64>,
     scene: &Scene,
-    kept: &[KeptObject],
+    counts: &[u64],
     solver: Solver,
 ) -> Result<(), PrepareError> {
-    let of_object = |index: usize| kept[index].counted() as u64;
-    let particles: u64 = (0..kept.len()).map(of_object).sum();
+    let particles: u64 = counts.iter().sum();
     let with_lists = matches!(solver, Solver::Horn | Solver::HornExact);
     let needed_bytes = particles * if with_lists { PEAK_BYTES_WITH_LISTS } else { PEAK_BYTES };
-    // More cannot be numbered.
     let budget_bytes = memory_bytes.unwrap_or(u64::MAX).min(MOST_PARTICLES * PEAK_BYTES);
-    let most = (0..kept.len()).max_by_key(|&index| of_object(index));
+    let most = (0..counts.len()).max_by_key(|&index| counts[index]);
     match most {
         Some(most) if needed_bytes > budget_bytes => Err(PrepareError::Memory {
             particles,
             needed_bytes,
             budget_bytes,
             object: scene.objects[most].name.clone(),
-            of_object: of_object(most),
+            of_object: counts[most],
         }),
         _ => Ok(()),
     }
 }
 
-/// Tells how long each step takes, and how much memory.
+/// Measures the time and the peak memory of each step.
 pub(super) struct StepClock<'a> {
     since: Instant,
     peak_bytes: &'a dyn Fn() -> Option<u64>,

@@ -1,4 +1,4 @@
-//! An edit makes anew what depends on it, and nothing else: what is kept is the very same in memory.
+//! An edit recomputes what depends on it and nothing else: all other results are the same objects in memory.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,14 +26,14 @@ fn edited(loaded: &Arc<LoadedScene>, edit: impl FnOnce(&mut Scene)) -> Arc<Loade
     Arc::new(edited)
 }
 
-/// Of each coat whether its places, its seats and its lifts are those of before.
-fn kept(before: &Painting, now: &Painting) -> Vec<[bool; 3]> {
+/// For each coat, whether its places, its traits and its lifts are those of before.
+fn reused(before: &Painting, now: &Painting) -> Vec<[bool; 3]> {
     let pairs = before.coats.iter().zip(&now.coats);
     pairs
         .map(|(before, now)| {
             [
                 Arc::ptr_eq(&before.sampled, &now.sampled),
-                Arc::ptr_eq(&before.seats, &now.seats),
+                Arc::ptr_eq(&before.traits, &now.traits),
                 Arc::ptr_eq(&before.baked, &now.baked),
             ]
         })
@@ -49,7 +49,7 @@ fn a_moved_object_does_nothing_again() {
         scene.objects[0].keys.push(key);
     });
     let now = preparer.prepare(moved).unwrap();
-    assert_eq!(kept(&before, &now), [[true; 3]; 2]);
+    assert_eq!(reused(&before, &now), [[true; 3]; 2]);
     assert!(Arc::ptr_eq(&before.order, &now.order) && Arc::ptr_eq(&before.brushes, &now.brushes));
     let surfaces = before.bodies.iter().zip(&now.bodies);
     assert!(surfaces.into_iter().all(|(before, now)| Arc::ptr_eq(&before.surface, &now.surface)));
@@ -61,7 +61,7 @@ fn a_changed_angle_and_a_guide_turn_the_strokes_of_their_object_alone() {
     let before = preparer.prepare(Arc::clone(&start)).unwrap();
     let angle = edited(&start, |scene| scene.regions[0].direction = Direction::Angle(30.0));
     let turned = preparer.prepare(Arc::clone(&angle)).unwrap();
-    assert_eq!(kept(&before, &turned), [[true, true, false], [true; 3]]);
+    assert_eq!(reused(&before, &turned), [[true, true, false], [true; 3]]);
     assert!(Arc::ptr_eq(&before.order, &turned.order));
 
     let point = |x: f64| GuidePoint { at: [x, 0.5, 0.4], normal: [0.0, 0.0, 1.0], turn_deg: 0.0 };
@@ -77,6 +77,6 @@ fn a_changed_angle_and_a_guide_turn_the_strokes_of_their_object_alone() {
     };
     let combed = edited(&angle, |scene| scene.regions[0].guides.push(guide));
     let now = preparer.prepare(combed).unwrap();
-    assert_eq!(kept(&turned, &now)[1], [true; 3]);
-    assert_eq!(kept(&turned, &now)[0][..2], [true; 2]);
+    assert_eq!(reused(&turned, &now)[1], [true; 3]);
+    assert_eq!(reused(&turned, &now)[0][..2], [true; 2]);
 }

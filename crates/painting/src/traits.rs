@@ -1,4 +1,4 @@
-//! What a particle has whatever its direction: its region, its chances, its slow noise.
+//! Traits: what a particle has whatever its direction: its region, its random numbers, its slow noise.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::parts::{BodyParts, px_per_unit};
 use crate::references::BodyReferences;
 use crate::regions::{BodyRegions, RegionRule};
 
-/// Which random number of a particle.
+/// The random numbers of a particle, by what they are used for.
 pub(crate) const ANGLE_JITTER: u32 = 1;
 pub(crate) const LENGTH_JITTER: u32 = 2;
 pub(crate) const WIDTH_JITTER: u32 = 3;
@@ -25,28 +25,29 @@ const RANK_BREAKING: u32 = 8;
 const FAMILY: u32 = 9;
 pub(crate) const BEND: u32 = 10;
 
-/// One cycle of slow noise, pixels of a picture 720 high at the reference pose: of angle and hue, of a backdrop's angle, of
-/// edges.
+/// The length of one cycle of slow noise, in pixels of a picture 720 high at the reference pose: of angle and hue, of a
+/// backdrop's angle, of edges.
 const SWING_PX: f64 = 170.0;
 const BACKDROP_SWING_PX: f64 = 260.0;
 const EDGE_PX: f64 = 60.0;
 
-/// A share of the strokes breaks rank by this; by less where the angle's own jitter is under [`USUAL_JITTER_DEG`].
+/// This share of the strokes strays from its neighbours by this deviation, or less where the angle jitter is under
+/// [`USUAL_JITTER_DEG`].
 const RANK_BREAKERS: f32 = 0.08;
 const RANK_BREAKING_DEG: f64 = 38.0;
 pub(crate) const USUAL_JITTER_DEG: f64 = 7.0;
 
-/// Crossing families swing and scatter this much more than one family does, and this share belongs to the second.
+/// Two crossing families of strokes swing and scatter this much more than one family does; this share is of the second.
 const CROSSING_SWING: f64 = 26.0 / 6.0;
 const CROSSING_JITTER: f64 = 13.0 / 7.0;
 const SECOND_FAMILY: f32 = 0.42;
 
-/// How many particles one task looks at.
+/// How many particles one task computes.
 const CHUNK: usize = 512;
 
-/// All that seats depend on, but for how many there are.
+/// All that traits depend on. How many particles there are is not compared.
 #[derive(Clone)]
-pub(crate) struct SeatInputs {
+pub(crate) struct TraitInputs {
     particles: Particles,
     regions: Arc<BodyRegions>,
     parts: Arc<BodyParts>,
@@ -54,15 +55,15 @@ pub(crate) struct SeatInputs {
     name_hash: u32,
     /// For each part, pixels of a picture 720 high per model unit, at the reference pose.
     scales: Vec<f64>,
-    /// By rule; those that no particle of the body has are left as they are by default.
-    rules: Vec<SeatRule>,
+    /// By rule; default where no particle of the body has the rule.
+    rules: Vec<TraitRule>,
     /// For each part, what the second of two crossing families adds where its rule is automatic, radians.
     second_of_part_rad: Vec<Option<f64>>,
 }
 
-/// What seats take from a rule.
+/// What traits depend on of a rule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct SeatRule {
+struct TraitRule {
     angle_jitter_rad: f32,
     swing_rad: f32,
     family: Family,
@@ -71,7 +72,7 @@ struct SeatRule {
 /// How many families of strokes a rule has.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Family {
-    /// As the part is brushed by itself.
+    /// As the part's automatic direction has it.
     #[default]
     OfPart,
     One,
@@ -79,35 +80,28 @@ enum Family {
     Two(f64),
 }
 
-/// Particles' seats, in progressive order: what pictures need of them.
+/// The traits that pictures need, of particles in progressive order.
 #[derive(Clone)]
-pub(crate) struct Seats {
+pub(crate) struct Traits {
     pub(crate) particles: Particles,
     regions: Arc<BodyRegions>,
     pub(crate) parts: Arc<BodyParts>,
     pub(crate) name_hash: u32,
-    /// Region of each particle, where dabs decide; else its triangle's.
+    /// The region of each particle where there are dabs; empty where triangles tell it.
     dabbed: Vec<u16>,
-    /// Slow noise per particle: of hue and value, and of how firm edges are.
+    /// Slow noise of each particle: of hue and value, and of how firm edges are.
     pub(crate) drift: Vec<[f32; 2]>,
 }
 
-/// Seats, with what they are made from and what only their directions need.
-pub(crate) struct KeptSeats {
-    inputs: SeatInputs,
-    pub(crate) seats: Arc<Seats>,
-    /// What chance and slow noise add to the base angle of each particle, radians.
-    pub(crate) stray_rad: Vec<f64>,
+/// All traits of a coat's particles.
+#[derive(Clone)]
+pub(crate) struct CoatTraits {
+    pub(crate) traits: Arc<Traits>,
+    /// What chance and slow noise add to the base angle of each particle, radians. Pictures do not need it.
+    pub(crate) stray_rad: Arc<Vec<f64>>,
 }
 
-impl KeptSeats {
-    /// Whether both are made from the same, but for how many there are.
-    pub(crate) fn same_inputs(&self, other: &Self) -> bool {
-        self.inputs == other.inputs
-    }
-}
-
-impl Seats {
+impl Traits {
     /// The region of a particle.
     #[inline]
     pub(crate) fn region(&self, particle: usize) -> u16 {
@@ -123,20 +117,20 @@ impl Seats {
         self.parts.of_triangle[self.particles.triangle(particle)] as usize
     }
 
-    /// Random bits of a particle, for ever.
+    /// Random bits of a particle, the same whatever is edited.
     #[inline]
     pub(crate) fn bits(&self, particle: usize) -> u32 {
         hash::combine(self.name_hash, particle as u32)
     }
 
-    /// Whether all particles belong to the same regions; where in doubt, not.
+    /// Whether all particles are known to belong to the same regions.
     pub(crate) fn same_regions(&self, other: &Self) -> bool {
-        self.particles.same(&other.particles)
+        self.particles == other.particles
             && (Arc::ptr_eq(&self.regions, &other.regions) || self.regions == other.regions)
     }
 }
 
-impl PartialEq for SeatInputs {
+impl PartialEq for TraitInputs {
     fn eq(&self, other: &Self) -> bool {
         self.particles.same_order(&other.particles)
             && Arc::ptr_eq(&self.parts, &other.parts)
@@ -156,26 +150,28 @@ fn second_rad(direction: &Direction) -> Option<f64> {
     }
 }
 
-impl SeatInputs {
+impl TraitInputs {
     pub(crate) fn new(
-        (particles, name_hash): (Particles, u32),
-        (regions, used): (&Arc<BodyRegions>, &[u16]),
+        particles: Particles,
+        name_hash: u32,
+        regions: &Arc<BodyRegions>,
+        used: &[u16],
         rules: &[RegionRule],
         parts: &Arc<BodyParts>,
         references: &BodyReferences,
     ) -> Self {
         let own = references.own();
         let scale = 720.0 / f64::from(own.size_px[1]);
-        let mut of_rule = vec![SeatRule::default(); rules.len()];
+        let mut of_rule = vec![TraitRule::default(); rules.len()];
         for &rule in used {
             let RegionRule { direction, strokes, .. } = &rules[usize::from(rule)];
             let family = match direction {
-                // The bend is the field's to find; what is automatic stands in for it where there is none.
+                // The field finds the curvature; where there is no field, the automatic direction stands in.
                 Direction::Auto | Direction::Curvature(_) => Family::OfPart,
                 stated => second_rad(stated).map_or(Family::One, Family::Two),
             };
             let (angle_jitter_rad, swing_rad) = (strokes.angle_jitter_rad, strokes.swing_rad);
-            of_rule[usize::from(rule)] = SeatRule { angle_jitter_rad, swing_rad, family };
+            of_rule[usize::from(rule)] = TraitRule { angle_jitter_rad, swing_rad, family };
         }
         Self {
             particles,
@@ -188,28 +184,17 @@ impl SeatInputs {
         }
     }
 
-    /// The seats of all particles; `kept` ones with the same inputs are cut or continued.
-    pub(crate) fn seats(self, kept: Option<Arc<KeptSeats>>) -> Arc<KeptSeats> {
+    /// The traits of all particles; those `before`, of the same inputs, are cut or continued.
+    pub(crate) fn traits(&self, before: Option<CoatTraits>) -> CoatTraits {
         let count = self.particles.len();
-        let kept = kept.filter(|kept| kept.inputs == self);
-        if let Some(kept) = &kept
-            && kept.seats.drift.len() == count
-        {
-            return Arc::clone(kept);
-        }
         let (mut dabbed, mut drift, mut stray_rad) = (Vec::new(), Vec::new(), Vec::new());
-        if let Some(kept) = kept {
-            // Copied only if a painting still holds them.
-            let KeptSeats { seats, stray_rad: strays, .. } = match Arc::try_unwrap(kept) {
-                Ok(kept) => kept,
-                Err(kept) => KeptSeats {
-                    inputs: kept.inputs.clone(),
-                    seats: Arc::clone(&kept.seats),
-                    stray_rad: kept.stray_rad.clone(),
-                },
-            };
-            let seats = Arc::unwrap_or_clone(seats);
-            (dabbed, drift, stray_rad) = (seats.dabbed, seats.drift, strays);
+        if let Some(before) = before {
+            if before.traits.drift.len() == count {
+                return before;
+            }
+            let traits = Arc::unwrap_or_clone(before.traits);
+            (dabbed, drift) = (traits.dabbed, traits.drift);
+            stray_rad = Arc::unwrap_or_clone(before.stray_rad);
         }
         dabbed.truncate(count);
         drift.truncate(count);
@@ -221,7 +206,7 @@ impl SeatInputs {
         }
         drift.resize(count, [0.0; 2]);
         stray_rad.resize(count, 0.0);
-        let seats = Seats {
+        let traits = Traits {
             particles: self.particles.clone(),
             regions: Arc::clone(&self.regions),
             parts: Arc::clone(&self.parts),
@@ -231,20 +216,19 @@ impl SeatInputs {
         };
         let chunks = drift[from..].par_chunks_mut(CHUNK).zip(stray_rad[from..].par_chunks_mut(CHUNK));
         chunks.enumerate().for_each(|(chunk, (drift, stray_rad))| {
-            self.chances(&seats, from + chunk * CHUNK, (drift, stray_rad));
+            self.fill_noise(&traits, from + chunk * CHUNK, drift, stray_rad);
         });
-        let seats = Arc::new(Seats { drift, ..seats });
-        Arc::new(KeptSeats { inputs: self, seats, stray_rad })
+        CoatTraits { traits: Arc::new(Traits { drift, ..traits }), stray_rad: Arc::new(stray_rad) }
     }
 
-    /// The slow noise and the stray angles of the particles from `first` on; `seats` have no noise yet.
-    fn chances(&self, seats: &Seats, first: usize, (drift, stray_rad): (&mut [[f32; 2]], &mut [f64])) {
+    /// Computes the slow noise and the stray angles of the particles from `first` on; `traits` have no noise yet.
+    fn fill_noise(&self, traits: &Traits, first: usize, drift: &mut [[f32; 2]], stray_rad: &mut [f64]) {
         let count = drift.len();
         let mut at = [[DVec3::ZERO; CHUNK]; 3];
         let mut swings = [true; CHUNK];
         for index in 0..count {
             let particle = first + index;
-            let (rule, part) = (self.rules[usize::from(seats.region(particle))], seats.part(particle));
+            let (rule, part) = (self.rules[usize::from(traits.region(particle))], traits.part(particle));
             let position = self.particles.at(particle).position.as_dvec3();
             let scale = self.scales[part];
             let scaled = position * scale;
@@ -255,7 +239,7 @@ impl SeatInputs {
         }
         let mut noise = [[0.0f32; CHUNK]; 3];
         for (which, noise) in noise.iter_mut().enumerate() {
-            // The same swing in every layer.
+            // All layers and objects share the noise of the swing.
             let seed = if which == 2 { 3 } else { hash::combine(self.name_hash, which as u32 + 1) };
             if which < 2 || swings[..count].contains(&true) {
                 noise::slow(seed, &at[which][..count], &mut noise[..count]);
@@ -263,12 +247,12 @@ impl SeatInputs {
         }
         for index in 0..count {
             drift[index] = [noise[0][index], noise[1][index]];
-            stray_rad[index] = self.stray_rad(seats, first + index, noise[2][index]);
+            stray_rad[index] = self.stray_rad(traits, first + index, noise[2][index]);
         }
     }
 
     /// What the second of two crossing families adds, where there are two.
-    fn second_rad(&self, rule: SeatRule, part: usize) -> Option<f64> {
+    fn second_rad(&self, rule: TraitRule, part: usize) -> Option<f64> {
         match rule.family {
             Family::OfPart => self.second_of_part_rad[part],
             Family::One => None,
@@ -276,16 +260,16 @@ impl SeatInputs {
         }
     }
 
-    /// One cycle of the swing.
-    fn cycle_px(&self, rule: SeatRule, part: usize) -> f64 {
+    /// The length of one cycle of the swing.
+    fn cycle_px(&self, rule: TraitRule, part: usize) -> f64 {
         if self.second_rad(rule, part).is_some() { BACKDROP_SWING_PX } else { SWING_PX }
     }
 
     /// What chance and slow noise add to a particle's base angle, radians.
-    fn stray_rad(&self, seats: &Seats, particle: usize, swing_noise: f32) -> f64 {
-        let bits = seats.bits(particle);
-        let rule = self.rules[usize::from(seats.region(particle))];
-        let second = self.second_rad(rule, seats.part(particle));
+    fn stray_rad(&self, traits: &Traits, particle: usize, swing_noise: f32) -> f64 {
+        let bits = traits.bits(particle);
+        let rule = self.rules[usize::from(traits.region(particle))];
+        let second = self.second_rad(rule, traits.part(particle));
         let normal = |which: u32| f64::from(hash::normal(hash::combine(bits, which)));
         let (swing, jitter) = if second.is_some() { (CROSSING_SWING, CROSSING_JITTER) } else { (1.0, 1.0) };
         let jitter_rad = f64::from(rule.angle_jitter_rad);

@@ -1,0 +1,90 @@
+//! A result kept with the inputs that it was computed from, so that equal inputs need not be computed again.
+
+/// An output and its inputs; empty at first.
+pub(crate) struct Cached<Inputs, Output> {
+    entry: Option<(Inputs, Output)>,
+}
+
+impl<Inputs, Output> Default for Cached<Inputs, Output> {
+    fn default() -> Self {
+        Self { entry: None }
+    }
+}
+
+impl<Inputs, Output> Cached<Inputs, Output> {
+    /// What the output was computed from.
+    pub(crate) fn inputs(&self) -> Option<&Inputs> {
+        self.entry.as_ref().map(|(inputs, _)| inputs)
+    }
+
+    /// The output of the last inputs.
+    pub(crate) fn output(&self) -> Option<&Output> {
+        self.entry.as_ref().map(|(_, output)| output)
+    }
+
+    /// Forgets inputs and output.
+    pub(crate) fn clear(&mut self) {
+        self.entry = None;
+    }
+}
+
+impl<Inputs: PartialEq, Output> Cached<Inputs, Output> {
+    /// The output for these inputs: the one that is here if its inputs are equal (those stay), else a new one. `compute` gets
+    /// the inputs and what was here before.
+    pub(crate) fn update(
+        &mut self,
+        inputs: Inputs,
+        compute: impl FnOnce(&Inputs, Option<(Inputs, Output)>) -> Output,
+    ) -> &Output {
+        match self.entry.take() {
+            Some(entry) if entry.0 == inputs => &self.entry.insert(entry).1,
+            before => {
+                let output = compute(&inputs, before);
+                &self.entry.insert((inputs, output)).1
+            }
+        }
+    }
+
+    /// As [`Cached::update`], for outputs of which equal inputs may ask for more or fewer elements: `compute` always runs, and
+    /// gets the output that is here if its inputs are equal.
+    pub(crate) fn resize(
+        &mut self,
+        inputs: Inputs,
+        compute: impl FnOnce(&Inputs, Option<Output>) -> Output,
+    ) -> &Output {
+        let before = self.entry.take().filter(|(before, _)| *before == inputs);
+        let output = compute(&inputs, before.map(|(_, output)| output));
+        &self.entry.insert((inputs, output)).1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cached;
+
+    #[test]
+    fn equal_inputs_are_computed_once_and_others_see_what_was_before() {
+        let mut cached = Cached::default();
+        assert_eq!(*cached.update("a", |_, before| (before.is_none(), 1)), (true, 1));
+        assert_eq!(*cached.update("a", |_, _| unreachable!("the inputs are equal")), (true, 1));
+        assert_eq!(*cached.update("b", |_, before| (before == Some(("a", (true, 1))), 2)), (true, 2));
+        assert_eq!(cached.inputs(), Some(&"b"));
+    }
+
+    #[test]
+    fn an_output_is_resized_while_its_inputs_are_equal() {
+        let mut cached = Cached::default();
+        let grown = |count: usize| {
+            move |input: &u8, before: Option<Vec<u8>>| {
+                let mut values = before.unwrap_or_default();
+                values.resize(count, *input);
+                values
+            }
+        };
+        assert_eq!(*cached.resize(1, grown(2)), [1, 1]);
+        assert_eq!(*cached.resize(1, grown(3)), [1, 1, 1]);
+        assert_eq!(*cached.resize(2, grown(1)), [2]);
+        cached.clear();
+        assert_eq!(cached.output(), None);
+    }
+}

@@ -1,0 +1,54 @@
+//! What the steps of preparing one object are given: the scene's context, and the object's own inputs.
+
+use std::sync::Arc;
+
+use glam::DAffine3;
+use impasto_core::hash;
+use impasto_scene::document::{Scene, Solver};
+use impasto_scene::presets::LayerKind;
+
+use crate::body::BodyShape;
+use crate::frame::Brushes;
+use crate::parts::Cap;
+use crate::references::BodyReferences;
+use crate::regions::{BodyGuide, BodyRegions, RegionRule};
+use crate::surface::SurfaceInputs;
+use crate::view::PictureView;
+
+/// What the steps of all objects share.
+pub(crate) struct Context<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) rules: &'a Arc<Vec<RegionRule>>,
+    /// Views over the whole timeline, with the objects' poses: from these strokes are counted.
+    pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
+    pub(crate) brushes: &'a Brushes,
+    pub(crate) solver: Solver,
+    /// Whether strokes are painted by the source paper's own rule.
+    pub(crate) paper: bool,
+    pub(crate) underpainting: bool,
+    pub(crate) orthographic: bool,
+}
+
+impl Context<'_> {
+    /// The seed of all random numbers of a coat. The body layer's is the object's own.
+    pub(crate) fn name_hash(&self, object: usize, kind: LayerKind) -> u32 {
+        let of_object = hash::combine(self.scene.seed, hash::of_name(&self.scene.objects[object].name));
+        if kind == LayerKind::Body { of_object } else { hash::combine(of_object, hash::of_name(kind.name())) }
+    }
+}
+
+/// One object while it is prepared.
+#[derive(Clone, Copy)]
+pub(crate) struct ObjectInputs<'a> {
+    pub(crate) index: usize,
+    pub(crate) surface: &'a SurfaceInputs,
+    pub(crate) regions: &'a Arc<BodyRegions>,
+    /// The rules that may show on the object.
+    pub(crate) used: &'a Arc<Vec<u16>>,
+    pub(crate) guides: &'a Arc<Vec<BodyGuide>>,
+    pub(crate) references: &'a Arc<BodyReferences>,
+    /// Of each part.
+    pub(crate) caps: &'a [Cap],
+    /// The body's shape in the reference pose.
+    pub(crate) shape: &'a BodyShape,
+}

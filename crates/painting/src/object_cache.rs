@@ -1,0 +1,340 @@
+//! The steps of preparing one object, each with its result cached beside the inputs that it was computed from.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::{DVec3, Vec3};
+use impasto_core::direction::carry::Stencils;
+use impasto_core::neighbours::{Neighbours, full_list_radius};
+use impasto_core::sampling::Surface;
+use impasto_scene::document::Solver;
+use impasto_scene::presets::LayerKind;
+use rayon::prelude::*;
+
+use crate::bake::{BakeInputs, BakedBody, Combed, LiftSources};
+use crate::body::{BodyNoise, BodyShape, BodySurface};
+use crate::cached::Cached;
+use crate::coat::{Coat, SampleInputs, Sampled};
+use crate::context::{Context, ObjectInputs};
+use crate::counts::CountInputs;
+use crate::field::{BodyField, FieldInputs, FieldSamples};
+use crate::noise_displace::NoiseInputs;
+use crate::particles::Particles;
+use crate::parts::BodyParts;
+use crate::surface::SurfaceInputs;
+use crate::traits::{CoatTraits, TraitInputs};
+
+const LAYERS: usize = LayerKind::ALL.len();
+
+/// The results of all steps for one object.
+#[derive(Default)]
+pub(crate) struct ObjectCache {
+    surface: Cached<SurfaceInputs, ObjectSurface>,
+    noise: Cached<NoiseInputs, Option<Arc<BodyNoise>>>,
+    /// In the order of [`LayerKind::ALL`].
+    counts: Cached<CountInputs, [usize; LAYERS]>,
+    samples: Cached<FieldSampleInputs, Arc<FieldSamples>>,
+    /// No field where every direction is stated outright.
+    field: Cached<Arc<FieldInputs>, Option<Arc<BodyField>>>,
+    coats: [CoatCache; LAYERS],
+}
+
+/// The results of all steps for one coat.
+#[derive(Default)]
+struct CoatCache {
+    sampled: Cached<SampleInputs, Arc<Sampled>>,
+    /// The particles in the reference pose.
+    posed: Cached<PoseInputs, Particles>,
+    neighbours: Cached<Particles, Arc<Neighbours>>,
+    stencils: Cached<StencilInputs, CoatStencils>,
+    traits: Cached<Arc<TraitInputs>, CoatTraits>,
+    baked: Cached<BakeInputs, Arc<BakedBody>>,
+}
+
+#[derive(Clone)]
+struct ObjectSurface {
+    body: Arc<BodySurface>,
+    parts: Arc<BodyParts>,
+    bounds: Option<(Vec3, Vec3)>,
+    extent: (DVec3, f64),
+}
+
+/// What the samples of the field depend on.
+#[derive(PartialEq)]
+struct FieldSampleInputs {
+    surface: SurfaceInputs,
+    name_hash: u32,
+    shape: BodyShape,
+}
+
+/// Particles and the shape of their surface.
+struct PoseInputs {
+    particles: Particles,
+    surface: Arc<BodySurface>,
+    shape: BodyShape,
+}
+
+/// How many particles there are is not compared.
+impl PartialEq for PoseInputs {
+    fn eq(&self, other: &Self) -> bool {
+        self.particles.same_order(&other.particles)
+            && Arc::ptr_eq(&self.surface, &other.surface)
+            && self.shape == other.shape
+    }
+}
+
+/// Particles and the samples of the field round them.
+struct StencilInputs {
+    particles: Particles,
+    samples: Arc<FieldSamples>,
+}
+
+/// How many particles there are is not compared.
+impl PartialEq for StencilInputs {
+    fn eq(&self, other: &Self) -> bool {
+        self.particles.same_order(&other.particles) && Arc::ptr_eq(&self.samples, &other.samples)
+    }
+}
+
+/// Which samples of the field each particle uses.
+struct CoatStencils {
+    /// How many particles have a stencil.
+    count: usize,
+    stencils: Arc<Stencils>,
+}
+
+impl ObjectCache {
+    pub(crate) fn build_surface(&mut self, inputs: &SurfaceInputs) {
+        self.surface.update(inputs.clone(), |inputs, _| {
+            let body = inputs.build();
+            ObjectSurface {
+                parts: Arc::new(BodyParts::of(&body.mesh)),
+                bounds: body.bounds(),
+                extent: body.extent(),
+                body: Arc::new(body),
+            }
+        });
+    }
+
+    pub(crate) fn build_noise(&mut self, inputs: NoiseInputs) {
+        self.noise.update(inputs, |inputs, before| inputs.build(before.as_ref()));
+    }
+
+    /// The noise that displaces and colours the object.
+    pub(crate) fn noise(&self) -> Option<Arc<BodyNoise>> {
+        self.noise.output()?.clone()
+    }
+
+    fn object_surface(&self) -> &ObjectSurface {
+        self.surface.output().expect("the surface step ran before")
+    }
+
+    pub(crate) fn surface(&self) -> Arc<BodySurface> {
+        Arc::clone(&self.object_surface().body)
+    }
+
+    pub(crate) fn parts(&self) -> Arc<BodyParts> {
+        Arc::clone(&self.object_surface().parts)
+    }
+
+    /// Least and greatest corner of the box round the surface, whatever its morph and its noise.
+    pub(crate) fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let reach = self.noise().map_or(0.0, |noise| noise.reach());
+        self.object_surface().bounds.map(|(low, high)| (low - reach, high + reach))
+    }
+
+    /// Finds how many particles each coat has.
+    pub(crate) fn count(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+        let ObjectSurface { body, parts, .. } = self.object_surface().clone();
+        let inputs = CountInputs::new(context, object, Arc::clone(&body));
+        self.counts.update(inputs, |inputs, _| {
+            inputs.counts(&Surface::with_sides(&body.mesh, &body.sides, |_| true), &parts)
+        });
+    }
+
+    /// How many particles all coats have together.
+    pub(crate) fn counted(&self) -> usize {
+        self.counts.output().map_or(0, |counts| counts.iter().sum())
+    }
+
+    /// Samples the particles of every coat.
+    pub(crate) fn sample(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+        let body = self.surface();
+        let surface = OnceLock::new();
+        let surface = || surface.get_or_init(|| Surface::with_sides(&body.mesh, &body.sides, |_| true));
+        let counts = self.counts.output().copied().unwrap_or([0; LAYERS]);
+        let coats = self.coats.par_iter_mut().zip(LayerKind::ALL).zip(counts);
+        coats.for_each(|((coat, kind), count)| {
+            let inputs = SampleInputs {
+                surface: object.surface.clone(),
+                name_hash: context.name_hash(object.index, kind),
+                per_polygon: (context.paper && count > 0).then_some(count),
+            };
+            coat.sampled.resize(inputs, |inputs, before| inputs.sample(before, count, &body, surface));
+        });
+    }
+
+    /// Puts the particles where they are in the reference pose.
+    pub(crate) fn pose(&mut self, object: ObjectInputs<'_>) {
+        let surface = self.surface();
+        for coat in &mut self.coats {
+            let particles = coat.sampled().particles.clone();
+            let inputs = PoseInputs { particles, surface: Arc::clone(&surface), shape: object.shape.clone() };
+            coat.posed.resize(inputs, |PoseInputs { particles, .. }, before| {
+                before.and_then(|posed| posed.first(particles.len())).unwrap_or_else(|| {
+                    if surface.is_at_rest(object.shape) {
+                        return particles.clone();
+                    }
+                    particles.posed(surface.vertices_at(object.shape))
+                })
+            });
+        }
+    }
+
+    /// Finds the neighbours of every particle.
+    pub(crate) fn find_neighbours(&mut self) {
+        for coat in &mut self.coats {
+            let area = coat.sampled().area;
+            coat.neighbours.update(coat.posed().clone(), |particles, _| {
+                let (positions, normals) = particles.points();
+                let radius = full_list_radius(area, positions.len()) as f32;
+                Arc::new(Neighbours::find(&positions, &normals, radius))
+            });
+        }
+    }
+
+    /// Solves the direction field of the body, where it needs one.
+    pub(crate) fn solve_field(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
+        // The paper knows no field.
+        let needed = FieldInputs::may_be_needed(object.used, context.rules, object.guides);
+        if !needed || context.paper {
+            self.field.clear();
+            return;
+        }
+        let ObjectSurface { body, parts, extent, .. } = self.object_surface().clone();
+        let name_hash = context.name_hash(object.index, LayerKind::Body);
+        let sample_inputs =
+            FieldSampleInputs { surface: object.surface.clone(), name_hash, shape: object.shape.clone() };
+        let samples = self.samples.update(sample_inputs, |_, _| {
+            let sampled = Surface::with_sides(&body.mesh, &body.sides, |_| true);
+            Arc::new(FieldSamples::new(&sampled, name_hash).posed(&body, object.shape))
+        });
+        let inputs = FieldInputs {
+            samples: Arc::clone(samples),
+            references: Arc::clone(object.references),
+            regions: Arc::clone(object.regions),
+            guides: Arc::clone(object.guides),
+            rules: Arc::clone(context.rules),
+            parts,
+            extent,
+            used: Arc::clone(object.used),
+            orthographic: context.orthographic,
+        };
+        self.field.update(Arc::new(inputs), |inputs, before| {
+            let before = before.and_then(|(_, field)| field);
+            BodyField::solve(inputs, before.as_deref()).map(Arc::new)
+        });
+        for coat in &mut self.coats {
+            let inputs = StencilInputs { particles: coat.posed().clone(), samples: Arc::clone(samples) };
+            coat.stencils.resize(inputs, |StencilInputs { particles, samples }, before| {
+                // Stencils of more particles of the same order will do.
+                before.filter(|before| before.count >= particles.len()).unwrap_or_else(|| CoatStencils {
+                    count: particles.len(),
+                    stencils: Arc::new(samples.stencils(particles)),
+                })
+            });
+        }
+    }
+
+    /// The field of the body, if it has one.
+    pub(crate) fn field(&self) -> Option<Arc<BodyField>> {
+        self.field.output().and_then(Clone::clone)
+    }
+
+    /// The coats that have particles, baked; the body layer's comes even without any.
+    pub(crate) fn bake(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) -> Vec<Arc<Coat>> {
+        let surface = self.object_surface().clone();
+        let field = self.field.inputs().cloned().zip(self.field.output().cloned());
+        let coats = self.coats.par_iter_mut().zip(LayerKind::ALL);
+        let coats =
+            coats.filter(|(coat, kind)| *kind == LayerKind::Body || !coat.sampled().particles.is_empty());
+        coats
+            .map(|(coat, kind)| {
+                let combed =
+                    field.as_ref().zip(coat.stencils.output()).map(|((inputs, field), stencils)| Combed {
+                        inputs: Arc::clone(inputs),
+                        field: field.clone(),
+                        stencils: Arc::clone(&stencils.stencils),
+                    });
+                Arc::new(coat.bake(context, object, kind, &surface, combed))
+            })
+            .collect()
+    }
+}
+
+impl CoatCache {
+    fn sampled(&self) -> &Arc<Sampled> {
+        self.sampled.output().expect("the sampling step ran before")
+    }
+
+    /// The particles where they are in the reference pose.
+    fn posed(&self) -> &Particles {
+        self.posed.output().expect("the pose step ran before")
+    }
+
+    fn bake(
+        &mut self,
+        context: &Context<'_>,
+        object: ObjectInputs<'_>,
+        kind: LayerKind,
+        surface: &ObjectSurface,
+        combed: Option<Combed>,
+    ) -> Coat {
+        let trait_inputs = TraitInputs::new(
+            self.posed().clone(),
+            context.name_hash(object.index, kind),
+            object.regions,
+            object.used,
+            context.rules,
+            &surface.parts,
+            object.references,
+        );
+        let trait_inputs = Arc::new(trait_inputs);
+        let CoatTraits { traits, stray_rad } =
+            self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before)).clone();
+        let lift_sources = LiftSources {
+            traits: Arc::clone(&traits),
+            neighbours: match context.solver {
+                Solver::Tangent => None,
+                Solver::Horn | Solver::HornExact => self.neighbours.output().cloned(),
+            },
+            references: Arc::clone(object.references),
+            rules: Arc::clone(context.rules),
+            extent: surface.extent,
+        };
+        let inputs = BakeInputs {
+            sources: lift_sources.clone(),
+            trait_inputs,
+            stray_rad,
+            solver: context.solver,
+            used: Arc::clone(object.used),
+            combed,
+        };
+        let baked = Arc::clone(self.baked.resize(inputs, |inputs, before| inputs.bake(before)));
+        let first_marks = context
+            .rules
+            .iter()
+            .map(|rule| context.brushes.first_marks(rule.strokes.layer_of(kind)))
+            .collect();
+        Coat {
+            object: object.index,
+            kind,
+            sampled: Arc::clone(self.sampled()),
+            lift_sources,
+            used: Arc::clone(object.used),
+            traits,
+            baked,
+            surface: Arc::clone(&surface.body),
+            first_marks,
+        }
+    }
+}

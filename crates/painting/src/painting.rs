@@ -1,0 +1,160 @@
+//! A prepared scene.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use impasto_core::direction::singularities::Singularity;
+use impasto_core::sampling::Particle;
+use impasto_scene::document::{Scene, Solver};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::motion;
+use impasto_scene::presets::LayerKind;
+
+use crate::body::{BodyNoise, BodyShape, BodySurface};
+use crate::coat::Coat;
+use crate::field::BodyField;
+use crate::finish::FinishRule;
+use crate::frame::{Brushes, FrameStyle};
+use crate::order::PaintingOrder;
+use crate::particles::Particles;
+use crate::parts::Cap;
+use crate::prepare::Step;
+use crate::references::SceneReferences;
+use crate::regions::{BodyRegions, RegionRule};
+
+/// A prepared scene, from which frames are made at any time and through any camera. Immutable; cheap to clone.
+#[derive(Clone)]
+pub struct Painting {
+    pub(crate) loaded: Arc<LoadedScene>,
+    /// One per object.
+    pub(crate) bodies: Vec<PreparedBody>,
+    /// By object, then in the order of the layers.
+    pub(crate) coats: Vec<Arc<Coat>>,
+    pub(crate) rules: Arc<Vec<RegionRule>>,
+    /// Linear Rec. 709.
+    pub(crate) palettes: Arc<Vec<Vec<[f32; 3]>>>,
+    /// Index of each rule's palette, or [`crate::frame::ANY_COLOR`].
+    pub(crate) palette_of_rule: Vec<u8>,
+    pub(crate) brushes: Arc<Brushes>,
+    pub(crate) finish: FinishRule,
+    /// All particles in painting order.
+    pub(crate) order: Arc<PaintingOrder>,
+    pub(crate) references: Arc<SceneReferences>,
+    /// The shape of each object in the reference pose.
+    pub(crate) reference_shapes: Arc<Vec<BodyShape>>,
+    /// The noise of each object.
+    pub(crate) noises: Vec<Option<Arc<BodyNoise>>>,
+    pub(crate) solver: Solver,
+    pub(crate) style: FrameStyle,
+    /// A sphere (centre, radius) round everything over the whole timeline.
+    pub(crate) shadow_bounds: (Vec3, f32),
+    pub(crate) steps: Vec<Step>,
+}
+
+/// One object, prepared: what all its coats lie on.
+#[derive(Clone)]
+pub(crate) struct PreparedBody {
+    pub(crate) surface: Arc<BodySurface>,
+    /// The largest strokes that each part carries.
+    pub(crate) caps: Vec<Cap>,
+    /// Left out of the picture.
+    pub(crate) hidden: bool,
+    /// The direction field, where directions are not all stated outright.
+    pub(crate) field: Option<Arc<BodyField>>,
+    /// Which region lies where.
+    pub(crate) regions: Arc<BodyRegions>,
+}
+
+impl Painting {
+    /// The scene that was prepared.
+    pub fn scene(&self) -> &Scene {
+        &self.loaded.scene
+    }
+
+    /// The scene with its files.
+    pub fn loaded(&self) -> &Arc<LoadedScene> {
+        &self.loaded
+    }
+
+    /// The same painting, drawn in another style.
+    pub fn in_style(&self, style: FrameStyle) -> Self {
+        Self { style, ..self.clone() }
+    }
+
+    /// How long each step of preparing took.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// How many particles the body layer of an object has; objects in the order of the scene.
+    pub fn particle_counts(&self) -> Vec<usize> {
+        (0..self.bodies.len()).map(|object| self.particles(object).len()).collect()
+    }
+
+    /// How many particles all layers of all objects have.
+    pub fn particle_total(&self) -> usize {
+        self.coats.iter().map(|coat| coat.sampled.particles.len()).sum()
+    }
+
+    /// Memory of all baked particles, in bytes.
+    pub fn particle_bytes(&self) -> usize {
+        self.coats.iter().map(|coat| coat.baked.baked.bytes()).sum()
+    }
+
+    /// The particles of one object's body layer, in progressive order.
+    pub fn particles(&self, object: usize) -> Particles {
+        self.coat(object, LayerKind::Body).map_or_else(
+            || Particles::new(&self.bodies[object].surface, Arc::default(), 0),
+            |coat| coat.sampled.particles.clone(),
+        )
+    }
+
+    /// The surface of one object.
+    pub fn surface(&self, object: usize) -> &Arc<BodySurface> {
+        &self.bodies[object].surface
+    }
+
+    /// The shape of every object at a frame, in the order of the scene.
+    pub fn shapes_at(&self, frame: f64) -> Vec<BodyShape> {
+        shapes(self.scene(), &self.noises, frame)
+    }
+
+    /// Index of the region that a place of an object's surface belongs to; `regions.len()` of the scene for none of them.
+    pub fn region_at(&self, object: usize, place: &Particle) -> usize {
+        usize::from(self.bodies[object].regions.of(place))
+    }
+
+    /// Area of the visible sides of one object, model units squared.
+    pub fn surface_area(&self, object: usize) -> f64 {
+        self.coat(object, LayerKind::Body).map_or(0.0, |coat| coat.sampled.area)
+    }
+
+    /// The points of one object where the direction field has no direction; none where there is no field.
+    pub fn singularities(&self, object: usize) -> &[Singularity] {
+        self.bodies[object].field.as_ref().map_or(&[], |field| field.singularities())
+    }
+
+    /// For each particle of an object's body layer, whether its stated direction has a singular point near by: there the surface
+    /// faces along the axis that states the direction.
+    pub fn poles(&self, object: usize) -> Vec<bool> {
+        self.coat(object, LayerKind::Body).map_or_else(Vec::new, |coat| coat.lift_sources.poles())
+    }
+
+    fn coat(&self, object: usize, kind: LayerKind) -> Option<&Coat> {
+        self.coats.iter().map(Arc::as_ref).find(|coat| coat.object == object && coat.kind == kind)
+    }
+}
+
+/// The shape of every object at a frame.
+pub(crate) fn shapes(scene: &Scene, noises: &[Option<Arc<BodyNoise>>], frame: f64) -> Vec<BodyShape> {
+    let morphs = motion::morphs_at(scene, frame);
+    if noises.iter().all(Option::is_none) {
+        return morphs.into_iter().map(BodyShape::from).collect();
+    }
+    let (poses, seconds) = (motion::poses_at(scene, frame), motion::seconds_at(scene, frame));
+    let shape = |(index, morph): (usize, f64)| BodyShape {
+        morph,
+        noise: noises[index].as_ref().map(|noise| noise.at(seconds[index], poses[index])),
+    };
+    morphs.into_iter().enumerate().map(shape).collect()
+}

@@ -1,0 +1,228 @@
+//! A painting as one camera sees it at one frame: what all strokes of the frame share, and each coat in this view.
+
+use std::borrow::Cow;
+use std::cell::OnceCell;
+
+use glam::{DAffine3, DVec3};
+use impasto_core::horn_exact::{self, ClipView};
+use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticle, SolvedParticles, solve};
+use impasto_core::{ScreenMap, hash};
+use impasto_scene::document::Solver;
+use impasto_scene::motion::{self, CameraPose};
+
+use crate::body::{BodyShape, BodySurface, Vertices};
+use crate::coat::Coat;
+use crate::frame::Quality;
+use crate::frame_options::{FrameOptions, Rotation, StrokeColors};
+use crate::painting::Painting;
+use crate::presence_bound::PresenceBound;
+use crate::recall::Recall;
+use crate::view::PictureView;
+
+/// What all strokes of a frame share.
+pub(crate) struct PaintingView<'a> {
+    pub(crate) painting: &'a Painting,
+    pub(crate) coats: Vec<CoatView<'a>>,
+    /// Half the picture's width and height.
+    pub(crate) half_px: [f32; 2],
+    /// What lengths in pixels of the scene's own size are multiplied by.
+    pub(crate) px_scale: f32,
+    /// Nearest and farthest visible depth, world units.
+    pub(crate) near_far: [f32; 2],
+    pub(crate) rotation: Rotation,
+    pub(crate) colors: StrokeColors,
+    pub(crate) quality: Quality,
+    pub(crate) recall: Option<&'a Recall>,
+    /// Random bits of the frame.
+    frame_bits: u32,
+}
+
+/// One coat in one view.
+pub(crate) struct CoatView<'a> {
+    pub(crate) coat: &'a Coat,
+    /// The baked particles, moved with the surface where it has changed its shape.
+    pub(crate) baked: Cow<'a, BakedParticles>,
+    pub(crate) map: ScreenMap,
+    particle_view: ParticleView,
+    pub(crate) world_from_model: DAffine3,
+    /// With the paper's rule, how many particles of each polygon show.
+    pub(crate) shown: Option<Vec<u32>>,
+    /// With `horn-exact`, the reference and this view.
+    clip_views: Option<(ClipView, ClipView)>,
+    /// By rule; none for those that paint nothing.
+    pub(crate) presence_bounds: Vec<Option<PresenceBound>>,
+}
+
+/// One body at a frame, shared by its coats.
+struct PosedBody {
+    world_from_model: DAffine3,
+    shape: BodyShape,
+    /// Where the vertices were when the coats were baked, and where they are now; computed when first asked for.
+    vertices: OnceCell<[Vertices; 2]>,
+}
+
+impl PosedBody {
+    /// The vertices when the coats were baked and now; none where they have not moved.
+    fn moved_vertices(&self, surface: &BodySurface, baked_shape: &BodyShape) -> Option<&[Vertices; 2]> {
+        let rests = |shape: &BodyShape| surface.is_at_rest(shape);
+        if self.shape == *baked_shape || (rests(&self.shape) && rests(baked_shape)) {
+            return None;
+        }
+        let vertices = || [baked_shape, &self.shape].map(|shape| surface.vertices_at(shape));
+        Some(self.vertices.get_or_init(vertices))
+    }
+}
+
+/// A stroke that follows the size of its surface becomes at most this much larger than stated.
+pub(crate) const MOST_GROWTH: f32 = 64.0;
+
+impl Painting {
+    /// The painting at a frame through a camera, with the coats that are `wanted`.
+    pub(crate) fn view(
+        &self,
+        camera: &CameraPose,
+        frame: f64,
+        options: &FrameOptions,
+        wanted: impl Fn(&Coat) -> bool,
+    ) -> PaintingView<'_> {
+        let view = PictureView { pose: camera.clone(), size_px: options.size_px };
+        let poses = motion::poses_at(self.scene(), frame);
+        let bodies: Vec<PosedBody> = poses
+            .into_iter()
+            .zip(self.shapes_at(frame))
+            .map(|(world_from_model, shape)| PosedBody { world_from_model, shape, vertices: OnceCell::new() })
+            .collect();
+        let px_scale = self.px_scale(options);
+        let coats = self.coats.iter().filter(|coat| wanted(coat));
+        PaintingView {
+            painting: self,
+            coats: coats.map(|coat| self.coat_view(coat, &view, &bodies[coat.object], px_scale)).collect(),
+            half_px: options.size_px.map(|side| side as f32 * 0.5),
+            px_scale,
+            near_far: view.frame_view().near_far,
+            rotation: options.rotation,
+            colors: options.colors,
+            quality: options.quality,
+            recall: None,
+            frame_bits: hash::scramble((frame * 1000.0).round() as i64 as u32),
+        }
+    }
+
+    fn coat_view<'a>(
+        &'a self,
+        coat: &'a Coat,
+        view: &PictureView,
+        body: &PosedBody,
+        px_scale: f32,
+    ) -> CoatView<'a> {
+        let world_from_model = body.world_from_model;
+        let map = view.screen_map(world_from_model);
+        let baked = match body.moved_vertices(&coat.surface, &self.reference_shapes[coat.object]) {
+            Some([before, now]) => Cow::Owned(coat.deformed(before, now)),
+            None => Cow::Borrowed(&coat.baked.baked),
+        };
+        let wanted_per_px =
+            self.rules.last().map_or(0.0, |rule| f64::from(rule.strokes.body().wanted_per_px()));
+        let shown = coat
+            .sampled
+            .polygons
+            .as_ref()
+            .map(|polygons| polygons.shown(&map, wanted_per_px / f64::from(px_scale * px_scale)));
+        let clip_views = (self.solver == Solver::HornExact).then(|| {
+            let reference = self.references.own();
+            (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
+        });
+        let presence_bounds = self.presence_bounds(coat, px_scale, shown.is_some());
+        let particle_view = ParticleView::new(&map);
+        CoatView { coat, baked, map, particle_view, world_from_model, shown, clip_views, presence_bounds }
+    }
+
+    /// What lengths in pixels of the scene's own size are multiplied by in a picture.
+    pub(crate) fn px_scale(&self, options: &FrameOptions) -> f32 {
+        if options.keep_stroke_px { 1.0 } else { options.shot_height_px() / self.scene().size.1 as f32 }
+    }
+}
+
+impl PaintingView<'_> {
+    /// The angle of a particle's stroke before it is pulled towards the contour.
+    pub(crate) fn angle_rad(&self, coat: &CoatView<'_>, index: usize, solved: &SolvedParticle) -> f32 {
+        match self.rotation {
+            Rotation::On | Rotation::Mapped => coat.angle_rad(index, solved),
+            Rotation::Off => coat.base_angle_rad(index) as f32,
+            Rotation::Random => {
+                (hash::unit(coat.bits(index, self.frame_bits)) * 2.0 - 1.0) * std::f32::consts::PI
+            }
+        }
+    }
+
+    /// Whether a depth is between the nearest and the farthest that show.
+    pub(crate) fn is_between(&self, depth: f32) -> bool {
+        depth > self.near_far[0] && depth < self.near_far[1]
+    }
+}
+
+impl CoatView<'_> {
+    /// Of all particles of the coat a bit each: whether it faces the eye within these bounds.
+    pub(crate) fn within(&self, bounds: &Bounds) -> Vec<u64> {
+        self.particle_view.within(&self.baked, bounds)
+    }
+
+    /// A particle in this view.
+    pub(crate) fn solved(&self, index: usize) -> SolvedParticle {
+        self.particle_view.solved(&self.baked, index)
+    }
+
+    /// All particles in this view.
+    pub(crate) fn all_solved(&self) -> SolvedParticles {
+        let mut solved = SolvedParticles::default();
+        solve(&self.baked, &self.map, &mut solved);
+        solved
+    }
+
+    fn angle_rad(&self, index: usize, solved: &SolvedParticle) -> f32 {
+        let Some((reference, now)) = &self.clip_views else { return solved.angle_rad };
+        let particles = &self.coat.sampled.particles;
+        let position = |particle: usize| -> DVec3 { particles.at(particle).position.as_dvec3() };
+        let neighbours = self.coat.lift_sources.neighbours.as_ref().map_or(&[][..], |lists| lists.of(index));
+        let turn_rad = horn_exact::turn_rad(
+            position(index),
+            neighbours.iter().map(|&neighbour| position(neighbour as usize)),
+            reference,
+            now,
+        );
+        impasto_core::angle::wrap_pi(turn_rad + self.base_angle_rad(index)) as f32
+    }
+
+    /// The angle of a particle's stroke in the reference picture, radians.
+    pub(crate) fn base_angle_rad(&self, index: usize) -> f64 {
+        let region = usize::from(self.coat.traits.region(index));
+        self.coat.baked.base_angle_rad(index, self.coat.lift_sources.references.of_rule(region))
+    }
+
+    /// The factor on a stroke's stated size where it follows the size of its surface: m^γ, with m the pixels per unit of surface
+    /// now over those in the reference picture, and γ the region's `size_follow`.
+    pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
+        let region = usize::from(self.coat.traits.region(index));
+        let follow = painting.rules[region].strokes.size_follow;
+        if follow <= 0.0 {
+            return 1.0;
+        }
+        let scale = |map: &ScreenMap, at: DVec3, near: f64| {
+            map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
+        };
+        let reference = self.coat.lift_sources.references.of_rule(region);
+        let before = scale(&reference.map, self.coat.baked.baked.position_of(index), reference.near);
+        let now = scale(&self.map, self.baked.position_of(index), 1e-9);
+        let grown = (now / before / f64::from(px_scale)).powf(f64::from(follow));
+        if grown.is_finite() {
+            grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32
+        } else {
+            1.0
+        }
+    }
+
+    /// Random bits of a particle; `which` tells several apart.
+    pub(crate) fn bits(&self, index: usize, which: u32) -> u32 {
+        hash::combine(self.coat.traits.bits(index), which)
+    }
+}

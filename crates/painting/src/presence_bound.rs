@@ -1,0 +1,61 @@
+//! A cheap upper bound on a stroke's presence, known before the stroke is computed: most strokes are absent.
+
+use impasto_core::presence;
+
+use crate::coat::Coat;
+use crate::counts::most_wanted;
+use crate::painting::Painting;
+use crate::parts::Cap;
+use crate::regions::RegionRule;
+
+/// Near the limb strokes fade, and more of them make up for it; below this fade no further ones do.
+pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
+
+/// The bound is rounded differently from the presence itself: a little more is let through.
+const LEEWAY: f64 = 1.001;
+
+/// For one rule on one coat, in one view.
+pub(crate) struct PresenceBound {
+    /// How far from its centre a stroke reaches, pixels, before it follows the size of its surface.
+    pub(crate) reach_px: f32,
+    /// By part: a stroke can be present only while its particle's index is below this times its projected area (px² per unit of
+    /// surface). Infinite where presence does not depend on the index.
+    pub(crate) most_per_area: Vec<f32>,
+}
+
+impl Painting {
+    /// By rule; `None` for rules that paint nothing on this coat. `by_polygon` where the paper's rule decides what shows.
+    pub(crate) fn presence_bounds(
+        &self,
+        coat: &Coat,
+        px_scale: f32,
+        by_polygon: bool,
+    ) -> Vec<Option<PresenceBound>> {
+        let body = &self.bodies[coat.object];
+        let regions = &self.scene().regions;
+        let most =
+            f64::from(most_wanted(coat.kind) / LEAST_COUNTED_FADE) / f64::from(presence::ABSENT_LN).exp();
+        let bound = |(index, rule): (usize, &RegionRule)| {
+            let layer = rule.strokes.layer_of(coat.kind);
+            let is_hidden = body.hidden || regions.get(index).is_some_and(|region| region.hidden);
+            if is_hidden || layer.coverage <= 0.0 {
+                return None;
+            }
+            let of_part = |cap: &Cap| {
+                let [length, width] = cap.apply(layer.length_px, layer.width_px);
+                let wanted_per_px = f64::from(layer.coverage / (length * width));
+                (wanted_per_px * coat.sampled.area * most * LEEWAY / f64::from(px_scale * px_scale)) as f32
+            };
+            let by_index = !by_polygon && rule.strokes.size_follow <= 0.0;
+            Some(PresenceBound {
+                reach_px: (layer.length_px + layer.width_px * (1.0 + rule.strokes.taper.abs())) * px_scale,
+                most_per_area: body
+                    .caps
+                    .iter()
+                    .map(|cap| if by_index { of_part(cap) } else { f32::INFINITY })
+                    .collect(),
+            })
+        };
+        self.rules.iter().enumerate().map(bound).collect()
+    }
+}

@@ -1,0 +1,207 @@
+//! The directions of strokes without their paint, as an editor shows them: a few of the body layer, spread over the picture.
+
+use glam::DVec3;
+use impasto_core::screen_map::facing;
+use impasto_core::solve::SolvedParticles;
+use impasto_scene::document::Solver;
+use impasto_scene::motion::CameraPose;
+use impasto_scene::presets::LayerKind;
+
+use crate::coat::Coat;
+use crate::frame_options::FrameOptions;
+use crate::painting::Painting;
+use crate::painting_view::{CoatView, PaintingView};
+use crate::stroke::along_contour;
+
+/// The direction of one stroke of the body layer, and where it is in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrokeDirection {
+    /// Index of the object in the scene.
+    pub object: usize,
+    /// Index of the region in the scene; `regions.len()` for the implicit one.
+    pub region: usize,
+    /// Index of the particle in the progressive order of its object's body layer.
+    pub particle: usize,
+    /// Rank in (0, 1): low ranks come first.
+    pub rank: f32,
+    /// Pixels, origin at the upper left corner of the picture, Y down.
+    pub position_px: [f32; 2],
+    /// The stroke's angle as it is drawn: counter-clockwise from +X with Y **up**, radians in (−π, π].
+    pub angle_rad: f32,
+    /// κ in 0..=1: how far the angle can be trusted.
+    pub kappa: f32,
+    /// Along the gaze, world units.
+    pub depth: f32,
+    /// Cosine between the surface normal and the direction to the eye, greater than 0.
+    pub facing: f32,
+}
+
+/// A place on the surface of an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePlace {
+    /// Index of the object in the scene.
+    pub object: usize,
+    /// Model space, static scale applied.
+    pub position: DVec3,
+    /// Unit normal, model space.
+    pub normal: DVec3,
+    /// Only strokes within this distance count, model units.
+    pub radius: f64,
+}
+
+/// The angle of a stroke of the body layer in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShownDirection {
+    /// Counter-clockwise from +X with Y up, radians in (−π, π].
+    pub angle_rad: f32,
+    /// κ in 0..=1: how far the angle can be trusted.
+    pub kappa: f32,
+}
+
+/// Only strokes count whose normal is within 60 degrees of the place's: the cosine.
+const LEAST_COSINE: f64 = 0.5;
+
+impl Painting {
+    /// Directions in a view: in each cell of `cell_px` × `cell_px`, of all strokes of the body layer that are in the picture, face
+    /// the eye and are `accepted`, the one of the lowest rank (of equal ranks the first object's). In the order of the cells, row
+    /// by row. Bodies in front are not considered: that is for `accepted` to do, which is given everything but angle and κ (both
+    /// 0).
+    pub fn stroke_directions(
+        &self,
+        camera: &CameraPose,
+        frame: f64,
+        options: &FrameOptions,
+        cell_px: f32,
+        accepted: &dyn Fn(&StrokeDirection) -> bool,
+    ) -> Vec<StrokeDirection> {
+        let view = self.view(camera, frame, options, |coat| coat.kind == LayerKind::Body);
+        let cell_px = cell_px.max(1.0);
+        let [width_px, height_px] = options.size_px.map(|side| side as f32);
+        let columns = (width_px / cell_px).ceil().max(1.0) as usize;
+        let rows = (height_px / cell_px).ceil().max(1.0) as usize;
+        let mut cells: Vec<Option<(&CoatView<'_>, StrokeDirection)>> = vec![None; columns * rows];
+        for coat in &view.coats {
+            let solved = coat.all_solved();
+            for index in 0..solved.area_px.len() {
+                let [x, y] = view.position_px(&solved, index);
+                let inside = x >= 0.0 && y >= 0.0 && x < width_px && y < height_px;
+                let faces = solved.area_px[index] > 0.0 && view.is_between(solved.depth[index]);
+                if !(inside && faces) {
+                    continue;
+                }
+                let cell = (x / cell_px) as usize + (y / cell_px) as usize * columns;
+                if cells[cell].is_some_and(|(_, best)| best.rank <= rank(index, &solved)) {
+                    continue;
+                }
+                let direction = view.without_angle(coat, &solved, index);
+                if direction.facing > 0.0 && accepted(&direction) {
+                    cells[cell] = Some((coat, direction));
+                }
+            }
+        }
+        cells.into_iter().flatten().map(|(coat, direction)| view.with_angle(coat, direction)).collect()
+    }
+
+    /// The angle of strokes at a place as a camera sees them: that of the nearest particle of the object's body layer within the
+    /// place's radius that faces about the same way. `None` where there is none, or where it is behind the eye.
+    pub fn angle_at(&self, place: &SurfacePlace, camera: &CameraPose, frame: f64) -> Option<ShownDirection> {
+        let options = FrameOptions::new([self.scene().size.0, self.scene().size.1]);
+        let view = self.view(camera, frame, &options, |coat| place.is_on(coat));
+        let coat = view.coats.first()?;
+        let (mut nearest, mut least_sq) = (None, place.radius * place.radius);
+        for index in 0..coat.baked.len() {
+            let distance_sq = coat.baked.position_of(index).distance_squared(place.position);
+            if distance_sq <= least_sq && coat.baked.normal_of(index).dot(place.normal) > LEAST_COSINE {
+                (nearest, least_sq) = (Some(index), distance_sq);
+            }
+        }
+        let index = nearest.filter(|&index| view.is_between(coat.solved(index).depth))?;
+        Some(view.shown_direction(coat, index))
+    }
+
+    /// The strokes of an object's body layer round a place, as a camera sees them: those within the place's radius that face about
+    /// the same way and are not behind the eye. At most `most`, the first ones in progressive order.
+    pub fn stroke_directions_near(
+        &self,
+        place: &SurfacePlace,
+        camera: &CameraPose,
+        frame: f64,
+        options: &FrameOptions,
+        most: usize,
+    ) -> Vec<StrokeDirection> {
+        let view = self.view(camera, frame, options, |coat| place.is_on(coat));
+        let Some(coat) = view.coats.first() else { return Vec::new() };
+        let (solved, baked) = (coat.all_solved(), &coat.baked);
+        let is_near = |index: &usize| {
+            let distance_sq = baked.position_of(*index).distance_squared(place.position);
+            distance_sq < place.radius * place.radius
+                && baked.normal_of(*index).dot(place.normal) > LEAST_COSINE
+                && solved.area_px[*index] > 0.0
+                && view.is_between(solved.depth[*index])
+        };
+        (0..solved.area_px.len())
+            .filter(is_near)
+            .map(|index| view.without_angle(coat, &solved, index))
+            .filter(|direction| direction.facing > 0.0)
+            .take(most)
+            .map(|direction| view.with_angle(coat, direction))
+            .collect()
+    }
+}
+
+impl SurfacePlace {
+    /// Whether a coat is the body layer of the place's object.
+    fn is_on(&self, coat: &Coat) -> bool {
+        coat.kind == LayerKind::Body && coat.object == self.object
+    }
+}
+
+/// The rank of one of all particles of a coat.
+fn rank(index: usize, solved: &SolvedParticles) -> f32 {
+    (index as f32 + 0.5) / solved.area_px.len() as f32
+}
+
+impl PaintingView<'_> {
+    /// Where a particle is in the picture, pixels from its upper left corner, Y down.
+    fn position_px(&self, solved: &SolvedParticles, index: usize) -> [f32; 2] {
+        [solved.x_px[index] + self.half_px[0], self.half_px[1] - solved.y_px[index]]
+    }
+
+    /// The direction of a particle's stroke, with angle and κ left at 0.
+    fn without_angle(&self, coat: &CoatView<'_>, solved: &SolvedParticles, index: usize) -> StrokeDirection {
+        let jacobian = coat.map.jacobian(coat.baked.position_of(index));
+        StrokeDirection {
+            object: coat.coat.object,
+            region: usize::from(coat.coat.traits.region(index)),
+            particle: index,
+            rank: rank(index, solved),
+            position_px: self.position_px(solved, index),
+            angle_rad: 0.0,
+            kappa: 0.0,
+            depth: solved.depth[index],
+            facing: facing(jacobian, coat.baked.normal_of(index)) as f32,
+        }
+    }
+
+    fn with_angle(&self, coat: &CoatView<'_>, direction: StrokeDirection) -> StrokeDirection {
+        let ShownDirection { angle_rad, kappa } = self.shown_direction(coat, direction.particle);
+        StrokeDirection { angle_rad, kappa, ..direction }
+    }
+
+    fn shown_direction(&self, coat: &CoatView<'_>, index: usize) -> ShownDirection {
+        let (position, normal) = (coat.baked.position_of(index), coat.baked.normal_of(index));
+        let jacobian = coat.map.jacobian(position);
+        let region = coat.coat.traits.region(index);
+        let contour = self.painting.rules[usize::from(region)].strokes.contour;
+        let facing = facing(jacobian, normal) as f32;
+        let lift = match self.painting.solver {
+            Solver::Tangent => coat.baked.lift_of(index),
+            Solver::Horn | Solver::HornExact => coat.coat.lift_sources.surface_lift(index, region),
+        };
+        let angle_rad = self.angle_rad(coat, index, &coat.solved(index));
+        ShownDirection {
+            angle_rad: along_contour(angle_rad, contour, normal, &coat.map, facing),
+            kappa: lift.map(jacobian).kappa() as f32,
+        }
+    }
+}
