@@ -7,6 +7,7 @@ mod face_cones;
 mod paper;
 mod place;
 mod progressive;
+mod throw;
 
 use glam::{Vec2, Vec3};
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::candidates::Throw;
+use super::throw::Throw;
 use super::{Particle, Surface};
 use crate::wide::{Wide, widest};
 

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::block::{Block, LANES};
 use super::dart_grid::Dart;
-use super::{Particle, Surface, barycentric};
-use crate::hash;
+use super::throw::Throw;
+use super::{Particle, Surface};
 
 /// `count` particles by chance, spread evenly by area: what dart throwing picks from, without the picking. The first so many are
 /// the same for every count. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
@@ -40,48 +40,6 @@ pub(super) struct Candidates<'a> {
     /// For each of as many equal steps of area as there are faces, the face that the step begins in.
     guide: Vec<u32>,
     seed: u32,
-}
-
-/// What chance says of a candidate.
-#[derive(Clone, Copy)]
-pub(super) struct Throw {
-    /// Together the share of the area that comes before it, in 0..1: 53 random bits, so that a speck beside a huge face still has
-    /// its share.
-    high: f64,
-    low: f64,
-    /// Where on its face, 0..1.
-    on_face: [f32; 2],
-}
-
-impl Throw {
-    #[inline(always)]
-    pub(super) fn new(seed: u32, number: u32) -> Self {
-        let seed = hash::combine(seed, number);
-        Self {
-            high: f64::from(hash::combine(seed, 0)) / 4_294_967_296.0,
-            low: f64::from(hash::combine(seed, 1) >> 11) / 9_007_199_254_740_992.0,
-            on_face: [hash::unit(hash::combine(seed, 2)), hash::unit(hash::combine(seed, 3))],
-        }
-    }
-
-    /// The area that comes before it, of so much.
-    #[inline(always)]
-    pub(super) fn area(&self, total: f64) -> f64 {
-        (self.high + self.low) * total
-    }
-
-    /// In which of so many equal steps of area it is, give or take one.
-    #[inline(always)]
-    pub(super) fn step(&self, steps: usize) -> i32 {
-        ((self.high * steps as f64) as i32).min(steps as i32 - 1)
-    }
-
-    /// Weights of the second and third corner.
-    #[inline(always)]
-    pub(super) fn barycentric(&self) -> [f32; 2] {
-        let [first, second] = self.on_face;
-        barycentric(first, second)
-    }
 }
 
 impl<'a> Candidates<'a> {
