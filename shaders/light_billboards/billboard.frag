@@ -1,5 +1,5 @@
-// The icon of a light over the finished picture: dimmed where something stands in front of it. Its texture coordinates are
-// stored nowhere: they are found from the corners.
+// The icon of a light over the finished picture, dimmed where something stands in front of it. Its texture coordinates are
+// computed from the corners.
 #include "shared/inverse_bilinear.glsl"
 in vec2 on_plane;
 flat in vec4 first_two;
@@ -11,7 +11,7 @@ uniform float icon;              // layer of the texture; below 0 a ring, of a l
 uniform float px;                // a pixel as a share of half the side
 uniform vec4 ink;                // encoded sRGB, straight alpha
 uniform float depth;             // of the icon along the gaze
-uniform float softness;          // depth over which it goes behind something
+uniform float softness;          // depth over which it fades behind something
 
 out vec4 over;                   // premultiplied, encoded
 

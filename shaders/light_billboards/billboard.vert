@@ -15,15 +15,15 @@ flat out vec4 first_two;         // the corners there
 flat out vec4 last_two;
 
 vec2 plane(vec3 position_in_world) {
-    // From a corner, so that icons far from the world's middle lose no digits.
+    // Relative to a corner, so that icons far from the world's origin lose no precision.
     vec3 off = position_in_world - corner_00;
     return vec2(dot(off, camera_right), dot(off, camera_up));
 }
 
-// A corner of one piece of a ring: a wide one is mostly empty, and only the line is drawn.
+// A corner of one piece of a ring. A ring is mostly empty, so only its line is drawn.
 vec3 corner_of_ring() {
     float angle = 6.2831853 * (float(gl_InstanceID) + float(gl_VertexID & 1)) / pieces;
-    // A piece is straight: its outer side must hold the arc.
+    // A piece is straight, so its outer side has to enclose the arc.
     float radius = gl_VertexID < 2 ? 1.0 - 6.0 * px : (1.0 + 2.0 * px) / cos(3.14159265 / pieces);
     vec3 right = 0.5 * (corner_10 - corner_00) * cos(angle);
     vec3 up = 0.5 * (corner_01 - corner_00) * sin(angle);
@@ -36,6 +36,6 @@ void main() {
     first_two = vec4(plane(corner_00), plane(corner_10));
     last_two = vec4(plane(corner_01), plane(corner_11));
     gl_Position = clip_from_world * vec4(corner, 1.0);
-    // What stands far out is drawn too: depth is asked of the picture.
+    // Icons beyond the far plane are drawn too: the fragment shader compares depth itself.
     gl_Position.z = 0.0;
 }

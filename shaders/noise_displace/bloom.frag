@@ -1,4 +1,4 @@
-// The spread glow, added to the picture: it is light, and covers nothing.
+// Adds the blurred glow to the picture. It is light, and hides nothing.
 uniform sampler2D gathered;
 
 out vec4 color;

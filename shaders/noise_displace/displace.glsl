@@ -1,5 +1,5 @@
-// Vertices that noise moves, as in `core::noise_displace`. The noise is read between four texels by hand: drivers differ in
-// how finely they do it.
+// Noise that moves vertices, as in `core::noise_displace`. It interpolates between four texels itself, because drivers differ
+// in their precision.
 uniform sampler2D vertex_noise;  // repeats, bottom row first
 uniform float noise_scale;       // from the least noise to the greatest, model units
 uniform float along_normal;      // 1: along the normal by the first channel; 0: each axis by a channel

@@ -1,4 +1,4 @@
-// The glow, four times smaller: the mean of the pixels that each one stands for.
+// The glow at a quarter of the size: each pixel is the mean of those that it covers.
 uniform sampler2D glow;
 
 out vec4 gathered;

@@ -5,7 +5,7 @@ uniform sampler2D layer_noise;   // repeats
 uniform int layer_count;         // k
 uniform vec2 tiling;
 uniform vec2 tile_offset;
-uniform vec2 travelled;          // how far time has gone, times the speed
+uniform vec2 travelled;          // time times speed
 uniform float speed;
 uniform float first_way;         // 1: the first layer goes forward
 uniform float exponent;
@@ -15,7 +15,7 @@ uniform float bloom;
 uniform float threshold;
 
 layout(location = 0) out vec4 color;    // premultiplied, display-linear
-layout(location = 1) out vec4 glint;    // none of its own: it covers what lies behind
+layout(location = 1) out vec4 glint;    // 0: it hides the highlights behind it
 layout(location = 2) out vec4 glow;     // premultiplied
 
 vec4 noise_at(vec2 at) {
@@ -25,7 +25,7 @@ vec4 noise_at(vec2 at) {
 
 void main() {
     vec2 at = texture_at * tiling + tile_offset;
-    // The product as a sum of logarithms: of many layers it is too small for a number.
+    // A sum of logarithms, because the product of many layers would underflow.
     vec4 product_ln2 = vec4(0.0);
     float way = first_way;
     for (int index = 1; index < layer_count; index++) {

@@ -1,4 +1,4 @@
-// Which body is here, and how far: what shows of it is all in front, so that it is seen through once.
+// Depth and body. Only the nearest surface is kept, so that one sees through the body only once.
 in float depth_along_gaze;
 
 uniform float body_id;

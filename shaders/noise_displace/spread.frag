@@ -1,4 +1,4 @@
-// The gathered glow, spread along one axis by a Gaussian.
+// Blurs the glow along one axis with a Gaussian.
 uniform sampler2D gathered;
 uniform vec2 axis;
 uniform float sigma;             // in its own pixels

@@ -1,4 +1,4 @@
-// The studio: suns (the first casts shadows), point lights, light from above and below; then a soft shoulder.
+// Lighting: suns (the first casts shadows), point lights, ambient light from above and below; then a soft shoulder.
 uniform sampler2D lights;        // row 0: direction to a sun (w 0) or a point light's place (w 1); row 1: radiance
 uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1
@@ -9,14 +9,14 @@ uniform vec3 ambient_above;
 uniform vec3 ambient_below;
 
 float sunlit(vec3 position, vec3 normal) {
-    // Stepping off the surface keeps it from shading itself; more where the map sees it at a slant.
+    // An offset from the surface keeps it from shadowing itself; larger where light falls at a slant.
     vec3 from = position + normal * (2.5 * shadow_texel);
     vec3 at = (shadow_from_world * vec4(from, 1.0)).xyz * 0.5 + 0.5;
     if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
     vec2 texel = 1.9 / vec2(textureSize(shadow_depth, 0));
     float sum = 0.0;
 #ifdef DRAFT
-    // Between four texels.
+    // Interpolates between four texels.
     return texture(shadow_depth, vec3(at.xy, at.z - 0.0006));
 #else
     for (int y = -1; y <= 1; y++)
@@ -26,7 +26,7 @@ float sunlit(vec3 position, vec3 normal) {
 #endif
 }
 
-// Keeps hue, lets bright light roll off to white paper.
+// Lets bright light roll off to white and keeps its hue.
 vec3 exposed(vec3 light) {
     vec3 c = light * 0.62;
     float luminance = dot(c, vec3(0.2126, 0.7152, 0.0722));
@@ -38,7 +38,7 @@ struct LitPoint {
     vec3 position;               // world space, as the normal
     vec3 normal;
     vec3 towards_eye;            // unit
-    float openness;              // 0 crowded in .. 1 open
+    float openness;              // 0 enclosed .. 1 open
     float gloss;                 // 0 matt .. 1 glazed
 };
 
@@ -58,7 +58,7 @@ vec3 lit(vec3 albedo, LitPoint at, out float glint) {
         if (facing <= 0.0) continue;
         float arriving = 1.0 / squared;
         if (index == shadowed_light) arriving *= sunlit(at.position, at.normal);
-        // What is crowded in gets a little less of the direct light too.
+        // Enclosed places get a little less direct light too.
         light += radiance * facing * arriving * mix(0.7, 1.0, at.openness);
         if (at.gloss > 0.0) {
             vec3 halfway = normalize(direction + at.towards_eye);

@@ -1,5 +1,5 @@
 // From each pixel to where its surface point is in another picture: offset in px (Y up), depth along the gaze there, body.
-// Both places are interpolated alike, so that what stands still has moved by exactly nothing.
+// Both positions are interpolated in the same way, so that a body at rest moves by exactly 0.
 in vec4 clip_now;
 in vec4 clip_then;
 in float depth_then;
@@ -10,7 +10,7 @@ uniform float body_id;
 layout(location = 0) out vec4 motion;
 
 void main() {
-    // Behind the eye there is no place in the picture: depth 0 says so.
+    // A point behind the eye has no place in the picture: its depth is 0.
     bool in_front = clip_then.w > 0.0;
     vec2 offset = clip_then.xy / clip_then.w - clip_now.xy / clip_now.w;
     motion = vec4(in_front ? offset * 0.5 * size_px : vec2(0.0), in_front ? depth_then : 0.0, body_id);

@@ -1,2 +1,2 @@
-// Depth is all that is kept.
+// Writes depth only.
 void main() {}

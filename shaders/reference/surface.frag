@@ -1,4 +1,4 @@
-// What the surface is, before it is lit.
+// The surface before it is lit: colour, normal, depth and body.
 in vec3 position_in_world;
 in vec3 normal_in_world;
 in float depth_along_gaze;

@@ -1,5 +1,5 @@
-// How much happens on each body, in blocks of a few pixels: change of colour, outlines, highlights. What is decided by it is
-// spread wide afterwards, so that small strokes come and go slowly when a shadow sweeps over them.
+// How much detail each body has, in blocks of a few pixels: change of colour, outlines, highlights. The result is blurred widely
+// afterwards, so that small strokes come and go slowly when a shadow sweeps over them.
 #include "shared/oklab.glsl"
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
@@ -9,7 +9,7 @@ uniform int block_px;                // side of a block
 
 out vec4 detail;                     // change of colour 0..1, outline 0..1, highlight 0..1, body id and share
 
-// Oklab per pixel of the scene's own size: below the first nothing happens, from the second on much.
+// Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
 
 void main() {
@@ -47,7 +47,7 @@ void main() {
         if (index == 4) continue;
         ivec2 outward = (ivec2(index & 1, index >> 1) * 2 - 1) * rim_px;
         vec2 there = texelFetch(depth_and_id, clamp(at + outward, ivec2(0), last), 0).xy;
-        // What stands in front of the body makes no outline of its own.
+        // A border with something in front of the body is not its outline.
         if (there.y != front.y && (there.y == 0.0 || there.x > front.x)) outline += 0.5;
     }
     detail = vec4(detail.r / count, min(outline, 1.0), detail.b / count, front.y + 0.1 * count);

@@ -1,5 +1,5 @@
-// Paint over its ground, as a body in the light of a room: relief, canvas where paint is thin, furrows, varnish. Then
-// encoded.
+// Paint over its ground as a solid surface in the light of a room: relief, canvas where paint is thin, furrows, varnish.
+// Then encodes.
 #include "shared/encode.glsl"
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
@@ -27,19 +27,19 @@ const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 vec4 toned_ground(ivec2 at) {
     vec4 body = texelFetch(reference_color, at, 0);
 #ifdef DRAFT
-    // Stands in for the underpainting too, and for the faintest strokes: it hides what it lies on.
+    // It also replaces the underpainting and the faintest strokes, so it hides what is under it.
     vec3 under = mix(body.rgb, vec3(0.10, 0.08, 0.06), 0.25);
     float hides = wash > 0.0 ? 1.0 : 0.0;
 #else
     vec3 under = mix(body.rgb * vec3(0.90, 0.85, 0.80), tone.rgb, tone.a);
     float hides = wash;
 #endif
-    // Ground that is left out (transparent) stays out.
+    // Where the background is transparent, so is the ground.
     return vec4(mix(background.rgb, under, hides * body.a * background.a), background.a);
 }
 
 #ifndef DRAFT
-// What the light of the room makes of the paint's surface.
+// How the light of the room falls on the paint's surface.
 vec3 in_room_light(vec3 color) {
     vec2 texel = 1.0 / vec2(textureSize(height, 0));
     vec2 at = gl_FragCoord.xy * texel;
@@ -72,7 +72,7 @@ vec3 in_room_light(vec3 color) {
 }
 #endif
 
-// Deeper darks, fuller colour, a little warmer; on encoded values, which are nearly even to the eye.
+// Varnish: deeper darks, fuller colour, a little warmer. Works on encoded values, which are nearly uniform to the eye.
 vec3 varnished(vec3 color) {
     float value = dot(color, LUMINANCE);
     float contrast = 0.035 * sin(6.2831853 * (clamp(value, 0.0, 1.0) - 0.5));

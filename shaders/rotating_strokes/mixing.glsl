@@ -1,9 +1,9 @@
-// How the colour of a stroke is mixed from what it lies on. Numbers are Oklab; what is 0 in `mixing` changes nothing.
+// How a stroke's colour is mixed from the colour under it. Colours are Oklab; an entry of `mixing` that is 0 changes nothing.
 uniform sampler2D palettes;      // a row each: pigments in Oklab, w 1 where there is one
 
 const uint ANY_COLOR = 255u;
 
-// Deviations from stroke to stroke, by layer: lightness, hue in degrees, chroma as a share.
+// Standard deviations from stroke to stroke, by layer: lightness, hue in degrees, chroma as a share.
 const vec3 JITTER[6] = vec3[6](
     vec3(0.020, 7.0, 0.10), vec3(0.013, 3.5, 0.06), vec3(0.012, 3.0, 0.05),
     vec3(0.020, 8.0, 0.06), vec3(0.010, 3.0, 0.05), vec3(0.008, 2.0, 0.04)
@@ -31,14 +31,14 @@ uint scramble(uint value) {
     return (word >> 22) ^ word;
 }
 
-// Mean 0, deviation 1: four bytes of a hash.
+// A random number with mean 0 and standard deviation 1, from four bytes of a hash.
 float normal_from(uint bits, uint which) {
     uint hash = scramble(bits ^ scramble(which));
     float sum = float(hash & 255u) + float((hash >> 8) & 255u) + float((hash >> 16) & 255u) + float(hash >> 24);
     return (sum / 255.0 - 2.0) * 1.7320508;
 }
 
-// Value is held to planes: steps with soft risers.
+// Reduces values to planes: steps with soft edges.
 float planes(float lightness) {
     float at = (lightness + 0.03) * 11.0 - 0.5;
     return (floor(at) + smoothstep(0.1, 0.9, fract(at)) + 0.5) / 11.0 - 0.03;
@@ -46,13 +46,13 @@ float planes(float lightness) {
 
 vec3 graded(vec3 lab, vec3 wide, int kind) {
     if (kind == UNDERPAINTING) {
-        // Pulled to earth.
+        // Pulled towards earth colours.
         return vec3(0.20 + 0.66 * (lab.x - 0.10), lab.yz * 0.62 + vec2(0.014, 0.022));
     }
     if (kind == ACCENTS) lab = wide + (lab - wide) * 1.45;
     if (kind == LIGHTS) lab.x += 0.043;
     float lightness = mix(lab.x, planes(lab.x), 0.42);
-    // Darks are rich and never black.
+    // Darks keep some colour and never turn black.
     float dark = 1.0 - smoothstep(0.16, 0.42, lightness);
     float chroma = 1.06 + 0.16 * dark;
     return vec3(clamp(lightness, 0.13 + 0.3 * max(lightness - 0.13, -0.1), 0.985), lab.yz * chroma);
@@ -68,7 +68,7 @@ vec3 from_palette(vec3 lab, uint palette) {
         distances[index] = vec2(pigment.w, dot(away, away));
         if (pigment.w > 0.0) least = min(least, distances[index].y);
     }
-    // Between two pigments that are equally near, a mixture; so nothing jumps.
+    // Two pigments that are equally near are mixed, so that nothing jumps.
     vec2 sum = vec2(0.0);
     float weight = 0.0;
     for (int index = 0; index < MOST; index++) {

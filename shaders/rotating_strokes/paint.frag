@@ -1,4 +1,4 @@
-// Paint where the brush mark is, near its own body: colour and height in one go. Both are laid over what is there.
+// Paint in the shape of the brush mark, on its own body and a little past it: lays colour and height at once.
 #ifdef SHAPED
 #include "shared/stroke_shape.glsl"
 #endif
@@ -35,13 +35,13 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-// How much paint lies past the stroke's own body: ragged, since loaded hairs run further.
+// How much paint lies past the stroke's own body: ragged, because hairs with more paint run further.
 float past_body(vec2 here, float tint) {
     float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
     float away_px = length(from_center_px);
     vec2 inward = -from_center_px / max(away_px, 1e-3);
     float reach_px = body.z * (1.0 + 0.7 * tint);
-    // Another body in front of the stroke lets nothing over it; the ground and what lies behind take a little.
+    // No paint goes over a body in front of the stroke; a little goes over the background and over bodies behind.
     if (here.y != 0.0 && here.x < own.x - bias) reach_px = 0.35;
     float on_own = 0.0;
     for (int index = 0; index < 4; index++) {
@@ -74,10 +74,10 @@ void main() {
     }
     vec3 color = max(paint.rgb + half_mixed * tint, 0.0);
 #ifdef DRAFT
-    // No light falls on the relief; what it would make of the bristles, about.
+    // Drafts have no lit relief: this imitates what light does to the bristle marks.
     color *= 1.0 + 0.30 * body.y * (texel.g - 0.42);
 #else
-    // Wet paint from below comes with the stroke, more of it towards its end.
+    // The stroke carries wet paint from below with it, more towards its end.
     color = mix(color, picked_up.rgb, picked_up.a * (0.35 + 0.65 * u));
 #endif
     // Thin edges are a little darker.

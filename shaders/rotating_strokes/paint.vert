@@ -17,7 +17,7 @@ layout(location = 8) in vec2 shape;          // taper, bend in radians
 
 uniform vec2 size_px;
 uniform float mark_rows;         // texels across a mark
-uniform sampler2D mark_bounds;   // a row a mark: least and greatest along and across where there is more paint than so much
+uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
 #ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
 #endif
@@ -39,7 +39,7 @@ const float MARGIN = 1.0 / 0.84;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below, straight, and how much of it there is.
+// The mean colour below (not premultiplied), and its alpha.
 vec4 paint_below(vec2 center_px, float spread_px) {
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 5; index++) {
@@ -55,16 +55,16 @@ vec4 paint_below(vec2 center_px, float spread_px) {
 const vec2 MARK_SIZE = vec2(256.0, 96.0);
 const float FILL = 0.84;
 const int STEPS = 32;
-// Coarser levels than this are no halves of the finest.
+// Levels coarser than this are not exact halves of the finest.
 const float COARSEST = 5.0;
 
-// The part of the quad where the mark has more paint than `least`, seen at this level: least and greatest along and across.
+// The box of the quad in which the mark has more paint than `least` at this level: from and to along, then across.
 vec4 painted_part(float least, float level, float bow, float flip) {
     int amount = int(floor(least * float(STEPS) - 0.05));
     float coarser = floor(level) + 1.0;
     if (amount < 0 || coarser > COARSEST) return vec4(0.0, 1.0, 0.0, 1.0);
     vec4 part = texelFetch(mark_bounds, ivec2(min(amount, STEPS - 1), int(marks.w & 65535u)), 0);
-    // As far as a texel of the coarser level reaches, and beyond the border what is at the border.
+    // Grown by a texel of the coarser level; past the border the border's value counts.
     vec2 reach = (1.5 * exp2(coarser) - 0.8) / MARK_SIZE;
     part += vec4(-reach.x, reach.x, -reach.y, reach.y);
     if (part.z <= 0.0) part.z = -9.0;
@@ -89,9 +89,9 @@ void main() {
     float thickness = float((bytes.x >> 8) & 255u) / 50.0;
     float pickup = float((bytes.x >> 16) & 255u) * BYTE;
     float dryness = float(bytes.x >> 24) * BYTE;
-    // A drier brush leaves less of its mark; as the stroke goes away, what is left of it erodes to its last hairs.
+    // A drier brush leaves less of its mark. A stroke that fades is eroded down to its last hairs.
     float share = 0.98 * (1.0 - dryness) * there;
-    // Soft over about a pixel, as a share of the mark.
+    // An edge about a pixel wide, as a share of the mark.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
 #ifdef DRAFT
@@ -130,7 +130,7 @@ void main() {
         own_form = vec4(0.5 * MARGIN * size.xy, shape.x, shape.y / max(size.x, 1e-6));
         mark_at = corner_of_box(corner, own_form, reach.w);
         from_center_px = along * mark_at.x + vec2(-along.y, along.x) * mark_at.y;
-        // Where it is narrower, it is looked at more coarsely.
+        // A narrower part needs a coarser level.
         level = log2(mark_rows / (1.05 * size.y * MARGIN));
     }
     form = own_form;

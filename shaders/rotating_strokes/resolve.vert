@@ -1,5 +1,5 @@
-// One stroke a vertex: its colour, how much of it is there, and where it lies on its body. What comes out is what is painted,
-// and what `impasto strokes` reads back.
+// One stroke per vertex: finds its colour, its presence, and where it lies on its body. The paint pass reads these results,
+// and so does `impasto strokes`.
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "reference/lighting.glsl"
@@ -21,17 +21,17 @@ out vec4 fitted;                 // centre in px where it lies on its body, ligh
 
 const float FREE = 1e6;
 const float MOST_FULL = 1.35;
-// Of a stroke that is painted; of faint ones a draft shows nothing.
+// The least alpha of a stroke that is painted. Drafts leave out faint strokes.
 #ifdef DRAFT
 const float LEAST = 0.25;
 #else
 const float LEAST = 0.004;
 #endif
 
-// Deviation of the Gaussian that colours come from, in widths of the stroke.
+// Standard deviation of the Gaussian over which colours are averaged, in widths of the stroke.
 const float BLUR[6] = float[6](0.33, 0.20, 0.20, 0.22, 0.30, 0.25);
 
-// How far the centre can be seen: taps round it, each compared with where the stroke's own plane would be there.
+// How much of the centre is visible: taps around it, each compared with the depth of the stroke's own plane there.
 float seen(mat2 turn) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float unit = units_per_px(place.z);
@@ -40,7 +40,7 @@ float seen(mat2 turn) {
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
 #ifdef DRAFT
-    // Half of the rings, and the middle.
+    // Every other ring, and the centre.
     const int STEP = 2;
     const int TAPS = 9;
 #else
@@ -68,7 +68,7 @@ vec3 albedo_of(uint albedo_bytes) {
     return mix(high, encoded / 12.92, lessThanEqual(encoded, vec3(0.04045)));
 }
 
-// Where nothing of the body shows at the stroke: its albedo, lit.
+// The colour where the body does not show at the stroke: its albedo, lit.
 vec3 color_of_hidden() {
     vec3 albedo = albedo_of(marks.z);
     if ((marks.z >> 24) == 0u) return albedo;
@@ -82,12 +82,12 @@ vec3 color_of_hidden() {
     return lit(albedo, point, no_glint);
 }
 
-// The last tenth of a stroke, a few hairs spread wide, is never painted.
+// Below a presence of 0.1 only a few scattered hairs are left: not painted.
 float without_last(float there) {
     return max(there - 0.1, 0.0) / 0.9;
 }
 
-// How much of the stroke is there for its rank, as in `core::presence`.
+// The stroke's presence by its rank, as in `core::presence`.
 float presence(float supply_ln) {
     return without_last(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4)) * size.z;
 }
@@ -106,7 +106,7 @@ float wanted(vec3 detail) {
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
-// Shift along the stroke, so that it lies on its body as far as it can. Its size stays.
+// Shift along the stroke that puts as much of it as possible on its body. Its size stays.
 float shift(mat2 turn, vec2 own) {
     if (reach.x >= FREE) return 0.0;
     vec2 half_along_px = turn[0] * (0.5 * size.x);
@@ -124,7 +124,7 @@ void main() {
     resolved = vec4(0.0);
     fitted = vec4(place.xy, 0.0, 0.0);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
-    // Most strokes in question are absent; they cost little.
+    // Most candidates are absent; they are left early.
     bool small = kind == FORM || kind == ACCENTS || kind == LIGHTS;
     float there = presence(size.w + (kind == BODY ? log(MOST_FULL) : 0.0));
     if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
@@ -139,7 +139,7 @@ void main() {
     if (kind == BODY) {
         there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
     }
-    // A colour of its own: what is shown is no scene.
+    // A fixed colour: the picture shows a measure, not the scene.
     if ((marks.z >> 24) == 128u) {
         resolved = vec4(albedo_of(marks.z), there);
         fitted = vec4(place.xy + turn[0] * shift(turn, own), lab.x, 0.0);

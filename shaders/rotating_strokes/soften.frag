@@ -1,4 +1,4 @@
-// The height of the paint at half the size: a wider mean, which tells furrows from ridges and thin paint from thick.
+// The height of the paint, averaged at half the size: compared with it, furrows differ from ridges and thin paint from thick.
 uniform sampler2D height;
 uniform float step_px;           // pixels of the full size
 

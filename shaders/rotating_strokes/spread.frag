@@ -1,6 +1,6 @@
-// Spreads what happens on each body over its surroundings on the same body: a Gaussian, one axis at a time.
+// Blurs the detail of each body within that body: a Gaussian, one axis at a time.
 uniform sampler2D detail;            // change, outline, highlight, body id and half its share of the block
-uniform vec2 axis;                   // one texel along the axis, times how far apart the taps are
+uniform vec2 axis;                   // from one tap to the next, in texels along the axis
 
 out vec4 spread;
 

@@ -1,5 +1,5 @@
-// What a stroke sees round itself on the reference picture. Everything changes slowly with the place looked at, so that
-// what is decided by it fades and never switches.
+// What surrounds a stroke in the reference picture. Everything here changes slowly with position, so that what depends on it
+// fades and never switches.
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
@@ -10,8 +10,8 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-// Colour between four pixels, of those that show the body; W how much of it. The plain render has hard edges, and a tap on
-// one pixel would jump with them.
+// Colour interpolated between those of four pixels that show the body; w says how many do. The plain render has hard edges, and
+// a tap on a single pixel would jump at them.
 vec4 own_color_at(vec2 at_px, float id) {
 #ifdef DRAFT
     ivec2 nearest = clamp(ivec2(at_px), ivec2(0), textureSize(reference_color, 0) - 1);
@@ -33,15 +33,15 @@ vec4 own_color_at(vec2 at_px, float id) {
     return sum;
 }
 
-// Directions all round, counted from the stroke's own, so that a picture that is turned is looked at the same way.
+// Directions all around, relative to the stroke's own, so that a turned picture gives the same result.
 vec2 direction(int index, int count) {
     float angle = place.w + 6.2831853 * (float(index) + 0.5) / float(count);
     return vec2(cos(angle), sin(angle));
 }
 
-// Mean colour on the stroke's own body: a Gaussian of this deviation, on two rings and their middle, longer along the stroke,
-// so that a shadow that sweeps over it takes several frames; a wider one where the middle is behind something. W is 0
-// where nothing of the body was found.
+// Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer along the
+// stroke, so that a shadow that sweeps over it takes several frames; wider where the centre is hidden. w is 0 where the body
+// was not found.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
     vec4 sum = vec4(0.0);
 #ifdef DRAFT
@@ -62,7 +62,7 @@ vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
     return sum.a > 1e-3 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
 
-// The mean colour on the stroke's own body round about, Oklab.
+// The mean colour of the wider surroundings on the stroke's own body, Oklab.
 vec3 wide_mean(vec2 center_px, float id, vec3 lab) {
     const float REACH_PX = 10.0;
     vec3 sum = vec3(0.0);
@@ -74,8 +74,8 @@ vec3 wide_mean(vec2 center_px, float id, vec3 lab) {
     return sum / 8.0;
 }
 
-// How much happens round about on the stroke's own body: change of colour, outline, highlight, 0..1 each. A smooth mean of
-// the body's blocks, so that blocks of a thin body that come and go hardly show.
+// How much detail the stroke's own body has around it: change of colour, outline, highlight, 0..1 each. A smooth mean of the
+// body's blocks, so that the blocks of a thin body, which come and go, hardly show.
 vec3 detail_at(vec2 center_px, float id) {
     vec2 at = center_px / block_px - 0.5;
     ivec2 last = textureSize(detail, 0) - 1;
@@ -94,7 +94,7 @@ vec3 detail_at(vec2 center_px, float id) {
 }
 
 // How much of the way from the stroke's centre to one of its ends lies on its body, 0..1: taps on three lines, so that it
-// changes slowly even where the stroke lies along its body's border. What stands in front of the body is no end of it.
+// changes slowly even where the stroke runs along the body's border. The body does not end where something stands in front.
 float share_on_body(vec2 center_px, vec2 to_end_px, vec2 across_px, vec2 own) {
     float bias = 0.02 * own.x;
     float beyond = 0.0;

@@ -1,4 +1,4 @@
-// From a pixel and a depth to a place, for either kind of lens.
+// From a pixel and a depth to a position, for perspective and orthographic lenses.
 uniform mat4 world_from_view;
 uniform vec2 size_px;
 uniform float px_per_unit_at_1;  // focal length in pixels, or pixels per world unit where parallel

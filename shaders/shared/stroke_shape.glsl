@@ -1,7 +1,7 @@
 // Strokes that taper and bend. Their form: half their quad's length (0 where it has no shape) and width in px, taper, bend per px.
 #include "shared/inverse_bilinear.glsl"
 
-// A corner of the box round a tapered and bent stroke, px along and across its middle.
+// A corner of the box around a tapered and bent stroke, px along and across from its centre.
 vec2 corner_of_box(vec2 corner, vec4 of, float skew) {
     float wide = of.y * (1.0 + abs(of.z));
     float reach = of.x + abs(skew) * wide;
@@ -24,7 +24,7 @@ vec2 straightened(vec2 at_px, float per_px) {
     return vec2(atan(from_middle.x, from_middle.y) / per_px, off_px);
 }
 
-// Where a pixel lies on the mark: a bent stroke straightened is a trapezoid, its mark spread evenly between its sides.
+// Where a pixel lies on the mark. A bent stroke, straightened, is a trapezoid, and the mark is stretched between its sides.
 vec2 on_mark(vec2 at_px, vec4 form, float leaning) {
     vec2 start = vec2(leaning, 1.0) * form.y * (1.0 + form.z);
     vec2 end = vec2(leaning, 1.0) * form.y * (1.0 - form.z);
@@ -32,7 +32,7 @@ vec2 on_mark(vec2 at_px, vec4 form, float leaning) {
     return inverse_bilinear(straightened(at_px, form.w), -half_along - start, half_along - end, -half_along + start, half_along + end);
 }
 
-// Where it is wider than in its middle it is looked at more finely, where narrower more coarsely.
+// A part wider than the middle needs a finer level, a narrower one a coarser level.
 float level_where_narrow(float level, float along, float taper) {
     return max(level - log2(max(1.0 + taper * (1.0 - 2.0 * along), 0.01)), 0.0);
 }

@@ -1,4 +1,4 @@
-// Pass 2 of the source: the light back at its place, and what it lights through the ramp of four tones.
+// Pass 2 of the source: light from its own direction, put through the ramp of four tones.
 #include "sumi_e/ramp.glsl"
 in vec3 normal_in_view;
 

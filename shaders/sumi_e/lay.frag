@@ -1,34 +1,34 @@
-// Ink on the paper: the wash as far as it has run, the strokes over it, and what the paper does to both. Values are display
-// values: ink takes away from the paper, as in the source's mix.
+// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. Values are display values:
+// ink is subtracted from the paper, as in the source's mix.
 #include "sumi_e/paper.glsl"
 uniform sampler2D soft;          // silhouette, interior, seal red, body
-uniform sampler2D wide;          // the same, run far
-uniform sampler2D strokes;       // what ink takes away, and how often it was gone over
+uniform sampler2D wide;          // the same, blurred far
+uniform sampler2D strokes;       // what ink subtracts, and how many strokes overlap
 uniform vec4 background;         // alpha 0 where the paper is left out
 uniform vec3 ink;
 uniform vec3 seal;
 uniform vec4 amounts;            // of the wash, of strokes, density, silhouette
-uniform vec4 wetness;            // bleed, how far it creeps in px, dryness, pixels per pixel of the scene's own size
+uniform vec4 wetness;            // bleed, how far ink bleeds in px, dryness, pixels per pixel of the scene's own size
 uniform vec2 size_px;
 
 out vec4 laid;
 
 const float MOST_INK = 0.97;
 
-// What the wash takes away of each channel.
+// What the wash subtracts from each channel.
 vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     float bleed = wetness.x;
-    // Ink creeps along fibres and stops where the pulp lies thick.
+    // Ink spreads along fibres and stops where the pulp is thick.
     vec2 creep = vec2(felt(at * 1.7 + 0.31).x, felt(at.yx * 1.7 + 0.67).x) * 1.6 + 0.25 * here.yz;
     vec2 shift = creep * wetness.y / size_px;
     vec4 near = texture(soft, gl_FragCoord.xy / size_px + shift * 0.45 * bleed);
     vec4 far = texture(wide, gl_FragCoord.xy / size_px + shift * bleed);
-    // The front of the ink is ragged, and behind it it is even.
+    // The ink has a ragged front and is even behind it.
     float front = smoothstep(0.10, 0.42, far.a + 0.55 * here.y + 0.5 * slow.x);
     float red = clamp(near.b / max(near.a, 1e-3), 0.0, 1.0);
     float drinks = min(1.5 * bleed, 1.0) * (1.0 - 0.6 * red) * smoothstep(-0.06, 0.16, slow.x + 0.2 * here.x);
     vec4 run = mix(near, far * front, drinks);
-    // The line is lost and found.
+    // The outline is broken here and there.
     float found = clamp(0.70 + 3.4 * slow.y, 0.12, 1.0);
     float dark = 1.0 - (1.0 - run.g * (1.25 - 0.25 * run.g)) * (1.0 - amounts.w * found * run.r);
     // Pigment gathers where the water ends, and settles into the tooth.
@@ -41,7 +41,7 @@ vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     dark *= 1.0 - wetness.z * 0.75 * smoothstep(0.02, 0.16, tooth) * smoothstep(0.9, 0.3, run.r);
     red = clamp(run.b / max(run.a, 1e-3), 0.0, 1.0);
     dark = mix(dark, max(dark, 0.44 * run.b + 0.5 * run.g), red);
-    // Under strokes there is less of it; the seal is pressed on.
+    // It is weaker under strokes; the seal is stamped, so it is not.
     dark *= mix(amounts.x, 1.0, red * red) * amounts.z;
     return clamp(dark, 0.0, MOST_INK) * (1.0 - mix(ink, seal, red));
 }

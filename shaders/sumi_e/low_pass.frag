@@ -1,4 +1,4 @@
-// Passes 1 and 3 of the source: the mean of nine pixels two apart, held at the picture's edges.
+// Passes 1 and 3 of the source: the mean of nine pixels two apart, clamped at the picture's edges.
 uniform sampler2D picture;
 
 out vec4 blurred;

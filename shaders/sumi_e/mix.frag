@@ -1,4 +1,4 @@
-// Pass 4 of the source: what darkens adds up. Values are display values, as they are stored.
+// Pass 4 of the source: adds up how much each picture darkens. Values are display values, as they are stored.
 #include "sumi_e/paper.glsl"
 uniform sampler2D interior;
 uniform sampler2D silhouette;
@@ -6,8 +6,8 @@ uniform vec4 background;         // alpha 0 where the paper is left out
 
 out vec4 mixed;
 
-// In Direct3D 9 a pixel of the screen lies where four texels meet: it is their mean, to the left of it and above. At the
-// picture's left and upper edge the interior is held, and the silhouette comes round from the other side.
+// In Direct3D 9 a pixel's centre lies where four texels meet, so a pixel is the mean of the texels at it, to its left and above.
+// At the left and upper edge of the picture the interior is clamped, and the silhouette wraps around.
 float at_corner(sampler2D picture, bool wraps) {
     ivec2 size = textureSize(picture, 0);
     ivec2 at = ivec2(gl_FragCoord.xy);

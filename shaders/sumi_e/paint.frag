@@ -1,4 +1,4 @@
-// Ink where the brush mark is, near its own body. The darkest of what is laid stays; how often is counted in alpha.
+// Ink in the shape of the brush mark, on its own body and a little past it. The darkest ink stays; alpha counts overlaps.
 #include "shared/stroke_shape.glsl"
 in vec2 mark_at;
 in vec2 from_center_px;
@@ -25,7 +25,7 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-// How much ink lies past the stroke's own body: a little, raggedly, and none over what stands in front.
+// How much ink lies past the stroke's own body: a little, with a ragged edge, and none over bodies in front.
 float past_body(vec2 here, float tint) {
     float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
     float away_px = length(from_center_px);
@@ -52,7 +52,7 @@ void main() {
     vec2 at = vec2(u, 0.5 + (quad_at.y - 0.5) * body.w);
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
     vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;
-    // Fei bai: as the brush runs dry, its hairs part and the paper flies through.
+    // Fei bai, "flying white": as the brush runs dry its hairs part, and the paper shows between them.
     float cut = mix(ink.a, 1.0 - 0.3 * (1.0 - ink.a), body.y * smoothstep(0.25, 1.0, u));
     float alpha = smoothstep(cut - mark.z, cut + mark.z, texel.r);
     if (alpha <= 0.0) discard;

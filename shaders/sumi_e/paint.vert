@@ -16,7 +16,7 @@ uniform float dryness;           // of the scene
 
 out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
 out vec2 from_center_px;
-flat out vec4 ink;               // what it takes away, and the height at which the mark is cut off
+flat out vec4 ink;               // what it subtracts, and the height at which the mark is cut off
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bend
 flat out vec4 body;              // opacity, how dry it ends, overrun in px, sign of the flip
 flat out vec2 own;               // depth and id of the body
@@ -54,7 +54,7 @@ void main() {
         level = max(level, 0.0);
     }
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bend.w);
-    // One brush in three runs dry on the way.
+    // One stroke in three runs dry before its end.
     float runs_dry = float((marks.x >> 8) & 255u) * BYTE;
     body = vec4(float(bytes.x & 255u) * BYTE, dryness * smoothstep(0.55, 1.0, runs_dry), reach.x,
                 (marks.w & 65536u) == 0u ? 1.0 : -1.0);

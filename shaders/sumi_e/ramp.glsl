@@ -1,4 +1,4 @@
-// Four tones with soft steps between them, a texture one texel high: read between two texels, held at its ends.
+// Four tones with soft steps between them, in a texture one texel high: interpolated, and clamped at its ends.
 uniform sampler2D tones;
 
 float tone_at(float light) {

@@ -1,4 +1,4 @@
-// One stroke a vertex: which ink it carries, how much of it is there, and where it lies on its body.
+// One stroke per vertex: finds its ink, its presence, and where it lies on its body.
 #include "shared/lens.glsl"
 layout(location = 0) in vec4 place;          // centre in px, depth, angle in radians
 layout(location = 1) in vec4 size;           // length and width in px, fade of the facing, ln of the supply
@@ -35,7 +35,7 @@ uint scramble(uint value) {
     return (word >> 22) ^ word;
 }
 
-// Mean 0, deviation 1: four bytes of a hash.
+// A random number with mean 0 and standard deviation 1, from four bytes of a hash.
 float normal_from(uint bits, uint which) {
     uint hash = scramble(bits ^ scramble(which));
     float sum = float(hash & 255u) + float((hash >> 8) & 255u) + float((hash >> 16) & 255u) + float(hash >> 24);
@@ -47,7 +47,7 @@ vec2 surface_at(vec2 at_px) {
     return texelFetch(depth_and_id, texel, 0).xy;
 }
 
-// How far the centre can be seen: taps round it, each compared with where the stroke's own plane would be there.
+// How much of the centre is visible: taps around it, each compared with the depth of the stroke's own plane there.
 float seen(mat2 turn) {
     vec3 n = mat3(view_from_world) * normal_and_bend.xyz;
     float unit = units_per_px(place.z);
@@ -77,7 +77,7 @@ float share_on_body(vec2 to_end_px) {
     return on;
 }
 
-// Shift along the stroke, so that it lies on its body as far as it can.
+// Shift along the stroke that puts as much of it as possible on its body.
 float shift(vec2 along) {
     if (reach.x >= FREE) return 0.0;
     vec2 half_px = along * (0.5 * size.x);
@@ -92,7 +92,7 @@ float presence(float supply_ln) {
     return max(smoothstep(0.0, 1.0, 0.5333823 + supply_ln / 1.4) - 0.1, 0.0) / 0.9 * size.z;
 }
 
-// The ink round the stroke's centre, a mean along it: silhouette, interior, seal red.
+// The mean ink along the stroke: silhouette, interior, seal red.
 vec3 ink_round(vec2 along) {
     vec4 sum = vec4(0.0);
     for (int index = -2; index <= 2; index++) {
@@ -118,7 +118,7 @@ void main() {
     fitted = vec4(place.xy, 0.0, 0.0);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     float there = presence(size.w);
-    // What no light falls on is printed, not brushed.
+    // Unlit surfaces are printed, not brushed.
     if (there <= LEAST || (marks.z >> 24) == 0u) return;
     if (texelFetch(shares, ivec2(int(marks.y) - 1, 0), 0).r == 0.0) return;
 

@@ -1,4 +1,4 @@
-// Pass 0 of the source: the light at the eye, and of what it lights the middle values.
+// Pass 0 of the source: light from the eye, reduced to its middle values.
 in vec3 normal_in_view;
 
 uniform vec2 silhouette;         // black at the first cosine, white at the second

@@ -1,8 +1,8 @@
-// A Gaussian along one axis, held at the picture's edges.
+// A Gaussian blur along one axis, clamped at the picture's edges.
 uniform sampler2D picture;
 uniform vec2 axis;               // from one tap to the next, as a share of the picture
 uniform float deviation;         // in taps, > 0
-uniform vec2 target_px;          // size of what is drawn into
+uniform vec2 target_px;          // size of the target
 
 out vec4 softened;
 

@@ -1,4 +1,4 @@
-// What ink there is on each pixel of the bodies, before it runs: silhouette, interior, seal red; all times the body's share.
+// The ink on each pixel of the bodies before it is blurred: silhouette, interior, seal red, all times the body's share.
 #include "shared/lens.glsl"
 #include "shared/oklab.glsl"
 #include "sumi_e/ramp.glsl"
@@ -14,7 +14,7 @@ uniform float line_px;           // half the width of the line where a body ends
 
 out vec4 wash;                   // silhouette, interior (0 paper .. 1 black), seal red, 1
 
-// How much of a place's surroundings lies well behind it, or is no body: a body without a round limb has a line too.
+// How much of the surroundings lies well behind this pixel or on no body: this gives bodies with sharp edges an outline too.
 float ends(ivec2 at, vec2 here, float facing) {
     float step_back = units_per_px(here.x) * line_px * (3.0 + 2.0 / max(facing, 0.15));
     ivec2 last = textureSize(depth_and_id, 0) - 1;
