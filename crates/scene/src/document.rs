@@ -14,6 +14,8 @@ mod sumi_e;
 
 use serde::{Deserialize, Serialize};
 
+use self::numbers::usual_fields;
+
 pub use color::Color;
 pub use noise_displace::{
     NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals, NoiseSpace, SurfaceNoise,
@@ -36,12 +38,12 @@ pub use sumi_e::{InkDrawing, InkLight, InkRule, SumiE};
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// The schema's version; this build writes and reads [`Scene::VERSION`].
+    /// Version of the format: 1.
     pub version: u32,
-    /// Width and height in pixels for which stroke sizes are meant.
+    /// Width and height in pixels, at most 16384 each; stroke sizes are meant for them.
     #[serde(default = "default_size")]
     pub size: (u32, u32),
-    /// Changes every random choice at once.
+    /// Changes every random choice at once; from 0.
     #[serde(default, skip_serializing_if = "is_default")]
     pub seed: u32,
     /// What is seen where nothing is painted.
@@ -53,12 +55,12 @@ pub struct Scene {
     /// The pose in which stroke directions are stated.
     #[serde(default, skip_serializing_if = "is_default")]
     pub reference: Reference,
-    /// More poses that directions may refer to: a surface that the reference does not face takes the one that faces it best.
+    /// More poses, at most 16: a surface that the reference does not face takes the one that faces it best.
     #[serde(default, skip_serializing_if = "is_default")]
     pub further_references: Vec<Reference>,
     /// The camera and its keys.
     pub camera: Camera,
-    /// Lights; empty means the studio default.
+    /// Lights, at most 8 suns and 16 points; without any, a sun and a soft light all around.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lights: Vec<Light>,
     /// What stands in the scene.
@@ -83,16 +85,16 @@ fn default_size() -> (u32, u32) {
     (1280, 720)
 }
 
-/// Frame range and rate.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Timeline {
-    /// Frames per second, greater than 0.
-    pub fps: f64,
-    /// First frame of the shot.
-    pub first: i64,
-    /// Last frame of the shot, inclusive.
-    pub last: i64,
+usual_fields! {
+    /// Frame range and rate.
+    pub struct Timeline {
+        /// Frames per second, more than 0 and at most 1000000.
+        pub fps: f64 = 24.0; saved always,
+        /// First frame of the shot.
+        pub first: i64 = 0; saved always,
+        /// Last frame of the shot; it is part of it.
+        pub last: i64 = 0; saved always,
+    }
 }
 
 /// Which pose the stroke directions refer to.
@@ -110,7 +112,7 @@ pub enum Reference {
         /// Turns the camera about its gaze.
         #[serde(default, skip_serializing_if = "is_default")]
         roll_deg: f64,
-        /// Vertical field of view, degrees; left out, the lens's own.
+        /// Vertical field of view, degrees, from 1 to 170; left out, the lens's own.
         #[serde(default, skip_serializing_if = "is_default")]
         fov_y_deg: Option<f64>,
         /// The frame of the objects.
@@ -127,7 +129,7 @@ pub enum Ease {
     /// In equal steps.
     #[default]
     Linear,
-    /// Starts and ends at rest (3t² − 2t³).
+    /// Starts and ends at rest.
     Smooth,
 }
 
@@ -151,21 +153,21 @@ pub enum Lens {
         /// Vertical field of view, degrees, from 1 to 170.
         #[serde(default = "default_fov_y_deg")]
         fov_y_deg: f64,
-        /// Nearest visible depth, > 0.
+        /// Nearest depth that is seen, more than 0.
         #[serde(default = "default_near")]
         near: f64,
-        /// Farthest visible depth, > near.
+        /// Farthest depth that is seen, more than `near`.
         #[serde(default = "default_far")]
         far: f64,
     },
     /// Parallel projection; `height` world units fill the picture's height.
     Orthographic {
-        /// World units from the bottom to the top of the picture, > 0.
+        /// World units from the bottom to the top of the picture, more than 0.
         height: f64,
-        /// Nearest visible depth.
+        /// Nearest depth that is seen.
         #[serde(default = "default_near")]
         near: f64,
-        /// Farthest visible depth, > near.
+        /// Farthest depth that is seen, more than `near`.
         #[serde(default = "default_far")]
         far: f64,
     },
@@ -193,10 +195,10 @@ pub struct CameraKey {
     pub eye: [f64; 3],
     /// What it looks at, world space; differs from `eye`, and not straight up or down from it.
     pub target: [f64; 3],
-    /// Turns the camera about its gaze: +a turns the picture by −a.
+    /// Turns the camera about its gaze, degrees; the picture turns the other way.
     #[serde(default, skip_serializing_if = "is_default")]
     pub roll_deg: f64,
-    /// Overrides the lens's field of view from here on (perspective lenses; interpolated between keys).
+    /// The lens's field of view from here on, degrees, from 1 to 170; between two keys in between. Not for parallel lenses.
     #[serde(default, skip_serializing_if = "is_default")]
     pub fov_y_deg: Option<f64>,
     /// How the pose leaves this key.
@@ -221,10 +223,10 @@ pub struct Light {
     /// Colour; for `Ambient` the colour from above.
     #[serde(default = "Color::white", skip_serializing_if = "Color::is_white")]
     pub color: Color,
-    /// `Ambient`: the colour from below; left out, a dim warm version of `color`.
+    /// `Ambient`: the colour from below; left out, `color`, dimmer and warmer.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ground: Option<Color>,
-    /// Multiplies the colour, ≥ 0. A point light of intensity 1 lights a facing surface at distance 1 as a sun of 1.
+    /// Multiplies the colour, from 0 to 1000000. A point light of intensity 1 lights a facing surface at distance 1 as a sun of 1.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub intensity: f64,
 }
@@ -285,10 +287,10 @@ pub struct Object {
     /// Moves with this object.
     #[serde(default, skip_serializing_if = "is_default")]
     pub parent: Option<String>,
-    /// How many particles; left out, found from the coverage.
+    /// How many particles it has, at most 16000000; left out, found from the coverage.
     #[serde(default, skip_serializing_if = "is_default")]
     pub particles: Option<u64>,
-    /// Frames that each pose is held: 1 moves in every frame, 2 on twos, counted from the timeline's first frame.
+    /// Frames that each pose is held, from 1 to 1000: 1 moves in every frame, 2 on twos, counted from the first frame.
     #[serde(default = "one_frame", skip_serializing_if = "is_one_frame")]
     pub hold: u32,
     /// Static scale of the mesh, applied before anything is sampled; not inherited by children.
@@ -318,25 +320,20 @@ pub struct Object {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale(pub [f64; 3]);
 
-/// Colour or texture that replaces what the mesh file says.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct MaterialOverride {
-    /// Base colour.
-    #[serde(skip_serializing_if = "is_default")]
-    pub color: Option<Color>,
-    /// Picture file, relative to the scene file; multiplied by `color` (white when that is left out).
-    #[serde(skip_serializing_if = "is_default")]
-    pub texture: Option<String>,
-    /// Shown as it is, without light or shadow.
-    #[serde(skip_serializing_if = "is_default")]
-    pub unlit: bool,
-    /// Strength of highlights, 0 matt .. 1 glazed; left out, what the mesh file says.
-    #[serde(skip_serializing_if = "is_default")]
-    pub gloss: Option<f64>,
-    /// Noise that moves its vertices and colours it.
-    #[serde(skip_serializing_if = "is_default")]
-    pub noise_displace: Option<NoiseDisplace>,
+usual_fields! {
+    /// Colour or texture that replaces what the mesh file says.
+    pub struct MaterialOverride {
+        /// Base colour.
+        pub color: Option<Color> = None,
+        /// Picture file, relative to the scene file; multiplied by `color` (white when that is left out).
+        pub texture: Option<String> = None,
+        /// Shown as it is, without light or shadow.
+        pub unlit: bool = false,
+        /// Strength of highlights, from 0, matt, to 1, glazed; left out, what the mesh file says.
+        pub gloss: Option<f64> = None,
+        /// Noise that moves its vertices and colours it.
+        pub noise_displace: Option<NoiseDisplace> = None,
+    }
 }
 
 impl MaterialOverride {
@@ -359,10 +356,10 @@ pub struct ObjectKey {
     /// Euler angles in degrees: about X first, then Y, then Z; interpolated as numbers, so 0 to 720 is two turns.
     #[serde(default, skip_serializing_if = "is_default")]
     pub rotation_deg: [f64; 3],
-    /// Size, > 0; children take part in it.
+    /// Size, from 0.001 to 1000; children take part in it.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub scale: f64,
-    /// How far the mesh has turned into the object's `morph`: 0 not at all, 1 wholly.
+    /// How far the mesh has turned into the object's `morph`, from 0, not at all, to 1, wholly.
     #[serde(default, skip_serializing_if = "is_default")]
     pub morph: f64,
     /// How the pose leaves this key.
@@ -411,12 +408,6 @@ impl ObjectKey {
 impl Default for Scale {
     fn default() -> Self {
         Self([1.0; 3])
-    }
-}
-
-impl Default for Timeline {
-    fn default() -> Self {
-        Self { fps: 24.0, first: 0, last: 0 }
     }
 }
 

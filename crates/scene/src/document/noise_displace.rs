@@ -13,7 +13,7 @@ usual_fields! {
         pub vertex: Option<VertexNoise> = Some(VertexNoise::default()),
         /// What colours the surface; `None` leaves it as the object's own material says.
         pub surface: Option<SurfaceNoise> = Some(SurfaceNoise::default()),
-        /// Seconds after which everything is as it was, > 0; left out, the noise travels on.
+        /// Seconds after which everything is as it was, from 0.01 to 1000000; left out, the noise travels on.
         pub period_secs: Option<f64> = None,
     }
 }
@@ -25,7 +25,7 @@ usual_fields! {
         pub texture: Option<String> = None,
         /// Where vertices look their noise up.
         pub space: NoiseSpace = NoiseSpace::World,
-        /// How fast the noise changes from place to place along X and Y, textures per unit.
+        /// How fast the noise changes from place to place along X and Y, textures per unit, from -1000 to 1000.
         pub value: [f64; 2] = [0.1; 2],
         /// How far the vertices move, from the least noise to the greatest, units of the object's own space.
         pub scale: f64 = 0.1; within NOISE_RATE,
@@ -71,13 +71,13 @@ usual_fields! {
     pub struct SurfaceNoise {
         /// Picture file, relative to the scene file; left out, the grey Perlin noise of the house.
         pub texture: Option<String> = None,
-        /// k: two looks at the texture for each layer but the first; 1 shows the tint alone.
+        /// How many layers are multiplied, from 1 to 64; 1 shows the tint alone.
         pub layer_count: u32 = 4,
         /// How fast layers move.
         pub speed: f64 = 1.0; within NOISE_RATE,
-        /// How often the texture is repeated along U and V.
+        /// How often the texture is repeated along U and V, from -1000 to 1000.
         pub tiling: [f64; 2] = [1.0; 2],
-        /// Where the texture begins, in lengths of it.
+        /// Where the texture begins, in lengths of it, from -1000 to 1000.
         pub tile_offset: [f64; 2] = [0.0; 2],
         /// Which layers move forward; the others move back.
         pub forward: NoiseForward = NoiseForward::Odd,

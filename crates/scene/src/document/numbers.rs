@@ -83,10 +83,9 @@ macro_rules! usual_fields {
         impl serde::Serialize for $name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 use serde::ser::SerializeStruct;
-                let usual = Self::default();
                 let mut fields = serializer.serialize_struct(stringify!($name), 0)?;
                 $(
-                    if usual_fields!(@is_saved self.$field != usual.$field, $($always)?) {
+                    if usual_fields!(@is_saved self.$field != Self::default().$field, $($always)?) {
                         fields.serialize_field(stringify!($field), &self.$field)?;
                     }
                 )+

@@ -60,7 +60,7 @@ pub enum Selector {
     /// What dabs of a brush have touched: object, dabs, in the order of painting.
     Dabs(String, Vec<Dab>),
     /// What is reached from a face without going round a sharp edge: object, where it begins, and the degrees between two
-    /// faces from which on an edge is sharp, 0..=180.
+    /// faces from which on an edge is sharp, from 0 to 180.
     Flood(String, Seed, f64),
     /// Patches of one object, in order: each adds to those before it, and dabs that take away cut them.
     Several(String, Vec<Patch>),
@@ -76,9 +76,9 @@ pub enum Patch {
     Group(String),
     /// A material of its mesh.
     Material(String),
-    /// As [`Selector::Dabs`].
+    /// What dabs have touched.
     Dabs(Vec<Dab>),
-    /// As [`Selector::Flood`].
+    /// What is reached from a face.
     Flood(Seed, f64),
 }
 
@@ -100,7 +100,7 @@ pub struct Dab {
     pub at: [f64; 3],
     /// Normal of the surface there; only what faces the same way is touched.
     pub normal: [f64; 3],
-    /// How far it reaches, > 0.
+    /// How far it reaches, more than 0.
     pub radius: f64,
     /// Whether it takes what it touches out again, rather than in.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -180,9 +180,9 @@ pub struct Guide {
     pub view: Option<GuideView>,
     /// At least two points of the surface, in the order of the gesture.
     pub points: Vec<GuidePoint>,
-    /// How far it reaches, > 0.
+    /// How far it reaches, more than 0.
     pub radius: f64,
-    /// How far strokes on it follow it, 0 not at all .. 1 wholly.
+    /// How far strokes on it follow it, from 0, not at all, to 1, wholly.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub strength: f64,
     /// How its strength falls off towards its radius.
