@@ -1,9 +1,13 @@
 //! Why a command ends early, and the exit code that says so.
 
+use std::fmt::Display;
+use std::path::Path;
+
 use impasto_frame_files::PlaceError;
 use impasto_gl_render::RenderError;
 use impasto_gl_render::context::ContextError;
 use impasto_scene::problem::Report;
+use impasto_sequence::FrameError;
 
 /// The command line is wrong.
 pub(crate) const USAGE: u8 = 2;
@@ -33,6 +37,11 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
+    /// A file was not written.
+    pub(crate) fn of_file(path: &Path, error: impl Display) -> Self {
+        Self::Other(format!("{}: {error}", path.display()))
+    }
+
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Quiet(code) => *code,
@@ -60,6 +69,7 @@ impl Failure {
             Self::SomeFrames { failed, done } => {
                 format!("impasto: error: {failed} frames failed, {done} are done")
             }
+            Self::Interrupted { done: 0 } => "impasto: interrupted; nothing is written".to_owned(),
             Self::Interrupted { done } => {
                 format!("impasto: interrupted; {done} frames are done and whole (go on with --skip-existing)")
             }
@@ -90,6 +100,15 @@ impl From<RenderError> for Failure {
         match error {
             RenderError::TooLarge { .. } | RenderError::Empty => Self::Refused(error.to_string()),
             RenderError::Gl(_) => Self::Other(error.to_string()),
+        }
+    }
+}
+
+impl From<FrameError> for Failure {
+    fn from(error: FrameError) -> Self {
+        match error {
+            FrameError::Render(error) => error.into(),
+            FrameError::Encode(_) | FrameError::Write(_) => Self::Other(error.to_string()),
         }
     }
 }

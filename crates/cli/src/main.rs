@@ -7,12 +7,11 @@ mod doctor;
 #[cfg(feature = "editor")]
 mod edit;
 mod failure;
-mod in_order;
 mod info;
+mod interrupt;
 mod measure;
 mod movie;
 mod new;
-mod painter;
 mod render;
 mod session;
 mod sheet;

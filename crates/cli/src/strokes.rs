@@ -5,14 +5,16 @@ use std::io::Write as _;
 use std::path::Path;
 
 use impasto_core::color::srgb_from_linear;
-use impasto_frame_files::{not_an_input, picture_file, ready_folder};
+use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_gl_render::ResolvedStroke;
 use impasto_painting::frame::{LayerRun, Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, Painting};
+use impasto_scene::whole_file;
 use serde::Serialize;
 
 use crate::args::{StrokeFormat, StrokesArguments};
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::session;
 
 /// One line of the table. Pixels from the lower left, Y up; angles counter-clockwise from +X.
@@ -48,6 +50,7 @@ const HEADER: &str = "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px
 const EVERYTHING_ELSE: &str = "everything else";
 
 pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
+    let interrupt = Interrupt::watch()?;
     let loaded = session::read_scene(&arguments.scene, false)?;
     let inputs = loaded.inputs();
     if arguments.output != "-" {
@@ -85,8 +88,9 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
         std::io::stdout().write_all(text.as_bytes())?;
         return Ok(());
     }
-    picture_file::whole(Path::new(&arguments.output), |file| Ok(file.write_all(text.as_bytes())?))
-        .map_err(|error| Failure::Other(format!("{}: {error}", arguments.output)))
+    interrupt.hold_off();
+    let path = Path::new(&arguments.output);
+    whole_file::write(path, text.as_bytes()).map_err(|error| Failure::of_file(path, error))
 }
 
 fn row<'a>(

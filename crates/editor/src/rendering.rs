@@ -6,7 +6,6 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -16,10 +15,10 @@ use egui::ColorImage;
 use impasto_editor_model::render_settings::{
     Existing, Outcome, RenderDriver, RenderPlan, RenderProgress, Stage,
 };
-use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
+use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
 
 #[cfg(test)]
 mod tests;
@@ -70,7 +69,7 @@ impl Rendering {
         });
         let (theirs, orders) = (Arc::clone(&shared), plan.clone());
         let thread = std::thread::Builder::new().name("rendering".to_owned()).spawn(move || {
-            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, (&orders, &shaders), &wake)));
+            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, &orders, &shaders, &wake)));
             let outcome = match outcome {
                 Ok(Ok(outcome)) => outcome,
                 Ok(Err(words)) => Outcome::Failed(words),
@@ -158,10 +157,11 @@ fn words(panic: &(dyn Any + Send)) -> String {
         .unwrap_or_else(|| "no reason was given".to_owned())
 }
 
-/// Renders what is ordered; what ends it early is told with its frame and file.
+/// Renders what the plan says. The words of a failure name the frame and its file.
 fn run(
     shared: &Shared,
-    (plan, shaders): (&RenderPlan, &ShaderTexts),
+    plan: &RenderPlan,
+    shaders: &ShaderTexts,
     wake: &dyn Fn(),
 ) -> Result<Outcome, String> {
     plan.ready().map_err(|error| error.to_string())?;
@@ -175,12 +175,12 @@ fn run(
     if !shaders.is_empty() {
         renderer.replace_shaders(shaders).map_err(|error| error.to_string())?;
     }
-    if shared.is_stopped() {
+    let stop = || shared.is_stopped();
+    if stop() {
         return Ok(Outcome::Stopped);
     }
-    let give_up = || shared.is_stopped();
     let options = PrepareOptions {
-        give_up: &give_up,
+        give_up: &stop,
         memory_bytes: impasto_scene::memory::available_bytes(),
         ..PrepareOptions::default()
     };
@@ -192,46 +192,48 @@ fn run(
     };
     shared.note(|board| board.progress.stage = Stage::Drawing);
     wake();
-    let options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
-    let mut provenance = Provenance {
-        scene: plan.scene_name(),
-        frame: String::new(),
-        driver: renderer.report().renderer.clone(),
+    let sequence = Sequence {
+        painting,
+        options: FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) },
+        scene_name: plan.scene_name(),
+        driver,
+        shaders: shaders.clone(),
+        wanted: Wanted::PngAndPicture,
+        timed: false,
+        counted: false,
     };
-    for frame_number in plan.frames.iter() {
-        if shared.is_stopped() {
-            return Ok(Outcome::Stopped);
-        }
+    let files = FrameFiles {
+        frames: &plan.frames,
+        path: &|frame_number| plan.path(frame_number),
+        keep_existing: plan.existing == Existing::Keep,
+    };
+    let began = Instant::now();
+    let ending = sequence.render_files(&mut renderer, &files, &stop, |frame_number, outcome| {
         let path = plan.path(frame_number);
-        if plan.existing == Existing::Keep && path.exists() {
-            shared.note(|board| board.progress.kept += 1);
-            continue;
+        match outcome {
+            FileOutcome::Kept => shared.note(|board| board.progress.kept += 1),
+            FileOutcome::Failed(error) => {
+                return Err(format!("Frame {frame_number} was not written. {}: {error}", path.display()));
+            }
+            FileOutcome::Written(drawn) => {
+                let small = drawn.picture.as_ref().map(small_copy);
+                shared.note(|board| {
+                    let progress = &mut board.progress;
+                    progress.written += 1;
+                    progress.drawing_s = began.elapsed().as_secs_f64();
+                    progress.strokes = drawn.strokes;
+                    progress.last = Some(path);
+                    board.picture = small;
+                });
+                wake();
+            }
         }
-        let began = Instant::now();
-        let frame = painting.at(frame_number as f64, &options);
-        let drawn = renderer.render_unless(&frame, &mut || shared.is_stopped());
-        let failed = |error: &dyn std::fmt::Display| {
-            format!("Frame {frame_number} was not written. {}: {error}", path.display())
-        };
-        let Some(picture) = drawn.map_err(|error| failed(&error))? else { return Ok(Outcome::Stopped) };
-        provenance.frame = frame_number.to_string();
-        write(&path, &picture, &provenance).map_err(|error| failed(&error))?;
-        let small = small_copy(&picture);
-        shared.note(|board| {
-            let progress = &mut board.progress;
-            progress.written += 1;
-            progress.drawing_s += began.elapsed().as_secs_f64();
-            progress.strokes = frame.strokes.len();
-            progress.last = Some(path);
-            board.picture = Some(small);
-        });
-        wake();
-    }
-    Ok(Outcome::Done)
-}
-
-fn write(path: &Path, picture: &Picture, provenance: &Provenance) -> anyhow::Result<()> {
-    picture_file::write(path, (picture.size_px, &picture.rgba8), provenance)
+        Ok(())
+    })?;
+    Ok(match ending {
+        Ending::Done => Outcome::Done,
+        Ending::Stopped => Outcome::Stopped,
+    })
 }
 
 /// Every so many pixels, which is enough for a look.
