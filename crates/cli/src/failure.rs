@@ -15,7 +15,7 @@ pub(crate) const USAGE: u8 = 2;
 /// Why a command ends early.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Nothing is left to say; this code.
+    /// Everything was said already; this exit code is left.
     Quiet(u8),
     /// Something went wrong that is not the input's fault.
     Other(String),
@@ -25,14 +25,14 @@ pub(crate) enum Failure {
     Input(Report),
     /// What was asked for cannot be done with this input.
     Refused(String),
-    /// No driver.
+    /// No OpenGL driver works.
     NoOpenGl(ContextError),
-    /// No window, with the words that say why.
+    /// No window can be opened, and why.
     #[cfg(feature = "editor")]
     NoWindow(String),
-    /// Some frames failed, the others are done.
+    /// Some frames failed; the others are written.
     SomeFrames { failed: u64, done: u64 },
-    /// A signal came; so many frames are done.
+    /// A signal came after so many frames were written.
     Interrupted { done: u64 },
 }
 

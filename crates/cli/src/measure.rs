@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::session;
 
-/// The exit code when a row does not hold.
+/// The exit code where a metric misses its bound.
 const MISSED: u8 = 1;
 
 pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
             scene: path.clone(),
             asset_dirs: arguments.asset_dirs.clone(),
             set: arguments.set.clone(),
-            // The threads are chosen once.
+            // The thread pool is built once.
             memory: None,
             threads: arguments.threads.filter(|_| index == 0),
         };

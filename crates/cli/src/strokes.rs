@@ -46,7 +46,7 @@ struct Row<'a> {
 
 const HEADER: &str = "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank,taper,bend_deg";
 
-/// What regions are called where none is stated.
+/// The name for what belongs to no region.
 const EVERYTHING_ELSE: &str = "everything else";
 
 pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
@@ -174,7 +174,7 @@ fn json(frame: &Frame, frame_number: f64, rows: &[Row<'_>]) -> String {
     format!("{value}\n")
 }
 
-/// The strokes as paths, in painting order: one may take them to a plotter or a vector editor.
+/// The strokes as paths in painting order, for a plotter or a vector editor.
 fn svg(frame: &Frame, rows: &[Row<'_>]) -> String {
     let [width, height] = frame.size_px;
     let mut text = format!(
@@ -221,7 +221,7 @@ fn hex(color: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A stroke along +X round the origin: full at the start, tapering at the end, bowed in the middle; then tapered and bent.
+/// The outline of a stroke along +X round the origin: blunt at its start, pointed at its end, bowed; then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
     // To the left of the stroke is up, which SVG counts negative; a cubic reaches three quarters of its handles.

@@ -1,7 +1,7 @@
-//! The thread that writes frames: the files of `impasto render`, in a context of its own, while the window goes on.
+//! The thread that renders a sequence into files, the same as those of `impasto render`, while the window stays usable.
 //!
 //! ```text
-//! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ each frame: draw ─▶ file beside ─▶ its name ─▶ Rendering::progress
+//! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ Sequence::render_files ─▶ Rendering::progress
 //! ```
 
 use std::any::Any;
@@ -23,13 +23,13 @@ use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
 #[cfg(test)]
 mod tests;
 
-/// How long closing waits for a frame that is being written.
+/// How long dropping a rendering waits for its thread.
 const CLOSING: Duration = Duration::from_millis(1500);
 
 /// Longest side of the small copy of the last frame, in pixels.
 const SMALL_PX: u32 = 480;
 
-/// Frames that are being rendered. Dropping it stops them; what is written stays, whole.
+/// A sequence that is being rendered. Dropping it stops it; frames that were written stay, whole.
 pub struct Rendering {
     shared: Arc<Shared>,
     plan: RenderPlan,
@@ -46,12 +46,12 @@ struct Shared {
 #[derive(Default)]
 struct Board {
     progress: RenderProgress,
-    /// The last frame, small; taken by whoever shows it.
+    /// A small copy of the last frame, until somebody takes it.
     picture: Option<ColorImage>,
 }
 
 impl Rendering {
-    /// Starts, with shaders that stand in for the program's own. `wake` is called on the thread whenever there is something new to show.
+    /// Starts. `shaders` stand in for the program's own. `wake` is called on the thread whenever there is something new to show.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -109,12 +109,12 @@ impl Rendering {
         self.shared.board().picture.take()
     }
 
-    /// Ends it as soon as it can; the frame under way is given up.
+    /// Ends it as soon as it can; frames under way are given up.
     pub fn stop(&self) {
         self.shared.stop.store(true, Ordering::Release);
     }
 
-    /// Waits for the end. Whether it came in time.
+    /// Waits for the end, at most so long; returns whether it came.
     pub fn wait(&self, most: Duration) -> bool {
         let board = self.shared.board();
         let runs = |board: &mut Board| board.progress.outcome.is_none();
@@ -129,7 +129,7 @@ impl Drop for Rendering {
         if self.wait(CLOSING)
             && let Some(thread) = self.thread.take()
         {
-            // Its panics have been told already.
+            // Where it panicked, the outcome says so already.
             let _ = thread.join();
         }
     }
@@ -151,6 +151,7 @@ impl Shared {
     }
 }
 
+/// The message of a panic.
 fn words(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
