@@ -379,6 +379,68 @@ fn an_interrupted_run_leaves_whole_frames_only() {
     }
 }
 
+/// Also where the shell has it ignore Ctrl-C, as shells do with what runs in the background.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {
+    use std::os::unix::process::ExitStatusExt as _;
+    let folder = Folder::new();
+    // It takes many times longer than the signals take to come.
+    let many = "objects[0].particles=2000000";
+    for arguments in [
+        &["render", "scene.ron", "--set", many, "-o", "a.png", "--frames", "0"][..],
+        &["render", "scene.ron", "--set", many, "-o", "a.png", "--apng"],
+        &["strokes", "scene.ron", "--set", many, "-o", "a.csv"],
+        &["measure", "scene.ron", "--set", many, "--plot", "a.svg", "-q"],
+    ] {
+        let mut child = Command::new("sh")
+            .args(["-c", "trap '' INT; exec \"$@\"", "sh"])
+            .arg(impasto())
+            .args(arguments)
+            .current_dir(folder.0.path())
+            .spawn()
+            .unwrap();
+        let status = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break status;
+            }
+            // Early ones find the shell, which ignores them.
+            let interrupt = format!("kill -INT {} 2>/dev/null", child.id());
+            Command::new("sh").args(["-c", &interrupt]).status().unwrap();
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        };
+        assert_eq!(status.signal(), Some(2), "{arguments:?}: {status}");
+        assert_eq!(folder.names("."), ["cube.obj", "scene.ron"], "{arguments:?}");
+    }
+}
+
+/// Through a pipe, because a fault must not cost this machine its `/dev/null`.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_written_into_and_stays() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let folder = Folder::new();
+    let pipe = folder.path("pipe.png");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for arguments in [
+        &["strokes", "scene.ron", "-o", "pipe.png"][..],
+        &["render", "scene.ron", "--frames", "1", "-o", "pipe.png"],
+        &["render", "scene.ron", "--apng", "-o", "pipe.png"],
+        &["brushes", "-o", "pipe.png"],
+    ] {
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::read(pipe)
+        });
+        let output = folder.run(arguments);
+        assert_eq!(code(&output), 0, "{arguments:?}: {}", words(&output.stderr));
+        assert!(std::fs::metadata(&pipe).unwrap().file_type().is_fifo(), "{arguments:?} replaced the pipe");
+        let bytes = reader.join().unwrap().unwrap();
+        let begin: &[u8] = if arguments[0] == "strokes" { b"id,object" } else { b"\x89PNG" };
+        assert!(bytes.starts_with(begin), "{arguments:?}");
+    }
+}
+
 #[test]
 fn brushes_are_shown_on_a_sheet() {
     let folder = Folder::new();
@@ -436,4 +498,7 @@ fn frames_are_piped_to_ffmpeg_where_it_is_installed() {
         "a movie that failed leaves nothing"
     );
     assert_eq!(code(&folder.run(&["render", "scene.ron", "-o", "shot.mp4", "--apng"])), 2);
+    let transparent = folder.run(&["render", "scene.ron", "-o", "shot.mp4", "--alpha"]);
+    assert_eq!(code(&transparent), 2);
+    assert!(words(&transparent.stderr).contains("holds no transparency"), "{}", words(&transparent.stderr));
 }

@@ -80,8 +80,11 @@ const WINDOW_TESTS: &[Need] = &[
     program_of("xdotool", &["xdotool"]),
 ];
 
+/// What the tests of movies need.
+const MOVIE_TESTS: &[Need] = &[program_of("ffmpeg", &["ffmpeg"])];
+
 /// What `cargo xtask test` and `ci` make sure of.
-pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS];
+pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS, MOVIE_TESTS];
 
 /// Makes sure that everything in `needs` is there, or says how to get it.
 pub fn ensure(root: &Path, needs: &[&[Need]], install: Install) -> anyhow::Result<()> {

@@ -1,4 +1,4 @@
-//! What was typed.
+//! The command line: its subcommands and their arguments.
 
 use std::path::PathBuf;
 
@@ -22,19 +22,19 @@ pub(crate) enum Command {
     Edit(EditArguments),
     /// Paint frames of a scene, or any OBJ model from a sensible camera.
     Render(RenderArguments),
-    /// Write down the scene that `render MODEL.obj` would use.
+    /// Write the scene that `render MODEL.obj` would use to a file.
     New(NewArguments),
-    /// Tell every problem of scenes, with its place.
+    /// List every problem of scenes, with its line and column.
     Check(CheckArguments),
-    /// Tell what is in a scene or a mesh.
+    /// Show what is in a scene or a mesh.
     Info(InfoArguments),
     /// Write the strokes of a frame as they are drawn.
     Strokes(StrokesArguments),
     /// Measure how steady scenes are: popping, turning, flatness and more, beside the source paper's rule.
     Measure(MeasureArguments),
-    /// Paint a sheet of all brushes, and of pictures of one's own as brushes.
+    /// Paint a sheet of all brushes, and of your own pictures as brushes.
     Brushes(BrushesArguments),
-    /// Tell which OpenGL drivers work here, and draw a test picture.
+    /// Find out which OpenGL drivers work here, by drawing a test picture.
     Doctor(DoctorArguments),
     /// Print a completion script for a shell.
     Completions {
@@ -48,13 +48,13 @@ pub(crate) enum Command {
 pub(crate) struct SceneArguments {
     /// A scene (.ron) or a model (.obj).
     pub(crate) scene: PathBuf,
-    /// Another folder that meshes and textures may come from; may be given again.
+    /// A further folder that meshes and textures may come from; can be repeated.
     #[arg(long = "asset-dir", value_name = "DIR")]
     pub(crate) asset_dirs: Vec<PathBuf>,
-    /// A value in place of the scene's own, such as strokes.width_px=12; may be given again.
+    /// Override a value of the scene, such as strokes.width_px=12; can be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) set: Vec<String>,
-    /// How many threads prepare and solve; all cores when left out. The result is the same.
+    /// How many threads work; all cores when left out. The result is the same.
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
     /// The most memory that particles may take, such as 512M or 4G; what the system has free when left out.
@@ -81,7 +81,7 @@ fn memory_bytes(text: &str) -> Result<u64, String> {
 /// How much to say.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct Talk {
-    /// Say more: the driver and why, the steps of preparing, each frame's strokes, overdraw, memory and passes.
+    /// Say more: which driver and why, the steps of preparing, and for each frame its strokes, overdraw, memory and passes.
     #[arg(short, long, action = clap::ArgAction::Count)]
     pub(crate) verbose: u8,
     /// Say nothing but errors.
@@ -187,7 +187,7 @@ pub(crate) struct RenderArguments {
     /// A folder of shaders that stand in for the program's own.
     #[arg(long, value_name = "DIR")]
     pub(crate) shaders: Option<PathBuf>,
-    /// No ground under the paint: PNG with transparency.
+    /// Leave what is not painted transparent: in PNG files, and in .mov and .webm movies.
     #[arg(long)]
     pub(crate) alpha: bool,
     /// A style in place of the scene's own.
@@ -200,19 +200,19 @@ pub(crate) struct RenderArguments {
     /// What strokes are coloured by: the scene, or how far their turn can be trusted.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) colors: ColorsChoice,
-    /// Go all the way round in place of the scene's own shot: 360 frames, a degree each.
+    /// Go once round instead of rendering the scene's own shot: a degree a frame.
     #[arg(long)]
     pub(crate) turntable: bool,
-    /// Strokes keep their size in pixels whatever the picture's size.
+    /// Keep strokes at their size in pixels, whatever the size of the picture.
     #[arg(long)]
     pub(crate) keep_stroke_px: bool,
-    /// Leave frames alone that are there already.
+    /// Skip frames whose files exist.
     #[arg(long)]
     pub(crate) skip_existing: bool,
-    /// Also put small copies of all frames on one sheet, beside the frames.
+    /// Also write a sheet of small copies of all frames, beside the frames.
     #[arg(long)]
     pub(crate) contact_sheet: bool,
-    /// Write one animated PNG in place of single frames.
+    /// Write one animated PNG instead of single frames.
     #[arg(long, conflicts_with_all = ["contact_sheet", "skip_existing"])]
     pub(crate) apng: bool,
     /// Print a line of JSON per frame.
@@ -239,7 +239,7 @@ pub(crate) struct CheckArguments {
     /// Scenes (.ron) or models (.obj).
     #[arg(required = true)]
     pub(crate) scenes: Vec<PathBuf>,
-    /// Another folder that meshes and textures may come from; may be given again.
+    /// A further folder that meshes and textures may come from; can be repeated.
     #[arg(long = "asset-dir", value_name = "DIR")]
     pub(crate) asset_dirs: Vec<PathBuf>,
     /// Print a line of JSON per problem.
@@ -294,16 +294,16 @@ pub(crate) struct MeasureArguments {
     /// Scenes (.ron) or models (.obj).
     #[arg(required = true)]
     pub(crate) scenes: Vec<PathBuf>,
-    /// Another folder that meshes and textures may come from; may be given again.
+    /// A further folder that meshes and textures may come from; can be repeated.
     #[arg(long = "asset-dir", value_name = "DIR")]
     pub(crate) asset_dirs: Vec<PathBuf>,
-    /// A value in place of the scene's own, such as strokes.width_px=12; may be given again.
+    /// Override a value of the scene, such as strokes.width_px=12; can be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) set: Vec<String>,
-    /// How many threads prepare and solve; all cores when left out. The result is the same.
+    /// How many threads work; all cores when left out. The result is the same.
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
-    /// A whole turn of the camera about its target in place of the shot, for scenes without motion and for models.
+    /// Go once round instead of measuring the scene's own shot: for scenes without motion, and for models.
     #[arg(long)]
     pub(crate) turntable: bool,
     /// Only these metrics, such as M4,M5.
@@ -342,7 +342,7 @@ pub(crate) struct DoctorArguments {
     pub(crate) json: bool,
 }
 
-/// Longest side of a picture and most pixels: what a scene file may ask for too.
+/// The longest side of a picture and the most pixels; a scene file has the same limits.
 const MAX_SIDE_PX: u32 = 16_384;
 const MAX_PX: u64 = 1 << 27;
 

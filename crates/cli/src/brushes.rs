@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use impasto_core::brush::{self, HEIGHT_SCALE, Mark};
-use impasto_frame_files::picture_file::{self, Provenance};
+use impasto_frame_files::picture_file::{self, Pixels, Provenance};
 use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_gl_render::Picture;
 use impasto_scene::load::load_brush;
@@ -36,8 +36,8 @@ pub(crate) fn run(arguments: &BrushesArguments) -> Result<(), Failure> {
     let picture = sheet(&rows);
     let provenance =
         Provenance { scene: "brushes".to_owned(), frame: "sheet".to_owned(), driver: String::new() };
-    picture_file::write(path, (picture.size_px, &picture.rgba8), &provenance)
-        .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
+    let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
+    picture_file::write(path, pixels, &provenance).map_err(|error| Failure::of_file(path, error))?;
     eprintln!("{}, from the top:", path.display());
     for (name, _) in &rows {
         eprintln!("  {name}");

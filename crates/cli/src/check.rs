@@ -1,4 +1,4 @@
-//! `impasto check`: every problem, with its place.
+//! `impasto check`: lists every problem of scenes, with its line and column.
 
 use std::io::Write as _;
 

@@ -1,4 +1,4 @@
-//! `impasto doctor`: which drivers work here, whether they draw what they should, and whether a window could be opened.
+//! `impasto doctor`: which drivers work here and draw correctly, and whether a window could be opened.
 
 use std::io::Write as _;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use impasto_painting::frame::{
 use crate::args::DoctorArguments;
 use crate::failure::Failure;
 
-/// What was found of one driver.
+/// How one driver fared.
 struct Finding {
     driver: Driver,
     outcome: Result<ContextReport, String>,
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
                 writeln!(out, "  OpenGL {}, GLSL {}", report.version, report.shading_language)?;
                 writeln!(
                     out,
-                    "  pictures up to {} pixels a side; the test picture is right",
+                    "  pictures up to {} pixels a side; the test picture is correct",
                     report.max_side_px
                 )?;
             }
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
         }
     }
     #[cfg(feature = "editor")]
-    tell_of_window(&mut out, arguments.json)?;
+    print_window(&mut out, arguments.json)?;
     if findings.iter().any(|finding| finding.outcome.is_ok()) {
         return Ok(());
     }
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
 
 /// Whether the editor could open a window. Rendering needs none, so it does not count against the machine.
 #[cfg(feature = "editor")]
-fn tell_of_window(out: &mut std::io::Stdout, json: bool) -> Result<(), Failure> {
+fn print_window(out: &mut std::io::Stdout, json: bool) -> Result<(), Failure> {
     let found = crate::window_libraries::find();
     if json {
         let (display, packages) = (&found.display, found.packages.join(" "));
@@ -102,26 +102,26 @@ fn examine(driver: Driver) -> Finding {
         })
         .and_then(|context| {
             let report = context.report().clone();
-            draws_right(context).map(|()| report)
+            draws_correctly(context).map(|()| report)
         });
     Finding { driver, outcome }
 }
 
-/// Draws one stroke on a ground of known colour and looks at the pixels.
-fn draws_right(context: impasto_gl_render::context::Context) -> Result<(), String> {
+/// Draws one stroke on a background of known colour and looks at the pixels.
+fn draws_correctly(context: impasto_gl_render::context::Context) -> Result<(), String> {
     let mut renderer = Renderer::new(context).map_err(|error| error.to_string())?;
     let picture = renderer.render(&test_frame()).map_err(|error| error.to_string())?;
     let pixel = |x: usize, y: usize| -> [u8; 3] {
         let at = (y * 64 + x) * 4;
         [picture.rgba8[at], picture.rgba8[at + 1], picture.rgba8[at + 2]]
     };
-    let ground_is_blue = pixel(2, 2) == [0, 0, 255];
+    let background_is_blue = pixel(2, 2) == [0, 0, 255];
     // The stroke covers the middle; without a body under it, it is black paint.
     let middle = pixel(32, 32);
-    if ground_is_blue && middle[2] < 80 {
+    if background_is_blue && middle[2] < 80 {
         Ok(())
     } else {
-        Err(format!("the test picture is wrong: ground {:?}, stroke {middle:?}", pixel(2, 2)))
+        Err(format!("the test picture is wrong: background {:?}, stroke {middle:?}", pixel(2, 2)))
     }
 }
 

@@ -1,9 +1,13 @@
 //! Why a command ends early, and the exit code that says so.
 
+use std::fmt::Display;
+use std::path::Path;
+
 use impasto_frame_files::PlaceError;
 use impasto_gl_render::RenderError;
 use impasto_gl_render::context::ContextError;
 use impasto_scene::problem::Report;
+use impasto_sequence::FrameError;
 
 /// The command line is wrong.
 pub(crate) const USAGE: u8 = 2;
@@ -11,7 +15,7 @@ pub(crate) const USAGE: u8 = 2;
 /// Why a command ends early.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Nothing is left to say; this code.
+    /// Everything was said already; this exit code is left.
     Quiet(u8),
     /// Something went wrong that is not the input's fault.
     Other(String),
@@ -21,18 +25,23 @@ pub(crate) enum Failure {
     Input(Report),
     /// What was asked for cannot be done with this input.
     Refused(String),
-    /// No driver.
+    /// No OpenGL driver works.
     NoOpenGl(ContextError),
-    /// No window, with the words that say why.
+    /// No window can be opened, and why.
     #[cfg(feature = "editor")]
     NoWindow(String),
-    /// Some frames failed, the others are done.
+    /// Some frames failed; the others are written.
     SomeFrames { failed: u64, done: u64 },
-    /// A signal came; so many frames are done.
+    /// A signal came after so many frames were written.
     Interrupted { done: u64 },
 }
 
 impl Failure {
+    /// A file was not written.
+    pub(crate) fn of_file(path: &Path, error: impl Display) -> Self {
+        Self::Other(format!("{}: {error}", path.display()))
+    }
+
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Quiet(code) => *code,
@@ -60,6 +69,7 @@ impl Failure {
             Self::SomeFrames { failed, done } => {
                 format!("impasto: error: {failed} frames failed, {done} are done")
             }
+            Self::Interrupted { done: 0 } => "impasto: interrupted; nothing is written".to_owned(),
             Self::Interrupted { done } => {
                 format!("impasto: interrupted; {done} frames are done and whole (go on with --skip-existing)")
             }
@@ -90,6 +100,15 @@ impl From<RenderError> for Failure {
         match error {
             RenderError::TooLarge { .. } | RenderError::Empty => Self::Refused(error.to_string()),
             RenderError::Gl(_) => Self::Other(error.to_string()),
+        }
+    }
+}
+
+impl From<FrameError> for Failure {
+    fn from(error: FrameError) -> Self {
+        match error {
+            FrameError::Render(error) => error.into(),
+            FrameError::Encode(_) | FrameError::Write(_) => Self::Other(error.to_string()),
         }
     }
 }

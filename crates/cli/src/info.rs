@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A region's name, and what is not plain about it.
+/// A region's name, with what is special about it.
 fn region_words(region: &Region) -> String {
     let mut facts = Vec::new();
     match region.guides.len() {
@@ -121,7 +121,7 @@ fn facts(painting: &Painting) -> serde_json::Value {
                 "particles": counts[index],
                 "area": painting.surface_area(index),
                 "hidden": object.hidden,
-                // Where a combed field of directions runs round a point, or parts.
+                // Points where a combed field of directions whirls or forks.
                 "singularities": painting
                     .singularities(index)
                     .iter()

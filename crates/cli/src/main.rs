@@ -1,4 +1,4 @@
-//! The `impasto` command: paints scenes with no window, tells what is in them, and opens the editor.
+//! The `impasto` command: paints scenes without a window, inspects them, and opens the editor.
 
 mod args;
 mod brushes;
@@ -7,12 +7,11 @@ mod doctor;
 #[cfg(feature = "editor")]
 mod edit;
 mod failure;
-mod in_order;
 mod info;
+mod interrupt;
 mod measure;
 mod movie;
 mod new;
-mod painter;
 mod render;
 mod session;
 mod sheet;
@@ -32,7 +31,7 @@ fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help and version are no errors; everything else is a wrong command line.
+            // Help and version are no errors; everything else is.
             let code = if error.use_stderr() { failure::USAGE } else { 0 };
             let _ = error.print();
             return ExitCode::from(code);
@@ -68,7 +67,7 @@ fn main() -> ExitCode {
 
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
-        // A closed pipe is the reader's choice.
+        // Whoever reads our output may stop reading.
         if error.kind() == std::io::ErrorKind::BrokenPipe {
             Self::Quiet(0)
         } else {

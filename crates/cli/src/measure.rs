@@ -4,27 +4,30 @@ use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
-use impasto_frame_files::{not_an_input, picture_file, ready_folder};
+use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_measure::{MeasureError, MeasureOptions, MeasureReport, Progress, measure, plot, turntable};
+use impasto_scene::whole_file;
 
 use crate::args::{MeasureArguments, SceneArguments};
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::session;
 
-/// The exit code when a row does not hold.
+/// The exit code where a metric misses its bound.
 const MISSED: u8 = 1;
 
 pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     if let Some(plot) = &arguments.plot {
         check_plot(plot, arguments.scenes.len())?;
     }
+    let interrupt = Interrupt::watch()?;
     let mut all_hold = true;
     for (index, path) in arguments.scenes.iter().enumerate() {
         let scene = SceneArguments {
             scene: path.clone(),
             asset_dirs: arguments.asset_dirs.clone(),
             set: arguments.set.clone(),
-            // The threads are chosen once.
+            // The thread pool is built once.
             memory: None,
             threads: arguments.threads.filter(|_| index == 0),
         };
@@ -53,12 +56,12 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
             }
         })?;
         all_hold &= report.holds();
-        print(&report, arguments)?;
+        print(&report, arguments, &interrupt)?;
     }
     if all_hold { Ok(()) } else { Err(Failure::Quiet(MISSED)) }
 }
 
-fn print(report: &MeasureReport, arguments: &MeasureArguments) -> Result<(), Failure> {
+fn print(report: &MeasureReport, arguments: &MeasureArguments, interrupt: &Interrupt) -> Result<(), Failure> {
     let mut out = std::io::stdout();
     if arguments.json {
         let text = serde_json::to_string(report).map_err(|error| Failure::Other(error.to_string()))?;
@@ -68,8 +71,8 @@ fn print(report: &MeasureReport, arguments: &MeasureArguments) -> Result<(), Fai
     }
     let Some(path) = &arguments.plot else { return Ok(()) };
     let text = plot::svg(report);
-    picture_file::whole(path, |file| Ok(file.write_all(text.as_bytes())?))
-        .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))
+    interrupt.hold_off();
+    whole_file::write(path, text.as_bytes()).map_err(|error| Failure::of_file(path, error))
 }
 
 fn check_plot(plot: &Path, scenes: usize) -> Result<(), Failure> {

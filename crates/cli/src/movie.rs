@@ -4,61 +4,103 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-use impasto_gl_render::Picture;
+use impasto_scene::whole_file::WholeFile;
 
 use crate::failure::Failure;
 
-/// Endings of file names that mean a movie.
-const ENDINGS: [&str; 4] = ["mp4", "mov", "mkv", "webm"];
+#[cfg(test)]
+mod tests;
 
-/// Whether a file of this name is a movie.
-pub(crate) fn is_movie(name: &str) -> bool {
-    let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+/// From sRGB pixels to the numbers of BT.709 in the range of television, which is what players take a movie for; the stream
+/// says so. Left to itself, ffmpeg takes BT.601 and says nothing, and players show other colours. H.264 and others want even
+/// sides: what is added is transparent where there is transparency, else black.
+const FILTERS: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,\
+    scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,\
+    setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";
+
+/// How a movie is encoded: ffmpeg's arguments for its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Encoding(&'static [&'static str]);
+
+/// Endings of file names that mean a movie, with the encodings without and with transparency.
+const ENCODINGS: [(&str, Encoding, Option<Encoding>); 4] = [
+    ("mp4", Encoding(&["-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]), None),
+    (
+        "mov",
+        Encoding(&["-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mov"]),
+        // ProRes 4444.
+        Some(Encoding(&["-c:v", "prores_ks", "-profile:v", "4", "-pix_fmt", "yuva444p10le", "-f", "mov"])),
+    ),
+    ("mkv", Encoding(&["-pix_fmt", "yuv420p", "-f", "matroska"]), None),
+    (
+        "webm",
+        Encoding(&["-pix_fmt", "yuv420p", "-f", "webm"]),
+        Some(Encoding(&["-c:v", "libvpx-vp9", "-pix_fmt", "yuva420p", "-f", "webm"])),
+    ),
+];
+
+impl Encoding {
+    /// The encoding that a file's name asks for; `None` where it is no movie.
+    ///
+    /// # Errors
+    /// Words, where transparency is wanted and such a file has none.
+    pub(crate) fn of(path: &Path, transparent: bool) -> Option<Result<Self, String>> {
+        let ending = path.extension()?.to_string_lossy().to_lowercase();
+        let (_, opaque, with_alpha) = ENCODINGS.into_iter().find(|(known, ..)| *known == ending)?;
+        if !transparent {
+            return Some(Ok(opaque));
+        }
+        Some(with_alpha.ok_or_else(|| {
+            format!(
+                "--alpha: a .{ending} movie holds no transparency; write a .mov (ProRes 4444) or a .webm (VP9), or PNG frames"
+            )
+        }))
+    }
 }
 
 /// A movie that is being written. It has its own name only when it is whole; dropped before, it leaves nothing.
 pub(crate) struct Movie {
     encoder: Child,
-    part: Option<tempfile::TempPath>,
+    file: Option<WholeFile>,
     path: PathBuf,
 }
 
 impl Movie {
     /// Starts ffmpeg.
-    pub(crate) fn start(path: &Path, size_px: [u32; 2], fps: f64) -> Result<Self, Failure> {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let ending = path.extension().map(|ending| ending.to_string_lossy()).unwrap_or_default();
-        let part = tempfile::Builder::new()
-            .prefix(".impasto-")
-            .suffix(&format!(".{ending}"))
-            .tempfile_in(folder)
-            .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?
-            .into_temp_path();
-        let encoder = Command::new("ffmpeg")
+    pub(crate) fn start(
+        path: &Path,
+        encoding: Encoding,
+        size_px: [u32; 2],
+        fps: f64,
+    ) -> Result<Self, Failure> {
+        let file = WholeFile::create(path).map_err(|error| Failure::of_file(path, error))?;
+        let mut command = Command::new("ffmpeg");
+        command
             .args(["-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgba"])
             .args(["-s", &format!("{}x{}", size_px[0], size_px[1]), "-r", &fps.to_string(), "-i", "-"])
-            // Most players want even sides and this format.
-            .args(["-an", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"])
-            .arg(&part)
+            .args(["-an", "-vf", FILTERS])
+            .args(encoding.0)
+            .arg(file.part_path())
             .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .spawn()
-            .map_err(|error| match error.kind() {
-                std::io::ErrorKind::NotFound => Failure::Refused(format!(
-                    "{}: movies are made by ffmpeg, which is not installed; install it (apt install ffmpeg), or write \
-                     frames with -o out/frame_####.png or one animated PNG with --apng",
-                    path.display()
-                )),
-                _ => Failure::Other(format!("ffmpeg cannot be started: {error}")),
-            })?;
-        Ok(Self { encoder, part: Some(part), path: path.to_owned() })
+            .stdout(Stdio::null());
+        // Ctrl-C in a terminal goes to a whole process group. It is for us, and we end ffmpeg.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let encoder = command.spawn().map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => Failure::Refused(format!(
+                "{}: movies are made by ffmpeg, which is not installed; install it (apt install ffmpeg), or write \
+                 frames with -o out/frame_####.png or one animated PNG with --apng",
+                path.display()
+            )),
+            _ => Failure::Other(format!("ffmpeg cannot be started: {error}")),
+        })?;
+        Ok(Self { encoder, file: Some(file), path: path.to_owned() })
     }
 
     /// Appends a frame.
-    pub(crate) fn add(&mut self, picture: &Picture) -> Result<(), Failure> {
+    pub(crate) fn add(&mut self, rgba8: &[u8]) -> Result<(), Failure> {
         let Some(pipe) = &mut self.encoder.stdin else { return Ok(()) };
-        pipe.write_all(&picture.rgba8)
+        pipe.write_all(rgba8)
             .map_err(|error| Failure::Other(format!("ffmpeg stopped before the last frame: {error}")))
     }
 
@@ -72,8 +114,8 @@ impl Movie {
                 self.path.display()
             )));
         }
-        let Some(part) = self.part.take() else { return Ok(()) };
-        part.persist(&self.path).map_err(|error| Failure::Other(format!("{}: {error}", self.path.display())))
+        let Some(file) = self.file.take() else { return Ok(()) };
+        file.finish().map_err(|error| Failure::of_file(&self.path, error))
     }
 }
 

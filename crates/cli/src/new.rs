@@ -1,4 +1,4 @@
-//! `impasto new`: the scene that `render MODEL.obj` uses, written down.
+//! `impasto new`: writes the scene that `render MODEL.obj` uses to a file.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     let folder = ready_folder(&arguments.output)?;
     let mut scene = loaded.scene;
     let mesh = path_from(&folder, &arguments.model)?;
-    // The model; what stands beside it needs no file.
+    // The model comes first; the backdrop needs no file.
     if let Some(object) = scene.objects.first_mut() {
         object.mesh.clone_from(&mesh);
     }

@@ -1,73 +1,65 @@
 //! `impasto render`: frames of a scene as pictures.
 
-use std::collections::HashSet;
+use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use impasto_frame_files::picture_file;
+use impasto_frame_files::picture_file::{self, Pixels};
 use impasto_frame_files::{FrameList, Pattern, not_an_input, ready_folder};
 use impasto_gl_render::shader_folder::ShaderFolder;
-use impasto_gl_render::{Picture, Renderer};
+use impasto_gl_render::{Cost, PassTime, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, Rotation, StrokeColors};
 use impasto_scene::document::Style;
+use impasto_scene::memory;
+use impasto_scene::whole_file::WholeFile;
+use impasto_sequence::{Drawn, Ending, FileOutcome, FrameFiles, Sequence, Wanted};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::{ColorsChoice, RenderArguments, RotationChoice};
 use crate::failure::Failure;
-use crate::in_order::{Workers, in_order};
-use crate::movie::{self, Movie};
-use crate::painter::{Drawn, Painter, Shot, Wanted, pixels};
+use crate::interrupt::Interrupt;
+use crate::movie::{Encoding, Movie};
 use crate::session;
 use crate::sheet::Sheet;
 
 /// Where the pictures go.
+#[derive(Clone)]
 enum Destination {
     /// A file per frame.
     Files(Pattern),
-    /// One animated file.
+    /// One animated PNG file.
     Animation(PathBuf),
     /// One movie.
-    Movie(PathBuf),
+    Movie(PathBuf, Encoding),
     /// One picture, to standard output.
     Stream,
 }
 
 /// What the command does, after everything was checked.
 struct Plan {
-    shot: Shot,
+    sequence: Sequence,
     renderer: Renderer,
     frames: FrameList,
     destination: Destination,
-    interrupted: Arc<AtomicBool>,
 }
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
+    let interrupt = Interrupt::watch()?;
     let frames = arguments.frames.as_deref().map(FrameList::parse).transpose().map_err(Failure::Usage)?;
     let mut plan = plan(arguments, frames)?;
-    match &plan.destination {
-        Destination::Files(pattern) => {
-            let pattern = pattern.clone();
-            plan.files(arguments, &pattern)
-        }
-        Destination::Animation(path) => {
-            let path = path.clone();
-            plan.animation(arguments, &path)
-        }
-        Destination::Movie(path) => {
-            let path = path.clone();
-            plan.movie(arguments, &path)
-        }
-        Destination::Stream => plan.stream(),
+    interrupt.hold_off();
+    match plan.destination.clone() {
+        Destination::Files(pattern) => plan.files(arguments, &pattern, &interrupt),
+        Destination::Animation(path) => plan.animation(arguments, &path, &interrupt),
+        Destination::Movie(path, encoding) => plan.movie(arguments, &path, encoding, &interrupt),
+        Destination::Stream => plan.stream(&interrupt),
     }
 }
 
 fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, Failure> {
-    let quiet = arguments.talk.quiet;
     let verbose = arguments.talk.verbose > 0;
-    let mut loaded = session::read_scene(&arguments.scene, quiet)?;
+    let mut loaded = session::read_scene(&arguments.scene, arguments.talk.quiet)?;
     if arguments.turntable {
         loaded = impasto_measure::turntable(&loaded);
     }
@@ -87,9 +79,9 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
             for frame in frames.iter() {
                 not_an_input(&pattern.path(frame), &inputs)?;
             }
-            ready_folder(&pattern.path(0))?;
+            ready_folder(&pattern.path(frames.iter().next().unwrap_or(0)))?;
         }
-        Destination::Animation(path) | Destination::Movie(path) => {
+        Destination::Animation(path) | Destination::Movie(path, _) => {
             not_an_input(path, &inputs)?;
             ready_folder(path)?;
         }
@@ -99,20 +91,12 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
     let scene_name =
         loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let mut renderer = session::open_renderer(arguments.driver, verbose)?;
-    let mut shaders = None;
+    let mut shaders = ShaderTexts::default();
     if let Some(folder) = &arguments.shaders {
-        let (_, texts) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
-        renderer.replace_shaders(&texts)?;
-        shaders = Some(texts);
+        (_, shaders) = ShaderFolder::open(folder).map_err(Failure::Refused)?;
+        renderer.replace_shaders(&shaders)?;
     }
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    // A second signal while the frame is finishing changes nothing.
-    ctrlc::set_handler(move || flag.store(true, Ordering::SeqCst))
-        .map_err(|error| Failure::Other(error.to_string()))?;
     let options = FrameOptions {
-        size_px,
-        shot_height_px: None,
         keep_stroke_px: arguments.keep_stroke_px,
         transparent: arguments.alpha,
         rotation: match arguments.rotation {
@@ -127,16 +111,21 @@ fn plan(arguments: &RenderArguments, frames: Option<FrameList>) -> Result<Plan, 
         },
         ..FrameOptions::new(size_px)
     };
-    let shot = Shot {
+    let sequence = Sequence {
         painting: session::prepare_scene(loaded, &arguments.scene, verbose)?,
         options,
         scene_name,
-        driver: arguments.driver,
+        driver: session::driver(arguments.driver),
         shaders,
-        verbose,
+        wanted: match destination {
+            Destination::Files(_) if arguments.contact_sheet => Wanted::PngAndPicture,
+            Destination::Files(_) | Destination::Stream => Wanted::Png,
+            Destination::Animation(_) | Destination::Movie(..) => Wanted::Picture,
+        },
+        timed: verbose,
         counted: verbose || arguments.json,
     };
-    Ok(Plan { shot, renderer, frames, destination, interrupted })
+    Ok(Plan { sequence, renderer, frames, destination })
 }
 
 fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destination, Failure> {
@@ -147,12 +136,13 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
         }
         return Ok(Destination::Stream);
     }
-    if movie::is_movie(&arguments.output) {
+    if let Some(encoding) = Encoding::of(Path::new(&arguments.output), arguments.alpha) {
         if arguments.apng || arguments.contact_sheet || arguments.skip_existing {
             let words = "-o MOVIE makes one movie and nothing else: leave --apng, --contact-sheet and --skip-existing out";
             return Err(Failure::Usage(words.to_owned()));
         }
-        return Ok(Destination::Movie(PathBuf::from(&arguments.output)));
+        let encoding = encoding.map_err(Failure::Usage)?;
+        return Ok(Destination::Movie(PathBuf::from(&arguments.output), encoding));
     }
     if !arguments.output.to_lowercase().ends_with(".png") {
         let words = format!("-o {}: let the name end in .png, or in .mp4 for a movie", arguments.output);
@@ -173,185 +163,181 @@ fn destination(arguments: &RenderArguments, frames: &FrameList) -> Result<Destin
 }
 
 impl Plan {
-    fn files(&mut self, arguments: &RenderArguments, pattern: &Pattern) -> Result<(), Failure> {
-        let verbose = self.shot.verbose;
-        let bar = progress_bar(self.frames.count(), arguments);
-        let count = self.frames.count();
-        let mut sheet = arguments.contact_sheet.then(|| Sheet::new(count, self.shot.options.size_px));
+    fn files(
+        &mut self,
+        arguments: &RenderArguments,
+        pattern: &Pattern,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let Self { sequence, renderer, frames, .. } = self;
+        let bar = progress_bar(frames.count(), arguments);
+        let mut sheet = arguments.contact_sheet.then(|| Sheet::new(frames.count(), sequence.options.size_px));
         let (mut done, mut failed, start) = (0, 0, Instant::now());
-        let driver = self.renderer.report().renderer.clone();
+        let sheet_provenance = sequence.provenance("sheet", renderer);
         if arguments.json {
-            let driver = self.renderer.report().to_string();
+            let driver = renderer.report().to_string();
             let line = serde_json::json!({ "version": 1, "event": "context", "driver": driver });
             writeln!(std::io::stdout(), "{line}")?;
         }
-        // A frame that is named twice is there when it is named again.
-        let mut begun = HashSet::new();
-        let wants = |frame_number: i64| {
-            let skips = arguments.skip_existing
-                && (pattern.path(frame_number).exists() || !begun.insert(frame_number));
-            if skips {
-                bar.inc(1);
-            }
-            !skips
+        let files = FrameFiles {
+            frames,
+            path: &|frame_number| pattern.path(frame_number),
+            keep_existing: arguments.skip_existing,
         };
-        let wanted = if sheet.is_some() { Wanted::FileAndPicture } else { Wanted::File };
-        let all = self.each(wanted, wants, |frame_number, drawn| {
-            let path = pattern.path(frame_number);
-            let written = drawn.and_then(|drawn| {
-                picture_file::whole(&path, |file| Ok(file.write_all(&drawn.png)?))
-                    .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
-                Ok(drawn)
-            });
-            match written {
-                Ok(Drawn { picture, strokes, told, seconds, .. }) => {
-                    done += 1;
-                    if let (Some(sheet), Some(picture)) = (&mut sheet, &picture) {
-                        sheet.add(picture);
+        let ending =
+            sequence.render_files(renderer, &files, &|| interrupt.came(), |frame_number, outcome| {
+                let path = pattern.path(frame_number);
+                match outcome {
+                    FileOutcome::Kept => {}
+                    FileOutcome::Failed(error) => {
+                        failed += 1;
+                        bar.suspend(|| eprintln!("frame {frame_number}: {}: {error}", path.display()));
                     }
-                    if verbose {
-                        bar.suspend(|| {
-                            eprintln!("frame {frame_number}: {seconds:.2} s, {}\n{told}", path.display());
-                        });
-                    }
-                    if arguments.json {
-                        let line = serde_json::json!({
-                            "version": 1, "event": "frame", "frame": frame_number, "path": path, "strokes": strokes, "seconds": seconds,
-                        });
-                        writeln!(std::io::stdout(), "{line}")?;
+                    FileOutcome::Written(drawn) => {
+                        done += 1;
+                        if let (Some(sheet), Some(picture)) = (&mut sheet, &drawn.picture) {
+                            sheet.add(picture);
+                        }
+                        if let Some(cost) = &drawn.cost {
+                            let costs = cost_words(&drawn, cost);
+                            bar.suspend(|| {
+                                eprintln!(
+                                    "frame {frame_number}: {:.2} s, {}\n{costs}",
+                                    drawn.seconds,
+                                    path.display()
+                                );
+                            });
+                        }
+                        if arguments.json {
+                            let line = serde_json::json!({
+                                "version": 1,
+                                "event": "frame",
+                                "frame": frame_number,
+                                "path": path,
+                                "strokes": drawn.painted_strokes,
+                                "seconds": drawn.seconds,
+                            });
+                            writeln!(std::io::stdout(), "{line}")?;
+                        }
                     }
                 }
-                Err(failure) => {
-                    failed += 1;
-                    bar.suspend(|| {
-                        eprintln!("frame {frame_number}: {}", failure.words().unwrap_or_default())
-                    });
-                }
-            }
-            bar.inc(1);
-            Ok(())
-        })?;
-        if !all {
+                bar.inc(1);
+                Ok::<(), Failure>(())
+            })?;
+        if ending == Ending::Stopped {
             return Err(Failure::Interrupted { done });
         }
         bar.finish_and_clear();
         if let Some(sheet) = sheet {
             let path = pattern.beside("sheet");
-            picture_file::write(&path, pixels(&sheet.picture()), &self.shot.provenance("sheet", &driver))
-                .map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
+            let picture = sheet.picture();
+            let pixels = Pixels { size_px: picture.size_px, rgba8: &picture.rgba8 };
+            picture_file::write(&path, pixels, &sheet_provenance)
+                .map_err(|error| Failure::of_file(&path, error))?;
         }
         if failed > 0 {
             return Err(Failure::SomeFrames { failed, done });
         }
         if !arguments.talk.quiet {
             let seconds = start.elapsed().as_secs_f64();
-            eprintln!(
-                "{done} frames in {seconds:.1} s, {}",
-                pattern.path(0).parent().unwrap_or(&PathBuf::new()).display()
-            );
+            let folder = pattern.path(0).parent().map(Path::to_owned).unwrap_or_default();
+            eprintln!("{done} frames in {seconds:.1} s, {}", folder.display());
         }
         Ok(())
     }
 
-    fn animation(&mut self, arguments: &RenderArguments, path: &Path) -> Result<(), Failure> {
-        let bar = progress_bar(self.frames.count(), arguments);
+    fn animation(
+        &mut self,
+        arguments: &RenderArguments,
+        path: &Path,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let of_file = |error: anyhow::Error| Failure::of_file(path, error);
         let count = u32::try_from(self.frames.count()).map_err(|error| Failure::Usage(error.to_string()))?;
-        let fps = self.shot.painting.scene().timeline.fps;
-        let provenance = self.shot.provenance("all", &self.renderer.report().renderer);
-        let size_px = self.shot.options.size_px;
-        let (mut stopped, mut done) = (None, 0);
-        let written = picture_file::whole(path, |file| {
-            let mut encoder = picture_file::encoder(file, size_px, &provenance)?;
-            encoder.set_compression(png::Compression::Fast);
-            encoder.set_animated(count, 0)?;
-            // Milliseconds resolve every common rate.
-            encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
-            let mut writer = encoder.write_header()?;
-            let drawn = self.pictures(|picture| {
-                writer.write_image_data(&picture.rgba8).map_err(|error| Failure::Other(error.to_string()))?;
-                done += 1;
-                bar.inc(1);
-                Ok(())
-            });
-            if let Err(failure) = drawn {
-                stopped = Some(failure);
-                anyhow::bail!("a frame failed");
+        let fps = self.sequence.painting.scene().timeline.fps;
+        let provenance = self.sequence.provenance("all", &self.renderer);
+        let mut file = WholeFile::create(path).map_err(|error| of_file(error.into()))?;
+        let size_px = self.sequence.options.size_px;
+        let mut writer =
+            picture_file::begin_animation(&mut file, size_px, count, fps, &provenance).map_err(of_file)?;
+        self.pictures(arguments, interrupt, |rgba8| {
+            writer.write_image_data(rgba8).map_err(|error| of_file(error.into()))
+        })?;
+        writer.finish().map_err(|error| of_file(error.into()))?;
+        file.finish().map_err(|error| of_file(error.into()))?;
+        self.tell_done(arguments, path);
+        Ok(())
+    }
+
+    fn movie(
+        &mut self,
+        arguments: &RenderArguments,
+        path: &Path,
+        encoding: Encoding,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let fps = self.sequence.painting.scene().timeline.fps;
+        let mut movie = Movie::start(path, encoding, self.sequence.options.size_px, fps)?;
+        self.pictures(arguments, interrupt, |rgba8| movie.add(rgba8))?;
+        movie.finish()?;
+        self.tell_done(arguments, path);
+        Ok(())
+    }
+
+    fn stream(&mut self, interrupt: &Interrupt) -> Result<(), Failure> {
+        let Self { sequence, renderer, frames, .. } = self;
+        let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
+            Ok::<(), Failure>(std::io::stdout().write_all(&drawn.png)?)
+        })?;
+        if ending == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
+    }
+
+    /// The pixels of all frames in their order; the first failure ends it, and so does a signal.
+    fn pictures(
+        &mut self,
+        arguments: &RenderArguments,
+        interrupt: &Interrupt,
+        mut take_in: impl FnMut(&[u8]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let Self { sequence, renderer, frames, .. } = self;
+        let bar = progress_bar(frames.count(), arguments);
+        let ending = sequence.render(renderer, frames, &|| interrupt.came(), |drawn| {
+            if let Some(picture) = &drawn.picture {
+                take_in(&picture.rgba8)?;
             }
-            writer.finish()?;
-            Ok(())
+            bar.inc(1);
+            Ok::<(), Failure>(())
         });
         bar.finish_and_clear();
-        if let Some(failure) = stopped {
-            return Err(failure);
-        }
-        written.map_err(|error| Failure::Other(format!("{}: {error}", path.display())))?;
-        if !arguments.talk.quiet {
-            eprintln!("{done} frames in {}", path.display());
-        }
-        Ok(())
+        if ending? == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
     }
 
-    fn movie(&mut self, arguments: &RenderArguments, path: &Path) -> Result<(), Failure> {
-        let bar = progress_bar(self.frames.count(), arguments);
-        let fps = self.shot.painting.scene().timeline.fps;
-        let mut movie = Movie::start(path, self.shot.options.size_px, fps)?;
-        self.pictures(|picture| {
-            movie.add(picture)?;
-            bar.inc(1);
-            Ok(())
-        })?;
-        movie.finish()?;
-        bar.finish_and_clear();
+    fn tell_done(&self, arguments: &RenderArguments, path: &Path) {
         if !arguments.talk.quiet {
             eprintln!("{} frames in {}", self.frames.count(), path.display());
         }
-        Ok(())
     }
+}
 
-    fn stream(&mut self) -> Result<(), Failure> {
-        let frame_number = self.frames.iter().next().unwrap_or(0);
-        let drawn = Painter::new(&self.shot, &mut self.renderer).draw(frame_number, Wanted::File)?;
-        std::io::stdout().write_all(&drawn.png)?;
-        Ok(())
+/// What a frame cost: strokes, overdraw, memory, the time of each pass.
+fn cost_words(drawn: &Drawn, cost: &Cost) -> String {
+    let memory = memory::peak_bytes()
+        .map_or_else(String::new, |bytes| format!(", {} MiB at most so far", bytes >> 20));
+    let (painted, strokes) = (drawn.painted_strokes.unwrap_or_default(), drawn.strokes);
+    let mut text =
+        format!("  {painted} strokes of {strokes} in question, overdraw {:.1}{memory}", cost.overdraw);
+    let mut passes: Vec<PassTime> = Vec::new();
+    for pass in &cost.passes {
+        match passes.iter_mut().find(|known| known.name == pass.name) {
+            Some(known) => known.seconds += pass.seconds,
+            None => passes.push(*pass),
+        }
     }
-
-    /// All pictures, in their order; the first failure ends it, and so does a signal.
-    fn pictures(&mut self, mut take_in: impl FnMut(&Picture) -> Result<(), Failure>) -> Result<(), Failure> {
-        let all = self.each(
-            Wanted::Picture,
-            |_| true,
-            |_, drawn| drawn?.picture.as_ref().map_or(Ok(()), &mut take_in),
-        )?;
-        if all { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
+    for pass in passes {
+        // Writing to a String cannot fail.
+        let _ = write!(text, "\n  {:<14}{:>8.1} ms", pass.name, pass.seconds * 1e3);
     }
-
-    /// Draws the frames that `wants` names, on as many threads as is worth it, and hands each over in its turn. After a signal no
-    /// more are begun; whether none came.
-    fn each(
-        &mut self,
-        wanted: Wanted,
-        mut wants: impl FnMut(i64) -> bool + Send,
-        take_in: impl FnMut(i64, Result<Drawn, Failure>) -> Result<(), Failure>,
-    ) -> Result<bool, Failure> {
-        let Self { shot, renderer, frames, interrupted, .. } = self;
-        let driver = renderer.report().renderer.clone();
-        let mut painter = Painter::new(shot, renderer);
-        let mut all = true;
-        let jobs = frames
-            .iter()
-            .take_while(|_| {
-                all = !interrupted.load(Ordering::SeqCst);
-                all
-            })
-            .filter(|&frame_number| wants(frame_number));
-        let workers = Workers {
-            own: Box::new(move |frame_number| painter.draw(frame_number, wanted)),
-            helpers: shot.helpers(frames.count()),
-            open: &|| shot.helper(&driver, wanted),
-        };
-        in_order(jobs, workers, take_in)?;
-        Ok(all)
-    }
+    text
 }
 
 fn progress_bar(count: u64, arguments: &RenderArguments) -> ProgressBar {

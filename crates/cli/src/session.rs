@@ -1,4 +1,4 @@
-//! What the commands that draw have in common: a scene that was read, a painting, a renderer.
+//! Shared by the commands that draw: reading and preparing a scene, opening a renderer.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use impasto_scene::memory;
 use crate::args::{DriverChoice, SceneArguments};
 use crate::failure::Failure;
 
-/// Reads a scene; warnings go to stderr, once each, unless `quiet`.
+/// Reads a scene. Each warning goes to stderr once, unless `quiet`.
 pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<LoadedScene, Failure> {
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.clamp(1, 1024)).build_global();
@@ -33,10 +33,10 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
         LoadOptions { folders: AssetFolders { extra: arguments.asset_dirs.clone() }, overrides: overrides? };
     let loaded = load(&arguments.scene, &options)?;
     if !quiet {
-        let mut said = std::collections::BTreeSet::new();
+        let mut printed = std::collections::BTreeSet::new();
         for warning in &loaded.warnings {
             let words = warning.to_string();
-            if said.insert(words.clone()) {
+            if printed.insert(words.clone()) {
                 eprintln!("{words}");
             }
         }
@@ -44,8 +44,7 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
     Ok(loaded)
 }
 
-/// Prepares a scene within the memory that may be taken; the steps, with the most memory held in each, go to stderr where
-/// `verbose`.
+/// Prepares a scene within the memory that it may take. Where `verbose`, time and peak memory of each step go to stderr.
 pub(crate) fn prepare_scene(
     loaded: LoadedScene,
     arguments: &SceneArguments,
@@ -74,7 +73,7 @@ pub(crate) fn prepare_scene(
     Ok(painting)
 }
 
-/// Opens a renderer; which driver, and why, goes to stderr where `verbose`.
+/// Opens a renderer. Where `verbose`, which driver was taken, and why, goes to stderr.
 pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Renderer, Failure> {
     let context = open(self::driver(driver), &OpenOptions::default())?;
     if verbose {
@@ -83,7 +82,7 @@ pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Rende
     Ok(Renderer::new(context)?)
 }
 
-/// The driver that was typed.
+/// The driver that the command line names.
 pub(crate) fn driver(choice: DriverChoice) -> Driver {
     match choice {
         DriverChoice::Auto => Driver::Auto,

@@ -6,8 +6,8 @@ use impasto_gl_render::Picture;
 const SMALL_PX: u32 = 240;
 const GAP_PX: u32 = 6;
 
-/// The most frames that are put on one sheet; of more, evenly many are taken.
-const MOST: u64 = 144;
+/// The most frames on one sheet; of more, every second, third, ... is taken.
+const MAX_COPIES: u64 = 144;
 
 /// A sheet that is being filled.
 pub(crate) struct Sheet {
@@ -20,7 +20,7 @@ pub(crate) struct Sheet {
 
 impl Sheet {
     pub(crate) fn new(frames: u64, size_px: [u32; 2]) -> Self {
-        let stride = frames.div_ceil(MOST).max(1);
+        let stride = frames.div_ceil(MAX_COPIES).max(1);
         let shown = frames.div_ceil(stride).max(1);
         let scale = f64::from(SMALL_PX) / f64::from(size_px[0].max(size_px[1]));
         let small_px = size_px.map(|side| ((f64::from(side) * scale.min(1.0)).round() as u32).max(1));
@@ -51,7 +51,7 @@ impl Sheet {
     }
 }
 
-/// Mean over the pixels that each small pixel stands for.
+/// A small copy: each of its pixels is the mean of those that it stands for.
 fn reduced(picture: &Picture, small_px: [u32; 2]) -> Vec<[u8; 4]> {
     let [width, height] = picture.size_px;
     let span = |at: u32, small: u32, whole: u32| {

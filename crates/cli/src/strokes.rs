@@ -5,14 +5,16 @@ use std::io::Write as _;
 use std::path::Path;
 
 use impasto_core::color::srgb_from_linear;
-use impasto_frame_files::{not_an_input, picture_file, ready_folder};
+use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_gl_render::ResolvedStroke;
 use impasto_painting::frame::{LayerRun, Stroke, StrokeSource};
 use impasto_painting::{Frame, FrameOptions, Painting};
+use impasto_scene::whole_file;
 use serde::Serialize;
 
 use crate::args::{StrokeFormat, StrokesArguments};
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::session;
 
 /// One line of the table. Pixels from the lower left, Y up; angles counter-clockwise from +X.
@@ -44,10 +46,11 @@ struct Row<'a> {
 
 const HEADER: &str = "id,object,region,layer,x_px,y_px,depth,angle_deg,length_px,width_px,alpha,kappa,r,g,b,facing,rank,taper,bend_deg";
 
-/// What regions are called where none is stated.
+/// The name for what belongs to no region.
 const EVERYTHING_ELSE: &str = "everything else";
 
 pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
+    let interrupt = Interrupt::watch()?;
     let loaded = session::read_scene(&arguments.scene, false)?;
     let inputs = loaded.inputs();
     if arguments.output != "-" {
@@ -85,8 +88,9 @@ pub(crate) fn run(arguments: &StrokesArguments) -> Result<(), Failure> {
         std::io::stdout().write_all(text.as_bytes())?;
         return Ok(());
     }
-    picture_file::whole(Path::new(&arguments.output), |file| Ok(file.write_all(text.as_bytes())?))
-        .map_err(|error| Failure::Other(format!("{}: {error}", arguments.output)))
+    interrupt.hold_off();
+    let path = Path::new(&arguments.output);
+    whole_file::write(path, text.as_bytes()).map_err(|error| Failure::of_file(path, error))
 }
 
 fn row<'a>(
@@ -170,7 +174,7 @@ fn json(frame: &Frame, frame_number: f64, rows: &[Row<'_>]) -> String {
     format!("{value}\n")
 }
 
-/// The strokes as paths, in painting order: one may take them to a plotter or a vector editor.
+/// The strokes as paths in painting order, for a plotter or a vector editor.
 fn svg(frame: &Frame, rows: &[Row<'_>]) -> String {
     let [width, height] = frame.size_px;
     let mut text = format!(
@@ -217,7 +221,7 @@ fn hex(color: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A stroke along +X round the origin: full at the start, tapering at the end, bowed in the middle; then tapered and bent.
+/// The outline of a stroke along +X round the origin: blunt at its start, pointed at its end, bowed; then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
     // To the left of the stroke is up, which SVG counts negative; a cubic reaches three quarters of its handles.

@@ -1,4 +1,4 @@
-//! What a window needs, looked for as files: nothing is loaded.
+//! Whether a window could be opened here: looks for a display and for library files, and loads nothing.
 
 use std::path::{Path, PathBuf};
 
@@ -20,11 +20,11 @@ const WAYLAND: &[(&str, &str)] = &[
     ("libEGL.so.1", "libegl1"),
 ];
 
-/// What was found of a window's needs.
+/// What a window has here, and what it lacks.
 pub(crate) struct Found {
     /// The display that a window would be on, such as `X11 :0`; none where there is none.
     pub(crate) display: Option<String>,
-    /// The packages that are missing for it; for X11 where there is no display.
+    /// The packages that it lacks; those for X11 where there is no display.
     pub(crate) packages: Vec<&'static str>,
 }
 

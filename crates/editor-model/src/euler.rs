@@ -1,6 +1,6 @@
 //! Rotations as a scene file writes them: degrees about X first, then Y, then Z.
 
-use glam::{DMat3, DVec3, EulerRot};
+use glam::{DMat3, DVec3};
 use impasto_scene::motion;
 
 /// The rotation of Euler angles in degrees.
@@ -10,8 +10,7 @@ pub(crate) fn matrix(rotation_deg: [f64; 3]) -> DMat3 {
 
 /// Euler angles in degrees of a rotation, as near as whole turns allow to `near`.
 pub(crate) fn degrees(rotation: DMat3, near: [f64; 3]) -> [f64; 3] {
-    let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
-    let first = DVec3::new(x, y, z).map(f64::to_degrees);
+    let first = motion::euler_deg_from_rotation(rotation);
     // The same rotation the other way round.
     let second = DVec3::new(first.x + 180.0, 180.0 - first.y, first.z + 180.0);
     let near = DVec3::from(near);

@@ -18,6 +18,8 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
+use impasto_scene::whole_file::WholeFile;
+
 pub use cadence::Cadence;
 pub use copy::{Copy, Work};
 pub use keeper::{Keeper, Kept};
@@ -70,12 +72,9 @@ impl Recovery {
     /// # Errors
     /// What the system said; the copy before is untouched.
     pub fn keep(&self, work: &Work) -> io::Result<()> {
-        let prefix = format!("{}~", self.name);
-        let mut file = tempfile::Builder::new().prefix(&prefix).suffix(".part").tempfile_in(&self.folder)?;
+        let mut file = WholeFile::create_private(&self.file())?;
         file.write_all(work.to_text().as_bytes())?;
-        file.as_file().sync_all()?;
-        file.persist(self.file()).map_err(|error| error.error)?;
-        self.settle()
+        file.finish()
     }
 
     /// Removes the copy of this session: what it held is saved, or was given up.
@@ -97,7 +96,8 @@ impl Recovery {
         fs::rename(&offer.file, self.file())?;
         // Without its copy the lock means nothing; the next look takes it away where this fails.
         let _ = fs::remove_file(&offer.lock_file);
-        self.settle()
+        // The new name is on the disk only with its folder.
+        if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 
     /// The copies that sessions left behind, the newest first. Takes away what they left besides, and all but the newest
@@ -122,8 +122,9 @@ impl Recovery {
             let _ = offer.discard();
         }
         for file in files.iter().filter(|file| has_ending(file, LOCK) || has_ending(file, PART)) {
+            // `NAME.lock`, or a copy that was being written: `.NAME.ron~RANDOM.part`.
             let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-            let session = folder.join(stem.split('~').next().unwrap_or_default());
+            let session = folder.join(stem.trim_start_matches('.').split('~').next().unwrap_or_default());
             let lock = File::open(session.with_extension(LOCK));
             let is_dead = lock.map_or(true, |lock| lock.try_lock().is_ok());
             if is_dead && !session.with_extension(COPY).exists() {
@@ -135,11 +136,6 @@ impl Recovery {
 
     fn file(&self) -> PathBuf {
         self.folder.join(&self.name).with_extension(COPY)
-    }
-
-    /// The folder's own entry on the disk, too, where the system knows of that.
-    fn settle(&self) -> io::Result<()> {
-        if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 }
 

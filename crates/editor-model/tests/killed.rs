@@ -107,7 +107,7 @@ fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
     assert_eq!(left, 0, "litter in the recovery folder");
     for entry in std::fs::read_dir(folder.path()).expect("there") {
         let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
-        let is_part = name.starts_with(".impasto-") && name.ends_with(".part");
+        let is_part = name.starts_with(".s.ron~") && name.ends_with(".part");
         assert!(is_part || ["s.ron", "recovery"].contains(&name.as_str()), "{name}");
     }
 }

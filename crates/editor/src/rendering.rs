@@ -1,12 +1,11 @@
-//! The thread that writes frames: the files of `impasto render`, in a context of its own, while the window goes on.
+//! The thread that renders a sequence into files, the same as those of `impasto render`, while the window stays usable.
 //!
 //! ```text
-//! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ each frame: draw ─▶ file beside ─▶ its name ─▶ Rendering::progress
+//! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ Sequence::render_files ─▶ Rendering::progress
 //! ```
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -16,21 +15,21 @@ use egui::ColorImage;
 use impasto_editor_model::render_settings::{
     Existing, Outcome, RenderDriver, RenderPlan, RenderProgress, Stage,
 };
-use impasto_frame_files::picture_file::{self, Provenance};
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 use impasto_painting::{FrameOptions, PrepareError, PrepareOptions, Preparer};
+use impasto_sequence::{Ending, FileOutcome, FrameFiles, Sequence, Wanted};
 
 #[cfg(test)]
 mod tests;
 
-/// How long closing waits for a frame that is being written.
+/// How long dropping a rendering waits for its thread.
 const CLOSING: Duration = Duration::from_millis(1500);
 
 /// Longest side of the small copy of the last frame, in pixels.
 const SMALL_PX: u32 = 480;
 
-/// Frames that are being rendered. Dropping it stops them; what is written stays, whole.
+/// A sequence that is being rendered. Dropping it stops it; frames that were written stay, whole.
 pub struct Rendering {
     shared: Arc<Shared>,
     plan: RenderPlan,
@@ -47,12 +46,12 @@ struct Shared {
 #[derive(Default)]
 struct Board {
     progress: RenderProgress,
-    /// The last frame, small; taken by whoever shows it.
+    /// A small copy of the last frame, until somebody takes it.
     picture: Option<ColorImage>,
 }
 
 impl Rendering {
-    /// Starts, with shaders that stand in for the program's own. `wake` is called on the thread whenever there is something new to show.
+    /// Starts. `shaders` stand in for the program's own. `wake` is called on the thread whenever there is something new to show.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -70,7 +69,7 @@ impl Rendering {
         });
         let (theirs, orders) = (Arc::clone(&shared), plan.clone());
         let thread = std::thread::Builder::new().name("rendering".to_owned()).spawn(move || {
-            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, (&orders, &shaders), &wake)));
+            let outcome = catch_unwind(AssertUnwindSafe(|| run(&theirs, &orders, &shaders, &wake)));
             let outcome = match outcome {
                 Ok(Ok(outcome)) => outcome,
                 Ok(Err(words)) => Outcome::Failed(words),
@@ -110,12 +109,12 @@ impl Rendering {
         self.shared.board().picture.take()
     }
 
-    /// Ends it as soon as it can; the frame under way is given up.
+    /// Ends it as soon as it can; frames under way are given up.
     pub fn stop(&self) {
         self.shared.stop.store(true, Ordering::Release);
     }
 
-    /// Waits for the end. Whether it came in time.
+    /// Waits for the end, at most so long; returns whether it came.
     pub fn wait(&self, most: Duration) -> bool {
         let board = self.shared.board();
         let runs = |board: &mut Board| board.progress.outcome.is_none();
@@ -130,7 +129,7 @@ impl Drop for Rendering {
         if self.wait(CLOSING)
             && let Some(thread) = self.thread.take()
         {
-            // Its panics have been told already.
+            // Where it panicked, the outcome says so already.
             let _ = thread.join();
         }
     }
@@ -152,16 +151,18 @@ impl Shared {
     }
 }
 
+/// The message of a panic.
 fn words(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
         .unwrap_or_else(|| "no reason was given".to_owned())
 }
 
-/// Renders what is ordered; what ends it early is told with its frame and file.
+/// Renders what the plan says. The words of a failure name the frame and its file.
 fn run(
     shared: &Shared,
-    (plan, shaders): (&RenderPlan, &ShaderTexts),
+    plan: &RenderPlan,
+    shaders: &ShaderTexts,
     wake: &dyn Fn(),
 ) -> Result<Outcome, String> {
     plan.ready().map_err(|error| error.to_string())?;
@@ -175,12 +176,12 @@ fn run(
     if !shaders.is_empty() {
         renderer.replace_shaders(shaders).map_err(|error| error.to_string())?;
     }
-    if shared.is_stopped() {
+    let stop = || shared.is_stopped();
+    if stop() {
         return Ok(Outcome::Stopped);
     }
-    let give_up = || shared.is_stopped();
     let options = PrepareOptions {
-        give_up: &give_up,
+        give_up: &stop,
         memory_bytes: impasto_scene::memory::available_bytes(),
         ..PrepareOptions::default()
     };
@@ -192,46 +193,48 @@ fn run(
     };
     shared.note(|board| board.progress.stage = Stage::Drawing);
     wake();
-    let options = FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) };
-    let mut provenance = Provenance {
-        scene: plan.scene_name(),
-        frame: String::new(),
-        driver: renderer.report().renderer.clone(),
+    let sequence = Sequence {
+        painting,
+        options: FrameOptions { transparent: plan.transparent, ..FrameOptions::new(plan.size_px) },
+        scene_name: plan.scene_name(),
+        driver,
+        shaders: shaders.clone(),
+        wanted: Wanted::PngAndPicture,
+        timed: false,
+        counted: false,
     };
-    for frame_number in plan.frames.iter() {
-        if shared.is_stopped() {
-            return Ok(Outcome::Stopped);
-        }
+    let files = FrameFiles {
+        frames: &plan.frames,
+        path: &|frame_number| plan.path(frame_number),
+        keep_existing: plan.existing == Existing::Keep,
+    };
+    let began = Instant::now();
+    let ending = sequence.render_files(&mut renderer, &files, &stop, |frame_number, outcome| {
         let path = plan.path(frame_number);
-        if plan.existing == Existing::Keep && path.exists() {
-            shared.note(|board| board.progress.kept += 1);
-            continue;
+        match outcome {
+            FileOutcome::Kept => shared.note(|board| board.progress.kept += 1),
+            FileOutcome::Failed(error) => {
+                return Err(format!("Frame {frame_number} was not written. {}: {error}", path.display()));
+            }
+            FileOutcome::Written(drawn) => {
+                let small = drawn.picture.as_ref().map(small_copy);
+                shared.note(|board| {
+                    let progress = &mut board.progress;
+                    progress.written += 1;
+                    progress.drawing_s = began.elapsed().as_secs_f64();
+                    progress.strokes = drawn.strokes;
+                    progress.last = Some(path);
+                    board.picture = small;
+                });
+                wake();
+            }
         }
-        let began = Instant::now();
-        let frame = painting.at(frame_number as f64, &options);
-        let drawn = renderer.render_unless(&frame, &mut || shared.is_stopped());
-        let failed = |error: &dyn std::fmt::Display| {
-            format!("Frame {frame_number} was not written. {}: {error}", path.display())
-        };
-        let Some(picture) = drawn.map_err(|error| failed(&error))? else { return Ok(Outcome::Stopped) };
-        provenance.frame = frame_number.to_string();
-        write(&path, &picture, &provenance).map_err(|error| failed(&error))?;
-        let small = small_copy(&picture);
-        shared.note(|board| {
-            let progress = &mut board.progress;
-            progress.written += 1;
-            progress.drawing_s += began.elapsed().as_secs_f64();
-            progress.strokes = frame.strokes.len();
-            progress.last = Some(path);
-            board.picture = Some(small);
-        });
-        wake();
-    }
-    Ok(Outcome::Done)
-}
-
-fn write(path: &Path, picture: &Picture, provenance: &Provenance) -> anyhow::Result<()> {
-    picture_file::write(path, (picture.size_px, &picture.rgba8), provenance)
+        Ok(())
+    })?;
+    Ok(match ending {
+        Ending::Done => Outcome::Done,
+        Ending::Stopped => Outcome::Stopped,
+    })
 }
 
 /// Every so many pixels, which is enough for a look.

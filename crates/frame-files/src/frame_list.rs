@@ -1,9 +1,9 @@
-//! Lists of frames, such as `0-119x2,130`. A list is kept as ranges, however long it is.
+//! Lists of frame numbers, such as `0-119x2,130`.
 
 /// The most frames that one command renders.
 const MAX_FRAMES: u64 = 1_000_000;
 
-/// Frames in the order in which they were written down.
+/// Frame numbers in the order in which they were listed; kept as ranges, so a long list takes no memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameList {
     ranges: Vec<Range>,
@@ -26,7 +26,7 @@ impl FrameList {
     /// negative; `b` may be less than `a`, which counts down.
     ///
     /// # Errors
-    /// Words that say how a list is written, or that it is too long.
+    /// A message that says how a list is written, or that it is too long.
     pub fn parse(text: &str) -> Result<Self, String> {
         let ranges: Result<Vec<Range>, String> =
             text.split(',').map(|part| Range::parse(part.trim())).collect();

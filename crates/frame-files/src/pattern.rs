@@ -1,8 +1,8 @@
-//! Names of frames.
+//! File names of frames: a pattern with a place for the frame number.
 
 use std::path::PathBuf;
 
-/// A path with a place for the frame number; one frame needs no such place.
+/// A path with a place for the frame number. For a single frame it may have none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern {
     before: String,
@@ -12,8 +12,8 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// `####` (as many digits as there are), `%04d`, `$F4` in the file's name; what folders are called is left alone. A name
-    /// without any is taken as it is for a single frame, and gets `_####` before its ending for several.
+    /// Reads `####` (as many digits as there are `#`), `%04d` or `$F4` in the file's name; folders are taken as they are. A name
+    /// without a place for the number serves as it is for a single frame, and gets `_####` before its ending for several.
     pub fn parse(text: &str, frames: u64) -> Self {
         let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
         let name = &text[name_at..];
@@ -40,7 +40,7 @@ impl Pattern {
         PathBuf::from(format!("{before}{sign}{:0digits$}{after}", frame.unsigned_abs()))
     }
 
-    /// A file beside the frames, named after them.
+    /// A file beside the frames, with `word` where they have their number.
     pub fn beside(&self, word: &str) -> PathBuf {
         let gap = if self.digits.is_some() { "" } else { "_" };
         PathBuf::from(format!("{}{gap}{word}{}", self.before, self.after))

@@ -1,70 +1,71 @@
-//! PNG files, written whole or not at all.
+//! PNG files: still and animated, each with a note of where it comes from.
 
 use std::io::Write;
 use std::path::Path;
 
-/// What a file tells about where it comes from.
+use impasto_scene::whole_file::WholeFile;
+
+/// Where a picture comes from; the file says so.
 #[derive(Clone, Debug)]
 pub struct Provenance {
     /// The scene's file name.
     pub scene: String,
-    /// Which frame, or what else it is.
+    /// The frame's number, or what the picture shows instead.
     pub frame: String,
-    /// Who drew it.
+    /// The OpenGL driver that drew it.
     pub driver: String,
 }
 
-/// Width and height in pixels, and the pixels: sRGB with straight alpha, row by row from the top.
-pub type Pixels<'a> = ([u32; 2], &'a [u8]);
+/// A picture: sRGB with straight alpha.
+#[derive(Clone, Copy, Debug)]
+pub struct Pixels<'a> {
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// Four bytes a pixel, row by row from the top.
+    pub rgba8: &'a [u8],
+}
 
-/// Writes a picture to a file of that name, or nothing.
+/// Writes a picture to a PNG file, whole or not at all.
 ///
 /// # Errors
 /// What the disk or the encoder said.
 pub fn write(path: &Path, pixels: Pixels<'_>, provenance: &Provenance) -> anyhow::Result<()> {
-    whole(path, |file| encode(file, pixels, provenance))
+    let mut file = WholeFile::create(path)?;
+    encode(&mut file, pixels, provenance)?;
+    Ok(file.finish()?)
 }
 
-/// Fills a temporary file beside `path`, then gives it its name: a killed command leaves no half file.
-///
-/// # Errors
-/// What the disk or the encoder said.
-pub fn whole(path: &Path, fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>) -> anyhow::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(".impasto-").suffix(".part").tempfile_in(folder)?;
-    {
-        let mut buffered = std::io::BufWriter::new(file.as_file_mut());
-        fill(&mut buffered)?;
-        buffered.flush()?;
-    }
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // A temporary file is private; a picture is what the user's other files are.
-        file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
-    }
-    file.persist(path)?;
-    Ok(())
-}
-
-/// Writes one picture as PNG: sRGB, straight alpha.
+/// Encodes a picture as PNG.
 ///
 /// # Errors
 /// What the disk or the encoder said.
 pub fn encode(file: &mut dyn Write, pixels: Pixels<'_>, provenance: &Provenance) -> anyhow::Result<()> {
-    let mut encoder = encoder(file, pixels.0, provenance)?;
-    encoder.set_compression(png::Compression::Fast);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels.1)?;
+    let mut writer = encoder(file, pixels.size_px, provenance)?.write_header()?;
+    writer.write_image_data(pixels.rgba8)?;
     writer.finish()?;
     Ok(())
 }
 
-/// An encoder with what all our files have in common.
+/// Begins an animated PNG of so many pictures; each is then written in its turn.
 ///
 /// # Errors
 /// What the disk or the encoder said.
-pub fn encoder<'a>(
+pub fn begin_animation<'a>(
+    file: &'a mut dyn Write,
+    size_px: [u32; 2],
+    pictures: u32,
+    fps: f64,
+    provenance: &Provenance,
+) -> anyhow::Result<png::Writer<&'a mut dyn Write>> {
+    let mut encoder = encoder(file, size_px, provenance)?;
+    encoder.set_animated(pictures, 0)?;
+    // Milliseconds resolve every common rate.
+    encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
+    Ok(encoder.write_header()?)
+}
+
+/// A PNG encoder, with the settings and the notes that all our files share.
+fn encoder<'a>(
     file: &'a mut dyn Write,
     size_px: [u32; 2],
     provenance: &Provenance,
@@ -72,11 +73,16 @@ pub fn encoder<'a>(
     let mut encoder = png::Encoder::new(file, size_px[0], size_px[1]);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder
-        .add_itxt_chunk("Software".to_owned(), concat!("Impasto ", env!("CARGO_PKG_VERSION")).to_owned())?;
-    encoder.add_itxt_chunk("Scene".to_owned(), provenance.scene.clone())?;
-    encoder.add_itxt_chunk("Frame".to_owned(), provenance.frame.clone())?;
-    encoder.add_itxt_chunk("Driver".to_owned(), provenance.driver.clone())?;
+    let software = concat!("Impasto ", env!("CARGO_PKG_VERSION"));
+    for (keyword, text) in [
+        ("Software", software),
+        ("Scene", &provenance.scene),
+        ("Frame", &provenance.frame),
+        ("Driver", &provenance.driver),
+    ] {
+        encoder.add_itxt_chunk(keyword.to_owned(), text.to_owned())?;
+    }
     Ok(encoder)
 }

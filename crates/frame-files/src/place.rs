@@ -13,12 +13,12 @@ pub enum PlaceError {
         /// What the system said.
         error: std::io::Error,
     },
-    /// The file is one of those that are read.
+    /// The command reads this file.
     #[error("{} is read by this command and would be written over", .0.display())]
     Input(PathBuf),
 }
 
-/// Makes the folder of an output file and finds out whether a file can be written there.
+/// Makes the folder of an output file, and tries whether a file can be written there.
 ///
 /// # Errors
 /// [`PlaceError::NotWritable`].
@@ -27,13 +27,18 @@ pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
         _ => PathBuf::from("."),
     };
-    let refused = |error: std::io::Error| PlaceError::NotWritable { folder: folder.clone(), error };
-    std::fs::create_dir_all(&folder).map_err(refused)?;
-    tempfile::NamedTempFile::new_in(&folder).map_err(refused)?;
-    Ok(folder)
+    // A device or a pipe is written into, and its folder does not matter.
+    if std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return Ok(folder);
+    }
+    // The file has no name, so nothing of it is ever left.
+    match std::fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder)) {
+        Ok(_) => Ok(folder),
+        Err(error) => Err(PlaceError::NotWritable { folder, error }),
+    }
 }
 
-/// Refuses to write over something that is read.
+/// Refuses to write over a file that the command reads.
 ///
 /// # Errors
 /// [`PlaceError::Input`].

@@ -29,12 +29,13 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
         })
         .collect();
     for (object, (pose, morph)) in scene.objects.iter_mut().zip(poses.iter().zip(morphs)) {
+        let scale = pose.matrix3.x_axis.length();
         object.parent = None;
         object.hold = 1;
         object.keys = vec![ObjectKey {
             translation: pose.translation.to_array(),
-            rotation_deg: euler_deg(pose.matrix3 / pose.matrix3.x_axis.length()),
-            scale: pose.matrix3.x_axis.length(),
+            rotation_deg: motion::euler_deg_from_rotation(pose.matrix3 / scale).to_array(),
+            scale,
             morph,
             ..ObjectKey::at(0.0)
         }];
@@ -42,33 +43,4 @@ pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let blockers = orbit_blockers(&version);
     leave_out(&mut version, &blockers);
     version
-}
-
-/// Euler angles of R = Rz·Ry·Rx.
-fn euler_deg(rotation: glam::DMat3) -> [f64; 3] {
-    let (x, y, z) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
-    let about_y = (-x.z).clamp(-1.0, 1.0).asin();
-    let (about_x, about_z) = if x.z.abs() < 1.0 - 1e-12 {
-        (y.z.atan2(z.z), x.y.atan2(x.x))
-    } else {
-        // Straight up: one of the two is free.
-        (0.0, (-y.x).atan2(y.y))
-    };
-    [about_x, about_y, about_z].map(f64::to_degrees)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::DVec3;
-    use impasto_scene::motion::rotation_from_euler_deg;
-
-    #[test]
-    fn euler_angles_come_back() {
-        for angles in [[10.0, 20.0, 30.0], [-170.0, 80.0, 5.0], [0.0, 90.0, 40.0], [3.0, -90.0, 0.0]] {
-            let rotation = rotation_from_euler_deg(DVec3::from(angles));
-            let again = rotation_from_euler_deg(DVec3::from(euler_deg(rotation)));
-            assert!((rotation - again).abs_diff_eq(glam::DMat3::ZERO, 1e-9), "{angles:?}");
-        }
-    }
 }

@@ -20,3 +20,4 @@ pub mod problem;
 pub mod save;
 pub mod texture;
 mod values;
+pub mod whole_file;

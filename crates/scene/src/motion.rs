@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::{DAffine3, DMat3, DMat4, DVec3};
+use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
 
 use crate::document::{CameraKey, Ease, Lens, Object, ObjectKey, Reference, Scene};
 
@@ -219,6 +219,13 @@ pub fn rotation_from_euler_deg(angles_deg: DVec3) -> DMat3 {
     let about_y = DMat3::from_cols(DVec3::new(cos_y, 0.0, -sin_y), DVec3::Y, DVec3::new(sin_y, 0.0, cos_y));
     let about_z = DMat3::from_cols(DVec3::new(cos_z, sin_z, 0.0), DVec3::new(-sin_z, cos_z, 0.0), DVec3::Z);
     about_z * (about_y * about_x)
+}
+
+/// The Euler angles in degrees that [`rotation_from_euler_deg`] makes this rotation of. Where Y is at ±90 one of the other two
+/// is free, and is 0.
+pub fn euler_deg_from_rotation(rotation: DMat3) -> DVec3 {
+    let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
+    DVec3::new(x, y, z).map(f64::to_degrees)
 }
 
 /// The same angle in (−180, 180], without rounding: a whole turn is exactly no turn, so that loops close bit for bit.

@@ -1,11 +1,11 @@
 //! Writing a document as a scene file: readable, what is at its default left out, the same bytes every time.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde::Serialize;
 
 use crate::document::Scene;
+use crate::whole_file;
 
 mod layout;
 mod serializer;
@@ -25,28 +25,7 @@ pub fn to_ron(scene: &Scene) -> String {
 ///
 /// What the file system said; the old file is then untouched.
 pub fn write(path: &Path, scene: &Scene) -> std::io::Result<()> {
-    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".impasto-").suffix(".ron.part");
-    // As any new file: readable by whom the user's umask lets.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(to_ron(scene).as_bytes())?;
-    if let Ok(metadata) = std::fs::metadata(&target) {
-        if metadata.permissions().readonly() {
-            let message = format!("{} is read-only", target.display());
-            return Err(std::io::Error::new(std::io::ErrorKind::PermissionDenied, message));
-        }
-        file.as_file().set_permissions(metadata.permissions())?;
-    }
-    file.as_file().sync_all()?;
-    file.persist(&target).map_err(|error| error.error)?;
-    Ok(())
+    whole_file::write(path, to_ron(scene).as_bytes())
 }
 
 #[cfg(test)]

@@ -92,7 +92,7 @@ fn only_so_many_copies_are_kept_and_what_a_session_left_besides_goes() {
     for index in 0..MAX_COPIES + 3 {
         crashed(folder.path(), &format!("{index}-1"), index as u64);
     }
-    for litter in ["900-1.lock", "0-1~abc.part", "901-1~x.part"] {
+    for litter in ["900-1.lock", ".0-1.ron~abc.part", ".901-1.ron~x.part"] {
         fs::write(folder.path().join(litter), "").expect("written");
     }
     fs::write(folder.path().join("notes.txt"), "not ours").expect("written");

@@ -1,10 +1,11 @@
 //! Taking a scene's files along when it is saved into another folder.
 
 use std::collections::BTreeMap;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use impasto_scene::assets::{self, AssetFolders, AssetRequest};
+use impasto_scene::whole_file::WholeFile;
 use impasto_scene::{obj, texture};
 
 use super::incoming::Kind;
@@ -117,18 +118,14 @@ fn is_same(a: &Path, b: &Path) -> bool {
     matches!((bytes(a), bytes(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Under a name of its own first, so that no half of a file is ever seen; a file that came there in between stays.
+/// A file that came there in between stays.
 fn copy(file: &Path, target: &Path) -> io::Result<()> {
-    let folder = target.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)?;
-    let mut coming = tempfile::Builder::new().prefix(".coming-").tempfile_in(folder)?;
-    io::Write::write_all(&mut coming, &bytes(file)?)?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        std::fs::set_permissions(coming.path(), std::fs::Permissions::from_mode(0o644))?;
+    if let Some(folder) = target.parent() {
+        std::fs::create_dir_all(folder)?;
     }
-    coming.persist_noclobber(target).map(drop).map_err(|error| error.error)
+    let mut copy = WholeFile::create(target)?;
+    copy.write_all(&bytes(file)?)?;
+    copy.finish_new()
 }
 
 #[cfg(test)]

@@ -185,3 +185,12 @@ fn a_pose_is_held_for_as_many_frames_as_its_object_says() {
         }
     }
 }
+
+#[test]
+fn euler_angles_come_back() {
+    for angles in [[10.0, 20.0, 30.0], [-170.0, 80.0, 5.0], [0.0, 90.0, 40.0], [3.0, -90.0, 0.0]] {
+        let rotation = rotation_from_euler_deg(DVec3::from(angles));
+        let again = rotation_from_euler_deg(euler_deg_from_rotation(rotation));
+        assert!(again.abs_diff_eq(rotation, 1e-9), "{angles:?}");
+    }
+}

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use etcetera::BaseStrategy as _;
 use impasto_scene::assets::{AssetError, read_regular_file};
+use impasto_scene::whole_file::WholeFile;
 use serde::Deserialize;
 
 use super::{Preferences, VERSION};
@@ -112,12 +113,9 @@ pub fn save(folder: &Path, preferences: &Preferences) -> Result<(), PreferencesE
     let text = ron::ser::to_string_pretty(preferences, layout)?;
     let write = || -> std::io::Result<()> {
         fs::create_dir_all(folder)?;
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
-        file.write_all(text.as_bytes())?;
-        file.write_all(b"\n")?;
-        file.as_file().sync_all()?;
-        file.persist(folder.join(FILE)).map_err(|error| error.error)?;
-        Ok(())
+        let mut file = WholeFile::create_private(&folder.join(FILE))?;
+        writeln!(file, "{text}")?;
+        file.finish()
     };
     write().map_err(|source| PreferencesError::Unwritable { folder: folder.to_owned(), source })
 }

@@ -1,82 +1,84 @@
-//! Work on several threads whose results are taken in one after the other, in the order of the list.
+//! Work on several threads whose results are taken in one after the other, in the order of the jobs.
 
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Results that may wait or be under way, for each thread: enough that nobody waits for a single slow one.
+/// Jobs of each thread that may be under way or waiting to be taken in: enough that nobody waits for a single slow one.
 const AHEAD: u64 = 2;
 
-/// What one more thread works with; it is made on that thread.
-pub(crate) type Worker<'a, T> = Box<dyn FnMut(i64) -> T + 'a>;
+/// Does one job after the other on its thread.
+pub(crate) type Worker<'a, J, T> = Box<dyn FnMut(J) -> T + 'a>;
 
 /// Who does the work.
-pub(crate) struct Workers<'a, T> {
-    /// On this thread.
-    pub(crate) own: Worker<'a, T>,
-    /// How many more threads.
-    pub(crate) helpers: usize,
-    /// What a helper works with; where there is none, the others do its share.
-    pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, T>> + Sync),
+pub(crate) struct Workers<'a, J, T> {
+    /// The worker of the calling thread.
+    pub(crate) own: Worker<'a, J, T>,
+    /// How many further threads.
+    pub(crate) further: usize,
+    /// Makes the worker of a further thread, on that thread. Where it makes none, the others do its share.
+    pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, J, T>> + Sync),
 }
 
-struct State<I, T> {
+struct State<I, J, T> {
     jobs: I,
-    /// How many jobs were taken, and how many results were taken in.
-    taken: u64,
-    done: u64,
+    /// How many jobs were given out, and how many results were taken in.
+    begun: u64,
+    taken_in: u64,
     /// Results that wait for an earlier one, by the number of their job.
-    ready: BTreeMap<u64, (i64, T)>,
+    ready: BTreeMap<u64, (J, T)>,
     /// No more jobs are given out.
     closed: bool,
-    /// A thread broke off: its result never comes.
+    /// A thread panicked: the result of its job never comes.
     broken: bool,
 }
 
-struct Shared<I, T> {
-    state: Mutex<State<I, T>>,
+struct Shared<I, J, T> {
+    state: Mutex<State<I, J, T>>,
     changed: Condvar,
-    most: u64,
+    /// How many jobs may be begun and not taken in.
+    max_open: u64,
 }
 
-/// What there is to do next.
-enum Next<T> {
-    Work(u64, i64),
-    TakeIn(i64, T),
+/// What the calling thread does next.
+enum Next<J, T> {
+    Work(u64, J),
+    TakeIn(J, T),
     Nothing,
 }
 
 /// Works on `jobs`, which are asked for as they are needed, and calls `take_in` on this thread with each result in their order.
 /// Where that fails, no more jobs are begun.
-pub(crate) fn in_order<I, T, E>(
+pub(crate) fn in_order<I, J, T, E>(
     jobs: I,
-    mut workers: Workers<'_, T>,
-    mut take_in: impl FnMut(i64, T) -> Result<(), E>,
+    mut workers: Workers<'_, J, T>,
+    mut take_in: impl FnMut(J, T) -> Result<(), E>,
 ) -> Result<(), E>
 where
-    I: Iterator<Item = i64> + Send,
+    I: Iterator<Item = J> + Send,
+    J: Copy + Send,
     T: Send,
 {
-    let state = State { jobs, taken: 0, done: 0, ready: BTreeMap::new(), closed: false, broken: false };
+    let state = State { jobs, begun: 0, taken_in: 0, ready: BTreeMap::new(), closed: false, broken: false };
     let shared = Shared {
         state: Mutex::new(state),
         changed: Condvar::new(),
-        most: AHEAD * (workers.helpers as u64 + 1),
+        max_open: AHEAD * (workers.further as u64 + 1),
     };
     std::thread::scope(|scope| {
         let _closing = Closing(&shared);
-        for _ in 0..workers.helpers {
+        for _ in 0..workers.further {
             let (shared, open) = (&shared, workers.open);
-            let help = move || {
+            let run = move || {
                 let Some(mut work) = open() else { return };
                 while let Some((number, job)) = shared.wait_for_work() {
                     let mut promise = Promise { shared, kept: false };
                     let result = work(job);
                     promise.kept = true;
-                    shared.hand_in(number, (job, result));
+                    shared.hand_in(number, job, result);
                 }
             };
-            // Without a thread the others do its share.
-            if std::thread::Builder::new().name("frames".to_owned()).spawn_scoped(scope, help).is_err() {
+            // Where the system gives no thread, the others do its share.
+            if std::thread::Builder::new().name("frames".to_owned()).spawn_scoped(scope, run).is_err() {
                 break;
             }
         }
@@ -84,7 +86,7 @@ where
             match shared.next() {
                 Next::Work(number, job) => {
                     let result = (workers.own)(job);
-                    shared.hand_in(number, (job, result));
+                    shared.hand_in(number, job, result);
                 }
                 Next::TakeIn(job, result) => take_in(job, result)?,
                 Next::Nothing => return Ok(()),
@@ -93,36 +95,38 @@ where
     })
 }
 
-impl<I: Iterator<Item = i64>, T> Shared<I, T> {
-    /// No code that holds the lock can panic half way, but for the list of jobs, which ends then.
-    fn state(&self) -> MutexGuard<'_, State<I, T>> {
+impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
+    /// Of the code that holds the lock, only the iterator of jobs may panic; the work then ends.
+    fn state(&self) -> MutexGuard<'_, State<I, J, T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes in before it works, so that little waits; waits only where others have all that may be begun.
-    fn next(&self) -> Next<T> {
+    /// For the calling thread: it takes in before it works, so that few results wait, and it waits only where others have all
+    /// the jobs that may be begun.
+    fn next(&self) -> Next<J, T> {
         let mut state = self.state();
         loop {
-            let first = state.done;
+            let first = state.taken_in;
             if let Some((job, result)) = state.ready.remove(&first) {
-                state.done += 1;
+                state.taken_in += 1;
                 self.changed.notify_all();
                 return Next::TakeIn(job, result);
             }
-            if let Some((number, job)) = state.take(self.most) {
+            if let Some((number, job)) = state.begin(self.max_open) {
                 return Next::Work(number, job);
             }
-            if state.done == state.taken || state.broken {
+            if state.taken_in == state.begun || state.broken {
                 return Next::Nothing;
             }
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    fn wait_for_work(&self) -> Option<(u64, i64)> {
+    /// For a further thread: the next job with its number; none where no more are given out.
+    fn wait_for_work(&self) -> Option<(u64, J)> {
         let mut state = self.state();
         loop {
-            if let Some(work) = state.take(self.most) {
+            if let Some(work) = state.begin(self.max_open) {
                 return Some(work);
             }
             if state.closed {
@@ -132,47 +136,48 @@ impl<I: Iterator<Item = i64>, T> Shared<I, T> {
         }
     }
 
-    fn hand_in(&self, number: u64, result: (i64, T)) {
-        self.state().ready.insert(number, result);
+    fn hand_in(&self, number: u64, job: J, result: T) {
+        self.state().ready.insert(number, (job, result));
         self.changed.notify_all();
     }
 }
 
-impl<I: Iterator<Item = i64>, T> State<I, T> {
-    fn take(&mut self, most: u64) -> Option<(u64, i64)> {
-        if self.closed || self.taken - self.done >= most {
+impl<I: Iterator<Item = J>, J, T> State<I, J, T> {
+    fn begin(&mut self, max_open: u64) -> Option<(u64, J)> {
+        if self.closed || self.begun - self.taken_in >= max_open {
             return None;
         }
         let Some(job) = self.jobs.next() else {
             self.closed = true;
             return None;
         };
-        self.taken += 1;
-        Some((self.taken - 1, job))
+        self.begun += 1;
+        Some((self.begun - 1, job))
     }
 }
 
-/// Lets the helpers go, however the work ends.
-struct Closing<'a, I: Iterator<Item = i64>, T>(&'a Shared<I, T>);
+/// Lets the further threads end, however the work ends.
+struct Closing<'a, I: Iterator<Item = J>, J: Copy, T>(&'a Shared<I, J, T>);
 
-impl<I: Iterator<Item = i64>, T> Drop for Closing<'_, I, T> {
+impl<I: Iterator<Item = J>, J: Copy, T> Drop for Closing<'_, I, J, T> {
     fn drop(&mut self) {
         self.0.state().closed = true;
         self.0.changed.notify_all();
     }
 }
 
-/// Tells the others that nothing will come of a job, where its thread panics; the scope passes the panic on.
-struct Promise<'a, I: Iterator<Item = i64>, T> {
-    shared: &'a Shared<I, T>,
+/// Tells the others, where this thread panics, that the result of its job never comes; the scope passes the panic on.
+struct Promise<'a, I: Iterator<Item = J>, J: Copy, T> {
+    shared: &'a Shared<I, J, T>,
     kept: bool,
 }
 
-impl<I: Iterator<Item = i64>, T> Drop for Promise<'_, I, T> {
+impl<I: Iterator<Item = J>, J: Copy, T> Drop for Promise<'_, I, J, T> {
     fn drop(&mut self) {
         if !self.kept {
             let mut state = self.shared.state();
-            (state.broken, state.closed) = (true, true);
+            state.broken = true;
+            state.closed = true;
             drop(state);
             self.shared.changed.notify_all();
         }
@@ -192,23 +197,23 @@ mod tests {
     }
 
     fn workers<'a>(
-        helpers: usize,
-        open: &'a (dyn Fn() -> Option<Worker<'a, i64>> + Sync),
-    ) -> Workers<'a, i64> {
-        Workers { own: Box::new(slowly), helpers, open }
+        further: usize,
+        open: &'a (dyn Fn() -> Option<Worker<'a, i64, i64>> + Sync),
+    ) -> Workers<'a, i64, i64> {
+        Workers { own: Box::new(slowly), further, open }
     }
 
     #[test]
     fn results_come_in_the_order_of_the_list_and_only_a_few_wait() {
         let (begun, most) = (AtomicI64::new(0), AtomicI64::new(0));
-        for helpers in [0, 1, 3] {
+        for further in [0, 1, 3] {
             begun.store(0, Ordering::SeqCst);
             let jobs = (0..200).inspect(|_| {
                 begun.fetch_add(1, Ordering::SeqCst);
             });
             let mut seen = Vec::new();
-            let open = || Some(Box::new(slowly) as Worker<'_, i64>);
-            let done = in_order(jobs, workers(helpers, &open), |job, result| {
+            let open = || Some(Box::new(slowly) as Worker<'_, i64, i64>);
+            let done = in_order(jobs, workers(further, &open), |job, result| {
                 let waiting = begun.load(Ordering::SeqCst) - seen.len() as i64;
                 most.fetch_max(waiting, Ordering::SeqCst);
                 seen.push((job, result));
@@ -217,12 +222,12 @@ mod tests {
             assert_eq!(done, Ok(()));
             assert_eq!(seen, (0..200).map(|job| (job, job * job)).collect::<Vec<_>>());
             let most = most.load(Ordering::SeqCst);
-            assert!(most <= 2 * (helpers as i64 + 1) + 1, "{most} with {helpers} helpers");
+            assert!(most <= 2 * (further as i64 + 1) + 1, "{most} with {further} further threads");
         }
     }
 
     #[test]
-    fn helpers_that_cannot_work_are_done_without() {
+    fn threads_that_cannot_work_are_done_without() {
         let mut count = 0;
         let done = in_order(0..50, workers(3, &|| None), |_, _| {
             count += 1;
@@ -238,7 +243,7 @@ mod tests {
             begun.fetch_add(1, Ordering::SeqCst);
         });
         let mut seen = Vec::new();
-        let open = || Some(Box::new(slowly) as Worker<'_, i64>);
+        let open = || Some(Box::new(slowly) as Worker<'_, i64, i64>);
         let done = in_order(jobs, workers(2, &open), |job, _| {
             seen.push(job);
             if job == 9 { Err("full") } else { Ok(()) }
@@ -250,9 +255,9 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "a scoped thread panicked")]
-    fn a_helper_that_panics_ends_the_work() {
+    fn a_thread_that_panics_ends_the_work() {
         let broken = |_: i64| -> i64 { panic!("a frame broke off") };
-        let open = || Some(Box::new(broken) as Worker<'_, i64>);
+        let open = || Some(Box::new(broken) as Worker<'_, i64, i64>);
         let _ = in_order(0..1_000_000, workers(1, &open), |_, _| Ok::<(), ()>(()));
     }
 }

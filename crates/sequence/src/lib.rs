@@ -1,0 +1,254 @@
+//! Renders a sequence of frames in its order, on several threads: the one loop behind `impasto render` and `F12`.
+//!
+//! ```text
+//! Sequence::render, render_files ─▶ in_order ─▶ painters: each draws whole frames, with a renderer and a thread of its own
+//!                                           └─▶ on the calling thread: each frame in its turn ─▶ caller, or its file
+//! ```
+//!
+//! The bytes do not depend on how many painters there are.
+
+mod in_order;
+mod painter;
+
+use std::collections::HashSet;
+use std::io;
+use std::path::PathBuf;
+
+use impasto_frame_files::FrameList;
+use impasto_frame_files::picture_file::Provenance;
+use impasto_gl_render::context::Driver;
+use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
+use impasto_painting::{FrameOptions, Painting};
+use impasto_scene::whole_file;
+
+use in_order::{Workers, in_order};
+use painter::Painter;
+
+/// A painter more than these would only wait for the others in the driver.
+const MAX_PAINTERS: u64 = 4;
+
+/// Opening a driver and compiling the shaders once more takes about as long as this many frames.
+const FRAMES_PER_PAINTER: u64 = 4;
+
+/// What the render targets of one painter take, and what those of all painters may take.
+const TARGET_BYTES_PER_PIXEL: u64 = 128;
+const MAX_TARGET_BYTES: u64 = 1 << 30;
+
+/// What is made of each frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Its pixels.
+    Picture,
+    /// Its PNG file.
+    Png,
+    /// Both.
+    PngAndPicture,
+}
+
+/// What is rendered, and how.
+pub struct Sequence {
+    /// The scene as prepared.
+    pub painting: Painting,
+    /// Size and variant of the frames.
+    pub options: FrameOptions,
+    /// The scene's file name, which is noted in each PNG file.
+    pub scene_name: String,
+    /// Where further painters take OpenGL from.
+    pub driver: Driver,
+    /// Shaders that stand in for the program's own; none to use those.
+    pub shaders: ShaderTexts,
+    /// What is made of each frame.
+    pub wanted: Wanted,
+    /// Times each pass. That slows frames down, and a single painter is at work.
+    pub timed: bool,
+    /// Counts the strokes that were painted.
+    pub counted: bool,
+}
+
+/// A frame that was drawn.
+pub struct Drawn {
+    /// Its pixels, where they are wanted.
+    pub picture: Option<Picture>,
+    /// The bytes of its PNG file, where that is wanted.
+    pub png: Vec<u8>,
+    /// How many strokes the frame has, painted or too faint to be.
+    pub strokes: usize,
+    /// How many strokes were painted, where they are counted.
+    pub painted_strokes: Option<usize>,
+    /// What each pass took, where that is timed.
+    pub cost: Option<Cost>,
+    /// How long the frame took, in seconds.
+    pub seconds: f64,
+}
+
+/// What became of a frame's file.
+pub enum FileOutcome {
+    /// It was written.
+    Written(Drawn),
+    /// It was there already, and stays.
+    Kept,
+    /// It was not written.
+    Failed(FrameError),
+}
+
+/// Why a frame was not rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum FrameError {
+    /// It was not drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// Its PNG file could not be made.
+    #[error("the PNG file cannot be made: {0}")]
+    Encode(anyhow::Error),
+    /// Its file was not written.
+    #[error(transparent)]
+    Write(#[from] io::Error),
+}
+
+/// The files of a sequence.
+pub struct FrameFiles<'a> {
+    /// Which frames, in their order.
+    pub frames: &'a FrameList,
+    /// The file of each.
+    pub path: &'a (dyn Fn(i64) -> PathBuf + Sync),
+    /// Files that are there already stay.
+    pub keep_existing: bool,
+}
+
+/// How a sequence ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// After its last frame.
+    Done,
+    /// It was stopped; frames that were under way are given up.
+    Stopped,
+}
+
+/// A frame of the list.
+#[derive(Clone, Copy)]
+struct Job {
+    frame_number: i64,
+    /// False where its file is there and stays.
+    must_draw: bool,
+}
+
+/// Why [`Sequence::each`] ended early.
+enum Early<E> {
+    Stopped,
+    Caller(E),
+}
+
+/// What a painter makes of a job: nothing where it need not be drawn, or was given up.
+type Painted = Result<Option<Drawn>, FrameError>;
+
+impl Sequence {
+    /// Draws the frames and hands each over in its turn, on this thread. The first failure ends it, whether of a frame or of
+    /// `take_in`; so does `stop`, which is asked again and again.
+    ///
+    /// # Errors
+    /// That failure.
+    pub fn render<E: From<FrameError>>(
+        &self,
+        renderer: &mut Renderer,
+        frames: &FrameList,
+        stop: &(dyn Fn() -> bool + Sync),
+        mut take_in: impl FnMut(Drawn) -> Result<(), E>,
+    ) -> Result<Ending, E> {
+        self.each(
+            renderer,
+            frames,
+            |_| true,
+            stop,
+            |_, painted| match painted {
+                Ok(Some(drawn)) => take_in(drawn).map_err(Early::Caller),
+                Ok(None) => Err(Early::Stopped),
+                Err(error) => Err(Early::Caller(error.into())),
+            },
+        )
+    }
+
+    /// Renders frames into files, each whole or not there, and tells in their order what became of them, on this thread. It goes
+    /// on after a frame that failed, unless `report` fails; `stop` is asked again and again.
+    ///
+    /// # Errors
+    /// What `report` gave.
+    pub fn render_files<E>(
+        &self,
+        renderer: &mut Renderer,
+        files: &FrameFiles<'_>,
+        stop: &(dyn Fn() -> bool + Sync),
+        mut report: impl FnMut(i64, FileOutcome) -> Result<(), E>,
+    ) -> Result<Ending, E> {
+        // A frame that the list names twice has its file by the second time.
+        let mut seen = HashSet::new();
+        let must_draw = |frame_number: i64| {
+            !files.keep_existing || (seen.insert(frame_number) && !(files.path)(frame_number).exists())
+        };
+        self.each(renderer, files.frames, must_draw, stop, |job, painted| {
+            let written = painted.and_then(|drawn| {
+                if let Some(drawn) = &drawn {
+                    whole_file::write(&(files.path)(job.frame_number), &drawn.png)?;
+                }
+                Ok(drawn)
+            });
+            let outcome = match written {
+                Ok(Some(drawn)) => FileOutcome::Written(drawn),
+                Ok(None) if job.must_draw => return Err(Early::Stopped),
+                Ok(None) => FileOutcome::Kept,
+                Err(error) => FileOutcome::Failed(error),
+            };
+            report(job.frame_number, outcome).map_err(Early::Caller)
+        })
+    }
+
+    /// Draws the frames that must be drawn, on as many threads as is worth it, and hands all over in their order.
+    fn each<E>(
+        &self,
+        renderer: &mut Renderer,
+        frames: &FrameList,
+        mut must_draw: impl FnMut(i64) -> bool + Send,
+        stop: &(dyn Fn() -> bool + Sync),
+        take_in: impl FnMut(Job, Painted) -> Result<(), Early<E>>,
+    ) -> Result<Ending, E> {
+        let driver = renderer.report().renderer.clone();
+        let mut stopped = false;
+        let jobs = frames
+            .iter()
+            .take_while(|_| {
+                stopped = stop();
+                !stopped
+            })
+            .map(|frame_number| Job { frame_number, must_draw: must_draw(frame_number) });
+        let mut painter = Painter::new(self, renderer);
+        let workers = Workers {
+            own: Box::new(move |job| painter.paint(job, stop)),
+            further: self.further_painters(frames.count()),
+            open: &|| painter::further(self, &driver, stop),
+        };
+        match in_order(jobs, workers, take_in) {
+            Ok(()) if stopped => Ok(Ending::Stopped),
+            Ok(()) => Ok(Ending::Done),
+            Err(Early::Stopped) => Ok(Ending::Stopped),
+            Err(Early::Caller(error)) => Err(error),
+        }
+    }
+
+    /// How many painters beside the one on this thread are worth a renderer of their own.
+    fn further_painters(&self, frames: u64) -> usize {
+        if self.timed {
+            return 0;
+        }
+        let [width, height] = self.options.size_px.map(u64::from);
+        let painters = (rayon::current_num_threads() as u64)
+            .min(MAX_PAINTERS)
+            .min(frames / FRAMES_PER_PAINTER)
+            .min(MAX_TARGET_BYTES / (width * height * TARGET_BYTES_PER_PIXEL).max(1));
+        painters.saturating_sub(1) as usize
+    }
+
+    /// What the PNG file of a frame, or of anything else of this sequence, says of itself.
+    pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
+        let driver = renderer.report().renderer.clone();
+        Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }
+    }
+}
