@@ -23,9 +23,9 @@ use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 use crate::stamp::Stamp;
 
+pub use crate::source::Source;
 pub use disk::SaveError;
 pub use mending::{Repair, Row};
-pub use opening::Source;
 
 /// A document that is edited.
 #[derive(Clone, Debug)]

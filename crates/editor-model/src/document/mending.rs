@@ -8,11 +8,11 @@ use impasto_scene::document::{GuidePoint, Scene};
 use impasto_scene::load::salvage::{self, Loss};
 use impasto_scene::problem::Problem;
 
-use super::opening::Source;
 use super::{Document, Step};
 use crate::change::{SceneChange, head};
 use crate::command::{Command, Directions};
 use crate::refusal::Refusal;
+use crate::source::Source;
 
 /// One thing that is wrong with the document, for a list.
 #[derive(Clone, Debug, PartialEq)]

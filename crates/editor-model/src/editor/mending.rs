@@ -3,7 +3,7 @@
 use impasto_scene::problem::Report;
 
 use super::Editor;
-use crate::document::{Document, SaveError, Step};
+use crate::document::{Document, Step};
 use crate::refusal::Refusal;
 use crate::watch::News;
 
@@ -86,16 +86,6 @@ impl Editor {
                 false
             }
         })
-    }
-
-    /// Saves in the place of what somebody else wrote.
-    ///
-    /// # Errors
-    /// See [`crate::Document::save_over`].
-    pub fn save_over(&mut self) -> Result<(), SaveError> {
-        self.document.save_over()?;
-        self.say(format!("Saved {}", self.document.name()));
-        Ok(())
     }
 
     /// Takes in what changed on the disk, where that drops no edit: view, selection and mode stay. For any thread, since it may

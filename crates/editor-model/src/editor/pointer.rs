@@ -208,8 +208,7 @@ impl Editor {
             Busy::Shot(pose) if button == Button::Left => {
                 let pose = pose.clone();
                 self.busy = Busy::Idle;
-                let frame = self.session.frame;
-                self.run(&Command::Arrange(Arrange::SetCamera { frame, pose }));
+                self.place_shot(pose);
             }
             Busy::ShotView(_, _, pose) => {
                 let pose = pose.clone();

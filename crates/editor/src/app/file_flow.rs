@@ -7,16 +7,19 @@ use egui::{Context, Ui};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::document::{Document, SaveError};
+use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::Preset;
 use impasto_scene::document::BrushMix;
 
 use super::EditorApp;
 use super::long_work::MeshFor;
 use crate::files::beside::Copies;
-use crate::files::dialogs::{Answer, Ask, FileDialogs};
+use crate::files::dialogs::{Answer, FileDialogs};
+use crate::files::file_ask::FileAsk;
 use crate::files::incoming::{self, Present, adopt_picture};
 use crate::files::preferences::{self, Keys, Preferences};
 use crate::panels::ask_close::{self, Question};
+use crate::panels::problems;
 use crate::panels::welcome::{self, Choices, Left};
 use crate::theme;
 
@@ -33,8 +36,8 @@ pub(super) struct FileFlow {
     pub(super) dialogs: FileDialogs,
     /// Waits until unsaved work is settled.
     waiting: Option<Next>,
-    /// Whether the question about it shows; else a file is being asked for.
-    asks: bool,
+    /// The question about it that shows; else a file is being asked for.
+    asks: Option<Unsaved>,
     /// The object that a mesh is being chosen for.
     pub(super) mesh_of: Option<String>,
     /// Since when there are edits.
@@ -48,6 +51,15 @@ struct Along {
     target: PathBuf,
     to: SaveTo,
     copies: Copies,
+}
+
+/// What would be lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unsaved {
+    /// Text in the panel of problems that was edited and not read.
+    Text,
+    /// Edits of the scene.
+    Edits,
 }
 
 /// What a file is written as.
@@ -64,7 +76,7 @@ impl FileFlow {
         Self {
             dialogs,
             waiting: None,
-            asks: false,
+            asks: None,
             mesh_of: None,
             edited_since: None,
             along: None,
@@ -73,7 +85,7 @@ impl FileFlow {
     }
 
     pub(super) fn is_asking(&self) -> bool {
-        self.asks || self.along.is_some() || self.dialogs.is_open()
+        self.asks.is_some() || self.along.is_some() || self.dialogs.is_open()
     }
 }
 
@@ -89,11 +101,11 @@ impl EditorApp {
         if self.render.holds_window() {
             return false;
         }
-        if !self.editor.document().is_edited() {
+        let Some(unsaved) = self.unsaved() else {
             self.note_last_seen();
             return true;
-        }
-        self.wait_for(Next::Close);
+        };
+        self.wait_for(Next::Close, unsaved);
         false
     }
 
@@ -112,16 +124,23 @@ impl EditorApp {
     }
 
     fn settle_then(&mut self, next: Next) {
-        if self.editor.document().is_edited() {
-            self.wait_for(next);
-        } else {
-            self.go_on(next);
+        match self.unsaved() {
+            Some(unsaved) => self.wait_for(next, unsaved),
+            None => self.go_on(next),
         }
     }
 
-    fn wait_for(&mut self, next: Next) {
+    /// What would be lost without the document, the first that is to be asked about.
+    fn unsaved(&self) -> Option<Unsaved> {
+        let document = self.editor.document();
+        let has_text = problems::unread_text(&self.ctx, document).is_some();
+        let edits = || document.is_edited().then_some(Unsaved::Edits);
+        has_text.then_some(Unsaved::Text).or_else(edits)
+    }
+
+    fn wait_for(&mut self, next: Next, unsaved: Unsaved) {
         self.files.waiting = Some(next);
-        self.files.asks = true;
+        self.files.asks = Some(unsaved);
     }
 
     fn go_on(&mut self, next: Next) {
@@ -137,7 +156,7 @@ impl EditorApp {
                 self.editor.open(Document::empty(&folder));
                 self.sheets.problems = false;
                 self.keymap();
-                self.studio.forget();
+                self.picture_flow.forget();
                 self.render.forget();
             }
             Next::Open(path) => self.open(&path),
@@ -183,8 +202,11 @@ impl EditorApp {
         } else if self.files.edited_since.is_none() {
             self.files.edited_since = Some(Instant::now());
         }
-        if self.files.asks {
-            self.ask_about_changes(ctx);
+        if let Some(unsaved) = self.files.asks {
+            match unsaved {
+                Unsaved::Text => self.ask_about_text(ctx),
+                Unsaved::Edits => self.ask_about_changes(ctx),
+            }
         } else if self.files.along.is_some() {
             self.ask_to_take_along(ctx);
         } else if self.safe.is_asking() {
@@ -203,11 +225,29 @@ impl EditorApp {
         self.files.closes
     }
 
+    fn ask_about_text(&mut self, ctx: &Context) {
+        let question = Question::UnreadText { name: self.editor.document().name() };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        self.files.asks = None;
+        match (answer, self.files.waiting.take()) {
+            (ask_close::Answer::Discard, Some(next)) if self.editor.document().is_edited() => {
+                self.wait_for(next, Unsaved::Edits);
+            }
+            (ask_close::Answer::Discard, Some(next)) => self.go_on(next),
+            (ask_close::Answer::ReadText, _) => {
+                if let Some(text) = problems::unread_text(ctx, self.editor.document()) {
+                    self.mend(Mend::ReadText(text));
+                }
+            }
+            _ => {}
+        }
+    }
+
     fn ask_about_changes(&mut self, ctx: &Context) {
         let minutes = self.files.edited_since.map_or(0, |since| since.elapsed().as_secs() / 60);
         let question = Question::SaveChanges { name: self.editor.document().name(), minutes };
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
-        self.files.asks = false;
+        self.files.asks = None;
         match answer {
             ask_close::Answer::Save if self.editor.document().file().is_some() => {
                 if self.save(None)
@@ -219,7 +259,7 @@ impl EditorApp {
             // Goes on once the file is written.
             ask_close::Answer::Save => {
                 let start = self.editor.document().suggested_file();
-                self.files.dialogs.open(ctx, Ask::SaveAs, &start);
+                self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
             }
             ask_close::Answer::Discard => {
                 if let Some(next) = self.files.waiting.take() {
@@ -236,9 +276,9 @@ impl EditorApp {
             return;
         };
         match answer.ask {
-            Ask::Open => self.open_asking(&path),
-            Ask::ImportMesh => self.import(&path),
-            Ask::SaveAs => {
+            FileAsk::Open => self.open_asking(&path),
+            FileAsk::ImportMesh => self.import(&path),
+            FileAsk::SaveAs => {
                 if self.save(Some(&path))
                     && let Some(next) = self.files.waiting.take()
                 {
@@ -246,16 +286,16 @@ impl EditorApp {
                 }
             }
             // With losses the copy is gone on with: the file that was read stays what it is.
-            Ask::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
-            Ask::SaveCopy => self.save_copy(&path),
-            Ask::LocateMesh => self.replace_mesh(&path),
-            Ask::RenderOutput => self.render_to(&path),
+            FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
+            FileAsk::SaveCopy => self.save_copy(&path),
+            FileAsk::LocateMesh => self.replace_mesh(&path),
+            FileAsk::RenderOutput => self.render_to(&path),
         }
     }
 
     fn save_copy(&mut self, path: &Path) {
-        match self.editor.document().save_copy(path) {
-            Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
+        match self.editor.save_copy(path) {
+            Ok(()) => {}
             Err(SaveError::FilesElsewhere { target, .. }) => self.take_along(target, SaveTo::Copy),
             Err(error) => self.toast(error.to_string(), None, true),
         }
@@ -377,7 +417,7 @@ impl EditorApp {
         match left {
             None => return,
             Some(Left::OpenMesh | Left::OpenScene) => {
-                self.files.dialogs.open(ctx, Ask::Open, &start);
+                self.files.dialogs.open(ctx, FileAsk::Open, &start);
             }
             Some(Left::StillLife) => match still_life() {
                 Some(path) => self.open(&path),

@@ -7,7 +7,7 @@ use impasto_editor_model::stroke_fields::field_values;
 use impasto_editor_model::tools::Foreseen;
 use impasto_painting::{FrameOptions, SurfacePlace};
 
-use super::picture::Studio;
+use super::picture::PictureFlow;
 use crate::viewport::overlay::{Comb, ForeseenStroke};
 
 /// Of no more than this many strokes those are shown that are so far apart, points: more would hide what they show.
@@ -29,7 +29,7 @@ pub(super) struct ForeseenStrokes {
 
 impl ForeseenStrokes {
     /// Follows the hand.
-    pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, studio: &Studio) {
+    pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, picture_flow: &PictureFlow) {
         let held = editor.held();
         let wanted = editor.tool_output().foreseen.filter(|_| !held.shift && !held.alt);
         let id = egui::Id::unique("foreseen strokes");
@@ -50,9 +50,9 @@ impl ForeseenStrokes {
             strength: options.strength as f32,
             even: options.even,
         });
-        let of = Some((foreseen, studio.prepared()));
+        let of = Some((foreseen, picture_flow.prepared()));
         if self.of != of {
-            self.strokes = strokes(&foreseen, editor, studio).unwrap_or_default();
+            self.strokes = strokes(&foreseen, editor, picture_flow).unwrap_or_default();
             self.of = of;
         }
     }
@@ -64,11 +64,11 @@ impl ForeseenStrokes {
 }
 
 /// The strokes in the ring that a comb would turn: those of the region under it.
-fn strokes(foreseen: &Foreseen, editor: &Editor, studio: &Studio) -> Option<Vec<ForeseenStroke>> {
+fn strokes(foreseen: &Foreseen, editor: &Editor, picture_flow: &PictureFlow) -> Option<Vec<ForeseenStroke>> {
     let painting = editor.painting()?;
     let scene = painting.scene();
     scene.objects.get(foreseen.object)?;
-    let framing = studio.layout().framings().first()?;
+    let framing = picture_flow.layout().framings().first()?;
     let camera = framing.widened(&editor.camera());
     let size_px = framing.viewport().size();
     let shot_height_px = framing.shot().height();

@@ -25,7 +25,7 @@ impl EditorApp {
     /// Goes where the user was in a scene that was just opened.
     pub(super) fn go_to_last_seen(&mut self, file: &Path) {
         let Some(seen) = self.preferences.last_seen_in(file).cloned() else { return };
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         self.editor.set_mode(seen.mode, &view);
         if let Some(view) = seen.view {
             let free = free_view(&view, &self.editor.shot());

@@ -209,7 +209,7 @@ impl EditorApp {
     pub(super) fn works(&self, ctx: &Context) -> Vec<Work> {
         let mut works: Vec<Work> = self.render.work().into_iter().collect();
         works.extend(self.long.work());
-        if let Some(waited) = self.studio.preparing_for() {
+        if let Some(waited) = self.picture_flow.preparing_for() {
             match SHOWN_AFTER.checked_sub(waited).filter(|rest| !rest.is_zero()) {
                 Some(rest) => ctx.request_repaint_after(rest),
                 None => {

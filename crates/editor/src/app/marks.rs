@@ -1,7 +1,5 @@
 //! What is drawn over the picture, made from what the editor knows; what is costly is kept while its inputs stay.
 
-use std::sync::Arc;
-
 use egui::{Color32, Ui};
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::sampling::Particle;
@@ -13,12 +11,13 @@ use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_painting::Painting;
 use impasto_scene::document::{Guide, LightKind, Scene};
-use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::motion::CameraPose;
 use impasto_scene::new_scene::REGION_COLORS;
 
 use super::foreseen::ForeseenStrokes;
 use super::motion_marks;
-use super::picture::Studio;
+use super::picture::PictureFlow;
+use super::picture_view::PictureView;
 use crate::viewport::overlay::{
     CurvePart, GuideCurve, HairMark, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
     StandIn,
@@ -84,35 +83,28 @@ pub(super) struct Fresh {
     hides_pointer: bool,
 }
 
-/// Which of the two pictures of a comparison; one alone is the first.
-pub(super) struct Seen<'a> {
-    pub(super) index: usize,
-    pub(super) camera: &'a CameraPose,
-    pub(super) frame: f64,
-}
-
 impl MarkCache {
     /// Makes anew what does not hold any more.
-    pub(super) fn refresh(&mut self, editor: &Editor, studio: &Studio, seen: &Seen<'_>) {
+    pub(super) fn refresh(&mut self, editor: &Editor, picture_flow: &PictureFlow, picture: &PictureView<'_>) {
         let Some(painting) = editor.painting() else { return };
-        let Some(&framing) = studio.layout().framings().get(seen.index) else { return };
+        let Some(&framing) = picture_flow.layout().framings().get(picture.index) else { return };
         let session = &editor.session;
         if editor.time().playback.is_playing() {
             // What plays is looked at, and has the time to itself.
-            self.halves[seen.index] = Half::default();
+            self.halves[picture.index] = Half::default();
             return;
         }
         let key = Key {
-            prepared: studio.prepared(),
-            camera: seen.camera.clone(),
-            frame: seen.frame,
+            prepared: picture_flow.prepared(),
+            camera: picture.camera.clone(),
+            frame: picture.frame,
             framing,
             overlays: session.overlays,
             mode: session.mode,
             selected: editor.document().selection().active().cloned(),
             moving: editor.is_navigating(),
         };
-        let half = &mut self.halves[seen.index];
+        let half = &mut self.halves[picture.index];
         if half.of.as_ref() == Some(&key) {
             return;
         }
@@ -125,10 +117,10 @@ impl MarkCache {
         if !(shows_hairs || session.overlays.regions || outlines) {
             return;
         }
-        let view = framing.view(seen.camera);
+        let view = framing.view(picture.camera);
         let key = MapKey {
-            bodies: bodies(painting, seen.frame),
-            camera: seen.camera.clone(),
+            bodies: StandingBody::all(painting, picture.frame),
+            camera: picture.camera.clone(),
             framing,
             cells_per_point: if editor.is_navigating() { MOVING_CELLS_PER_POINT } else { CELLS_PER_POINT },
         };
@@ -142,7 +134,7 @@ impl MarkCache {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
             let object = active.filter(|_| session.mode != Mode::Paint);
             let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
-            half.hairs = hair_marks(painting, (seen.camera, seen.frame), &framing, &map, &look);
+            half.hairs = hair_marks(painting, (picture.camera, picture.frame), &framing, &map, &look);
         }
         if session.overlays.regions {
             let names: Vec<(&str, Color32)> = scene
@@ -157,7 +149,7 @@ impl MarkCache {
             half.outline = Some(Outline::new(&map, |object| object == active));
             if session.mode == Mode::Animate && !editor.is_navigating() {
                 half.path = motion_marks::path(scene, active);
-                half.ghosts = motion_marks::ghosts(painting, seen, &framing, active);
+                half.ghosts = motion_marks::ghosts(painting, picture, &framing, active);
             }
         }
         half.map = Some((key, map));
@@ -238,21 +230,6 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
         radius_px: editor.session.options.radius_px,
         hides_pointer: has_ring && editor.session.tool() != Tool::Pick,
     }
-}
-
-pub(super) fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
-    let scene = painting.scene();
-    let poses = motion::poses_at(scene, frame);
-    let shapes = painting.shapes_at(frame);
-    let shapes = shapes.into_iter().enumerate();
-    shapes
-        .map(|(object, shape)| StandingBody {
-            surface: Arc::clone(painting.surface(object)),
-            shape,
-            world_from_model: poses[object],
-            visible: !scene.objects[object].hidden,
-        })
-        .collect()
 }
 
 fn region_of(painting: &Painting, face: Face) -> Option<usize> {

@@ -15,6 +15,7 @@ mod long_work;
 mod marks;
 mod motion_marks;
 mod picture;
+mod picture_view;
 mod render_flow;
 mod safe_keeping;
 mod shader_flow;
@@ -43,7 +44,7 @@ use impasto_gl_render::shader_folder::ShaderFolder;
 use file_flow::FileFlow;
 use long_work::LongWork;
 use marks::MarkCache;
-use picture::{News, Studio};
+use picture::{News, PictureFlow};
 use render_flow::RenderFlow;
 use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
@@ -53,8 +54,9 @@ const TOAST: Duration = Duration::from_secs(4);
 
 /// The editor in its window.
 pub(crate) struct EditorApp {
+    ctx: Context,
     editor: Editor,
-    studio: Studio,
+    picture_flow: PictureFlow,
     marks: MarkCache,
     files: FileFlow,
     safe: SafeKeeping,
@@ -106,8 +108,12 @@ impl EditorApp {
         let preferences = loaded.preferences;
         let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
         let mut app = Self {
+            ctx: opened.ctx.clone(),
             editor: Editor::new(Document::empty(&here)),
-            studio: Studio::new(options.driver.unwrap_or(preferences.driver), opened.waker.clone()),
+            picture_flow: PictureFlow::new(
+                options.driver.unwrap_or(preferences.driver),
+                opened.waker.clone(),
+            ),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             safe: SafeKeeping::new(),
@@ -166,7 +172,7 @@ impl EditorApp {
                 let losses = document.loss_count();
                 self.editor.open(document);
                 self.keymap();
-                self.studio.forget();
+                self.picture_flow.forget();
                 self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = losses > 0;
@@ -209,7 +215,7 @@ impl EditorApp {
 
     fn page(&mut self, ui: &mut Ui) {
         let status = self.editor.status();
-        let driver = self.studio.driver().to_owned();
+        let driver = self.picture_flow.driver().to_owned();
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
@@ -222,9 +228,9 @@ impl EditorApp {
             keys: self.editor.keymap.preset,
             status: &status,
             numbers: Numbers {
-                strokes: self.studio.strokes(),
-                strokes_of: self.studio.strokes_of(),
-                pictures_per_second: self.studio.pictures_per_second(),
+                strokes: self.picture_flow.strokes(),
+                strokes_of: self.picture_flow.strokes_of(),
+                pictures_per_second: self.picture_flow.pictures_per_second(),
                 driver: &driver,
                 works: &works,
             },
@@ -249,7 +255,7 @@ impl EditorApp {
         CentralPanel::default()
             .frame(egui::Frame::NONE)
             .show(ui, |ui| area(ui, Area::Viewport, |ui| self.viewport(ui, &mut asks)));
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         for ask in asks {
             self.answer(ask, ui.ctx(), &view);
         }
@@ -271,7 +277,7 @@ impl EditorApp {
             let (_, _, offers) = self.toasts.remove(clicked);
             match offers {
                 Some(Offer::Undo) => {
-                    let view = self.studio.view(&self.editor);
+                    let view = self.picture_flow.view(&self.editor);
                     self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
                 }
                 Some(Offer::PoseAgain) => self.editor.pose_again(),
@@ -298,7 +304,7 @@ impl EditorApp {
         // In its first pass a menu is only measured: it cannot be clicked before the second.
         let menu_is_open = egui::Popup::is_any_open(ctx);
         let menu_is_shown = std::mem::replace(&mut self.menu_was_open, menu_is_open) && menu_is_open;
-        let (Some(tell), Some(version)) = (self.tell, self.studio.at_rest()) else { return };
+        let (Some(tell), Some(version)) = (self.tell, self.picture_flow.at_rest()) else { return };
         let over = match (self.is_modal(), menu_is_shown) {
             (true, _) => ", under a sheet",
             (false, true) => ", under a menu",
@@ -331,15 +337,15 @@ impl window::App for EditorApp {
         let ctx = ui.ctx().clone();
         self.editor.tick(ui.input(|input| input.time));
         self.follow_reading(&ctx);
-        let news = self.studio.poll(&ctx, &mut self.editor);
+        let news = self.picture_flow.poll(&ctx, &mut self.editor);
         if news == Some(News::NextOfFilm) {
             self.tell_played();
         }
         // While a hand turns the view, the window changes with the picture.
-        if news.is_none() && self.editor.is_navigating() && self.studio.is_awaited() {
+        if news.is_none() && self.editor.is_navigating() && self.picture_flow.is_awaited() {
             frame.hold();
         }
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         let focused = ui.input(|input| input.focused);
         if self.folds.had_focus && !focused {
             self.editor.focus_lost(&view);

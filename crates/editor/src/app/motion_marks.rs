@@ -6,12 +6,10 @@ use impasto_painting::Painting;
 use impasto_scene::document::{Object, Scene};
 use impasto_scene::motion;
 
-use super::marks::bodies;
+use super::picture_view::PictureView;
 use crate::viewport::Framing;
 use crate::viewport::overlay::{MissingMesh, MotionPath, Outline};
-use crate::viewport::surface_map::SurfaceMap;
-
-use super::marks::Seen;
+use crate::viewport::surface_map::{StandingBody, SurfaceMap};
 
 /// A way has no more dots than this.
 const MOST_PLACES: f64 = 400.0;
@@ -33,16 +31,21 @@ pub(super) fn path(scene: &Scene, object: usize) -> Option<MotionPath> {
 }
 
 /// The object's outlines at the keys before and after a frame, with the camera where it is now.
-pub(super) fn ghosts(painting: &Painting, seen: &Seen<'_>, framing: &Framing, object: usize) -> Vec<Outline> {
+pub(super) fn ghosts(
+    painting: &Painting,
+    picture: &PictureView<'_>,
+    framing: &Framing,
+    object: usize,
+) -> Vec<Outline> {
     let Some(keys) = painting.scene().objects.get(object).map(|object| &object.keys) else {
         return Vec::new();
     };
     let frames = keys.iter().map(|key| key.frame);
-    let before = frames.clone().rfind(|frame| *frame < seen.frame);
-    let after = frames.clone().find(|frame| *frame > seen.frame);
-    let view = framing.view(seen.camera);
+    let before = frames.clone().rfind(|frame| *frame < picture.frame);
+    let after = frames.clone().find(|frame| *frame > picture.frame);
+    let view = framing.view(picture.camera);
     let ghost = |frame: f64| {
-        let mut bodies = bodies(painting, frame);
+        let mut bodies = StandingBody::all(painting, frame);
         for (index, body) in bodies.iter_mut().enumerate() {
             body.visible &= index == object;
         }

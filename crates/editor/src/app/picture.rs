@@ -29,7 +29,7 @@ pub(super) enum News {
 }
 
 /// The thread, what it was asked for last, and what it has sent.
-pub(super) struct Studio {
+pub(super) struct PictureFlow {
     worker: Option<Worker>,
     driver: String,
     pub(super) pictures: Pictures,
@@ -45,7 +45,7 @@ pub(super) struct Studio {
     came: VecDeque<Instant>,
 }
 
-impl Studio {
+impl PictureFlow {
     pub(super) fn new(driver: DriverChoice, waker: Waker) -> Self {
         let driver = match driver {
             DriverChoice::Auto => Driver::Auto,

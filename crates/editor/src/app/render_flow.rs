@@ -10,7 +10,7 @@ use impasto_editor_model::render_settings::{
 use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
-use crate::files::dialogs::Ask as FileAsk;
+use crate::files::file_ask::FileAsk;
 use crate::files::show_folder::show_folder;
 use crate::panels::ask_close::{self, Answer, Question};
 use crate::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
@@ -155,7 +155,7 @@ impl EditorApp {
         let shown = RenderShown {
             document: self.editor.document(),
             frame: self.editor.session.frame,
-            driver: self.studio.driver(),
+            driver: self.picture_flow.driver(),
             progress: progress.as_ref(),
             picture: self.render.picture.as_ref(),
         };

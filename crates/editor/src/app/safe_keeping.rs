@@ -12,7 +12,7 @@ use impasto_scene::load::LoadOptions;
 use impasto_scene::problem::Report;
 
 use super::EditorApp;
-use crate::files::dialogs::Ask as FileAsk;
+use crate::files::file_ask::FileAsk;
 use crate::files::preferences;
 use crate::panels::ask_close::{self, Answer, Question};
 
@@ -228,7 +228,7 @@ impl EditorApp {
                 self.keep_before_risk();
                 self.editor.open(document);
                 self.keymap();
-                self.studio.forget();
+                self.picture_flow.forget();
                 self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = self.editor.document().loss_count() > 0;

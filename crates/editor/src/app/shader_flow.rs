@@ -36,7 +36,7 @@ impl EditorApp {
     /// Draws with a folder's shaders from now on.
     pub(super) fn use_shaders(&mut self, opened: Option<(ShaderFolder, ShaderTexts)>) {
         let Some((folder, texts)) = opened else { return };
-        self.studio.replace_shaders(texts.clone());
+        self.picture_flow.replace_shaders(texts.clone());
         self.shaders = ShaderFlow { folder: Some(folder), texts, next_look: None };
     }
 
@@ -51,7 +51,7 @@ impl EditorApp {
                 None => {}
                 Some(Ok(texts)) => {
                     flow.texts.clone_from(&texts);
-                    self.studio.replace_shaders(texts);
+                    self.picture_flow.replace_shaders(texts);
                 }
                 Some(Err(words)) => self.toast(words, None, true),
             }

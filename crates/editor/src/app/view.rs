@@ -6,7 +6,8 @@ use impasto_editor_model::editor::{PointerEvent, PointerKind, reference_frame};
 use impasto_editor_model::picking::View;
 use impasto_scene::motion;
 
-use super::marks::{self, MarkCache, Seen};
+use super::marks::{self, MarkCache};
+use super::picture_view::PictureView;
 use super::{EditorApp, badge, value};
 use crate::panels::Ask;
 use crate::viewport::overlay::Sight;
@@ -25,7 +26,7 @@ impl EditorApp {
         let (size, pixels_per_point) = (scene.size, ui.ctx().pixels_per_point());
         let is_empty = scene.objects.is_empty();
         let compares = self.editor.session.compare && !is_empty;
-        self.studio.set_layout(if compares {
+        self.picture_flow.set_layout(if compares {
             Layout::compare(area, size, pixels_per_point)
         } else {
             Layout::single(area, size, pixels_per_point)
@@ -33,18 +34,18 @@ impl EditorApp {
         let (reference_camera, reference) = motion::referred_to(scene, &scene.reference);
         let (camera, frame) = (self.editor.camera(), self.editor.session.frame);
         let first = if compares {
-            Seen { index: 0, camera: &reference_camera, frame: reference }
+            PictureView { index: 0, camera: &reference_camera, frame: reference }
         } else {
-            Seen { index: 0, camera: &camera, frame }
+            PictureView { index: 0, camera: &camera, frame }
         };
-        let second = compares.then_some(Seen { index: 1, camera: &camera, frame });
-        self.marks.refresh(&self.editor, &self.studio, &first);
+        let second = compares.then_some(PictureView { index: 1, camera: &camera, frame });
+        self.marks.refresh(&self.editor, &self.picture_flow, &first);
         if let Some(second) = &second {
-            self.marks.refresh(&self.editor, &self.studio, second);
+            self.marks.refresh(&self.editor, &self.picture_flow, second);
         }
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         self.editor.rested(ui.input(|input| input.time), &view);
-        self.marks.foreseen.follow(ui.ctx(), &self.editor, &self.studio);
+        self.marks.foreseen.follow(ui.ctx(), &self.editor, &self.picture_flow);
         let fresh = marks::fresh(&self.editor, &view, ui);
         let poses = self.editor.poses();
         let visible = |object: usize| !self.editor.document().shown().scene.objects[object].hidden;
@@ -55,7 +56,7 @@ impl EditorApp {
         let note = self.turned_words();
         let under_cursor = self.editor.tool_output().label.clone().unwrap_or_default();
         let input = ViewportInput {
-            pictures: &self.studio.pictures,
+            pictures: &self.picture_flow.pictures,
             session: &self.editor.session,
             camera: first.camera,
             through_shot: self.editor.looking == Looking::Shot,
@@ -70,11 +71,11 @@ impl EditorApp {
             value: &value(&self.editor),
             under_cursor: &under_cursor,
             empty: is_empty,
-            trouble: self.studio.trouble.as_deref(),
+            trouble: self.picture_flow.trouble.as_deref(),
         };
-        let events = viewport(ui, self.studio.layout(), &input);
+        let events = viewport(ui, self.picture_flow.layout(), &input);
         self.take(events, asks, &view);
-        self.studio.ask(&self.editor);
+        self.picture_flow.ask(&self.editor);
     }
 
     /// What Compare says of the selected object: how far it turned, and its strokes with it.
@@ -99,7 +100,7 @@ impl EditorApp {
             };
             let event = PointerEvent { kind, at_px: event.at_px, held: event.held, at_secs: event.at_secs };
             // The view may have moved by the event before.
-            let view = self.studio.view(&self.editor);
+            let view = self.picture_flow.view(&self.editor);
             self.editor.pointer(&event, &view);
         }
         asks.extend(events.asks);

@@ -11,7 +11,7 @@ use egui::{
     vec2,
 };
 
-use super::dialogs::Ask;
+use super::file_ask::FileAsk;
 use super::incoming::{self, Kind, name_of};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
@@ -33,7 +33,7 @@ pub enum Picked {
 
 /// Asks for a file.
 pub struct PathSheet {
-    ask: Ask,
+    ask: FileAsk,
     listing: Listing,
     /// What stands in the field.
     typed: String,
@@ -47,7 +47,7 @@ pub struct PathSheet {
 
 impl PathSheet {
     /// A sheet that begins in the folder `start`; to save, with the file `start` in the field.
-    pub fn new(ask: Ask, start: &Path) -> Self {
+    pub fn new(ask: FileAsk, start: &Path) -> Self {
         let is_file = ask.is_save() && !start.is_dir();
         let typed = if is_file { name_of(start) } else { String::new() };
         let folder = if is_file { start.parent().unwrap_or(Path::new("")) } else { start };

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Align, Align2, Color32, FontId, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense,
-    TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, Context, FontId, Id, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit,
+    Ui, WidgetInfo, pos2, vec2,
 };
 use impasto_editor_model::document::{Repair, Row, Source};
 use impasto_editor_model::editor::Mend;
-use impasto_editor_model::{Item, Selection};
+use impasto_editor_model::{Document, Item, Selection};
 use impasto_scene::problem::Place;
 
 use super::{Ask, Shown, row, row_from_right, within};
@@ -41,6 +41,18 @@ struct Memory {
     go_to: Option<usize>,
 }
 
+fn memory_id() -> Id {
+    Id::unique("problems panel")
+}
+
+/// The text as it was edited beside the list, where it has not been read yet.
+pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
+    let source = document.source()?;
+    let memory: Memory = ctx.data(|data| data.get_temp(memory_id()))?;
+    let is_of_source = memory.begun_from.is_some_and(|from| from.text == source.text);
+    (is_of_source && memory.typed != source.text).then_some(memory.typed)
+}
+
 /// Takes 232 points at the bottom of `ui`. False once it is closed or nothing is wrong any more.
 pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
     let rows = shown.document.problems();
@@ -54,7 +66,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
     let shown_panel = panel.show(ui, |ui| {
         let whole = ui.max_rect();
         ui.painter().hline(whole.x_range(), whole.top(), (2.0, tokens.vermilion));
-        let id = Id::unique("problems panel");
+        let id = memory_id();
         let mut memory: Memory = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         memory.selected = memory.selected.min(rows.len() - 1);
         let split = whole.left() + (whole.width() * LIST).round();
@@ -309,10 +321,6 @@ fn source(
         return excerpt(ui, &source.text, marked);
     }
     let id = Id::unique("problems source");
-    let is_typing = ui.memory(|memory| memory.has_focus(id));
-    if is_typing && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter)) {
-        asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
-    }
     let mut area = ScrollArea::both().id_salt("source").auto_shrink(false);
     if let Some(line) = memory.go_to.take() {
         area = area.vertical_scroll_offset((line.saturating_sub(4) as f32 * LINE).max(0.0));
@@ -342,9 +350,14 @@ fn source(
         });
     });
     if is_changed {
-        let words = "Ctrl Enter reads it again; the file on disk stays";
-        let at = ui.max_rect().right_bottom() - vec2(14.0, 8.0);
-        ui.painter().text(at, Align2::RIGHT_BOTTOM, words, type_face::small(), tokens.ochre);
+        let corner = ui.max_rect().right_bottom() - vec2(14.0, 8.0);
+        let rect = Rect::from_min_max(corner - vec2(ui.max_rect().width(), measure::BUTTON), corner);
+        let button =
+            within(ui, rect, row_from_right(), |ui| Button::new("Read this text").primary().show(ui));
+        let tip = "Reads the scene from the text above (Ctrl Enter). The file on disk stays as it is.";
+        if button.on_hover_text(tip).clicked() {
+            asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
+        }
     }
 }
 

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec4};
 use impasto_core::ScreenMap;
 use impasto_editor_model::picking::View;
-use impasto_painting::BodyShape;
 use impasto_painting::frame::BodySurface;
+use impasto_painting::{BodyShape, Painting};
 use impasto_scene::document::Lens;
+use impasto_scene::motion;
 
 /// A point may lie this share of its depth behind the surface that shows, and still be that surface.
 const LEEWAY: f32 = 0.006;
@@ -46,6 +47,21 @@ pub struct StandingBody {
     pub world_from_model: DAffine3,
     /// Whether it shows.
     pub visible: bool,
+}
+
+impl StandingBody {
+    /// The bodies of a painting as they stand at a frame, by the places of their objects in the scene.
+    pub fn all(painting: &Painting, frame: f64) -> Vec<Self> {
+        let scene = painting.scene();
+        let poses = motion::poses_at(scene, frame);
+        let body = |(object, shape)| Self {
+            surface: Arc::clone(painting.surface(object)),
+            shape,
+            world_from_model: poses[object],
+            visible: !scene.objects[object].hidden,
+        };
+        painting.shapes_at(frame).into_iter().enumerate().map(body).collect()
+    }
 }
 
 /// Of the very same surface, standing alike.

@@ -1,9 +1,11 @@
+//! A field for a number: dragged, typed, or stepped by arrow keys and the wheel.
+
 use std::ops::RangeInclusive;
 
 use egui::accesskit::{Action, ActionData};
 use egui::{
-    Align2, CornerRadius, CursorIcon, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, CornerRadius, CursorIcon, EventFilter, InputState, Key, Rect, Response, Role, Sense, Stroke,
+    StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
 mod typed;
@@ -13,9 +15,10 @@ use super::{Tip, draw};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 
-/// A number: a box whose filled part is its place in the range. Drag it, scroll over it, press the arrows on it, or type
-/// after a click or `Enter`; a double click brings its default back. What is typed beyond its limits, or is no number, is
-/// marked where it stands and not taken.
+/// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`, or
+/// stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held. Otherwise the
+/// wheel scrolls what the field stands in. A double click brings the default back. What is typed beyond the limits, or is no
+/// number, is marked and not taken.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
@@ -242,12 +245,13 @@ impl<'a> NumberField<'a> {
 
     fn step_by_wheel(&self, ui: &Ui, response: &Response, memory: &mut Memory) -> f64 {
         const POINTS_A_STEP: f32 = 40.0;
-        if !response.hovered() {
+        let scrolled =
+            response.hovered().then(|| ui.input_mut(|input| scrolled(input, response.has_focus())));
+        let Some(scrolled) = scrolled.flatten() else {
             memory.scrolled = 0.0;
             return 0.0;
-        }
-        // Taken away, so that the panel under the field stays where it is.
-        memory.scrolled += ui.input_mut(|input| std::mem::take(&mut input.smooth_scroll_delta).y);
+        };
+        memory.scrolled += scrolled;
         let steps = (memory.scrolled / POINTS_A_STEP).round();
         memory.scrolled -= steps * POINTS_A_STEP;
         f64::from(steps)
@@ -398,7 +402,9 @@ impl<'a> NumberField<'a> {
         if let Some(default) = self.default {
             range = format!("{range}, default {}", self.text_of(default));
         }
-        Tip { range: range.trim_start_matches(", "), ..self.tip }.on(response)
+        let range = [range.trim_start_matches(", "), "Ctrl and the wheel change it."];
+        let range = if range[0].is_empty() { range[1].to_owned() } else { range.join(". ") };
+        Tip { range: &range, ..self.tip }.on(response)
     }
 
     fn read(&self, typed: &str) -> Option<f64> {
@@ -420,4 +426,14 @@ impl<'a> NumberField<'a> {
         let text = format!("{value:.*}", self.decimals);
         text.strip_prefix('-').map_or(text.clone(), |rest| format!("\u{2212}{rest}"))
     }
+}
+
+/// By how many points the wheel turned for the field; none where the turn is for what the field stands in.
+fn scrolled(input: &mut InputState, has_focus: bool) -> Option<f32> {
+    if input.modifiers.command {
+        // With Ctrl, egui reads the wheel as a zoom by this much for each point.
+        return Some(input.zoom_delta().ln() / egui::InputOptions::default().scroll_zoom_speed);
+    }
+    // Taken away, so that what the field stands in does not scroll as well.
+    has_focus.then(|| std::mem::take(&mut input.smooth_scroll_delta).y)
 }

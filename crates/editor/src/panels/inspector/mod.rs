@@ -1,6 +1,7 @@
 //! The inspector: the settings of what is selected, or of the scene.
 
 mod camera;
+mod edited_strokes;
 mod guides;
 mod ink;
 mod light;

@@ -7,9 +7,9 @@ use impasto_scene::limits::{MAX_COVERAGE, MAX_THICKNESS};
 use impasto_scene::presets::{LayerKind, ResolvedLayer};
 
 use super::Asker;
+use super::edited_strokes::EditedStrokes;
 use super::number::Number;
 use super::parts::{pick, row};
-use super::strokes::Place;
 use crate::panels::column_state::ColumnState;
 use crate::widgets::Tip;
 
@@ -67,7 +67,7 @@ fn fields() -> [LayerField; 5] {
     ]
 }
 
-pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let chosen = ColumnState::with(ui.ctx(), |state| state.paint_layer).min(LayerKind::ALL.len() - 1);
     row(ui, "Paint layer", |ui| {
         let names = LayerKind::ALL.map(LayerKind::name);

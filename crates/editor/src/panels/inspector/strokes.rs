@@ -2,13 +2,13 @@
 
 use egui::{Ui, vec2};
 use impasto_core::brush;
-use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange, StrokesOf};
+use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange};
 use impasto_editor_model::stroke_fields::{FieldValue, field_values};
-use impasto_scene::document::{BrushMix, Edges, Region, Scene, Selector, StrokeSettings};
+use impasto_scene::document::{BrushMix, Edges};
 use impasto_scene::limits::MAX_LAYER;
-use impasto_scene::new_scene;
-use impasto_scene::presets::{self, ResolvedStrokes};
+use impasto_scene::presets;
 
+use super::edited_strokes::EditedStrokes;
 use super::number::Number;
 use super::parts::{note, pick, reset, row, section};
 use super::{Asker, paint_layers};
@@ -16,52 +16,6 @@ use crate::panels::brush_thumbnails::thumbnail;
 use crate::panels::column_state::ColumnState;
 use crate::panels::status_line::grouped;
 use crate::widgets::{self, Button, Tip};
-
-/// The stroke settings of one place, as they are shown and as they are stored.
-pub(super) struct Place<'a> {
-    pub(super) of: StrokesOf,
-    pub(super) own: [&'a StrokeSettings; 2],
-    pub(super) resolved: [ResolvedStrokes; 2],
-    index: Option<usize>,
-}
-
-impl<'a> Place<'a> {
-    fn new(asker: &Asker<'a, '_>, region: Option<&str>) -> Option<Self> {
-        let scenes = [asker.scene(), asker.stored()];
-        let index_in =
-            |scene: &Scene| scene.regions.iter().position(|other| Some(other.name.as_str()) == region);
-        let indices = scenes.map(index_in);
-        if region.is_some() && indices.contains(&None) {
-            return None;
-        }
-        let own = |which: usize| {
-            let scene = scenes[which];
-            indices[which].map_or(&scene.strokes, |index| &scene.regions[index].strokes)
-        };
-        Some(Self {
-            of: region.map_or(StrokesOf::Scene, |name| StrokesOf::Region(name.to_owned())),
-            own: [own(0), own(1)],
-            resolved: [0, 1].map(|which| presets::resolve(scenes[which], indices[which])),
-            index: indices[0],
-        })
-    }
-
-    /// What would hold with other settings here.
-    pub(super) fn resolve(&self, scene: &Scene, own: StrokeSettings) -> ResolvedStrokes {
-        let bare = Scene { size: scene.size, ..new_scene::empty() };
-        if self.index.is_none() {
-            return presets::resolve(&Scene { strokes: own, ..bare }, None);
-        }
-        let region = Region { strokes: own, ..Region::new("", Selector::Everything) };
-        let alone = Scene { strokes: scene.strokes.clone(), regions: vec![region], ..bare };
-        presets::resolve(&alone, Some(0))
-    }
-
-    /// Changes one setting here.
-    pub(super) fn set(&self, change: StrokeChange) -> Command {
-        Command::Regions(Regions::SetStroke(self.of.clone(), change))
-    }
-}
 
 pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
     let strokes = asker.shown.numbers.strokes_of.iter().find(|(name, _)| name == region);
@@ -71,7 +25,7 @@ pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
 
 /// Brush, numbers and layer.
 pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
-    let Some(place) = Place::new(asker, region) else { return };
+    let Some(place) = EditedStrokes::new(asker, region) else { return };
     if region.is_none() {
         preset(ui, asker, &place);
     }
@@ -90,7 +44,7 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     asker.number(ui, &layer, layers, |to| place.set(StrokeChange::Layer(to.map(|to| to.round() as i32))));
 }
 
-fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, advanced: bool) {
+fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, advanced: bool) {
     let shown = field_values(asker.scene(), place.index);
     let stored = field_values(asker.stored(), place.index);
     for (shown, stored) in shown.iter().zip(&stored).filter(|(value, _)| value.field.is_advanced == advanced)
@@ -99,7 +53,12 @@ fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, advanced: 
     }
 }
 
-fn number(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, [shown, stored]: [&FieldValue; 2]) {
+fn number(
+    ui: &mut Ui,
+    asker: &mut Asker<'_, '_>,
+    place: &EditedStrokes<'_>,
+    [shown, stored]: [&FieldValue; 2],
+) {
     let field = shown.field;
     let number = Number {
         unit: field.unit,
@@ -115,7 +74,7 @@ fn number(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, [shown, sto
 }
 
 /// One radio for each brush; with Shift or Ctrl a brush is taken into the mix, or out of it.
-fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let loaded = asker.shown.document.shown();
     let mix = &place.resolved[0].body().brushes;
     let names = brush::NAMES.iter().copied().chain(loaded.brushes.keys().map(String::as_str));
@@ -178,7 +137,7 @@ fn effect_of(brush: &str) -> &'static str {
     }
 }
 
-fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let is_region = place.index.is_some();
     // The paper's rule holds for a whole scene.
     let mut names: Vec<&str> =
@@ -207,7 +166,7 @@ fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
 
 /// What is seldom set: more numbers, edges, layers of paint, preset, seed; and strokes to copy and paste.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
-    let Some(place) = Place::new(asker, region) else { return };
+    let Some(place) = EditedStrokes::new(asker, region) else { return };
     section(ui, ("Advanced", "edges, layers, seed"), false, |ui| {
         if region.is_some() {
             preset(ui, asker, &place);
@@ -220,7 +179,7 @@ pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     });
 }
 
-fn edges(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn edges(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let [shown, stored] = place.resolved.each_ref().map(|resolved| resolved.edges);
     let over = |edges| match edges {
         Edges::Overrun(px) => Some(px),
@@ -269,7 +228,7 @@ pub(super) fn seed(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     });
 }
 
-fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let copied = ColumnState::with(ui.ctx(), |state| state.copied_strokes.clone());
     ui.add_space(4.0);
     ui.horizontal(|ui| {
