@@ -29,7 +29,7 @@ pub struct EditOptions {
     pub dialogs: Source,
     /// A folder of shaders that stand in for the program's own.
     pub shaders: Option<PathBuf>,
-    /// Hears what the window shows, each time that its exact pictures are there.
+    /// Hears what the window shows, each time that its exact pictures are there, and where its controls are.
     pub tell: Option<fn(&str)>,
 }
 

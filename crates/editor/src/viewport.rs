@@ -25,7 +25,6 @@ pub use framing::Framing;
 pub use layout::Layout;
 pub use marks::Marks;
 pub use pictures::Pictures;
-pub use pointer::{PointerEvent, PointerKind};
 pub use seen_hairs::{HairLook, hair_marks};
 
 /// What the viewport shows.
@@ -147,17 +146,17 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     if !input.empty {
         chips::show(ui, area, input, &mut events);
     }
-    let mut held = ui.data_mut(|data| data.get_temp::<pointer::Held>(id)).unwrap_or_default();
+    let mut pointer = ui.data_mut(|data| data.get_temp::<pointer::Pointer>(id)).unwrap_or_default();
     let layer = response.layer_id;
     let ctx = ui.ctx().clone();
     // Chips and sheets float in layers of their own.
     let over = |at| first.viewport().contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
-    events.pointer = held.events(ui, first, over);
-    events.hovered = held.is_inside();
-    if input.marks.hides_pointer && (held.is_inside() || held.is_dragging()) {
+    events.pointer = pointer.events(ui, first, over);
+    events.hovered = pointer.is_inside();
+    if input.marks.hides_pointer && (pointer.is_inside() || pointer.is_dragging()) {
         ui.ctx().set_cursor_icon(CursorIcon::None);
     }
-    ui.data_mut(|data| data.insert_temp(id, held));
+    ui.data_mut(|data| data.insert_temp(id, pointer));
 
     if input.empty {
         let font = type_face::title();

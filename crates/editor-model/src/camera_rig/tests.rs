@@ -1,3 +1,5 @@
+//! The free camera is judged by where points show before and after a move.
+
 use super::*;
 
 const SIZE_PX: DVec2 = DVec2::new(1280.0, 720.0);

@@ -1,3 +1,5 @@
+//! Documents on the disk: scenes with errors, what other programs change, saving where files are missing.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

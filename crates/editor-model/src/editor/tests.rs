@@ -1,3 +1,5 @@
+//! The whole editor driven by keys and pointer events, without a window.
+
 use std::path::Path;
 
 use glam::DVec2;

@@ -1,3 +1,5 @@
+//! Handles are where they show, and the nearest one is hit.
+
 use glam::DQuat;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;

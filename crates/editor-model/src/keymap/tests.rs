@@ -1,3 +1,5 @@
+//! No key has two meanings, and both presets have the keys that their users expect.
+
 use std::collections::HashMap;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Paths of the pointer become guides on the surface, in the right place and number of points.
+
 use glam::DQuat;
 use impasto_scene::document::{GuideMode, GuideView, Lens};
 use impasto_scene::motion::CameraPose;

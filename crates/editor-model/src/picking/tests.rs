@@ -1,3 +1,5 @@
+//! Rays hit what a search through all triangles finds.
+
 use glam::{DQuat, DVec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::hash::scramble;

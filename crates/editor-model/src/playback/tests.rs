@@ -1,3 +1,5 @@
+//! Playback by a clock that the tests hand in: order, drops, rate.
+
 use super::*;
 
 fn course(first: i64, last: i64, fps: f64) -> Course {

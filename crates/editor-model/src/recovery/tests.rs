@@ -1,3 +1,5 @@
+//! Copies of unsaved work: when they are written, offered and removed.
+
 use std::path::PathBuf;
 use std::sync::OnceLock;
 

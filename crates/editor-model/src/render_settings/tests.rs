@@ -1,3 +1,5 @@
+//! What the render sheet plans: frames, size, files, and the command for the same.
+
 use super::*;
 
 fn document() -> Document {

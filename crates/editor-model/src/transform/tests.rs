@@ -1,3 +1,5 @@
+//! Move, turn and scale, by hand and by typed numbers.
+
 use impasto_scene::motion::CameraPose;
 
 use super::*;

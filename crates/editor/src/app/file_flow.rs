@@ -16,7 +16,7 @@ use super::long_work::MeshFor;
 use crate::files::beside::Copies;
 use crate::files::dialogs::{Answer, FileDialogs};
 use crate::files::file_ask::FileAsk;
-use crate::files::incoming::{self, Present, adopt_picture};
+use crate::files::incoming::{self, Present, Step, adopt_picture};
 use crate::files::preferences::{self, Keys, Preferences};
 use crate::panels::ask_close::{self, Question};
 use crate::panels::problems;
@@ -277,7 +277,7 @@ impl EditorApp {
         };
         match answer.ask {
             FileAsk::Open => self.open_asking(&path),
-            FileAsk::ImportMesh => self.import(&path),
+            FileAsk::ImportMesh => self.take_step(Step::Import(path)),
             FileAsk::SaveAs => {
                 if self.save(Some(&path))
                     && let Some(next) = self.files.waiting.take()

@@ -1,9 +1,9 @@
-//! What takes longer than a hand waits: files are read on a thread of their own, and the status line says so.
+//! Files are read on a thread of their own, which the window never waits for; the status line shows what takes its time.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::Context;
@@ -19,9 +19,6 @@ use super::EditorApp;
 use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
 use crate::panels::work::{Work, WorkKind};
 use crate::window::Waker;
-
-/// What is done within this time is done in the same pass.
-const AT_ONCE: Duration = Duration::from_millis(80);
 
 /// What takes longer than this is shown.
 const SHOWN_AFTER: Duration = Duration::from_millis(200);
@@ -76,13 +73,8 @@ impl LongWork {
         Some(Work { words: reading.words.clone(), share: None, kind: WorkKind::Reading })
     }
 
-    /// Begins to read. What is read at once is given back; else it comes by [`LongWork::poll`].
-    fn read(
-        &mut self,
-        words: String,
-        document: &Document,
-        work: impl FnOnce() -> Came + Send + 'static,
-    ) -> Option<(Came, Reading)> {
+    /// Begins to read, in the place of what is being read; [`EditorApp::follow_reading`] takes what comes of it.
+    fn read(&mut self, words: String, document: &Document, work: impl FnOnce() -> Came + Send + 'static) {
         let (sender, came) = channel();
         let waker = self.waker.clone();
         let run = move || {
@@ -92,14 +84,12 @@ impl LongWork {
         };
         let spawned = std::thread::Builder::new().name("reading".to_owned()).spawn(run);
         let folder = document.folder().to_owned();
-        let reading = Reading { words, since: Instant::now(), came, folder, revision: document.revision() };
-        match spawned.map(|_| reading.came.recv_timeout(AT_ONCE)) {
-            Ok(Ok(came)) => return Some((came, reading)),
-            Ok(Err(RecvTimeoutError::Timeout)) => self.reading = Some(reading),
-            // The next look finds that nothing comes.
-            Ok(Err(RecvTimeoutError::Disconnected)) | Err(_) => self.reading = Some(reading),
+        // Where there is no thread, the next look finds that nothing comes.
+        if spawned.is_err() {
+            self.waker.wake();
         }
-        None
+        self.reading =
+            Some(Reading { words, since: Instant::now(), came, folder, revision: document.revision() });
     }
 }
 
@@ -109,20 +99,17 @@ impl EditorApp {
         self.long.forget();
         let path = path.to_owned();
         let words = format!("Opening {}\u{2026}", name_of(&path));
-        let came = self.long.read(words, self.editor.document(), move || {
+        self.long.read(words, self.editor.document(), move || {
             let document = Document::open_with_problems(&path, &LoadOptions::default());
             Came::Opened(path, document.map(Box::new))
         });
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
     }
 
     /// Brings a mesh into the document.
     pub(super) fn read_mesh(&mut self, path: &Path, what_for: MeshFor) {
         let (path, folder) = (path.to_owned(), self.editor.document().folder().to_owned());
         let words = format!("Importing {}\u{2026}", name_of(&path));
-        let came = self.long.read(words, self.editor.document(), move || {
+        self.long.read(words, self.editor.document(), move || {
             let read = || {
                 let adopted = adopt_mesh(&path, &folder).map_err(|error| error.to_string())?;
                 let file = folder.join(&adopted.name);
@@ -132,9 +119,6 @@ impl EditorApp {
             };
             Came::Mesh(what_for, read())
         });
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
     }
 
     /// Does something about what is wrong with the document.
@@ -145,23 +129,15 @@ impl EditorApp {
         }
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
         let mending = self.editor.mending(mend);
-        let came =
-            self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
+        self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
     }
 
     /// Takes in what others changed. Whether it could be begun: else the user has to be asked.
     pub(super) fn take_in(&mut self, news: News) -> bool {
         let Some(taking_in) = self.editor.taking_in(news) else { return false };
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
-        let came = self
-            .long
+        self.long
             .read(words, self.editor.document(), move || Came::Mended(Some(news), Box::new(taking_in())));
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
         true
     }
 

@@ -19,6 +19,7 @@ mod picture_view;
 mod render_flow;
 mod safe_keeping;
 mod shader_flow;
+mod telling;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -28,7 +29,6 @@ use egui::{CentralPanel, Context, Ui};
 use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
 use impasto_editor_model::keymap::{Digits, Keymap, Preset};
-use impasto_editor_model::session::Mode;
 use impasto_gl_render::ShaderTexts;
 use impasto_scene::problem::Report;
 
@@ -48,6 +48,7 @@ use picture::{News, PictureFlow};
 use render_flow::RenderFlow;
 use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
+use telling::Telling;
 
 /// A line at the bottom stays so long; what was refused, too.
 const TOAST: Duration = Duration::from_secs(4);
@@ -67,9 +68,7 @@ pub(crate) struct EditorApp {
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
     folds: Folds,
-    tell: Option<fn(&str)>,
-    told: String,
-    menu_was_open: bool,
+    telling: Telling,
     likely_meshes: LikelyMeshes,
 }
 
@@ -127,9 +126,7 @@ impl EditorApp {
             preferences,
             toasts: Vec::new(),
             folds: Folds::default(),
-            tell: options.tell,
-            told: String::new(),
-            menu_was_open: false,
+            telling: Telling::new(options.tell),
             likely_meshes: LikelyMeshes::default(),
         };
         app.keymap();
@@ -288,34 +285,6 @@ impl EditorApp {
             ctx.request_repaint_after(Duration::from_millis(500));
         }
     }
-
-    /// Tells which frame of what is played came up, and where the clock stood.
-    fn tell_played(&self) {
-        let playback = &self.editor.time().playback;
-        let clock = playback.clock_frame(self.editor.now_secs());
-        if let (Some(tell), Some(clock)) = (self.tell, clock) {
-            let (frame, dropped) = (self.editor.session.frame, playback.dropped());
-            tell(&format!("playing: frame {frame}, clock {clock:.3}, dropped {dropped}"));
-        }
-    }
-
-    /// Tells what the window shows, each time that it has come to rest on something else.
-    fn tell_rest(&mut self, ctx: &Context) {
-        // In its first pass a menu is only measured: it cannot be clicked before the second.
-        let menu_is_open = egui::Popup::is_any_open(ctx);
-        let menu_is_shown = std::mem::replace(&mut self.menu_was_open, menu_is_open) && menu_is_open;
-        let (Some(tell), Some(version)) = (self.tell, self.picture_flow.at_rest()) else { return };
-        let over = match (self.is_modal(), menu_is_shown) {
-            (true, _) => ", under a sheet",
-            (false, true) => ", under a menu",
-            (false, false) => "",
-        };
-        let words = format!("at rest, version {version}: {}{over}", value(&self.editor));
-        if words != self.told {
-            tell(&words);
-            self.told = words;
-        }
-    }
 }
 
 impl LikelyMeshes {
@@ -389,6 +358,14 @@ impl window::App for EditorApp {
     fn on_close_request(&mut self) -> bool {
         self.may_close()
     }
+
+    fn wants_controls(&self) -> bool {
+        self.telling.is_on()
+    }
+
+    fn controls(&mut self, controls: &egui::accesskit::TreeUpdate) {
+        self.telling.tell_controls(&self.ctx, controls);
+    }
 }
 
 /// Where the playhead stands to the reference.
@@ -403,23 +380,4 @@ fn badge(editor: &Editor) -> crate::viewport::Badge {
     } else {
         Badge::Turned { frame, reference }
     }
-}
-
-/// What a screen reader says of the viewport.
-fn value(editor: &Editor) -> String {
-    let session = &editor.session;
-    let mode = match session.mode {
-        Mode::Arrange => "Arrange",
-        Mode::Paint => "Paint",
-        Mode::Animate => "Animate",
-    };
-    let tool = format!("{:?}", session.tool()).to_lowercase();
-    let camera = if editor.looking == impasto_editor_model::camera_rig::Looking::Shot {
-        "shot camera"
-    } else {
-        "free view"
-    };
-    let reference =
-        if reference_frame(editor.document().scene()) == session.frame { ", reference" } else { "" };
-    format!("{mode}, {tool}, {camera}, frame {}{reference}", session.frame)
 }

@@ -2,21 +2,17 @@
 
 use egui::Ui;
 use impasto_editor_model::camera_rig::Looking;
-use impasto_editor_model::editor::{PointerEvent, PointerKind, reference_frame};
+use impasto_editor_model::editor::reference_frame;
 use impasto_editor_model::picking::View;
 use impasto_scene::motion;
 
 use super::marks::{self, MarkCache};
 use super::picture_view::PictureView;
-use super::{EditorApp, badge, value};
+use super::telling::value;
+use super::{EditorApp, badge};
 use crate::panels::Ask;
 use crate::viewport::overlay::Sight;
-use crate::viewport::{
-    Badge, Layout, Look, Marks, Now, PointerKind as Kind, ViewportEvents, ViewportInput, viewport,
-};
-
-/// A pinch by this factor is a step of the wheel.
-const PINCH_STEP: f64 = 1.1;
+use crate::viewport::{Badge, Layout, Look, Marks, Now, ViewportEvents, ViewportInput, viewport};
 
 impl EditorApp {
     /// Shows the viewport, and asks for the pictures that it will show next.
@@ -70,7 +66,7 @@ impl EditorApp {
             badge: badge(&self.editor),
             value: &value(&self.editor),
             under_cursor: &under_cursor,
-            empty: is_empty,
+            empty: is_empty && !self.is_reading(),
             trouble: self.picture_flow.trouble.as_deref(),
         };
         let events = viewport(ui, self.picture_flow.layout(), &input);
@@ -89,17 +85,7 @@ impl EditorApp {
 
     fn take(&mut self, events: ViewportEvents, asks: &mut Vec<Ask>, view: &View) {
         for event in events.pointer {
-            let kind = match event.kind {
-                Kind::Moved => PointerKind::Move,
-                Kind::Pressed(button) => PointerKind::Press(button),
-                Kind::Released(button) => PointerKind::Release(button),
-                Kind::Wheel(steps) => PointerKind::Wheel(steps),
-                Kind::Pinch(factor) => PointerKind::Wheel(factor.ln() / PINCH_STEP.ln()),
-                Kind::Left => PointerKind::Leave,
-                Kind::DoublePressed => continue,
-            };
-            let event = PointerEvent { kind, at_px: event.at_px, held: event.held, at_secs: event.at_secs };
-            // The view may have moved by the event before.
+            // The event before may have moved the view.
             let view = self.picture_flow.view(&self.editor);
             self.editor.pointer(&event, &view);
         }

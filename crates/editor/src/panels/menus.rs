@@ -1,3 +1,5 @@
+//! The menus of the top bar: which commands stand in them, and in which order.
+
 use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
 use impasto_editor_model::keymap::Action;

@@ -1,3 +1,5 @@
+//! The ball that shows and sets how the view is turned.
+
 use egui::{Align2, Color32, FontId, Response, Role, Sense, Stroke, Ui, Vec2, vec2};
 use glam::{Mat3, Vec3};
 

@@ -1,3 +1,5 @@
+//! Buttons with words or an icon.
+
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
 use super::draw;

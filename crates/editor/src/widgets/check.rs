@@ -1,3 +1,5 @@
+//! Check boxes and radio buttons.
+
 use egui::{Align2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::draw;

@@ -1,3 +1,5 @@
+//! A control that picks one of several from a menu.
+
 use egui::{Align2, Color32, Popup, Response, Role, Sense, Ui, vec2};
 
 use super::draw;

@@ -1,3 +1,5 @@
+//! What widgets draw alike: fills, focus rings, icons, words, names.
+
 use egui::{
     Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui,
     WidgetInfo,

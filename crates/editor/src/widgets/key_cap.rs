@@ -1,3 +1,5 @@
+//! Keys as they are printed on a keyboard.
+
 use egui::{Align2, Response, Role, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::draw;

@@ -1,3 +1,5 @@
+//! A command in a menu, with its keys.
+
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
 use super::draw;

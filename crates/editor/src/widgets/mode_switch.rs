@@ -1,3 +1,5 @@
+//! The switch between Arrange, Paint and Animate.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;

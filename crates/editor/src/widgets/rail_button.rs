@@ -1,3 +1,5 @@
+//! A tool on the rail.
+
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
 use super::draw;

@@ -1,3 +1,5 @@
+//! The head of a part of the inspector, which folds it.
+
 use egui::{Align2, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;

@@ -1,3 +1,5 @@
+//! A few choices side by side, one of them on.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;

@@ -1,3 +1,5 @@
+//! X, Y and Z side by side, each on or off.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;

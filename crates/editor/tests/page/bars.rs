@@ -1,3 +1,5 @@
+//! The bars of a page with every control.
+
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 use impasto_editor::icons::{self, Icon};
 use impasto_editor::theme::{Tokens, measure, type_face};

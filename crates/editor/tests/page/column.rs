@@ -1,3 +1,5 @@
+//! The right column of a page with every control.
+
 use egui::{Align, Frame, Layout, Margin, RichText, Ui};
 use impasto_editor::icons;
 use impasto_editor::theme::{Tokens, measure, type_face};

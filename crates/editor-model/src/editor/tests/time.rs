@@ -1,3 +1,5 @@
+//! Keys, poses, playing and the shot camera in Animate.
+
 use impasto_scene::document::{Ease, ObjectKey, Scene};
 
 use super::*;

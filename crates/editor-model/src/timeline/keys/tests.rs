@@ -1,3 +1,5 @@
+//! Keys are selected, dragged and copied on their lanes.
+
 use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
 
 use super::super::lanes;

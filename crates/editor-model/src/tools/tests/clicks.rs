@@ -1,3 +1,5 @@
+//! Tools that work by clicks: fill, turn, region, pick.
+
 use impasto_scene::document::{Bend, Direction, Patch, Selector};
 
 use super::*;

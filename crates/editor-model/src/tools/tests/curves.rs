@@ -1,3 +1,5 @@
+//! Guide curves are drawn point by point, and edited by their handles.
+
 use super::*;
 
 const TOOL: Tool = Tool::GuideCurve;

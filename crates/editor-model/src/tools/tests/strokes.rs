@@ -1,3 +1,5 @@
+//! Tools that work by drags: comb, smooth, smear, erase.
+
 use impasto_scene::document::{GuideMode, Selector};
 
 use super::*;

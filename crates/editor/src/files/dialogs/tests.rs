@@ -1,3 +1,5 @@
+//! Dialogs of the desktop that answer, are missing, break or never come.
+
 use std::fs;
 use std::thread::sleep;
 

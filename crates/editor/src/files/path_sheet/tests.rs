@@ -1,3 +1,5 @@
+//! The window's own file dialog, driven by name.
+
 use std::fs;
 
 use egui::{Key, Modifiers, vec2};

@@ -1,3 +1,5 @@
+//! The settings of each tool: what the options bar shows of them, and where.
+
 use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
 use impasto_scene::document::LightKind;
 

@@ -1,3 +1,5 @@
+//! The options bar has room for long words at every width.
+
 use egui::{Rect, accesskit, pos2, vec2};
 use impasto_editor_model::keymap::Preset;
 use impasto_editor_model::session::{FillKind, RegionBy};

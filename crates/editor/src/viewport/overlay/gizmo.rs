@@ -1,3 +1,5 @@
+//! The handles that move, turn and scale.
+
 use egui::{Color32, Pos2, Shape, Stroke};
 use glam::DVec2;
 use impasto_editor_model::gizmo::{Gizmo, Handle, HandleShape};

@@ -1,3 +1,5 @@
+//! Guides as lines with an arrow and handles.
+
 use egui::{Color32, Pos2, Stroke, vec2};
 use glam::{DVec2, DVec3};
 

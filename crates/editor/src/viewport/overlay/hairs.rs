@@ -1,3 +1,5 @@
+//! Short lines that show the direction of strokes, and how far each can be trusted.
+
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use glam::DVec2;
 

@@ -1,3 +1,5 @@
+//! The path of the selected object, with its keys.
+
 use egui::{Pos2, Shape, Stroke, Vec2, vec2};
 use glam::DVec3;
 

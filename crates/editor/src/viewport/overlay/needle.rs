@@ -1,3 +1,5 @@
+//! The needle in a tool's ring, and the words beside it.
+
 use egui::{Color32, Stroke, pos2, vec2};
 use glam::DVec2;
 use impasto_editor_model::tools::Needle;

@@ -1,3 +1,5 @@
+//! Regions tinted in their colours, with their names.
+
 use egui::{Color32, Mesh, Rect, Shape, pos2};
 use glam::DVec2;
 

@@ -1,3 +1,5 @@
+//! The ring of a tool.
+
 use egui::{Color32, Pos2};
 use glam::DVec2;
 use impasto_editor_model::tools::Ring;
