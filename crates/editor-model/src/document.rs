@@ -142,7 +142,7 @@ impl Document {
     /// Selects; what does not exist is left out. No entry of the history.
     pub fn select(&mut self, mut selection: Selection) {
         let scene = &self.loaded.scene;
-        selection.retain(|item| exists(scene, item));
+        selection.retain(|item| item.is_in(scene));
         self.selection = selection;
     }
 
@@ -361,18 +361,5 @@ impl Document {
         let stem: String =
             stem.chars().map(|c| if c.is_alphanumeric() || "-_ ".contains(c) { c } else { '_' }).collect();
         self.folder().join(format!("{stem}.ron"))
-    }
-}
-
-/// Whether a scene has a thing.
-pub fn exists(scene: &Scene, item: &Item) -> bool {
-    match item {
-        Item::Camera => true,
-        Item::Light(name) => scene.lights.iter().any(|light| light.name == *name),
-        Item::Object(name) => scene.objects.iter().any(|object| object.name == *name),
-        Item::Region(name) => scene.regions.iter().any(|region| region.name == *name),
-        Item::Guide(name, index) => {
-            scene.regions.iter().any(|region| region.name == *name && *index < region.guides.len())
-        }
     }
 }

@@ -5,6 +5,7 @@ use egui::{Color32, CursorIcon, Id, Rect, Sense, Ui, pos2};
 use glam::DVec2;
 use impasto_editor_model::Session;
 use impasto_editor_model::camera_rig::AxisView;
+use impasto_editor_model::editor::PointerEvent;
 use impasto_scene::motion::CameraPose;
 
 mod chips;

@@ -5,7 +5,6 @@ use impasto_scene::motion::{self, CameraPose};
 
 use super::{Done, finite, object_mut, unlocked_object};
 use crate::refusal::Refusal;
-use crate::timeline::ease_name;
 
 /// Whose keys.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -123,6 +122,15 @@ impl KeyOf {
             Self::Camera => "shot",
             Self::Object(name) => name,
         }
+    }
+}
+
+/// What people call an ease.
+pub fn ease_name(ease: Ease) -> &'static str {
+    match ease {
+        Ease::Smooth => "smooth",
+        Ease::Linear => "linear",
+        Ease::Step => "hold",
     }
 }
 

@@ -32,9 +32,9 @@ use impasto_editor_model::keymap::{Digits, Keymap, Preset};
 use impasto_gl_render::ShaderTexts;
 use impasto_scene::problem::Report;
 
-use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
+use crate::options::EditOptions;
 use crate::panels::{self, Area, Ask, Numbers, Shown, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};

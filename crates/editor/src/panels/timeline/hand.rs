@@ -1,8 +1,9 @@
 //! The pointer over the lanes: every press and release counts, however many come in one pass.
 
 use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
+use impasto_editor_model::command::ease_name;
 use impasto_editor_model::command::{Command, Time};
-use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, Place, TimelineEvent, ease_name};
+use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, Place, TimelineEvent};
 use impasto_scene::document::Ease;
 
 use super::across::Across;

@@ -4,7 +4,8 @@ use egui::{
     Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
 };
 use impasto_editor_model::command::KeyOf;
-use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent, ease_name};
+use impasto_editor_model::command::ease_name;
+use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
 
