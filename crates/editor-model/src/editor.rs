@@ -408,7 +408,7 @@ impl Editor {
     }
 
     /// Takes a key; false where it means nothing here. `typing` while a text field has the focus.
-    pub fn key(&mut self, key: Key, held: Modifiers, (typing, view): (bool, &View)) -> bool {
+    pub fn key(&mut self, key: Key, held: Modifiers, typing: bool, view: &View) -> bool {
         self.held = held;
         let scope = match (&self.busy, self.session.mode) {
             _ if typing => Scope::Typing,

@@ -54,5 +54,5 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
         window::force_software();
     }
     let dialogs = window::Options::default();
-    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, (loaded, shaders), opened))?)
+    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, loaded, shaders, opened))?)
 }

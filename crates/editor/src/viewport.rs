@@ -135,10 +135,10 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
             painter.image(texture, framing.viewport(), uv, Color32::WHITE);
         }
     }
-    draw_marks(ui, first, (input.camera, input.marks));
+    draw_marks(ui, first, input.camera, input.marks);
     if let (Some(now), Some(framing)) = (&input.now, layout.framings().get(1)) {
-        draw_marks(ui, framing, (now.camera, now.marks));
-        layout::titles(&painter, layout, (now, input), tokens);
+        draw_marks(ui, framing, now.camera, now.marks);
+        layout::titles(&painter, layout, now, input, tokens);
     } else if input.through_shot && !input.empty {
         overlay::shot_border(&painter, area, first.shot(), tokens.app);
     }
@@ -176,7 +176,7 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     events
 }
 
-fn draw_marks(ui: &Ui, framing: &Framing, (camera, marks): (&CameraPose, &Marks<'_>)) {
+fn draw_marks(ui: &Ui, framing: &Framing, camera: &CameraPose, marks: &Marks<'_>) {
     let painter = ui.painter().with_clip_rect(framing.viewport());
     let view = framing.view(camera);
     marks.draw(&overlay::Sheet { painter: &painter, rect: framing.viewport(), view: &view });

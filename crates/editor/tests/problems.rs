@@ -86,7 +86,7 @@ impl Page {
         if ui.input(|input| input.modifiers.command && input.key_pressed(Key::Enter)) {
             let view = View { camera: self.editor.camera(), size_px: glam::DVec2::ONE };
             let ctrl = keymap::Modifiers { ctrl: true, ..Default::default() };
-            self.editor.key(keymap::Key::Enter, ctrl, (typing, &view));
+            self.editor.key(keymap::Key::Enter, ctrl, typing, &view);
         }
         if self.editor.take_requests().contains(&Request::ReadSource)
             && let Some(text) = problems::unread_text(ui.ctx(), self.editor.document())

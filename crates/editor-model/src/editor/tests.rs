@@ -57,7 +57,7 @@ fn act(editor: &mut Editor, action: Action) {
 
 fn key(editor: &mut Editor, key: Key) {
     let view = view(editor);
-    assert!(editor.key(key, Modifiers::default(), (false, &view)), "{key:?} means nothing here");
+    assert!(editor.key(key, Modifiers::default(), false, &view), "{key:?} means nothing here");
 }
 
 /// Where the object that is seen largest shows.

@@ -12,7 +12,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
     // A control that was reached by Tab has Space, Enter and the arrows to itself.
     let walking = !typing && ui.memory(|memory| memory.focused().is_some());
     for (key, held) in numpad {
-        editor.key(key, held, (typing, view));
+        editor.key(key, held, typing, view);
     }
     let events = ui.input(|input| input.events.clone());
     let mut taken = Vec::new();
@@ -27,7 +27,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
         if walking && own {
             continue;
         }
-        if key != Key::Tab && editor.key(key, held, (typing, view)) {
+        if key != Key::Tab && editor.key(key, held, typing, view) {
             taken.push(index);
         }
     }

@@ -134,7 +134,7 @@ impl MarkCache {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
             let object = active.filter(|_| session.mode != Mode::Paint);
             let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
-            half.hairs = hair_marks(painting, (picture.camera, picture.frame), &framing, &map, &look);
+            half.hairs = hair_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
         }
         if session.overlays.regions {
             let names: Vec<(&str, Color32)> = scene

@@ -101,7 +101,8 @@ impl EditorApp {
     /// An app with what the command line named, or with an empty scene.
     pub(crate) fn new(
         options: &EditOptions,
-        (loaded, shaders): (Loaded, Option<(ShaderFolder, ShaderTexts)>),
+        loaded: Loaded,
+        shaders: Option<(ShaderFolder, ShaderTexts)>,
         opened: &Opened,
     ) -> Self {
         let preferences = loaded.preferences;

@@ -162,13 +162,13 @@ pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         };
         MenuBar::new().style(style).ui(ui, |ui| {
             for (name, lines) in MENUS {
-                ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
+                ui.menu_button(name, |ui| list(ui, lines, shown, asks));
             }
         });
     });
 }
 
-fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+fn list(ui: &mut Ui, lines: &[Line], shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let names = lines.iter().map(|line| {
         let keys = if let Do(action) = line { shown.keys_of(*action) } else { String::new() };
@@ -193,7 +193,7 @@ fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>))
                 ui.add_space(5.0);
             }
             Recent => sub(ui, words_of(*line), |ui| recent(ui, shown, asks)),
-            Sub(name, lines) => sub(ui, name, |ui| list(ui, lines, (shown, asks))),
+            Sub(name, lines) => sub(ui, name, |ui| list(ui, lines, shown, asks)),
             CopyRenderCommand => {
                 let file = shown.document.file();
                 let reason = file.is_none().then_some("Save the scene first");

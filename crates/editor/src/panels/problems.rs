@@ -92,7 +92,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
             part(egui::Rangef::new(split + 1.0, whole.right()), head_rect.bottom() + 1.0, whole.bottom());
         let place = rows[memory.selected].problem.place;
         within(ui, source_rect, egui::Layout::top_down(Align::Min), |ui| {
-            source(ui, (shown, place), &mut memory, asks);
+            source(ui, shown, place, &mut memory, asks);
         });
         ui.data_mut(|data| data.insert_temp(id, memory));
     });
@@ -150,7 +150,7 @@ fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
             for index in range {
                 let (rect, response) =
                     ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
-                line(ui, (rect, &response), (&rows[index], memory.selected == index), asks);
+                line(ui, rect, &response, &rows[index], memory.selected == index, asks);
                 if response.clicked() {
                     memory.selected = index;
                     memory.go_to = rows[index].problem.place.map(|place| place.line);
@@ -173,8 +173,10 @@ fn concerned(row: &Row) -> Option<Item> {
 /// One problem: its place, its words, what mends it.
 fn line(
     ui: &mut Ui,
-    (rect, response): (Rect, &egui::Response),
-    (shown, is_selected): (&Row, bool),
+    rect: Rect,
+    response: &egui::Response,
+    shown: &Row,
+    is_selected: bool,
     asks: &mut Vec<Ask>,
 ) {
     let tokens = Tokens::of(ui);
@@ -239,7 +241,7 @@ fn line(
         ),
         (second, type_face::small(), tokens.weak, middle + 9.0),
     ] {
-        let mut job = with_code(&words, (font, colour));
+        let mut job = with_code(&words, font, colour);
         job.wrap = egui::text::TextWrapping::truncate_at_width(wide);
         let galley = ui.painter().layout_job(job);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(words_left, y), galley.size()).min;
@@ -247,7 +249,7 @@ fn line(
     }
     let whole = format!("{}\n{}", sentence(&problem.message), sentence(&problem.mend));
     response.clone().on_hover_ui(|ui| {
-        let mut job = with_code(&whole, (type_face::body(), tokens.text));
+        let mut job = with_code(&whole, type_face::body(), tokens.text);
         (job.break_on_newline, job.wrap.max_width) = (true, ui.spacing().tooltip_width);
         ui.label(job);
     });
@@ -276,7 +278,7 @@ fn repair_button(ui: &mut Ui, repair: &Repair, asks: &mut Vec<Ask>) {
 }
 
 /// One line, with what stands between backticks in the type of the source.
-fn with_code(words: &str, (font, colour): (FontId, Color32)) -> LayoutJob {
+fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     let mut job = LayoutJob { break_on_newline: false, ..LayoutJob::default() };
     for (index, part) in words.split('`').enumerate() {
         let font = if index % 2 == 1 { type_face::number() } else { font.clone() };
@@ -294,12 +296,7 @@ fn sentence(words: &str) -> String {
 }
 
 /// The text with its lines numbered and the one with the problem marked.
-fn source(
-    ui: &mut Ui,
-    (shown, place): (&Shown<'_>, Option<Place>),
-    memory: &mut Memory,
-    asks: &mut Vec<Ask>,
-) {
+fn source(ui: &mut Ui, shown: &Shown<'_>, place: Option<Place>, memory: &mut Memory, asks: &mut Vec<Ask>) {
     let tokens = Tokens::of(ui);
     ui.painter().rect_filled(ui.max_rect(), 0.0, tokens.field);
     let Some(source) = shown.document.source() else {

@@ -37,17 +37,17 @@ fn tools(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.painter().hline(rect.x_range(), rect.center().y, (1.0, Tokens::of(ui).div));
         }
         for tool in *group {
-            button(ui, (shown, *tool), asks);
+            button(ui, shown, *tool, asks);
         }
     }
 }
 
-fn button(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), asks: &mut Vec<Ask>) {
+fn button(ui: &mut Ui, shown: &Shown<'_>, tool: Tool, asks: &mut Vec<Ask>) {
     let face = face(tool);
     let key = face.action.map(|action| shown.keys_of(action)).unwrap_or_default();
     let letter = if key.chars().count() == 1 { key.as_str() } else { "" };
     let on = shown.session.tool() == tool;
-    let response = widgets::rail_button(ui, (face.icon, face.name), letter, on);
+    let response = widgets::rail_button(ui, face.icon, face.name, letter, on);
     let response = Tip { name: face.name, key: &key, effect: face.effect, range: "" }.on(response);
     if response.clicked() && !on {
         asks.push(shown.session_with(|session| session.set_tool(tool)));

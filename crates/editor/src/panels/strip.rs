@@ -34,7 +34,7 @@ pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.min_rect().left()
         });
         let across = left + 22.0..=(right - 66.0).max(left + 23.0);
-        ruler(ui, Rect::from_x_y_ranges(across, whole.y_range()), (shown, asks));
+        ruler(ui, Rect::from_x_y_ranges(across, whole.y_range()), shown, asks);
     });
 }
 
@@ -55,14 +55,14 @@ fn range(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     transport::dropped(ui, shown);
 }
 
-fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+fn ruler(ui: &mut Ui, rect: Rect, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let scene = shown.document.scene();
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };
     // The first and the last key can be hit from outside too.
     let response =
         ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
-    across::scrub(ui, &response, across, (shown, asks));
+    across::scrub(ui, &response, across, shown, asks);
 
     let clip = ui.painter().with_clip_rect(rect.expand2(vec2(12.0, 0.0)));
     let tokens = Tokens::of(ui);
@@ -75,7 +75,7 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
             across::number(ui, pos2(x + 4.0, top + 22.0), Align2::LEFT_CENTER, frame);
         }
     }
-    across::drops(ui, (across, line + 3.0), shown);
+    across::drops(ui, across, line + 3.0, shown);
     let reference = across.x(motion::referred_to(scene, &scene.reference).1);
     clip.vline(reference, top + 16.0..=line, (1.0, tokens.viridian));
     let pin = (icons::REFERENCE.glyph(), type_face::icon(12.0));

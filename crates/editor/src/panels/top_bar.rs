@@ -44,7 +44,7 @@ fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         (Action::Undo, icons::UNDO, shown.document.undo_text()),
         (Action::Redo, icons::REDO, shown.document.redo_text()),
     ] {
-        if travel(ui, (shown, action), icon, entry).clicked() {
+        if travel(ui, shown, action, icon, entry).clicked() {
             asks.push(Ask::Act(action));
         }
         ui.add_space(4.0);
@@ -54,7 +54,7 @@ fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// Undo or redo; the tooltip names the entry.
-fn travel(ui: &mut Ui, (shown, action): (&Shown<'_>, Action), icon: Icon, entry: Option<&str>) -> Response {
+fn travel(ui: &mut Ui, shown: &Shown<'_>, action: Action, icon: Icon, entry: Option<&str>) -> Response {
     let response =
         ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
     match entry {

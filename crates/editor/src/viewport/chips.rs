@@ -24,17 +24,17 @@ const SHADINGS: [(&str, Shading); 3] =
     [("Painted", Shading::Painted), ("Shaded", Shading::Shaded), ("Trust", Shading::Trust)];
 
 pub(super) fn show(ui: &Ui, area: Rect, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
-    float(ui, "view and shading", (area, Align2::LEFT_TOP), |ui| {
+    float(ui, "view and shading", area, Align2::LEFT_TOP, |ui| {
         chip(ui, |ui| looks(ui, input, events));
     });
-    float(ui, "overlays", (area, Align2::RIGHT_TOP), |ui| {
+    float(ui, "overlays", area, Align2::RIGHT_TOP, |ui| {
         chip(ui, |ui| overlays(ui, input.session, events));
     });
-    float(ui, "badge", (area, Align2::LEFT_BOTTOM), |ui| {
+    float(ui, "badge", area, Align2::LEFT_BOTTOM, |ui| {
         chip(ui, |ui| badge(ui, input, events));
     });
     if input.now.is_none() {
-        float(ui, "axis ball", (area, Align2::RIGHT_BOTTOM), |ui| {
+        float(ui, "axis ball", area, Align2::RIGHT_BOTTOM, |ui| {
             let view_from_world = glam::Mat3::from_mat4(input.camera.view_from_world().as_mat4());
             let ball = AxisBall { view_from_world }.show(ui, "Axis ball");
             events.orbit_px += glam::DVec2::new(f64::from(ball.dragged.x), f64::from(ball.dragged.y));
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &Ui, area: Rect, input: &ViewportInput<'_>, events: &mut 
 }
 
 /// In a layer of its own, so that a press on it is none on the picture.
-fn float(ui: &Ui, name: &str, (area, corner): (Rect, Align2), contents: impl FnOnce(&mut Ui)) {
+fn float(ui: &Ui, name: &str, area: Rect, corner: Align2, contents: impl FnOnce(&mut Ui)) {
     let inner = area.shrink(INSET);
     let at = corner.pos_in_rect(&inner);
     Area::new(Id::unique(("viewport chip", name)))
@@ -60,12 +60,12 @@ fn float(ui: &Ui, name: &str, (area, corner): (Rect, Align2), contents: impl FnO
 
 fn looks(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
     let mut look = usize::from(!input.through_shot);
-    if combo(ui, ("View", Some(icons::CAMERA)), &LOOKS.map(|(name, _)| name), &mut look).changed() {
+    if combo(ui, "View", Some(icons::CAMERA), &LOOKS.map(|(name, _)| name), &mut look).changed() {
         events.look = Some(LOOKS[look].1);
     }
     chip_divider(ui);
     let mut shading = SHADINGS.iter().position(|(_, of)| *of == input.session.shading).unwrap_or(0);
-    if combo(ui, ("Shading", Some(icons::SHADING)), &SHADINGS.map(|(name, _)| name), &mut shading).changed() {
+    if combo(ui, "Shading", Some(icons::SHADING), &SHADINGS.map(|(name, _)| name), &mut shading).changed() {
         let session = Session { shading: SHADINGS[shading].1, ..input.session.clone() };
         events.asks.push(Ask::Session(Box::new(session)));
     }

@@ -96,7 +96,7 @@ impl SurfaceMap {
             let corners = corners(body, &view.map(body.world_from_model));
             for (triangle, vertices) in body.surface.mesh.triangles.iter().enumerate() {
                 let face = Face { object: object as u32, triangle: triangle as u32 };
-                map.add(vertices.map(|vertex| corners[vertex as usize]), near, (view.size_px, face));
+                map.add(vertices.map(|vertex| corners[vertex as usize]), near, view.size_px, face);
             }
         }
         map
@@ -137,7 +137,7 @@ impl SurfaceMap {
         depth as f32 <= farthest * (1.0 + LEEWAY)
     }
 
-    fn add(&mut self, corners: [Corner; 3], near: f64, (size_px, face): (DVec2, Face)) {
+    fn add(&mut self, corners: [Corner; 3], near: f64, size_px: DVec2, face: Face) {
         let kept = before(corners, near);
         for index in 2..kept.len() {
             self.fill([kept[0], kept[index - 1], kept[index]], size_px, face);

@@ -167,11 +167,11 @@ impl<'a> NumberField<'a> {
 
         let mut editor = None;
         let mut reset = false;
-        if memory.typed.is_some() && self.is_double_clicked(ui, (id, frame)) {
+        if memory.typed.is_some() && self.is_double_clicked(ui, id, frame) {
             memory.typed = None;
             reset = true;
         } else if memory.typed.is_some() {
-            let (done, cancelled) = self.type_in(ui, (id, frame), &mut memory, &mut editor);
+            let (done, cancelled) = self.type_in(ui, id, frame, &mut memory, &mut editor);
             began |= done && !cancelled;
             ended |= done && !cancelled;
         } else {
@@ -222,11 +222,11 @@ impl<'a> NumberField<'a> {
         let room = measure::LABEL - measure::GAP;
         // A unit stands in the box: it is not said twice.
         let label = self.name.strip_suffix(self.unit).map_or(self.name, str::trim_end);
-        draw::words_within(ui, row.left_center(), (label, type_face::body()), (tokens.weak, room));
+        draw::words_within(ui, row.left_center(), label, type_face::body(), tokens.weak, room);
         if let Some(error) = self.error {
             let at = pos2(frame.left(), row.bottom() + 10.0);
             let room = row.right() - frame.left();
-            draw::words_within(ui, at, (error, type_face::small()), (tokens.vermilion, room));
+            draw::words_within(ui, at, error, type_face::small(), tokens.vermilion, room);
         }
         (row, frame)
     }
@@ -320,7 +320,7 @@ impl<'a> NumberField<'a> {
         let response = ui.interact(hit, ui.scope_id().with(&name), Sense::click());
         let tokens = Tokens::of(ui);
         let colour = if response.hovered() { tokens.text } else { tokens.weak };
-        draw::icon(ui.painter(), centre, (icons::UNDO, 14.0), colour);
+        draw::icon(ui.painter(), centre, icons::UNDO, 14.0, colour);
         draw::focus_ring(ui, &response, hit, measure::CORNER);
         draw::named(&response, Role::Button, &name);
         if response.clicked() {
@@ -358,14 +358,14 @@ impl<'a> NumberField<'a> {
         let colour = if self.warns { tokens.ochre } else { tokens.text };
         let mut at = frame.left_center() + vec2(8.0, 0.0);
         if !self.letter.is_empty() {
-            draw::words(painter, at, Align2::LEFT_CENTER, (self.letter, type_face::small()), tokens.weak);
+            draw::words(painter, at, Align2::LEFT_CENTER, self.letter, type_face::small(), tokens.weak);
             at.x += 11.0;
         }
         let (at, align) =
             if self.centred { (frame.center(), Align2::CENTER_CENTER) } else { (at, Align2::LEFT_CENTER) };
-        draw::words(painter, at, align, (&self.shown(), type_face::number()), colour);
+        draw::words(painter, at, align, &self.shown(), type_face::number(), colour);
         let end = frame.right_center() - vec2(8.0, 0.0);
-        draw::words(painter, end, Align2::RIGHT_CENTER, (self.unit, type_face::small()), tokens.weak);
+        draw::words(painter, end, Align2::RIGHT_CENTER, self.unit, type_face::small(), tokens.weak);
         draw::focus_ring(ui, response, frame, measure::CORNER);
     }
 

@@ -267,7 +267,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     assert_eq!(editor.time().keys.selected(), [(of(), 73.0)], "it stays selected where it went");
     // Shift D, a move, a press.
     let view = view(&editor);
-    assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, (false, &view)));
+    assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, false, &view));
     for frame in [73.0, 83.0] {
         let at = Place { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
         editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));

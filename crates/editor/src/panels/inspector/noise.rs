@@ -89,7 +89,7 @@ fn texture<T: Clone>(
 ) {
     let key = egui::Id::unique((label, &object.name));
     let name = of(&mut now.clone()).clone().unwrap_or_default();
-    let typed = row(ui, "Picture", |ui| text(ui, (label, key), &name, Look::Field));
+    let typed = row(ui, "Picture", |ui| text(ui, label, key, &name, Look::Field));
     if let Some(typed) = typed {
         let mut next = was.clone();
         *of(&mut next) = Some(typed.trim().to_owned()).filter(|name| !name.is_empty());

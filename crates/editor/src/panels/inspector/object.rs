@@ -49,14 +49,14 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     ui.add_enabled_ui(!object.locked, |ui| {
         pose::of_object(ui, asker, [object, stored]);
         if mesh.is_some() {
-            section(ui, ("Mesh", ""), false, |ui| mesh_rows(ui, asker, [object, stored]));
+            section(ui, "Mesh", "", false, |ui| mesh_rows(ui, asker, [object, stored]));
         }
-        section(ui, ("Material", ""), false, |ui| material(ui, asker, [object, stored]));
+        section(ui, "Material", "", false, |ui| material(ui, asker, [object, stored]));
         let parent = object.parent.as_deref().unwrap_or("none");
-        section(ui, ("Parent", parent), false, |ui| parent_row(ui, asker, object));
+        section(ui, "Parent", parent, false, |ui| parent_row(ui, asker, object));
     });
     let count = scenes[0].regions.iter().filter(|region| region.on.object() == Some(name)).count();
-    section(ui, ("Regions", &count.to_string()), false, |ui| regions(ui, asker, name));
+    section(ui, "Regions", &count.to_string(), false, |ui| regions(ui, asker, name));
 }
 
 /// What is said of an object whose file is not there.
@@ -95,7 +95,7 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
 /// The mesh's path, which can be typed.
 fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: Look) {
     let key = egui::Id::unique(("mesh", &object.name));
-    let typed = row(ui, "Mesh", |ui| text(ui, ("Mesh file", key), &object.mesh, look));
+    let typed = row(ui, "Mesh", |ui| text(ui, "Mesh file", key, &object.mesh, look));
     if let Some(mesh) = typed {
         let object = object.name.clone();
         asker.ask(Command::Arrange(Arrange::ReplaceMesh { object, mesh }));

@@ -20,7 +20,7 @@ use crate::widgets::{self, Button, Tip};
 pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
     let strokes = asker.shown.numbers.strokes_of.iter().find(|(name, _)| name == region);
     let note = strokes.map_or_else(String::new, |(_, count)| format!("{} shown", grouped(*count)));
-    section(ui, ("Strokes", &note), true, |ui| contents(ui, asker, Some(region)));
+    section(ui, "Strokes", &note, true, |ui| contents(ui, asker, Some(region)));
 }
 
 /// Brush, numbers and layer.
@@ -167,7 +167,7 @@ fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
 /// What is seldom set: more numbers, edges, layers of paint, preset, seed; and strokes to copy and paste.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
-    section(ui, ("Advanced", "edges, layers, seed"), false, |ui| {
+    section(ui, "Advanced", "edges, layers, seed", false, |ui| {
         if region.is_some() {
             preset(ui, asker, &place);
         }

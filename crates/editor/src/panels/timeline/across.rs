@@ -62,7 +62,8 @@ pub(in crate::panels) fn scrub(
     ui: &Ui,
     response: &Response,
     across: Across,
-    (shown, asks): (&Shown<'_>, &mut Vec<Ask>),
+    shown: &Shown<'_>,
+    asks: &mut Vec<Ask>,
 ) {
     let frame = shown.session.frame;
     response.widget_info(|| {
@@ -108,7 +109,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
 }
 
 /// Marks at the frames that were dropped.
-pub(in crate::panels) fn drops(ui: &Ui, (across, top): (Across, f32), shown: &Shown<'_>) {
+pub(in crate::panels) fn drops(ui: &Ui, across: Across, top: f32, shown: &Shown<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {
         let left = across.x(frame as f64);

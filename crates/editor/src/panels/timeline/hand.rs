@@ -53,7 +53,7 @@ struct Memory {
 }
 
 /// Hands the pointer's events on.
-pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     let id = ui.scope_id().with("lanes hand");
     let layer = ui.layer_id();
     let ctx = ui.ctx().clone();
@@ -103,7 +103,7 @@ pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, (shown, asks): (&Shown<'_>, &
         }
     }
     if let Some((keys, hit, at)) = &memory.menu {
-        menu(ui, (id, *at), (keys, *hit), asks);
+        menu(ui, id, *at, keys, *hit, asks);
     }
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
@@ -116,7 +116,7 @@ fn between(lying: &Lying<'_>, at: Pos2) -> Option<KeyAt> {
 }
 
 /// Eases, and for keys their end.
-fn menu(ui: &Ui, (id, at): (Id, Pos2), (keys, hit): (&[KeyAt], bool), asks: &mut Vec<Ask>) {
+fn menu(ui: &Ui, id: Id, at: Pos2, keys: &[KeyAt], hit: bool, asks: &mut Vec<Ask>) {
     let anchor = PopupAnchor::Position(at);
     let popup = Popup::new(id, ui.ctx().clone(), anchor, ui.layer_id());
     popup.kind(egui::PopupKind::Menu).open_memory(None).width(150.0).show(|ui| {

@@ -110,7 +110,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
         .reading(&|text| text.trim().trim_end_matches("fps").trim().replace(',', ".").parse().ok())
         .unit("fps");
     let answer = field.unlabelled(if decimals == 0 { 62.0 } else { 92.0 }).show(ui);
-    asks.extend(asked(&answer, (value, [fps, stored.fps]), Time::SetFps));
+    asks.extend(asked(&answer, value, [fps, stored.fps], Time::SetFps));
     for (name, is_end) in [("Range end", true), ("Range start", false)] {
         let before = if is_end { last } else { first } as f64;
         let mut value = before;
@@ -118,7 +118,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
         let field = NumberField::new(name, &mut value, f64::NEG_INFINITY..=f64::INFINITY);
         let answer = field.limits(least..=most).unlabelled(50.0).show(ui);
         let kept = if is_end { stored.last } else { stored.first } as f64;
-        asks.extend(asked(&answer, (value, [before, kept]), |to| match is_end {
+        asks.extend(asked(&answer, value, [before, kept], |to| match is_end {
             true => Time::SetRange(stored.first, to as i64),
             false => Time::SetRange(to as i64, stored.last),
         }));
@@ -128,7 +128,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
     dropped(ui, shown);
     let mut pacing = usize::from(shown.session.pacing == Pacing::EveryFrame);
     let choices = ["Real time", "Every frame"];
-    if widgets::combo(ui, ("Pacing", Some(icons::DROPPED)), &choices, &mut pacing).changed() {
+    if widgets::combo(ui, "Pacing", Some(icons::DROPPED), &choices, &mut pacing).changed() {
         let pacing = if pacing == 0 { Pacing::RealTime } else { Pacing::EveryFrame };
         asks.push(shown.session_with(|session| session.pacing = pacing));
     }
@@ -164,7 +164,8 @@ pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &Shown<'_>) {
 /// What a field asks for: a drag shows as it goes and is one entry.
 fn asked(
     answer: &FieldResponse,
-    (value, [shown, stored]): (f64, [f64; 2]),
+    value: f64,
+    [shown, stored]: [f64; 2],
     time: impl Fn(f64) -> Time,
 ) -> Option<Ask> {
     let command = || Command::Time(time(value));

@@ -29,8 +29,10 @@ pub(super) fn begin(response: &Response, item: &Item) {
 /// Shows where the dragged row would go, and asks for it when it is let go.
 pub(super) fn drag_and_drop(
     ui: &Ui,
-    (scene, rows): (&Scene, &[Row]),
-    (placed, area): (&[Rect], Rect),
+    scene: &Scene,
+    rows: &[Row],
+    placed: &[Rect],
+    area: Rect,
     asks: &mut Vec<Ask>,
 ) {
     let Some(item) = DragAndDrop::payload::<Item>(ui.ctx()) else { return };

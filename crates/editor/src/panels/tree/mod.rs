@@ -41,14 +41,14 @@ pub fn tree(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
                 Some((item, typed)) if row.item.as_ref() == Some(item) => {
                     rename_row(ui, row, typed.clone(), asks)
                 }
-                _ => show_row(ui, row, (shown, moved), asks),
+                _ => show_row(ui, row, shown, moved, asks),
             };
             placed.push(rect);
         }
         words_below(ui, &rows, &state, loaded.scene.objects.is_empty());
         placed
     });
-    drop::drag_and_drop(ui, (&loaded.scene, &rows), (&output.inner, output.inner_rect), asks);
+    drop::drag_and_drop(ui, &loaded.scene, &rows, &output.inner, output.inner_rect, asks);
 }
 
 fn head(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
@@ -96,7 +96,7 @@ fn head(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-fn show_row(ui: &mut Ui, row: &Row, (shown, moved): (&Shown<'_>, bool), asks: &mut Vec<Ask>) -> egui::Rect {
+fn show_row(ui: &mut Ui, row: &Row, shown: &Shown<'_>, moved: bool, asks: &mut Vec<Ask>) -> egui::Rect {
     let selection = shown.document.selection();
     let selected = match &row.item {
         Some(item) => {

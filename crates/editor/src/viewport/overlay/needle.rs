@@ -22,7 +22,7 @@ pub fn needle(sheet: &Sheet<'_>, needle: &Needle, radius_px: f64) {
     if needle.headed {
         ink.segment(sheet.painter, [from, to - direction * 9.0]);
         let edge = Stroke::new(1.2, ink::black(0.5));
-        sheet.painter.add(ink::head(to, direction, (12.0, 10.0), (ink::WHITE, edge)));
+        sheet.painter.add(ink::head(to, direction, 12.0, 10.0, ink::WHITE, edge));
     } else {
         ink.segment(sheet.painter, [from, to]);
     }
