@@ -245,8 +245,8 @@ impl<'a> NumberField<'a> {
 
     fn step_by_wheel(&self, ui: &Ui, response: &Response, memory: &mut Memory) -> f64 {
         const POINTS_A_STEP: f32 = 40.0;
-        let scrolled =
-            response.hovered().then(|| ui.input_mut(|input| scrolled(input, response.has_focus())));
+        let (is_under_pointer, has_focus) = (response.hovered(), response.has_focus());
+        let scrolled = is_under_pointer.then(|| ui.input_mut(|input| scrolled(input, has_focus)));
         let Some(scrolled) = scrolled.flatten() else {
             memory.scrolled = 0.0;
             return 0.0;
