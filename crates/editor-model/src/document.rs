@@ -25,7 +25,7 @@ use crate::stamp::Stamp;
 
 pub use crate::source::Source;
 pub use disk::SaveError;
-pub use mending::{Repair, Row};
+pub use mending::{ProblemRow, Repair};
 
 /// A document that is edited.
 #[derive(Clone, Debug)]
@@ -341,7 +341,7 @@ impl Document {
         folder.unwrap_or(Path::new("."))
     }
 
-    /// Goes on in another folder, where nothing ties it to its own: it has no file, and names none. Whether it did.
+    /// Moves to another folder, if the scene has no file and names none. Returns whether it did.
     pub fn live_in(&mut self, folder: &Path) -> bool {
         let is_free = self.file.is_none() && self.files_named().next().is_none();
         if is_free {

@@ -86,7 +86,7 @@ pub enum Badge {
 
 /// What the user looks through from now on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Look {
+pub enum CameraChoice {
     /// The shot camera.
     Shot,
     /// A camera of one's own, from where one is.
@@ -103,7 +103,7 @@ pub struct ViewportEvents {
     /// What the chips ask for.
     pub asks: Vec<Ask>,
     /// What is to be looked through.
-    pub look: Option<Look>,
+    pub look: Option<CameraChoice>,
     /// Take the frame and view that are seen as the reference.
     pub recapture: bool,
     /// An orbit by the axis ball, points.

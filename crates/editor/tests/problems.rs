@@ -8,7 +8,7 @@ use egui::{CentralPanel, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
 use headless::Headless;
-use impasto_editor::panels::{Ask, Numbers, Shown, problems, status_line, top_bar};
+use impasto_editor::panels::{Ask, Numbers, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};
 use impasto_editor_model::editor::{Editor, Mend, Request};
 use impasto_editor_model::keymap::{self, Preset};
@@ -64,7 +64,7 @@ impl Page {
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
         let session = Session::default();
-        let shown = Shown {
+        let shown = PanelInput {
             document: self.editor.document(),
             session: &session,
             time: self.editor.time(),

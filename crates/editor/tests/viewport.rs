@@ -11,7 +11,7 @@ use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
 use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark};
 use impasto_editor::viewport::{
-    Badge, Framing, Layout, Look, Marks, Now, Pictures, ViewportEvents, ViewportInput, viewport,
+    Badge, CameraChoice, Framing, Layout, Marks, Now, Pictures, ViewportEvents, ViewportInput, viewport,
 };
 use impasto_editor_model::Session;
 use impasto_editor_model::editor::{PointerEvent, PointerKind};
@@ -218,12 +218,12 @@ fn chips_ask_for_what_they_say() {
     harness.run();
     harness.get_by_label("Free view").click();
     harness.run();
-    assert_eq!(harness.state().last.look, Some(Look::Free));
+    assert_eq!(harness.state().last.look, Some(CameraChoice::Free));
     harness.state_mut().badge = Badge::Free(0.0);
     harness.run();
     harness.get_by_role_and_label(Role::Button, "To the shot").click();
     harness.run();
-    assert_eq!(harness.state().last.look, Some(Look::Shot));
+    assert_eq!(harness.state().last.look, Some(CameraChoice::Shot));
 }
 
 #[test]

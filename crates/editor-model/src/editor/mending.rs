@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_that_was_edited_here_and_there_is_asked_about_and_a_save_makes_what_was_read_late() {
+    fn edits_on_both_sides_are_asked_about_and_a_save_drops_what_is_being_read() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut editor = editor(folder.path());
         seed(&mut editor, 7);

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use impasto_scene::document::LightKind;
 
-use super::painted::Seen;
+use super::painted::PaintedView;
 use super::{Busy, Editor};
 use crate::camera_rig::{FreeView, Looking};
 use crate::command::{Arrange, Command, Pose, Time};
@@ -273,7 +273,7 @@ impl Editor {
         let poses = self.poses();
         let loaded = std::sync::Arc::clone(self.document.loaded());
         let painted =
-            Seen { painting: self.painting.as_ref(), camera: &view.camera, frame: self.session.frame };
+            PaintedView { painting: self.painting.as_ref(), camera: &view.camera, frame: self.session.frame };
         let around = Surroundings {
             loaded: &loaded,
             view,

@@ -35,7 +35,7 @@ use impasto_scene::problem::Report;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
 use crate::options::EditOptions;
-use crate::panels::{self, Area, Ask, Numbers, Shown, area};
+use crate::panels::{self, Area, Ask, Numbers, PanelInput, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
 use crate::window::{self, Opened, numpad_pressed, tab_pressed};
@@ -218,7 +218,7 @@ impl EditorApp {
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
         let works = self.works(ui.ctx());
-        let shown = Shown {
+        let shown = PanelInput {
             document: self.editor.document(),
             session: &self.editor.session,
             time: self.editor.time(),

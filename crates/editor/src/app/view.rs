@@ -12,7 +12,7 @@ use super::telling::value;
 use super::{EditorApp, badge};
 use crate::panels::Ask;
 use crate::viewport::overlay::Sight;
-use crate::viewport::{Badge, Layout, Look, Marks, Now, ViewportEvents, ViewportInput, viewport};
+use crate::viewport::{Badge, CameraChoice, Layout, Marks, Now, ViewportEvents, ViewportInput, viewport};
 
 impl EditorApp {
     /// Shows the viewport, and asks for the pictures that it will show next.
@@ -92,9 +92,9 @@ impl EditorApp {
         asks.extend(events.asks);
         let shot = self.editor.shot();
         match events.look {
-            Some(Look::Shot) => self.editor.looking = Looking::Shot,
-            Some(Look::Free) => drop(self.editor.looking.free(&shot)),
-            Some(Look::Along(axis)) => self.editor.looking.free(&shot).look_along(axis),
+            Some(CameraChoice::Shot) => self.editor.looking = Looking::Shot,
+            Some(CameraChoice::Free) => drop(self.editor.looking.free(&shot)),
+            Some(CameraChoice::Along(axis)) => self.editor.looking.free(&shot).look_along(axis),
             None => {}
         }
         if events.orbit_px != glam::DVec2::ZERO {

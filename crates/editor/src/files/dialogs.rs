@@ -58,10 +58,10 @@ struct Open {
     ask: FileAsk,
     start: PathBuf,
     since: Instant,
-    shown: Shown,
+    shown: ShownAs,
 }
 
-enum Shown {
+enum ShownAs {
     Desktop(Receiver<Option<PathBuf>>),
     Sheet(PathSheet),
 }
@@ -85,7 +85,7 @@ impl FileDialogs {
             return;
         }
         let shown = match self.source {
-            Source::InApp => Shown::Sheet(PathSheet::new(ask, start)),
+            Source::InApp => ShownAs::Sheet(PathSheet::new(ask, start)),
             Source::Desktop => {
                 let (answer, answers) = channel();
                 let (choose, from, ctx) = (self.choose, start.to_owned(), ctx.clone());
@@ -94,7 +94,7 @@ impl FileDialogs {
                     let _late = answer.send(choose(ask, &from));
                     ctx.request_repaint();
                 });
-                Shown::Desktop(answers)
+                ShownAs::Desktop(answers)
             }
         };
         self.open = Some(Open { ask, start: start.to_owned(), since: Instant::now(), shown });
@@ -106,17 +106,17 @@ impl FileDialogs {
         let open = self.open.as_mut()?;
         let ask = open.ask;
         let path = match &mut open.shown {
-            Shown::Sheet(sheet) => match sheet.show(ctx)? {
+            ShownAs::Sheet(sheet) => match sheet.show(ctx)? {
                 Picked::File(path) => Some(path),
                 Picked::Cancelled => None,
             },
-            Shown::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
+            ShownAs::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
                 (Ok(Some(path)), _) => Some(ask.completed(path)),
                 (Ok(None), waited) if waited > HAND => None,
                 (Ok(None) | Err(TryRecvError::Disconnected), _) => {
                     // There is no dialog here: it is not tried again.
                     self.source = Source::InApp;
-                    open.shown = Shown::Sheet(PathSheet::new(ask, &open.start));
+                    open.shown = ShownAs::Sheet(PathSheet::new(ask, &open.start));
                     ctx.request_repaint();
                     return None;
                 }
@@ -128,7 +128,7 @@ impl FileDialogs {
                         }
                         None => match offer(ctx)? {
                             Offer::Sheet => {
-                                open.shown = Shown::Sheet(PathSheet::new(ask, &open.start));
+                                open.shown = ShownAs::Sheet(PathSheet::new(ask, &open.start));
                                 ctx.request_repaint();
                                 return None;
                             }

@@ -5,7 +5,7 @@ use egui::{Align2, Popup, RichText, Ui};
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{Hairs, Mode};
 
-use super::{Ask, Shown, file_name, row, text_width, within};
+use super::{Ask, PanelInput, file_name, row, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::MenuRow;
@@ -148,7 +148,7 @@ pub(super) fn actions() -> Vec<Action> {
 }
 
 /// File, Edit, View and Help.
-pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn menus(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     const PADDING: f32 = 10.0;
     let wide = MENUS.iter().map(|(name, _)| text_width(ui, name, type_face::body()) + 2.0 * PADDING).sum();
     let size = egui::vec2(wide, measure::BUTTON);
@@ -168,7 +168,7 @@ pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-fn list(ui: &mut Ui, lines: &[Line], shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let names = lines.iter().map(|line| {
         let keys = if let Do(action) = line { shown.keys_of(*action) } else { String::new() };
@@ -238,7 +238,7 @@ fn sub(ui: &mut Ui, words: &str, contents: impl FnOnce(&mut Ui)) {
     SubMenu::new().show(ui, &response, contents);
 }
 
-fn recent(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn recent(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if shown.recent.is_empty() {
         let words = RichText::new("Scenes you save will be listed here.").font(type_face::small());
         ui.set_width(240.0);
@@ -259,7 +259,7 @@ fn recent(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// Whether what an action switches is on.
-fn is_on(shown: &Shown<'_>, action: Action) -> bool {
+fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
     let session = shown.session;
     match action {
         Action::Arrange => session.mode == Mode::Arrange,

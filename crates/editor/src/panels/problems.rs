@@ -7,12 +7,12 @@ use egui::{
     Align, Align2, Color32, Context, FontId, Id, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit,
     Ui, WidgetInfo, pos2, vec2,
 };
-use impasto_editor_model::document::{Repair, Row, Source};
+use impasto_editor_model::document::{ProblemRow, Repair, Source};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::{Document, Item, Selection};
 use impasto_scene::problem::Place;
 
-use super::{Ask, Shown, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button};
@@ -54,7 +54,7 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
 }
 
 /// Takes 232 points at the bottom of `ui`. False once it is closed or nothing is wrong any more.
-pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
+pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let rows = shown.document.problems();
     if rows.is_empty() {
         return false;
@@ -101,7 +101,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
 }
 
 /// False where it is closed.
-fn head(ui: &mut Ui, shown: &Shown<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
+fn head(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
     let tokens = Tokens::of(ui);
     let is_lossy = shown.document.loss_count() > 0;
     let glyph = if is_lossy { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
@@ -140,7 +140,7 @@ fn fix_all(ui: &mut Ui, count: usize, asks: &mut Vec<Ask>) {
     ui.label(note.color(Tokens::of(ui).weak));
 }
 
-fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
+fn list(ui: &mut Ui, rows: &[ProblemRow], memory: &mut Memory, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().id_salt("problems").auto_shrink(false).show_rows(
         ui,
@@ -162,7 +162,7 @@ fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
 }
 
 /// What a problem is of, where that can be selected.
-fn concerned(row: &Row) -> Option<Item> {
+fn concerned(row: &ProblemRow) -> Option<Item> {
     row.repairs.iter().find_map(|repair| match repair {
         Repair::Locate { object } => Some(Item::Object(object.clone())),
         Repair::Snap { region, .. } => Some(Item::Region(region.clone())),
@@ -175,12 +175,12 @@ fn line(
     ui: &mut Ui,
     rect: Rect,
     response: &egui::Response,
-    shown: &Row,
+    shown: &ProblemRow,
     is_selected: bool,
     asks: &mut Vec<Ask>,
 ) {
     let tokens = Tokens::of(ui);
-    let Row { problem, instead, repairs } = shown;
+    let ProblemRow { problem, instead, repairs } = shown;
     let is_fatal = problem.severity.is_fatal();
     if is_selected || response.hovered() {
         ui.painter().rect_filled(rect, 0.0, if is_selected { tokens.sel } else { tokens.hov });
@@ -296,7 +296,13 @@ fn sentence(words: &str) -> String {
 }
 
 /// The text with its lines numbered and the one with the problem marked.
-fn source(ui: &mut Ui, shown: &Shown<'_>, place: Option<Place>, memory: &mut Memory, asks: &mut Vec<Ask>) {
+fn source(
+    ui: &mut Ui,
+    shown: &PanelInput<'_>,
+    place: Option<Place>,
+    memory: &mut Memory,
+    asks: &mut Vec<Ask>,
+) {
     let tokens = Tokens::of(ui);
     ui.painter().rect_filled(ui.max_rect(), 0.0, tokens.field);
     let Some(source) = shown.document.source() else {

@@ -7,7 +7,7 @@ use impasto_scene::motion;
 
 use super::timeline::across::{self, Across, KEY};
 use super::timeline::{self, transport};
-use super::{Ask, Shown, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{Button, Tip};
@@ -18,7 +18,7 @@ const LINE: f32 = 35.0;
 const LABELS: f32 = 128.0;
 
 /// Takes the lowest 44 points of `ui`, or as much as the lanes need.
-pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn strip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if shown.session.shows_lanes() {
         return timeline::lanes(ui, shown, asks);
     }
@@ -39,7 +39,7 @@ pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// From the right end.
-fn range(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn range(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);
     let response = Button::new("Keys").name("Show keys").icon(icons::KEYS_UP).plain().show(ui);
@@ -55,7 +55,7 @@ fn range(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     transport::dropped(ui, shown);
 }
 
-fn ruler(ui: &mut Ui, rect: Rect, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn ruler(ui: &mut Ui, rect: Rect, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let scene = shown.document.scene();
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };

@@ -6,19 +6,19 @@ use impasto_editor_model::camera_rig::AxisView;
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{Hairs, Mode, Session, Shading};
 
-use super::{Badge, Look, ViewportEvents, ViewportInput};
+use super::{Badge, CameraChoice, ViewportEvents, ViewportInput};
 use crate::icons;
 use crate::panels::Ask;
 use crate::theme::{Tokens, type_face};
 use crate::widgets::{AxisBall, Tip, chip, chip_divider, combo, icon_toggle};
 
 const INSET: f32 = 12.0;
-const LOOKS: [(&str, Look); 5] = [
-    ("Shot camera", Look::Shot),
-    ("Free view", Look::Free),
-    ("Front", Look::Along(AxisView::Front)),
-    ("Right", Look::Along(AxisView::Right)),
-    ("Top", Look::Along(AxisView::Top)),
+const LOOKS: [(&str, CameraChoice); 5] = [
+    ("Shot camera", CameraChoice::Shot),
+    ("Free view", CameraChoice::Free),
+    ("Front", CameraChoice::Along(AxisView::Front)),
+    ("Right", CameraChoice::Along(AxisView::Right)),
+    ("Top", CameraChoice::Along(AxisView::Top)),
 ];
 const SHADINGS: [(&str, Shading); 3] =
     [("Painted", Shading::Painted), ("Shaded", Shading::Shaded), ("Trust", Shading::Trust)];
@@ -39,7 +39,7 @@ pub(super) fn show(ui: &Ui, area: Rect, input: &ViewportInput<'_>, events: &mut 
             let ball = AxisBall { view_from_world }.show(ui, "Axis ball");
             events.orbit_px += glam::DVec2::new(f64::from(ball.dragged.x), f64::from(ball.dragged.y));
             if let Some(axis) = ball.clicked_axis {
-                events.look = Some(Look::Along(axis_view(axis)));
+                events.look = Some(CameraChoice::Along(axis_view(axis)));
             }
         });
     }
@@ -136,7 +136,7 @@ fn badge(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
         match (input.now.is_some(), input.badge) {
             (true, _) | (false, Badge::Turned { .. }) => events.asks.push(Ask::Act(Action::Compare)),
             (false, Badge::Reference(_)) => events.recapture = true,
-            (false, Badge::Free(_)) => events.look = Some(Look::Shot),
+            (false, Badge::Free(_)) => events.look = Some(CameraChoice::Shot),
         }
     }
     ui.add_space(2.0);

@@ -64,7 +64,7 @@ fn field(harness: &Harness<'_, Page>) -> String {
 fn folders_stand_first_then_files_that_can_be_opened() {
     let (harness, home) = sheet(FileAsk::Open, "");
     let rows = &harness.state().sheet.listing.rows;
-    let names: Vec<&str> = rows.iter().map(Row::name).collect();
+    let names: Vec<&str> = rows.iter().map(ListedFile::name).collect();
     assert_eq!(names, ["..", "shots", "Apple.OBJ", "still_life.ron", "still_water.ron"]);
     for name in names {
         harness.get_by_label(name);

@@ -20,10 +20,10 @@ use impasto_editor_model::Item;
 use impasto_editor_model::command::Command;
 use impasto_scene::document::Scene;
 
-use super::{Ask, Shown};
+use super::{Ask, PanelInput};
 
 /// The settings of what is selected. It fills the width and height of `ui`, which has no margins.
-pub fn inspector(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let active = shown.document.selection().active().cloned();
     let mut asker = Asker { shown, asks };
@@ -47,7 +47,7 @@ pub fn inspector(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 
 /// What is shown, and where a part of the inspector asks for changes.
 struct Asker<'a, 'b> {
-    shown: &'a Shown<'a>,
+    shown: &'a PanelInput<'a>,
     asks: &'b mut Vec<Ask>,
 }
 

@@ -8,7 +8,7 @@ use impasto_scene::limits::MAX_PARTICLES_OF_OBJECT;
 
 use super::number::Number;
 use super::parts::{
-    Look, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
+    FieldStyle, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
 };
 use super::{Asker, noise, pose};
 use crate::icons;
@@ -70,7 +70,7 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
             ),
         );
         ui.add_space(4.0);
-        path_row(ui, asker, object, Look::Wrong);
+        path_row(ui, asker, object, FieldStyle::Wrong);
         let likely = asker.shown.likely_meshes.iter().find(|(missing, _)| *missing == object.mesh);
         if let Some((_, mesh)) = likely {
             let words = format!("Use {}", mesh.rsplit('/').next().unwrap_or(mesh));
@@ -93,7 +93,7 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
 }
 
 /// The mesh's path, which can be typed.
-fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: Look) {
+fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: FieldStyle) {
     let key = egui::Id::unique(("mesh", &object.name));
     let typed = row(ui, "Mesh", |ui| text(ui, "Mesh file", key, &object.mesh, look));
     if let Some(mesh) = typed {
@@ -103,7 +103,7 @@ fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: Look)
 }
 
 fn mesh_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
-    path_row(ui, asker, object, Look::Field);
+    path_row(ui, asker, object, FieldStyle::Field);
     let name = &object.name;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

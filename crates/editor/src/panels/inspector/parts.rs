@@ -123,30 +123,32 @@ pub(super) fn head_icon(ui: &mut Ui, icon: Icon, colour: Color32) {
 }
 
 /// One line of text to edit, as wide as its words where it is a `head`. Returns what was typed, once it is done.
-pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: Look) -> Option<String> {
+pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: FieldStyle) -> Option<String> {
     let id = key.with(name);
     let draft: Option<String> = ui.data(|data| data.get_temp(id.with("draft")));
     let mut typed = draft.clone().unwrap_or_else(|| current.to_owned());
     let tokens = Tokens::of(ui);
     let (font, colour) = match look {
-        Look::Head => (type_face::head(), tokens.text),
-        Look::Field => (type_face::number(), tokens.text),
-        Look::Wrong => (type_face::number(), tokens.vermilion),
+        FieldStyle::Head => (type_face::head(), tokens.text),
+        FieldStyle::Field => (type_face::number(), tokens.text),
+        FieldStyle::Wrong => (type_face::number(), tokens.vermilion),
     };
     let room = ui.available_width();
     let wide = match look {
-        Look::Head => {
+        FieldStyle::Head => {
             let words = ui.painter().layout_no_wrap(typed.clone(), font.clone(), colour).size().x;
             (words + 3.0).clamp(24.0, (room - HEAD_END).max(24.0))
         }
-        Look::Field | Look::Wrong => room - 16.0,
+        FieldStyle::Field | FieldStyle::Wrong => room - 16.0,
     };
     let frame = match look {
-        Look::Head => Frame::NONE,
-        Look::Field => Frame::new().fill(tokens.field).corner_radius(4.0),
-        Look::Wrong => Frame::new().fill(tokens.field).corner_radius(4.0).stroke((1.0, tokens.vermilion)),
+        FieldStyle::Head => Frame::NONE,
+        FieldStyle::Field => Frame::new().fill(tokens.field).corner_radius(4.0),
+        FieldStyle::Wrong => {
+            Frame::new().fill(tokens.field).corner_radius(4.0).stroke((1.0, tokens.vermilion))
+        }
     };
-    let margin = if look == Look::Head { Margin::symmetric(0, 4) } else { Margin::symmetric(8, 4) };
+    let margin = if look == FieldStyle::Head { Margin::symmetric(0, 4) } else { Margin::symmetric(8, 4) };
     let edit = egui::TextEdit::singleline(&mut typed)
         .id(id)
         .font(font)
@@ -172,7 +174,7 @@ pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: Look) 
 
 /// How a line of text looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look {
+pub(super) enum FieldStyle {
     /// As the head of the inspector.
     Head,
     /// As a field.
@@ -252,7 +254,7 @@ impl Asker<'_, '_> {
     /// The name at the head; what is typed renames the thing.
     pub(super) fn name(&mut self, ui: &mut Ui, label: &str, item: &Item) {
         let key = Id::unique(("name", item));
-        if let Some(name) = text(ui, label, key, item.name(), Look::Head) {
+        if let Some(name) = text(ui, label, key, item.name(), FieldStyle::Head) {
             self.ask(Command::Edit(Edit::Rename(item.clone(), name)));
         }
     }

@@ -9,10 +9,10 @@ use egui::{Panel, Popup, PopupCloseBehavior, RichText, Ui, vec2};
 use impasto_editor_model::Item;
 use impasto_editor_model::session::{Mode, Tool, ToolOptions};
 
-use self::settings::{Control, Place, Setting};
+use self::settings::{BarPlace, Control, Setting};
 use super::tool_names::face;
 use super::top_bar::WIDE;
-use super::{Ask, Shown, divider, row, row_from_right, text_width, within};
+use super::{Ask, PanelInput, divider, row, row_from_right, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
@@ -26,7 +26,7 @@ const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 type Say = fn(&'static str) -> &'static str;
 
 /// Takes the top 40 points of `ui`.
-pub fn options_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::top("options bar").exact_size(measure::OPTIONS_BAR).resizable(false).frame(frame).show(ui, |ui| {
         if let Some(options) = bar(ui, shown, |words| words) {
@@ -36,7 +36,7 @@ pub fn options_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// The bar's contents. The settings, where one was changed.
-fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
+fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Say) -> Option<ToolOptions> {
     let mut options = shown.session.options.clone();
     let tool = shown.session.tool();
     let all = settings::of(tool, &options);
@@ -52,9 +52,9 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
             let width = width(ui, setting, say);
             let fits = ui.cursor().left() + width + measure::GAP <= right;
             match setting.place {
-                Place::Always if fits => on_bar(ui, setting, &mut options, say),
-                Place::Wide if fits && wide => on_bar(ui, setting, &mut options, say),
-                Place::WideRight if fits && wide => {
+                BarPlace::Always if fits => on_bar(ui, setting, &mut options, say),
+                BarPlace::Wide if fits && wide => on_bar(ui, setting, &mut options, say),
+                BarPlace::WideRight if fits && wide => {
                     right -= width + measure::GAP;
                     let rect = egui::Rect::from_x_y_ranges(right..=right + width, whole.y_range());
                     within(ui, rect, row(), |ui| control(ui, setting, &mut options, say));
@@ -143,7 +143,7 @@ fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) 
 }
 
 /// What one should know about a tool or a mode, where there is room.
-fn hint(ui: &mut Ui, shown: &Shown<'_>, tool: Tool, right: f32, say: Say) {
+fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Say) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
         (Tool::Pick | Tool::ShotCamera, _) => [
             (say(face(tool).effect).to_owned(), false),

@@ -52,7 +52,7 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String
     theme::apply(&ctx, Theme::Dark, 1.0);
     let document = Document::empty(std::path::Path::new("."));
     let time = Default::default();
-    let shown = Shown {
+    let shown = PanelInput {
         time: &time,
         document: &document,
         session,

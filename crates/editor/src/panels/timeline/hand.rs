@@ -3,11 +3,11 @@
 use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
 use impasto_editor_model::command::ease_name;
 use impasto_editor_model::command::{Command, Time};
-use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, Place, TimelineEvent};
+use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, LanePoint, TimelineEvent};
 use impasto_scene::document::Ease;
 
 use super::across::Across;
-use crate::panels::{Ask, Shown};
+use crate::panels::{Ask, PanelInput};
 use crate::theme::measure;
 use crate::widgets::MenuRow;
 
@@ -27,11 +27,11 @@ pub(super) struct Lying<'a> {
 }
 
 impl Lying<'_> {
-    fn place(&self, at: Pos2) -> Place {
+    fn place(&self, at: Pos2) -> LanePoint {
         let y = at.y - self.top;
         // Above the first lane there is the first.
         let lane = (y / self.lane).floor().max(0.0) as usize;
-        Place { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
+        LanePoint { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
     }
 
     /// The key under the pointer: the nearest of its lane.
@@ -53,7 +53,7 @@ struct Memory {
 }
 
 /// Hands the pointer's events on.
-pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let id = ui.scope_id().with("lanes hand");
     let layer = ui.layer_id();
     let ctx = ui.ctx().clone();

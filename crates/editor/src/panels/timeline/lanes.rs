@@ -11,7 +11,7 @@ use impasto_scene::document::Ease;
 
 use super::across::{Across, KEY, diamond, filled};
 use crate::icons;
-use crate::panels::{Ask, Shown, text_width};
+use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
 
@@ -20,7 +20,7 @@ const SWING: f32 = 3.0;
 
 /// Where a lane is drawn.
 #[derive(Clone, Copy)]
-pub(super) struct Row {
+pub(super) struct LaneRow {
     /// The whole row.
     pub(super) rect: Rect,
     /// Where its name ends.
@@ -38,7 +38,7 @@ pub(super) fn item(of: &KeyOf) -> Item {
 }
 
 /// What stands before the keys: a click selects; the camera can be locked to the view.
-pub(super) fn name(ui: &mut Ui, row: Row, lane: &Lane, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.max.x = row.names;
     let item = item(&lane.of);
@@ -84,7 +84,7 @@ pub(super) fn name(ui: &mut Ui, row: Row, lane: &Lane, shown: &Shown<'_>, asks: 
 }
 
 /// The keys of a lane, the ways between them, and what a drag would do.
-pub(super) fn keys(ui: &mut Ui, row: Row, lane: &Lane, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.min.x = row.names;
     let label = format!("{} keys", lane.of.name());

@@ -11,11 +11,11 @@ use egui::{Color32, Panel, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2
 use impasto_editor_model::Session;
 use impasto_editor_model::timeline;
 
-use super::{Ask, Shown, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::theme::{Tokens, measure};
 
 use hand::Lying;
-use lanes::Row;
+use lanes::LaneRow;
 
 /// Height of the row of buttons.
 const BAR: f32 = 40.0;
@@ -31,7 +31,7 @@ pub fn height(session: &Session, window_width: f32) -> f32 {
 }
 
 /// Takes the lowest part of `ui`, with lanes.
-pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let (height, lane_height, names) = measures(ui.ctx().content_rect().width());
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("lanes").exact_size(height).resizable(false).frame(frame).show(ui, |ui| {
@@ -85,7 +85,7 @@ fn rows_of(
     height: f32,
     names: f32,
     across: across::Across,
-    shown: &Shown<'_>,
+    shown: &PanelInput<'_>,
     asks: &mut Vec<Ask>,
 ) -> f32 {
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -116,7 +116,7 @@ fn rows_of(
             let is_selected = shown.document.selection().contains(&lanes::item(&lane.of));
             let fill = if is_selected { tokens.sel.gamma_multiply(0.8) } else { Color32::TRANSPARENT };
             ui.painter().rect_filled(rect, 0.0, fill);
-            let row = Row { rect, names, across };
+            let row = LaneRow { rect, names, across };
             lanes::name(ui, row, lane, shown, asks);
             lanes::keys(ui, row, lane, shown, asks);
         }

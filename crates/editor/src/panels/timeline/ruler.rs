@@ -8,7 +8,7 @@ use impasto_scene::motion;
 
 use super::across::{self, Across};
 use crate::icons;
-use crate::panels::{Ask, Shown};
+use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, measure, type_face};
 
 /// Height of the strip below the lanes in which the reference's pin stands.
@@ -43,7 +43,7 @@ pub(super) fn ground(ui: &Ui, rect: Rect, across: Across, scene: &Scene) {
 }
 
 /// The ruler, which scrubs; at the ends of the range, its grips.
-pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     let is_gripped = grips(ui, rect, across, shown, asks);
     if !is_gripped {
@@ -67,7 +67,7 @@ pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &Shown<'_>, 
 }
 
 /// The ends of the range can be dragged. Returns whether a hand is on one.
-fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
+fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let timeline = &shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;
     let mut is_gripped = false;
@@ -110,7 +110,7 @@ fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &Shown<'_>, asks: &mut 
 }
 
 /// What stands over ruler and lanes: the reference's pin, and the playhead with its flag.
-pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &Shown<'_>) {
+pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let scene = shown.document.scene();
     let painter = ui.painter().with_clip_rect(rect);

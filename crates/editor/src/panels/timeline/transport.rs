@@ -9,7 +9,7 @@ use impasto_scene::document::Timeline;
 use impasto_scene::limits::MAX_FRAME;
 
 use crate::icons;
-use crate::panels::{Ask, Shown, divider, text_width};
+use crate::panels::{Ask, PanelInput, divider, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 
@@ -17,7 +17,7 @@ use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
 /// To the ends, a step, play; and the frame that is shown.
-pub(in crate::panels) fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = 1.0;
     ui.add_space(7.0);
     let plays = shown.time.playback.is_playing();
@@ -55,7 +55,7 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Ve
 }
 
 /// Behind the transport, where there is room: the time, Auto key and Set key.
-pub(super) fn keying(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.add_space(8.0);
     let seconds = shown.session.frame / shown.document.scene().timeline.fps;
     let words = format!("{seconds:.2} s");
@@ -91,7 +91,7 @@ pub(super) fn keying(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// From the right end: fold, loop, rate and range as fields, and how it is played.
-pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);
     let response = widgets::icon_button(ui, icons::KEYS_DOWN, "Hide keys");
@@ -135,7 +135,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
 }
 
 /// Whether playing begins again.
-pub(in crate::panels) fn looped(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut looped = shown.session.looped;
     let response = widgets::icon_toggle(ui, icons::LOOP, "Loop", &mut looped);
     let effect = "Playing begins again at the end of the range.";
@@ -145,7 +145,7 @@ pub(in crate::panels) fn looped(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<A
 }
 
 /// What was dropped since the last play, or how fast every frame comes.
-pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &Shown<'_>) {
+pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &PanelInput<'_>) {
     let playback = &shown.time.playback;
     let words = match (shown.session.pacing, playback.dropped(), playback.rate()) {
         (Pacing::EveryFrame, _, Some(rate)) => format!("{rate:.1} fps"),

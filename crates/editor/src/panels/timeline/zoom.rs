@@ -9,7 +9,7 @@ const FEWEST: f64 = 8.0;
 
 /// What is seen of the frames, and the frame that was shown last.
 #[derive(Clone, Copy, Default)]
-struct Seen {
+struct VisibleFrames {
     frames: Option<[f64; 2]>,
     shown: f64,
 }
@@ -18,7 +18,7 @@ struct Seen {
 /// The playhead is followed.
 pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: Across, frame: f64) -> Across {
     let id = Id::unique("frames that are seen");
-    let mut seen = ui.data_mut(|data| data.get_temp::<Seen>(id)).unwrap_or_default();
+    let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();
     let (pointer, zoom, along, is_double) = ui.input(|input| {
         let is_double = input.pointer.button_double_clicked(egui::PointerButton::Primary);
         (input.pointer.hover_pos(), f64::from(input.zoom_delta()), input.smooth_scroll_delta().x, is_double)
