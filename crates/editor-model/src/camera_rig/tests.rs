@@ -1,4 +1,4 @@
-//! The free camera is judged by where points show before and after a move.
+//! Tests of the free camera: what orbit, pan, zoom and framing keep in place.
 
 use super::*;
 

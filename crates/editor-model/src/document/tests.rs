@@ -1,4 +1,4 @@
-//! Documents on the disk: scenes with errors, what other programs change, saving where files are missing.
+//! Tests of documents with errors, and of files that other programs change.
 
 use std::fs;
 use std::path::{Path, PathBuf};

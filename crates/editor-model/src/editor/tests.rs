@@ -1,4 +1,4 @@
-//! The whole editor driven by keys and pointer events, without a window.
+//! Tests of the editor by plain events: drags, cancelling, typed numbers, stroke previews.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Handles are where they show, and the nearest one is hit.
+//! Tests of the gizmo: size, hits and visible halves of its handles.
 
 use glam::DQuat;
 use impasto_scene::document::Lens;

@@ -1,4 +1,4 @@
-//! No key has two meanings, and both presets have the keys that their users expect.
+//! Tests of the keymap: no conflicts, documented keys, scopes.
 
 use std::collections::HashMap;
 

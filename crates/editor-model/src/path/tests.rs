@@ -1,4 +1,4 @@
-//! Paths of the pointer become guides on the surface, in the right place and number of points.
+//! Tests of gestures on surfaces: independent of the event rate, cut at gaps, mirrored.
 
 use glam::DQuat;
 use impasto_scene::document::{GuideMode, GuideView, Lens};

@@ -1,4 +1,4 @@
-//! Rays hit what a search through all triangles finds.
+//! Tests of picking against a search of all triangles.
 
 use glam::{DQuat, DVec2, Vec3};
 use impasto_core::TriangleMesh;

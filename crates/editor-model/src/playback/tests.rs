@@ -1,4 +1,4 @@
-//! Playback by a clock that the tests hand in: order, drops, rate.
+//! Tests of playback with a simulated clock and slow pictures.
 
 use super::*;
 

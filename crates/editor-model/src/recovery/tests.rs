@@ -1,4 +1,4 @@
-//! Copies of unsaved work: when they are written, offered and removed.
+//! Tests of recovery copies: offered after a crash, never while their session lives.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;

@@ -1,4 +1,4 @@
-//! What the render sheet plans: frames, size, files, and the command for the same.
+//! Tests of the render sheet: plans, faults, command lines and progress.
 
 use super::*;
 

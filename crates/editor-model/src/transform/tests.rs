@@ -1,4 +1,4 @@
-//! Move, turn and scale, by hand and by typed numbers.
+//! Tests of moving, turning and scaling by pointer and keys.
 
 use impasto_scene::motion::CameraPose;
 

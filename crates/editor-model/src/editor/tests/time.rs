@@ -1,11 +1,11 @@
-//! Keys, poses, playing and the shot camera in Animate.
+//! Tests of time in the editor: keys, loose poses, playback and scrubbing.
 
 use impasto_scene::document::{Ease, ObjectKey, Scene};
 
 use super::*;
 use crate::command::{KeyOf, Pose, Time};
 use crate::playback::Pacing;
-use crate::timeline::{KeyAt, KeysEvent, LanePoint, TimelineEvent};
+use crate::timeline::{KeyAt, KeysEvent, LanePosition, TimelineEvent};
 
 /// The apple's editor in Animate, with the apple selected, at a frame.
 fn animating(frame: f64) -> (Editor, String) {
@@ -244,13 +244,13 @@ fn a_scrub_pauses_and_what_played_plays_on_from_there() {
 }
 
 fn press(editor: &mut Editor, key: KeyAt) {
-    let at = LanePoint { x_px: key.1 * 4.0, y_px: 48.0, frame: key.1, lane: 1 };
+    let at = LanePosition { x_px: key.1 * 4.0, y_px: 48.0, frame: key.1, lane: 1 };
     editor.timeline(TimelineEvent::Keys(KeysEvent::Press { at, key: Some(key), adds: false }));
 }
 
 fn drag_key(editor: &mut Editor, key: KeyAt, to: f64) {
     press(editor, key);
-    let at = LanePoint { x_px: to * 4.0, y_px: 48.0, frame: to, lane: 1 };
+    let at = LanePosition { x_px: to * 4.0, y_px: 48.0, frame: to, lane: 1 };
     editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));
     editor.timeline(TimelineEvent::Keys(KeysEvent::Release));
 }
@@ -269,7 +269,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     let view = view(&editor);
     assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, false, &view));
     for frame in [73.0, 83.0] {
-        let at = LanePoint { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
+        let at = LanePosition { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
         editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));
     }
     assert!(editor.status().starts_with("Copy 1 key by +10"), "{}", editor.status());

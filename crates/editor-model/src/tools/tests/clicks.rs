@@ -1,4 +1,4 @@
-//! Tools that work by clicks: fill, turn, region, pick.
+//! Tests of tools by clicks: fill, turn, pick, regions, resizing.
 
 use impasto_scene::document::{Bend, Direction, Patch, Selector};
 

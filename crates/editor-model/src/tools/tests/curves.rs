@@ -1,4 +1,4 @@
-//! Guide curves are drawn point by point, and edited by their handles.
+//! Tests of the guide curve tool.
 
 use super::*;
 

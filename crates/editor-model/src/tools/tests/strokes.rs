@@ -1,4 +1,4 @@
-//! Tools that work by drags: comb, smooth, smear, erase.
+//! Tests of the brush tools: comb, smooth, smear, erase, region brush.
 
 use impasto_scene::document::{GuideMode, Selector};
 
