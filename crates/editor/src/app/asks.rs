@@ -1,4 +1,4 @@
-//! Doing what panels and the editor ask for.
+//! Carries out what the panels ask for, and the editor's requests to the window.
 
 use egui::Context;
 use impasto_editor_model::editor::{Mend, Request};

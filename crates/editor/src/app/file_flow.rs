@@ -1,4 +1,4 @@
-//! Files: new, open, save, import, what is dropped, and the questions on the way.
+//! New, open, save, import and dropped files, with the questions that come first.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -23,7 +23,7 @@ use crate::panels::problems;
 use crate::panels::welcome::{self, Choices, Left};
 use crate::theme;
 
-/// What goes on once unsaved work is settled.
+/// What happens once unsaved work is saved or dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Next {
     Close,
@@ -31,18 +31,18 @@ enum Next {
     Open(PathBuf),
 }
 
-/// Dialogs and what waits for them.
+/// The state of file dialogs and of questions about files.
 pub(super) struct FileFlow {
     pub(super) dialogs: FileDialogs,
-    /// Waits until unsaved work is settled.
+    /// What happens once the question about unsaved work is answered.
     waiting: Option<Next>,
-    /// The question about it that shows; else a file is being asked for.
+    /// The question about unsaved work that is open.
     asks: Option<Unsaved>,
-    /// The object that a mesh is being chosen for.
+    /// The object for which a mesh is being chosen.
     pub(super) mesh_of: Option<String>,
-    /// Since when there are edits.
+    /// When the first unsaved edit was noticed.
     edited_since: Option<Instant>,
-    /// A scene that waits to be saved into another folder, with the files that would go with it.
+    /// A save into another folder that waits for an answer: are its files to be copied there?
     along: Option<Along>,
     closes: bool,
 }
@@ -53,7 +53,7 @@ struct Along {
     copies: Copies,
 }
 
-/// What would be lost.
+/// Work that closing the document would lose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unsaved {
     /// Text in the panel of problems that was edited and not read.
@@ -62,12 +62,12 @@ enum Unsaved {
     Edits,
 }
 
-/// What a file is written as.
+/// Which kind of save it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SaveTo {
-    /// The document's own from then on.
+    /// The file becomes the document's own.
     Own,
-    /// A copy.
+    /// A copy; the document keeps its own file.
     Copy,
 }
 
@@ -89,14 +89,14 @@ impl FileFlow {
     }
 }
 
-/// Writes the preferences down; words where that fails.
+/// Saves the preferences. The error is a sentence for the user.
 pub(super) fn keep(preferences: &Preferences) -> Result<(), String> {
     let Some(folder) = preferences::config_folder() else { return Ok(()) };
     preferences::save(&folder, preferences).map_err(|error| error.to_string())
 }
 
 impl EditorApp {
-    /// Whether the window may close now; else a question shows.
+    /// Whether the window may close now. If not, a question about unsaved work is open.
     pub(super) fn may_close(&mut self) -> bool {
         if self.render.holds_window() {
             return false;
@@ -130,7 +130,7 @@ impl EditorApp {
         }
     }
 
-    /// What would be lost without the document, the first that is to be asked about.
+    /// The unsaved work to ask about first; none if there is none.
     fn unsaved(&self) -> Option<Unsaved> {
         let document = self.editor.document();
         let has_text = problems::unread_text(&self.ctx, document).is_some();
@@ -163,13 +163,13 @@ impl EditorApp {
         }
     }
 
-    /// Saves to a file, or to the document's own. Whether that went well.
+    /// Saves to `target`, or to the document's own file. Returns whether it was written.
     pub(super) fn save(&mut self, target: Option<&Path>) -> bool {
         let saved = self.editor.save(target);
         self.saved(saved)
     }
 
-    /// What follows a save.
+    /// Deals with the result of a save. Returns whether it was written.
     pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
         match saved {
             Ok(()) => {
@@ -184,7 +184,7 @@ impl EditorApp {
                 false
             }
             Err(error) => {
-                // What was to go on waits for a save that goes well.
+                // Closing or opening goes on only after a save that succeeds.
                 self.files.waiting = None;
                 self.ask_about_saving(error);
                 false
@@ -192,7 +192,7 @@ impl EditorApp {
         }
     }
 
-    /// Sheets and questions about files. Whether the window closes.
+    /// Shows sheets and questions about files. Returns whether the window is to close.
     pub(super) fn file_sheets(&mut self, ctx: &Context, ui: &mut Ui) -> bool {
         self.welcome_sheet(ctx);
         self.dropped(ui);
@@ -256,7 +256,7 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
-            // Goes on once the file is written.
+            // What waits goes on once the file is written.
             ask_close::Answer::Save => {
                 let start = self.editor.document().suggested_file();
                 self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
@@ -285,7 +285,7 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
-            // With losses the copy is gone on with: the file that was read stays what it is.
+            // After a scene with errors, the document goes on as the copy, so that the broken file stays as it is.
             FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             FileAsk::SaveCopy => self.save_copy(&path),
             FileAsk::LocateMesh => self.replace_mesh(&path),
@@ -301,7 +301,7 @@ impl EditorApp {
         }
     }
 
-    /// Asks whether the scene's files are to be copied to where it is to be saved.
+    /// Asks whether the scene's files are to be copied into the folder of `target`.
     fn take_along(&mut self, target: PathBuf, to: SaveTo) {
         let document = self.editor.document();
         let folder = target.parent().unwrap_or(Path::new("."));
@@ -345,14 +345,14 @@ impl EditorApp {
         if Present::of(document) == Present::Nothing {
             return self.open(path);
         }
-        // What has no folder of its own yet has the mesh's.
+        // A document without a folder of its own takes the mesh's.
         if let Some(folder) = std::path::absolute(path).ok().as_deref().and_then(Path::parent) {
             self.editor.live_in(folder);
         }
         self.read_mesh(path, MeshFor::Import);
     }
 
-    /// The mesh that was chosen for the object that asked for one.
+    /// Gives the mesh that was chosen to the object that asked for one.
     fn replace_mesh(&mut self, path: &Path) {
         let Some(object) = self.files.mesh_of.take() else { return };
         self.read_mesh(path, MeshFor::Replace(object));
@@ -374,7 +374,7 @@ impl EditorApp {
         }
     }
 
-    /// A picture becomes the brush of the selected region, or of the scene.
+    /// Makes a picture the brush of the selected region, or of the scene.
     pub(super) fn brush(&mut self, path: &Path) {
         let folder = self.editor.document().folder().to_owned();
         match adopt_picture(path, &folder) {
@@ -433,7 +433,7 @@ impl EditorApp {
     }
 }
 
-/// The still life that comes with Impasto: in the folder that one works in, beside the program, or in the source.
+/// Finds the still life that comes with Impasto: in the working folder, beside the program, or in the source.
 fn still_life() -> Option<PathBuf> {
     let file = Path::new("scenes/still_life.ron");
     let mut folders: Vec<PathBuf> = std::env::current_dir().into_iter().collect();

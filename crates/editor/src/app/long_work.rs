@@ -20,23 +20,23 @@ use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
 use crate::panels::work::{Work, WorkKind};
 use crate::window::Waker;
 
-/// What takes longer than this is shown.
+/// Work that takes longer than this is shown in the status line.
 const SHOWN_AFTER: Duration = Duration::from_millis(200);
 
 /// What a mesh is read for.
 #[derive(Clone, Debug)]
 pub(super) enum MeshFor {
-    /// A new object.
+    /// To add a new object.
     Import,
-    /// An object that has another.
+    /// To replace the mesh of this object.
     Replace(String),
 }
 
-/// What was read.
+/// The result of reading.
 enum Came {
     Opened(PathBuf, Result<Box<Document>, Report>),
     Mesh(MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
-    /// The document's own files, anew; where others changed them, what.
+    /// The document's own files, read again; with what another program changed, if that was the reason.
     Mended(Option<News>, Box<Mended>),
 }
 
@@ -44,12 +44,12 @@ struct Reading {
     words: String,
     since: Instant,
     came: Receiver<Came>,
-    /// The document when it began: its folder, and its version.
+    /// Folder and revision of the document when reading began.
     folder: PathBuf,
     revision: u64,
 }
 
-/// Files that are being read, and those that wait.
+/// The file that is being read, and the files that wait for it.
 pub(super) struct LongWork {
     waker: Waker,
     reading: Option<Reading>,
@@ -61,30 +61,30 @@ impl LongWork {
         Self { waker, reading: None, queue: VecDeque::new() }
     }
 
-    /// Lets go of what is being read: what comes of it is thrown away.
+    /// Drops what is being read and what waits: their results are ignored.
     pub(super) fn forget(&mut self) {
         self.reading = None;
         self.queue.clear();
     }
 
-    /// What the status line shows.
+    /// The entry in the status line; none while it has taken little time.
     pub(super) fn work(&self) -> Option<Work> {
         let reading = self.reading.as_ref().filter(|reading| reading.since.elapsed() >= SHOWN_AFTER)?;
         Some(Work { words: reading.words.clone(), share: None, kind: WorkKind::Reading })
     }
 
-    /// Begins to read, in the place of what is being read; [`EditorApp::follow_reading`] takes what comes of it.
+    /// Starts reading and drops what was being read. [`EditorApp::follow_reading`] takes the result in a later pass.
     fn read(&mut self, words: String, document: &Document, work: impl FnOnce() -> Came + Send + 'static) {
         let (sender, came) = channel();
         let waker = self.waker.clone();
         let run = move || {
-            // Nobody listens once it was stopped.
+            // Fails once reading was stopped and nobody listens.
             let _stopped = sender.send(work());
             waker.wake();
         };
         let spawned = std::thread::Builder::new().name("reading".to_owned()).spawn(run);
         let folder = document.folder().to_owned();
-        // Where there is no thread, the next look finds that nothing comes.
+        // Without a thread the channel is closed: the next pass reports that reading failed.
         if spawned.is_err() {
             self.waker.wake();
         }
@@ -105,7 +105,7 @@ impl EditorApp {
         });
     }
 
-    /// Brings a mesh into the document.
+    /// Reads a mesh for the document.
     pub(super) fn read_mesh(&mut self, path: &Path, what_for: MeshFor) {
         let (path, folder) = (path.to_owned(), self.editor.document().folder().to_owned());
         let words = format!("Importing {}\u{2026}", name_of(&path));
@@ -121,7 +121,7 @@ impl EditorApp {
         });
     }
 
-    /// Does something about what is wrong with the document.
+    /// Repairs the document or reads it again.
     pub(super) fn mend(&mut self, mend: Mend) {
         if let Some(reading) = &self.long.reading {
             let words = format!("{} Stop it first, or wait", reading.words);
@@ -132,7 +132,7 @@ impl EditorApp {
         self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
     }
 
-    /// Takes in what others changed. Whether it could be begun: else the user has to be asked.
+    /// Starts to read what another program changed. False if that would lose edits, so that the user has to be asked.
     pub(super) fn take_in(&mut self, news: News) -> bool {
         let Some(taking_in) = self.editor.taking_in(news) else { return false };
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
@@ -146,7 +146,7 @@ impl EditorApp {
         self.long.reading.is_some()
     }
 
-    /// Does this, after what is being read.
+    /// Does this, after the file that is being read.
     pub(super) fn take_step(&mut self, step: Step) {
         if self.long.reading.is_some() {
             return self.long.queue.push_back(step);
@@ -159,7 +159,7 @@ impl EditorApp {
         }
     }
 
-    /// Takes what has been read.
+    /// Takes the result of reading, once it is there, and goes on with what waits.
     pub(super) fn follow_reading(&mut self, ctx: &Context) {
         let Some(reading) = self.long.reading.take() else { return };
         match reading.came.try_recv() {
@@ -181,7 +181,7 @@ impl EditorApp {
         }
     }
 
-    /// What runs beside the window, as the status line shows it; the rightmost first.
+    /// The work in the background, for the status line, from right to left.
     pub(super) fn works(&self, ctx: &Context) -> Vec<Work> {
         let mut works: Vec<Work> = self.render.work().into_iter().collect();
         works.extend(self.long.work());
@@ -197,7 +197,7 @@ impl EditorApp {
         works
     }
 
-    /// The only object by its name, or the scene.
+    /// Name of the only object, or of the scene.
     fn what_is_painted(&self) -> String {
         let document = self.editor.document();
         match &document.scene().objects[..] {
@@ -206,7 +206,7 @@ impl EditorApp {
         }
     }
 
-    /// Ends what is being read; the document is as it was.
+    /// Stops reading; the document stays as it is.
     pub(super) fn stop_reading(&mut self) {
         if let Some(reading) = &self.long.reading {
             let words =
@@ -220,7 +220,7 @@ impl EditorApp {
         let document = self.editor.document();
         match came {
             Came::Opened(path, opened) => {
-                // Nobody was asked about work that was done since.
+                // Edits that were made while it was read are not thrown away.
                 if document.revision() != reading.revision && document.is_edited() {
                     let name = document.name();
                     let words = format!("{} was not opened: {name} was edited meanwhile", name_of(&path));

@@ -1,4 +1,4 @@
-//! What is drawn over the picture, made from what the editor knows; what is costly is kept while its inputs stay.
+//! The marks over the picture: rings, guides, direction lines, outlines. Costly ones are cached until their inputs change.
 
 use egui::{Color32, Ui};
 use glam::{DAffine3, DVec2, DVec3};
@@ -25,11 +25,11 @@ use crate::viewport::overlay::{
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
 
-/// The map of what shows has so many cells a point, and so many while the view moves.
+/// Cells per point of the map of visible surfaces, at rest and while the view moves.
 const CELLS_PER_POINT: f64 = 0.5;
 const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
-/// What one picture's marks are made from, kept with what it was made of.
+/// The cached marks of the one or two pictures.
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],
@@ -47,7 +47,7 @@ struct Half {
     path: Option<MotionPath>,
 }
 
-/// What the kept marks depend on.
+/// The inputs of the cached marks.
 #[derive(Clone, PartialEq)]
 struct Key {
     prepared: u64,
@@ -60,7 +60,7 @@ struct Key {
     moving: bool,
 }
 
-/// What a map of the surfaces depends on: an edit of directions leaves it as it is.
+/// The inputs of the map of visible surfaces. Directions are not among them.
 #[derive(PartialEq)]
 struct MapKey {
     bodies: Vec<StandingBody>,
@@ -69,7 +69,7 @@ struct MapKey {
     cells_per_point: f64,
 }
 
-/// Marks that are made anew in every pass.
+/// Marks that are made in every pass.
 pub(super) struct Fresh {
     rings: Vec<Ring>,
     needle: Option<Needle>,
@@ -84,13 +84,13 @@ pub(super) struct Fresh {
 }
 
 impl MarkCache {
-    /// Makes anew what does not hold any more.
+    /// Updates the marks whose inputs have changed.
     pub(super) fn refresh(&mut self, editor: &Editor, picture_flow: &PictureFlow, picture: &PictureView<'_>) {
         let Some(painting) = editor.painting() else { return };
         let Some(&framing) = picture_flow.layout().framings().get(picture.index) else { return };
         let session = &editor.session;
         if editor.time().playback.is_playing() {
-            // What plays is looked at, and has the time to itself.
+            // During playback no time is spent on marks.
             self.halves[picture.index] = Half::default();
             return;
         }
@@ -155,7 +155,7 @@ impl MarkCache {
         half.map = Some((key, map));
     }
 
-    /// All marks of a picture, those of the hand included where `fresh` is handed in.
+    /// All marks of a picture; with `fresh`, also those that are made in every pass.
     pub(super) fn marks<'a>(&'a self, index: usize, editor: &Editor, fresh: Option<&'a Fresh>) -> Marks<'a> {
         let half = &self.halves[index];
         let marks = Marks {
@@ -192,7 +192,7 @@ impl MarkCache {
     }
 }
 
-/// What the hand and the selection show in this pass.
+/// The marks of the tool and of the selection in this pass.
 pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     let output = editor.tool_output();
     let is_painting = editor.session.mode == Mode::Paint;
@@ -214,7 +214,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
             adrift_px: Vec::new(),
         });
     }
-    // A label beside the ring waits for a rest.
+    // The label beside the ring appears once the pointer rests.
     if is_painting && has_ring {
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(420));
     }
@@ -246,7 +246,7 @@ fn region_of(painting: &Painting, face: Face) -> Option<usize> {
     (region < painting.scene().regions.len()).then_some(region)
 }
 
-/// The colours of a scene's regions: their own, or those of the list in turn.
+/// The colours of a scene's regions: their own, or the next of the default ones.
 fn region_colours(scene: &Scene) -> Vec<Color32> {
     let colour = |index: usize, own: Option<impasto_scene::document::Color>| {
         let [r, g, b] =
@@ -264,7 +264,7 @@ fn selected_region(editor: &Editor, scene: &Scene) -> Option<usize> {
     scene.regions.iter().position(|region| region.name == *name)
 }
 
-/// The guides of the selected region; of a selected guide, its handles.
+/// The guides of the selected region, with handles on a selected guide.
 fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> {
     let Some(region) = selected_region(editor, scene) else { return Vec::new() };
     let region = &scene.regions[region];
@@ -303,14 +303,14 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
         .map(|(object, point)| {
             let position_in_world = poses[object].transform_point3(point.position);
-            // What hides it is asked of the surfaces; which way it faces, of nobody.
+            // It faces the eye, so that only surfaces in front can hide it.
             let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }
         })
         .collect()
 }
 
-/// Where suns shine and, seen from elsewhere, the shot camera.
+/// Marks for suns and, when looking through another camera, for the shot camera.
 fn stand_ins(editor: &Editor, scene: &Scene) -> Vec<(StandIn, bool)> {
     let selection = editor.document().selection();
     let sun = |place: &LightPlace| {

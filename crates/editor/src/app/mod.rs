@@ -1,8 +1,8 @@
-//! The editor in its window: panels and viewport round `editor_model::Editor`, and the thread that draws.
+//! The application: connects `editor_model::Editor` with the panels, the viewport and the painting thread.
 //!
 //! ```text
 //! keys, pointer ─▶ Editor ─▶ scene as shown ─▶ Worker ─▶ painting, pictures ─▶ viewport
-//! panels ─▶ Ask ──────▲                                       └─▶ hairs, picking
+//! panels ─▶ Ask ──────▲                                       └─▶ direction marks, picking
 //! ```
 
 mod asks;
@@ -50,10 +50,10 @@ use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
 use telling::Telling;
 
-/// A line at the bottom stays so long; what was refused, too.
+/// How long a message at the bottom stays.
 const TOAST: Duration = Duration::from_secs(4);
 
-/// The editor in its window.
+/// The application in its window.
 pub(crate) struct EditorApp {
     ctx: Context,
     editor: Editor,
@@ -72,14 +72,14 @@ pub(crate) struct EditorApp {
     likely_meshes: LikelyMeshes,
 }
 
-/// The meshes that are not there, and what is likely meant by them.
+/// Missing meshes, with the files of the folder that are likely meant.
 #[derive(Default)]
 struct LikelyMeshes {
     of: Vec<String>,
     found: Vec<(String, String)>,
 }
 
-/// Which sheets lie over the window.
+/// Which sheets are open over the window.
 #[derive(Default)]
 struct Sheets {
     welcome: bool,
@@ -89,7 +89,7 @@ struct Sheets {
     problems: bool,
 }
 
-/// What is folded away.
+/// Which panels are folded away.
 #[derive(Default)]
 struct Folds {
     column: bool,
@@ -98,7 +98,7 @@ struct Folds {
 }
 
 impl EditorApp {
-    /// An app with what the command line named, or with an empty scene.
+    /// Opens what the command line names, or an empty scene.
     pub(crate) fn new(
         options: &EditOptions,
         loaded: Loaded,
@@ -289,7 +289,7 @@ impl EditorApp {
 }
 
 impl LikelyMeshes {
-    /// Looks round in the folder where other meshes are missing than before.
+    /// Searches the folder again if other meshes are missing than before.
     fn follow(&mut self, document: &Document) {
         let loaded = document.shown();
         let is_missing = |mesh: &&str| document.lacks_mesh(mesh);
@@ -311,7 +311,7 @@ impl window::App for EditorApp {
         if news == Some(News::NextOfFilm) {
             self.tell_played();
         }
-        // While a hand turns the view, the window changes with the picture.
+        // While the view is turned, the window is redrawn only with the picture, so that marks stay on it.
         if news.is_none() && self.editor.is_navigating() && self.picture_flow.is_awaited() {
             frame.hold();
         }
@@ -325,7 +325,7 @@ impl window::App for EditorApp {
         }
         self.folds.had_focus = focused;
         let numpad = numpad_pressed(&ctx);
-        // An open menu has Esc to itself, and what is typed over it is meant for it.
+        // Keys belong to an open menu.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
@@ -369,7 +369,7 @@ impl window::App for EditorApp {
     }
 }
 
-/// Where the playhead stands to the reference.
+/// The badge in the viewport: reference, another frame, or a free view.
 fn badge(editor: &Editor) -> crate::viewport::Badge {
     use crate::viewport::Badge;
     let reference = reference_frame(editor.document().scene());

@@ -1,4 +1,4 @@
-//! The viewport in the window: what it is given to show, and what comes back from it.
+//! Connects the viewport with the editor: its inputs, and its events.
 
 use egui::Ui;
 use impasto_editor_model::camera_rig::Looking;
@@ -15,7 +15,7 @@ use crate::viewport::overlay::Sight;
 use crate::viewport::{Badge, CameraChoice, Layout, Marks, Now, ViewportEvents, ViewportInput, viewport};
 
 impl EditorApp {
-    /// Shows the viewport, and asks for the pictures that it will show next.
+    /// Shows the viewport, and asks the painting thread for the next pictures.
     pub(super) fn viewport(&mut self, ui: &mut Ui, asks: &mut Vec<Ask>) {
         let area = ui.max_rect();
         let scene = &self.editor.document().shown().scene;
@@ -74,7 +74,7 @@ impl EditorApp {
         self.picture_flow.ask(&self.editor);
     }
 
-    /// What Compare says of the selected object: how far it turned, and its strokes with it.
+    /// The note of Compare: how far the selected object has turned since the reference.
     fn turned_words(&self) -> String {
         let Some(object) = self.editor.active_object() else { return String::new() };
         let name = &self.editor.document().shown().scene.objects[object].name;
