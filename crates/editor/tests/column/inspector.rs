@@ -108,7 +108,7 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
 
     turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::COMMAND);
     let by_ctrl = length(&harness).expect("a step");
-    assert_eq!(harness.state().log, ["merged Length"]);
+    assert_eq!(harness.state().log, ["merged Length 65 px"]);
     harness.get_by_label("Length").focus();
     harness.run();
     let place = top(&harness);
