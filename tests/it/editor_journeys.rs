@@ -9,41 +9,28 @@ use impasto_tests::screen::{EditorWindow, Screen, wait_for};
 
 use crate::editor_window::{folder, read};
 
-/// The field of the frame in the lanes' bar, and the first-run sheet's first button.
-const FRAME_FIELD: [&str; 2] = ["182", "573"];
-const OPEN_A_MESH: [&str; 2] = ["378", "560"];
-
-/// In the render sheet.
-const THIS_FRAME: [&str; 2] = ["515", "330"];
-const HALF: [&str; 2] = ["650", "364"];
-const RENDER: [&str; 2] = ["862", "514"];
-
-/// Middles of the brushes and of the length in the inspector of a region.
-const SECOND_BRUSH: [&str; 2] = ["1089", "529"];
-const LENGTH: [&str; 2] = ["1170", "607"];
-
-fn click(screen: &Screen, [x, y]: [&str; 2]) {
-    screen.hand(&[
-        "mousemove",
-        x,
-        y,
-        "sleep",
-        "0.2",
-        "mousedown",
-        "1",
-        "sleep",
-        "0.1",
-        "mouseup",
-        "1",
-        "sleep",
-        "0.2",
-    ]);
+/// Orbits by a drag with the middle button that begins in the upper part of the viewport.
+fn orbit(editor: &mut EditorWindow<'_>, by_px: [i32; 2]) {
+    let from = editor.control("Viewport").at([0.5, 0.18]);
+    let to = [from[0] + by_px[0], from[1] + by_px[1]];
+    let [from, to] = [from, to].map(|at| at.map(|at| at.to_string()));
+    editor.screen.hand(&["mousemove", &from[0], &from[1], "mousedown", "2"]);
+    editor.screen.hand(&["mousemove", &to[0], &to[1], "mouseup", "2"]);
 }
 
-fn orbit(screen: &Screen, by: [i32; 2]) {
-    let to = [524 + by[0], 200 + by[1]].map(|at| at.to_string());
-    screen.hand(&["mousemove", "524", "200", "sleep", "0.2", "mousedown", "2", "sleep", "0.1"]);
-    screen.hand(&["mousemove", &to[0], &to[1], "sleep", "0.2", "mouseup", "2"]);
+/// Drags with the left button between two places, from the viewport's middle.
+fn comb(editor: &mut EditorWindow<'_>, from_px: [i32; 2], to_px: [i32; 2]) {
+    let middle = editor.control("Viewport").middle();
+    let place = |px: [i32; 2]| [middle[0] + px[0], middle[1] + px[1]];
+    editor.screen.drag(place(from_px), place(to_px));
+}
+
+/// Types a number into a field in place of its own.
+fn type_number(editor: &mut EditorWindow<'_>, name: &str, number: &str) {
+    editor.click(name);
+    editor.keys(&["ctrl+a"]);
+    editor.screen.type_text(number);
+    editor.keys(&["Return"]);
 }
 
 fn guides(scene: &Scene) -> usize {
@@ -63,38 +50,30 @@ fn from_a_mesh_to_a_saved_film() {
         std::fs::copy(root().join("scenes/meshes").join(name), folder.path().join(name)).unwrap();
     }
     let mut editor = EditorWindow::start(&screen, "film", folder.path(), &[]);
-    wait_for("the first picture of the window", || (editor.title() == "Untitled - Impasto").then_some(()));
-    screen.hand(&["sleep", "1"]);
+    editor.control("Open a mesh");
+    assert_eq!(editor.title(), "Untitled - Impasto");
     editor.keep_picture("1_first_run");
-    click(&screen, OPEN_A_MESH);
-    screen.hand(&[
-        "sleep",
-        "0.5",
-        "type",
-        "--delay",
-        "40",
-        &folder.path().join("apple.obj").to_string_lossy(),
-    ]);
+    editor.click("Open a mesh");
+    editor.control("File name");
+    screen.type_text(&folder.path().join("apple.obj").to_string_lossy());
     editor.keys(&["Return"]);
     let mut shown = editor.rest_after(0);
     editor.keep_picture("2_opened");
 
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
-    for (from, to) in [([470, 420], [590, 360]), ([460, 470], [590, 480]), ([500, 340], [505, 480])] {
-        screen.drag(from, to);
+    let strokes = [([-54, 14], [66, -46]), ([-64, 64], [66, 74]), ([-24, -66], [-19, 74])];
+    for (from_px, to_px) in strokes {
+        comb(&mut editor, from_px, to_px);
         shown = editor.rest_after(shown);
     }
     editor.keep_picture("3_combed");
-    click(&screen, SECOND_BRUSH);
+    editor.click("Brush fan");
     shown = editor.rest_after(shown);
-    click(&screen, LENGTH);
-    editor.keys(&["ctrl+a"]);
-    screen.hand(&["type", "--delay", "60", "34"]);
-    editor.keys(&["Return"]);
+    type_number(&mut editor, "Length", "34");
     shown = editor.rest_after(shown);
     editor.keep_picture("4_brushed");
-    orbit(&screen, [160, 0]);
+    orbit(&mut editor, [160, 0]);
     editor.wait_for_value("Paint, comb, free view, frame 0, reference");
     editor.keep_picture("5_looked_behind");
     editor.keys(&["KP_0"]);
@@ -102,13 +81,10 @@ fn from_a_mesh_to_a_saved_film() {
 
     editor.keys(&["3"]);
     editor.wait_for_value("Animate, select, shot camera, frame 0, reference");
-    click(&screen, FRAME_FIELD);
-    editor.keys(&["ctrl+a"]);
-    screen.hand(&["type", "--delay", "60", "60"]);
-    editor.keys(&["Return"]);
+    type_number(&mut editor, "Current frame", "60");
     editor.wait_for_value("Animate, select, shot camera, frame 60");
     // The object is the thing in the middle of the picture.
-    click(&screen, ["524", "320"]);
+    editor.click("Viewport");
     editor.keys(&["g", "x", "period", "3", "Return"]);
     shown = editor.rest_after(shown);
     editor.keys(&["r", "z", "minus", "1", "4", "0", "Return"]);
@@ -120,29 +96,29 @@ fn from_a_mesh_to_a_saved_film() {
     editor.keys(&["space"]);
 
     editor.keys(&["ctrl+s"]);
-    screen.hand(&["sleep", "1"]);
+    editor.control("File name");
     editor.keys(&["ctrl+a"]);
-    screen.hand(&["type", "--delay", "60", "my film"]);
+    screen.type_text("my film");
     editor.keep_picture("8_save");
     editor.keys(&["Return"]);
     editor.wait_for_title("my film.ron - Impasto");
     editor.keep_picture("9_saved");
 
     editor.keys(&["F12"]);
-    screen.hand(&["sleep", "1"]);
-    click(&screen, THIS_FRAME);
-    click(&screen, HALF);
+    editor.click("This frame");
+    editor.click("Size 50 %");
     editor.keep_picture("10_render");
-    click(&screen, RENDER);
+    editor.click("Start rendering");
     let picture = wait_for("a picture in out/", || {
         let mut files =
             std::fs::read_dir(folder.path().join("out")).ok()?.flatten().map(|entry| entry.path());
         files.find(|path| path.extension().is_some_and(|extension| extension == "png"))
     });
-    screen.hand(&["sleep", "1"]);
+    // Once it is finished it can be begun again.
+    editor.control("Start rendering");
     editor.keep_picture("11_rendered");
     editor.keys(&["Escape"]);
-    screen.hand(&["sleep", "0.5"]);
+    editor.wait_until_gone("Start rendering");
     assert_eq!(editor.quit(), Some(0));
     let frame = picture.file_stem().unwrap().to_string_lossy().rsplit('_').next().unwrap().to_owned();
     let mut command = Command::new(impasto());
@@ -169,23 +145,24 @@ fn directions_are_refined() {
     let before = guides(&read(folder.path(), "apple.ron"));
     let mut editor = EditorWindow::open(&screen, "refine", folder.path(), "apple.ron");
     let mut shown = editor.rest().0;
-    screen.hand(&["mousemove", "524", "406"]);
+    let [x, y] = editor.control("Viewport").middle().map(|at| at.to_string());
+    screen.hand(&["mousemove", &x, &y]);
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
     editor.keys(&["shift+o"]);
-    orbit(&screen, [220, 0]);
+    orbit(&mut editor, [220, 0]);
     editor.wait_for_value("Paint, comb, free view, frame 0, reference");
     editor.keep_picture("1_trust");
-    for (from, to) in [([460, 400], [580, 380]), ([470, 460], [580, 450])] {
-        screen.drag(from, to);
+    for (from_px, to_px) in [([-64, -6], [56, -26]), ([-54, 54], [56, 44])] {
+        comb(&mut editor, from_px, to_px);
         shown = editor.rest_after(shown);
     }
     editor.keep_picture("2_combed_behind");
     editor.keys(&["k"]);
-    screen.hand(&["sleep", "2"]);
+    editor.wait_for_value("Paint, comb, free view, frame 0, reference, compared");
     editor.keep_picture("3_compared");
     editor.keys(&["k"]);
-    screen.hand(&["sleep", "1"]);
+    editor.wait_for_value("Paint, comb, free view, frame 0, reference");
     editor.keys(&["ctrl+z"]);
     editor.rest_after(shown);
     editor.keys(&["ctrl+s"]);
@@ -208,20 +185,33 @@ fn a_broken_scene_is_mended() {
     let mut editor = EditorWindow::open(&screen, "broken", folder.path(), "apple.ron");
     editor.keep_picture("1_opened");
     editor.keys(&["ctrl+s"]);
-    screen.hand(&["sleep", "1"]);
+    editor.control("Show the problem");
     editor.keep_picture("2_save_refused");
     assert_eq!(std::fs::read_to_string(&path).unwrap(), broken, "less is never saved over it");
     editor.keys(&["Escape"]);
-    screen.hand(&["sleep", "0.5"]);
+    editor.wait_until_gone("Show the problem");
+
+    // Text that was typed is asked about before the window closes, and read by Ctrl Enter.
+    let text_place = editor.control("Problems").at([0.8, 0.5]);
+    screen.click(text_place);
+    editor.keys(&["ctrl+End"]);
+    screen.type_text(" // mine");
+    editor.control("Read this text");
+    editor.keys(&["ctrl+q"]);
+    editor.control("Drop them");
+    editor.keep_picture("3_text_not_read");
+    editor.keys(&["Escape"]);
+    editor.wait_until_gone("Drop them");
+    screen.click(text_place);
+    editor.keys(&["ctrl+Return"]);
+    editor.wait_until_gone("Read this text");
+
     let shown = editor.rest().0;
-    click(&screen, FIX_ALL);
+    editor.click("Fix all that are certain");
     editor.rest_after(shown);
-    editor.keep_picture("3_mended");
+    editor.keep_picture("4_mended");
     editor.keys(&["ctrl+s"]);
     editor.wait_for_title("apple.ron - Impasto");
     assert_eq!(editor.quit(), Some(0));
     assert_eq!(read(folder.path(), "apple.ron"), whole);
 }
-
-/// *Fix all that are certain* in the panel of problems.
-const FIX_ALL: [&str; 2] = ["100", "710"];

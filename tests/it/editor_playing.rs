@@ -1,5 +1,5 @@
-//! A film in the editor: the frame that the clock asks for is shown, what is not is counted, and every frame is what the
-//! renderer makes of it.
+//! A film in the editor: frames come up in order, those that are left out are counted, and every frame is what the renderer
+//! makes of it. That frames keep to the clock is tested with a clock of its own, in `playback` of the editor's model.
 
 use std::sync::Arc;
 
@@ -19,8 +19,6 @@ use crate::editor_window::apple_alone;
 
 /// Frames of the film.
 const FRAMES: f64 = 120.0;
-/// Frames a second.
-const FPS: f64 = 24.0;
 
 /// A folder with a film of 120 frames: the apple alone, of few particles, rolls while the camera goes by.
 fn folder() -> tempfile::TempDir {
@@ -57,7 +55,7 @@ fn onward(from: f64, to: f64) -> f64 {
 }
 
 #[test]
-fn a_film_keeps_to_the_clock_and_counts_what_it_drops() {
+fn a_film_goes_on_in_order_and_counts_what_it_drops() {
     let Some(screen) = Screen::open() else { return };
     let folder = folder();
     let editor = EditorWindow::open(&screen, "playing", folder.path(), "film.ron");
@@ -82,20 +80,7 @@ fn a_film_keeps_to_the_clock_and_counts_what_it_drops() {
         assert_eq!(now.dropped, dropped, "{now:?}");
         before = now.frame;
     }
-    // How far the clock was from the time that each frame is for, milliseconds. At first it learns how long drawing takes.
-    let off = |now: &CameUp| {
-        let late = onward(now.frame, now.clock);
-        let off = if late > FRAMES / 2.0 { FRAMES - late } else { (late - 1.0).max(0.0) };
-        off * 1000.0 / FPS
-    };
-    let mut off_ms: Vec<f64> = shown.iter().skip(20).map(off).collect();
-    off_ms.sort_by(f64::total_cmp);
-    let [median, most] = [0.5, 0.9].map(|share| off_ms[(off_ms.len() as f64 * share) as usize]);
-    println!(
-        "{} frames shown, {dropped} dropped; off the clock by {median:.1} ms in the middle, 9 of 10 by {most:.1} ms",
-        shown.len()
-    );
-    assert!(median <= 50.0, "{median} ms off the clock in the middle");
+    println!("{} frames shown, {dropped} dropped", shown.len());
     assert_eq!(editor.quit(), Some(0));
 }
 

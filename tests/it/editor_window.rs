@@ -8,7 +8,7 @@ use glam::DVec2;
 use impasto_scene::document::{Guide, GuideMode, Scene};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::{impasto, root};
-use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
+use impasto_tests::screen::{ControlRect, EditorWindow, Screen};
 
 /// A folder with the apple, alone and of fewer particles that it is soon painted, whose strokes lie just as they are directed.
 pub(crate) fn folder() -> tempfile::TempDir {
@@ -47,19 +47,13 @@ fn guides(folder: &Path) -> Vec<Guide> {
     std::mem::take(&mut region.guides)
 }
 
-/// The viewport in the window: between the rail (48) and the column (280), under the two bars (40 each), over the strip (44)
-/// and the status line (24).
-const VIEWPORT: [DVec2; 2] =
-    [DVec2::new(48.0, 80.0), DVec2::new(SIZE_PX[0] as f64 - 280.0, SIZE_PX[1] as f64 - 68.0)];
-
 /// A place of the window as one of the rendered picture: pixels from its lower left corner, Y up. The shot is as wide as the
 /// viewport, and in its middle.
-fn in_picture(at: [i32; 2], size: (u32, u32)) -> DVec2 {
-    let (from_middle, size) = (
-        DVec2::new(f64::from(at[0]), f64::from(at[1])) - (VIEWPORT[0] + VIEWPORT[1]) * 0.5,
-        DVec2::new(f64::from(size.0), f64::from(size.1)),
-    );
-    let px_per_point = size.x / (VIEWPORT[1].x - VIEWPORT[0].x);
+fn in_picture(at: [i32; 2], viewport: &ControlRect, size: (u32, u32)) -> DVec2 {
+    let plain = |[x, y]: [i32; 2]| DVec2::new(f64::from(x), f64::from(y));
+    let size = DVec2::new(f64::from(size.0), f64::from(size.1));
+    let from_middle = plain(at) - plain(viewport.corner) - plain(viewport.size) * 0.5;
+    let px_per_point = size.x / f64::from(viewport.size[0]);
     size * 0.5 + from_middle * DVec2::new(1.0, -1.0) * px_per_point
 }
 
@@ -94,15 +88,19 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     assert_eq!(editor.title(), "apple.ron - Impasto");
     editor.keep_picture("opened");
 
-    screen.hand(&["mousemove", "524", "406"]);
+    let viewport = editor.control("Viewport");
+    let [x, y] = viewport.middle();
+    let hover = |x: i32| screen.hand(&["mousemove", &x.to_string(), &y.to_string()]);
+    hover(x);
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
     // The strength from 80 % to 100 %, that strokes under the hand lie just as it went.
     editor.keys(&["shift+f"]);
-    screen.hand(&["mousemove", "580", "406", "sleep", "0.1", "mousemove", "620", "406"]);
+    hover(x + 56);
+    hover(x + 96);
     editor.keys(&["Return"]);
 
-    let (from, to) = ([454, 420], [594, 360]);
+    let (from, to) = ([x - 70, y + 14], [x + 70, y - 46]);
     let mut shown = editor.rest().0;
     screen.drag(from, to);
     editor.wait_for_title("apple.ron (edited) - Impasto");
@@ -115,7 +113,7 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     std::fs::copy(folder.path().join("apple.ron"), folder.path().join("combed.ron")).unwrap();
 
     screen.hand(&["keydown", "shift"]);
-    screen.drag([470, 480], [570, 490]);
+    screen.drag([x - 54, y + 74], [x + 46, y + 84]);
     screen.hand(&["keyup", "shift"]);
     editor.wait_for_title("apple.ron (edited) - Impasto");
     shown = editor.rest_after(shown);
@@ -137,7 +135,7 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     assert_eq!(editor.quit(), Some(0));
 
     let size = read(folder.path(), "combed.ron").size;
-    let [from, to] = [from, to].map(|at| in_picture(at, size));
+    let [from, to] = [from, to].map(|at| in_picture(at, &viewport, size));
     let way = to - from;
     let dragged_deg = way.to_angle().to_degrees();
     // Where a stroke lies along the drag (0 to 1), how far from it in pixels, and how far off its angle in degrees.
@@ -171,7 +169,7 @@ fn a_name_typed_into_the_path_sheet_is_the_files() {
     editor.keys(&["ctrl+shift+s"]);
     editor.wait_for_value(&format!("{value}, under a sheet"));
     editor.keys(&["ctrl+a"]);
-    screen.hand(&["type", "--delay", "60", "my apple"]);
+    screen.type_text("my apple");
     editor.keep_picture("sheet");
     editor.keys(&["Return"]);
     editor.wait_for_title("my apple.ron - Impasto");
@@ -186,7 +184,7 @@ fn a_typed_move_moves_just_so_far_and_undo_brings_it_back() {
     let folder = folder();
     let mut editor = EditorWindow::open(&screen, "move", folder.path(), "apple.ron");
     let before = read(folder.path(), "apple.ron");
-    screen.hand(&["mousemove", "524", "406", "sleep", "0.1", "click", "1"]);
+    editor.click("Viewport");
     let shown = editor.rest().0;
     editor.keys(&["g", "x", "period", "5", "Return"]);
     editor.wait_for_title("apple.ron (edited) - Impasto");

@@ -141,6 +141,22 @@ impl Screen {
         assert!(self.try_hand(words).is_some(), "xdotool {} failed", words.join(" "));
     }
 
+    /// Clicks with the left button at a place of the screen.
+    ///
+    /// # Panics
+    /// When xdotool fails.
+    pub fn click(&self, [x, y]: [i32; 2]) {
+        self.hand(&["mousemove", &x.to_string(), &y.to_string(), "click", "1"]);
+    }
+
+    /// Types a text into what has the keyboard's focus.
+    ///
+    /// # Panics
+    /// When xdotool fails.
+    pub fn type_text(&self, text: &str) {
+        self.hand(&["type", "--delay", "40", text]);
+    }
+
     /// Drags with the left button from one place of the screen to another, in even steps.
     ///
     /// # Panics
@@ -176,6 +192,27 @@ fn wait_or_kill(process: &mut Child, most: Duration) -> Option<std::process::Exi
     let _ended_already = process.kill();
     let _ = process.wait();
     None
+}
+
+/// Where a control of the window lies, in pixels of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ControlRect {
+    /// X and Y of its upper left corner.
+    pub corner: [i32; 2],
+    /// Width and height.
+    pub size: [i32; 2],
+}
+
+impl ControlRect {
+    /// The place at these shares of its width and height.
+    pub fn at(&self, shares: [f64; 2]) -> [i32; 2] {
+        [0, 1].map(|axis| self.corner[axis] + (f64::from(self.size[axis]) * shares[axis]).round() as i32)
+    }
+
+    /// Its middle.
+    pub fn middle(&self) -> [i32; 2] {
+        self.at([0.5; 2])
+    }
 }
 
 /// `impasto edit` with its window on a [`Screen`], at its upper left corner, with the keyboard's focus. Dropping it ends it;
@@ -290,6 +327,56 @@ impl<'a> EditorWindow<'a> {
             self.assert_runs();
             (self.rest().1 == value).then_some(())
         });
+    }
+
+    /// The controls of this name, as the window told them last.
+    pub fn controls_named(&self, name: &str) -> Vec<ControlRect> {
+        let lines = self.lines();
+        let mut told = lines.iter().rev().filter_map(|line| line.strip_prefix("impasto edit: controls:\t"));
+        // The last line may be half written.
+        let Some(last) = told.find_map(|line| line.strip_suffix("\tend")) else { return Vec::new() };
+        let parts: Vec<&str> = last.split('\t').collect();
+        let number = |text: &str| text.parse::<i32>().expect("a number");
+        let named = parts.chunks_exact(5).filter(|control| control[0] == name);
+        named
+            .map(|control| ControlRect {
+                corner: [number(control[1]), number(control[2])],
+                size: [number(control[3]), number(control[4])],
+            })
+            .collect()
+    }
+
+    /// Waits for the control of this name, and tells where it lies.
+    ///
+    /// # Panics
+    /// When it never comes, or two have the name.
+    pub fn control(&mut self, name: &str) -> ControlRect {
+        wait_for(&format!("the control {name:?}"), || {
+            self.assert_runs();
+            let found = self.controls_named(name);
+            assert!(found.len() <= 1, "{} controls have the name {name:?}", found.len());
+            found.first().copied()
+        })
+    }
+
+    /// Waits until no control has this name.
+    ///
+    /// # Panics
+    /// When one keeps it.
+    pub fn wait_until_gone(&mut self, name: &str) {
+        wait_for(&format!("the end of the control {name:?}"), || {
+            self.assert_runs();
+            self.controls_named(name).is_empty().then_some(())
+        });
+    }
+
+    /// Clicks in the middle of the control of this name, once it is there.
+    ///
+    /// # Panics
+    /// As [`EditorWindow::control`].
+    pub fn click(&mut self, name: &str) {
+        let middle = self.control(name).middle();
+        self.screen.click(middle);
     }
 
     /// The words in its title bar.

@@ -162,7 +162,7 @@ pub(crate) struct EditArguments {
     /// Ask for files in the window, never by the desktop's dialogs.
     #[arg(long, hide = true)]
     pub(crate) in_app_dialogs: bool,
-    /// Write to standard error what the window shows, each time that its exact pictures are there.
+    /// Write to standard error what the window shows, each time that its exact pictures are there, and where its controls are.
     #[arg(long, hide = true)]
     pub(crate) tell: bool,
 }

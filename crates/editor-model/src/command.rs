@@ -15,7 +15,7 @@ pub use direction::{Directions, Gesture, GuideSettings, RegionTarget};
 pub use edit::Edit;
 pub use region::{Regions, StrokeChange, StrokesOf};
 pub use scene::SceneEdit;
-pub use time::{KeyOf, Pose, Time};
+pub use time::{KeyOf, Pose, Time, ease_name};
 
 use crate::refusal::Refusal;
 use crate::selection::Selection;

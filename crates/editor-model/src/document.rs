@@ -23,9 +23,9 @@ use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 use crate::stamp::Stamp;
 
+pub use crate::source::Source;
 pub use disk::SaveError;
-pub use mending::{Repair, Row};
-pub use opening::Source;
+pub use mending::{ProblemRow, Repair};
 
 /// A document that is edited.
 #[derive(Clone, Debug)]
@@ -142,7 +142,7 @@ impl Document {
     /// Selects; what does not exist is left out. No entry of the history.
     pub fn select(&mut self, mut selection: Selection) {
         let scene = &self.loaded.scene;
-        selection.retain(|item| exists(scene, item));
+        selection.retain(|item| item.is_in(scene));
         self.selection = selection;
     }
 
@@ -341,7 +341,7 @@ impl Document {
         folder.unwrap_or(Path::new("."))
     }
 
-    /// Goes on in another folder, where nothing ties it to its own: it has no file, and names none. Whether it did.
+    /// Moves to another folder, if the scene has no file and names none. Returns whether it did.
     pub fn live_in(&mut self, folder: &Path) -> bool {
         let is_free = self.file.is_none() && self.files_named().next().is_none();
         if is_free {
@@ -361,18 +361,5 @@ impl Document {
         let stem: String =
             stem.chars().map(|c| if c.is_alphanumeric() || "-_ ".contains(c) { c } else { '_' }).collect();
         self.folder().join(format!("{stem}.ron"))
-    }
-}
-
-/// Whether a scene has a thing.
-pub fn exists(scene: &Scene, item: &Item) -> bool {
-    match item {
-        Item::Camera => true,
-        Item::Light(name) => scene.lights.iter().any(|light| light.name == *name),
-        Item::Object(name) => scene.objects.iter().any(|object| object.name == *name),
-        Item::Region(name) => scene.regions.iter().any(|region| region.name == *name),
-        Item::Guide(name, index) => {
-            scene.regions.iter().any(|region| region.name == *name && *index < region.guides.len())
-        }
     }
 }

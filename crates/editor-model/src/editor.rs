@@ -12,6 +12,7 @@ mod mending;
 mod objects;
 mod painted;
 mod pointer;
+mod saving;
 #[cfg(test)]
 mod tests;
 mod time;
@@ -25,7 +26,7 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::camera_rig::Looking;
-use crate::command::Command;
+use crate::command::{Arrange, Command, Pose, Time};
 use crate::document::{Document, Step};
 use crate::keymap::{Key, Keymap, Modifiers, Navigation, Scope};
 use crate::picking::{Picker, View};
@@ -75,6 +76,8 @@ pub enum Request {
     NextArea,
     /// The sheet of what is rendered.
     Render,
+    /// Reads the scene from the text that is edited in the panel of problems.
+    ReadSource,
     /// Asks before this frame becomes the reference.
     Recapture(i64),
 }
@@ -205,20 +208,6 @@ impl Editor {
         *self = Self { session, keymap, version, ..Self::new(document) };
     }
 
-    /// Saves; see [`Document::save`] and [`Document::save_as`].
-    ///
-    /// # Errors
-    /// As those.
-    pub fn save(&mut self, target: Option<&std::path::Path>) -> Result<(), crate::document::SaveError> {
-        match target {
-            Some(target) => self.document.save_as(target)?,
-            None => drop(self.document.save()?),
-        }
-        self.losses = self.document.loss_count();
-        self.say(format!("Saved {}", self.document.name()));
-        Ok(())
-    }
-
     /// The scene as it is to be shown, and a number that changes with it.
     pub fn shown(&self) -> (&Arc<LoadedScene>, u64) {
         (self.document.shown(), self.version)
@@ -310,6 +299,15 @@ impl Editor {
             return self.keep(&posed);
         }
         self.pose_loosely(command).unwrap_or_else(|| self.keep(command))
+    }
+
+    /// Gives the shot camera another pose: a key of this frame in Animate, else all keys move along.
+    fn place_shot(&mut self, pose: CameraPose) -> bool {
+        let frame = self.session.frame;
+        self.run(&match self.session.mode {
+            Mode::Animate => Command::Time(Time::PoseAtFrame(Pose::Camera(pose), frame)),
+            Mode::Arrange | Mode::Paint => Command::Arrange(Arrange::SetCamera { frame, pose }),
+        })
     }
 
     /// As [`Editor::run`], and never without an entry of the history.
@@ -410,7 +408,7 @@ impl Editor {
     }
 
     /// Takes a key; false where it means nothing here. `typing` while a text field has the focus.
-    pub fn key(&mut self, key: Key, held: Modifiers, (typing, view): (bool, &View)) -> bool {
+    pub fn key(&mut self, key: Key, held: Modifiers, typing: bool, view: &View) -> bool {
         self.held = held;
         let scope = match (&self.busy, self.session.mode) {
             _ if typing => Scope::Typing,

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::change::SceneChange;
-use crate::document::Source;
 use crate::selection::Selection;
+use crate::source::Source;
 
 /// The history forgets its oldest entries beyond this many bytes.
 const BUDGET_BYTES: usize = 256 << 20;

@@ -25,6 +25,7 @@ mod refusal;
 pub mod render_settings;
 pub mod selection;
 pub mod session;
+mod source;
 pub mod stamp;
 pub mod stroke_fields;
 pub mod timeline;

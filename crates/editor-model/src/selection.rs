@@ -1,5 +1,7 @@
 //! What is selected: things of the document, by name.
 
+use impasto_scene::document::Scene;
+
 /// A thing of the document.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Item {
@@ -21,6 +23,19 @@ impl Item {
         match self {
             Self::Camera => "shot",
             Self::Light(name) | Self::Object(name) | Self::Region(name) | Self::Guide(name, _) => name,
+        }
+    }
+
+    /// Whether a scene has it.
+    pub fn is_in(&self, scene: &Scene) -> bool {
+        match self {
+            Self::Camera => true,
+            Self::Light(name) => scene.lights.iter().any(|light| light.name == *name),
+            Self::Object(name) => scene.objects.iter().any(|object| object.name == *name),
+            Self::Region(name) => scene.regions.iter().any(|region| region.name == *name),
+            Self::Guide(name, index) => {
+                scene.regions.iter().any(|region| region.name == *name && *index < region.guides.len())
+            }
         }
     }
 }

@@ -11,8 +11,8 @@ use impasto_scene::loaded::LoadedScene;
 use crate::command::Command;
 use crate::playback::Playback;
 
-pub use keys::{DRAG_PX, Dragged, KeysEvent, KeysHand, Place};
-pub use lanes::{KeyAt, Lane, LaneKey, ease_name, keyed_frames, lanes, next_ease};
+pub use keys::{DRAG_PX, Dragged, KeysEvent, KeysHand, LanePosition};
+pub use lanes::{KeyAt, Lane, LaneKey, keyed_frames, lanes, next_ease};
 pub use typed::typed_frame;
 
 /// What is done on the timeline.

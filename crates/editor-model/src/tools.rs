@@ -61,12 +61,12 @@ pub trait Painted {
     fn region_at(&self, hit: &Hit) -> Option<usize>;
 
     /// How strokes show there now.
-    fn shown_at(&self, hit: &Hit) -> Option<Shown>;
+    fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection>;
 }
 
 /// How strokes show at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub struct PaintedDirection {
     /// Counter-clockwise from the picture's +X in the view that is looked at, radians.
     pub angle_rad: f64,
     /// How well a turn describes what the picture of the surface has done, 0..=1.

@@ -7,7 +7,7 @@ use std::time::SystemTime;
 use crate::document::Document;
 
 /// Size and time of a file; none where it is not there.
-type Look = Option<(u64, Option<SystemTime>)>;
+type SizeAndTime = Option<(u64, Option<SystemTime>)>;
 
 /// The files of a document, as they looked last.
 #[derive(Debug, Default)]
@@ -18,9 +18,9 @@ pub struct Watch {
 #[derive(Debug)]
 struct Watched {
     /// As it was taken in.
-    known: Look,
+    known: SizeAndTime,
     /// As it looked a moment ago, where that is other: it may still be being written.
-    seen: Option<Look>,
+    seen: Option<SizeAndTime>,
 }
 
 /// What changed.
@@ -63,7 +63,7 @@ impl Watch {
     }
 }
 
-fn look_of(path: &Path) -> Look {
+fn look_of(path: &Path) -> SizeAndTime {
     let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
     Some((metadata.len(), metadata.modified().ok()))
 }

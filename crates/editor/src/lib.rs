@@ -1,10 +1,9 @@
 //! The editor's window: egui panels and the viewport over `editor-model`.
 
-use std::path::PathBuf;
-
 mod app;
 pub mod files;
 pub mod icons;
+mod options;
 pub mod panels;
 pub mod rendering;
 pub mod theme;
@@ -13,25 +12,11 @@ pub mod widgets;
 pub mod window;
 pub mod worker;
 
-use files::dialogs::Source;
 use files::incoming;
 use files::preferences::{self, DriverChoice, Loaded, Preferences};
 use impasto_gl_render::shader_folder::ShaderFolder;
 
-/// What `impasto edit` was told.
-#[derive(Clone, Debug, Default)]
-pub struct EditOptions {
-    /// The scene or mesh to open; none for an empty window.
-    pub path: Option<PathBuf>,
-    /// What draws the paintings; none for what the preferences say.
-    pub driver: Option<DriverChoice>,
-    /// Whose file dialogs.
-    pub dialogs: Source,
-    /// A folder of shaders that stand in for the program's own.
-    pub shaders: Option<PathBuf>,
-    /// Hears what the window shows, each time that its exact pictures are there.
-    pub tell: Option<fn(&str)>,
-}
+pub use options::EditOptions;
 
 /// Why there is nothing to edit in.
 #[derive(Debug, thiserror::Error)]
@@ -69,5 +54,5 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
         window::force_software();
     }
     let dialogs = window::Options::default();
-    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, (loaded, shaders), opened))?)
+    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, loaded, shaders, opened))?)
 }

@@ -5,6 +5,7 @@ use egui::{Color32, CursorIcon, Id, Rect, Sense, Ui, pos2};
 use glam::DVec2;
 use impasto_editor_model::Session;
 use impasto_editor_model::camera_rig::AxisView;
+use impasto_editor_model::editor::PointerEvent;
 use impasto_scene::motion::CameraPose;
 
 mod chips;
@@ -25,7 +26,6 @@ pub use framing::Framing;
 pub use layout::Layout;
 pub use marks::Marks;
 pub use pictures::Pictures;
-pub use pointer::{PointerEvent, PointerKind};
 pub use seen_hairs::{HairLook, hair_marks};
 
 /// What the viewport shows.
@@ -86,7 +86,7 @@ pub enum Badge {
 
 /// What the user looks through from now on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Look {
+pub enum CameraChoice {
     /// The shot camera.
     Shot,
     /// A camera of one's own, from where one is.
@@ -103,7 +103,7 @@ pub struct ViewportEvents {
     /// What the chips ask for.
     pub asks: Vec<Ask>,
     /// What is to be looked through.
-    pub look: Option<Look>,
+    pub look: Option<CameraChoice>,
     /// Take the frame and view that are seen as the reference.
     pub recapture: bool,
     /// An orbit by the axis ball, points.
@@ -135,10 +135,10 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
             painter.image(texture, framing.viewport(), uv, Color32::WHITE);
         }
     }
-    draw_marks(ui, first, (input.camera, input.marks));
+    draw_marks(ui, first, input.camera, input.marks);
     if let (Some(now), Some(framing)) = (&input.now, layout.framings().get(1)) {
-        draw_marks(ui, framing, (now.camera, now.marks));
-        layout::titles(&painter, layout, (now, input), tokens);
+        draw_marks(ui, framing, now.camera, now.marks);
+        layout::titles(&painter, layout, now, input, tokens);
     } else if input.through_shot && !input.empty {
         overlay::shot_border(&painter, area, first.shot(), tokens.app);
     }
@@ -147,17 +147,17 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     if !input.empty {
         chips::show(ui, area, input, &mut events);
     }
-    let mut held = ui.data_mut(|data| data.get_temp::<pointer::Held>(id)).unwrap_or_default();
+    let mut pointer = ui.data_mut(|data| data.get_temp::<pointer::Pointer>(id)).unwrap_or_default();
     let layer = response.layer_id;
     let ctx = ui.ctx().clone();
     // Chips and sheets float in layers of their own.
     let over = |at| first.viewport().contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
-    events.pointer = held.events(ui, first, over);
-    events.hovered = held.is_inside();
-    if input.marks.hides_pointer && (held.is_inside() || held.is_dragging()) {
+    events.pointer = pointer.events(ui, first, over);
+    events.hovered = pointer.is_inside();
+    if input.marks.hides_pointer && (pointer.is_inside() || pointer.is_dragging()) {
         ui.ctx().set_cursor_icon(CursorIcon::None);
     }
-    ui.data_mut(|data| data.insert_temp(id, held));
+    ui.data_mut(|data| data.insert_temp(id, pointer));
 
     if input.empty {
         let font = type_face::title();
@@ -176,7 +176,7 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     events
 }
 
-fn draw_marks(ui: &Ui, framing: &Framing, (camera, marks): (&CameraPose, &Marks<'_>)) {
+fn draw_marks(ui: &Ui, framing: &Framing, camera: &CameraPose, marks: &Marks<'_>) {
     let painter = ui.painter().with_clip_rect(framing.viewport());
     let view = framing.view(camera);
     marks.draw(&overlay::Sheet { painter: &painter, rect: framing.viewport(), view: &view });

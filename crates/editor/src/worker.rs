@@ -21,9 +21,10 @@ use impasto_scene::motion::CameraPose;
 mod ahead;
 mod desk;
 mod draft;
-mod studio;
+mod paint_worker;
 #[cfg(test)]
 mod tests;
+mod view_frame;
 
 use desk::Desk;
 
@@ -88,7 +89,7 @@ impl ViewJob {
 pub enum Report {
     /// The driver that draws.
     Opened(ContextReport),
-    /// A scene is prepared: hairs and picking may use it, with what picking needs of it. With its serial.
+    /// A scene is prepared: direction marks and picking may use it, with what picking needs of it. With its serial.
     Prepared(Box<(Painting, Picker)>, u64),
     /// A picture.
     Picture(Picture),
@@ -131,8 +132,8 @@ impl Worker {
         let desk = Arc::new(Desk::default());
         let theirs = Arc::clone(&desk);
         let thread = std::thread::Builder::new()
-            .name("studio".to_owned())
-            .spawn(move || studio::run(&theirs, driver, &wake))?;
+            .name("painting".to_owned())
+            .spawn(move || paint_worker::run(&theirs, driver, &wake))?;
         Ok(Self { desk, thread: Some(thread) })
     }
 

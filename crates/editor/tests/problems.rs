@@ -8,10 +8,11 @@ use egui::{CentralPanel, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, SnapshotOptions};
 use headless::Headless;
-use impasto_editor::panels::{Ask, Numbers, Shown, problems, status_line, top_bar};
+use impasto_editor::panels::{Ask, Numbers, PanelInput, problems, status_line, top_bar};
 use impasto_editor::theme::{self, Theme, Tokens};
-use impasto_editor_model::editor::Editor;
-use impasto_editor_model::keymap::Preset;
+use impasto_editor_model::editor::{Editor, Mend, Request};
+use impasto_editor_model::keymap::{self, Preset};
+use impasto_editor_model::picking::View;
 use impasto_editor_model::{Document, Session};
 use impasto_gl_render::context::Driver;
 
@@ -63,7 +64,7 @@ impl Page {
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
         let session = Session::default();
-        let shown = Shown {
+        let shown = PanelInput {
             document: self.editor.document(),
             session: &session,
             time: self.editor.time(),
@@ -80,6 +81,18 @@ impl Page {
         }
         self.is_open &= self.is_open && problems::problems(ui, &shown, &mut asks);
         CentralPanel::default().frame(egui::Frame::new().fill(Tokens::of(ui).app)).show(ui, |_| {});
+        // The window gives keys to the editor first.
+        let typing = ui.ctx().text_edit_focused();
+        if ui.input(|input| input.modifiers.command && input.key_pressed(Key::Enter)) {
+            let view = View { camera: self.editor.camera(), size_px: glam::DVec2::ONE };
+            let ctrl = keymap::Modifiers { ctrl: true, ..Default::default() };
+            self.editor.key(keymap::Key::Enter, ctrl, typing, &view);
+        }
+        if self.editor.take_requests().contains(&Request::ReadSource)
+            && let Some(text) = problems::unread_text(ui.ctx(), self.editor.document())
+        {
+            asks.push(Ask::Mend(Mend::ReadText(text)));
+        }
         for ask in asks {
             match ask {
                 Ask::Mend(mend) => drop(self.editor.mend(&mend)),
@@ -129,6 +142,42 @@ fn the_panel_looks_as_it_did() {
     harness.snapshot_options("problems_dark", &SnapshotOptions::new().threshold(0.6));
 }
 
+/// Types another text in place of the source.
+fn type_instead(harness: &mut Harness<'_, Page>, text: &str) {
+    harness.get_by_label("Source").focus();
+    harness.run_steps(SETTLED);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run_steps(SETTLED);
+    harness.get_by_label("Source").type_text(text);
+    harness.run_steps(SETTLED);
+}
+
+#[test]
+fn edited_text_is_read_by_its_button_and_by_ctrl_enter_and_is_known_until_then() {
+    for by_key in [false, true] {
+        let mut harness = harness();
+        let unread = |harness: &Harness<'_, Page>| {
+            problems::unread_text(&harness.ctx, harness.state().editor.document())
+        };
+        assert!(harness.query_by_label("Read this text").is_none() && unread(&harness).is_none());
+        let source = harness.state().editor.document().source().expect("a source").text.clone();
+        let edited = source.replace("widht_px", "width_px");
+        type_instead(&mut harness, &edited);
+        assert_eq!(unread(&harness), Some(edited));
+        let count = harness.state().editor.document().loss_count();
+        if by_key {
+            harness.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+            harness.run_steps(SETTLED);
+        } else {
+            click(&mut harness, "Read this text");
+        }
+        let document = harness.state().editor.document();
+        assert_eq!((document.loss_count(), document.undo_text()), (count - 1, Some("Read the source again")));
+        assert_eq!(document.scene().regions[0].strokes.width_px, Some(9.0));
+        assert!(harness.query_by_label("Read this text").is_none() && unread(&harness).is_none());
+    }
+}
+
 #[test]
 fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     let mut harness = harness();
@@ -145,14 +194,9 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     let document = harness.state().editor.document();
     assert_eq!((document.loss_count(), document.undo_text()), (1, Some("Fix 2 problems")));
     assert!(harness.query_by_label("Fix all that are certain").is_none());
-    // The last one by hand, in the text: Ctrl Enter reads it.
+    // The last one by hand, in the text.
     let source = harness.state().editor.document().source().expect("a source").text.clone();
-    harness.get_by_label("Source").focus();
-    harness.run_steps(SETTLED);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.run_steps(SETTLED);
-    harness.get_by_label("Source").type_text(&source.replace("\"long\"", "40"));
-    harness.run_steps(SETTLED);
+    type_instead(&mut harness, &source.replace("\"long\"", "40"));
     assert_eq!(harness.state().editor.document().loss_count(), 1, "not before it is asked for");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
     harness.run_steps(SETTLED);

@@ -10,7 +10,7 @@ use egui_kittest::{Harness, SnapshotOptions, SnapshotResults};
 use headless::Headless;
 use impasto_editor::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
 use impasto_editor::panels::work::{Work, WorkKind};
-use impasto_editor::panels::{Ask, Numbers, Shown, status_line};
+use impasto_editor::panels::{Ask, Numbers, PanelInput, status_line};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::keymap::{Action, Preset};
 use impasto_editor_model::render_settings::{
@@ -221,7 +221,7 @@ fn what_takes_its_time_stands_in_the_status_line_and_can_be_stopped() {
         asked: Vec::new(),
     };
     let page = |ui: &mut egui::Ui, line: &mut Line| {
-        let shown = Shown {
+        let shown = PanelInput {
             document: &line.document,
             session: &Session::default(),
             time: &TimeHand::default(),

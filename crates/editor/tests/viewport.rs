@@ -11,10 +11,10 @@ use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
 use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark};
 use impasto_editor::viewport::{
-    Badge, Framing, Layout, Look, Marks, Now, Pictures, PointerEvent, PointerKind, ViewportEvents,
-    ViewportInput, viewport,
+    Badge, CameraChoice, Framing, Layout, Marks, Now, Pictures, ViewportEvents, ViewportInput, viewport,
 };
 use impasto_editor_model::Session;
+use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Action, Button};
 use impasto_editor_model::session::{Overlays, Shading};
 use impasto_editor_model::tools::{Needle, Ring};
@@ -135,9 +135,9 @@ fn a_drag_comes_back_whole_and_in_order() {
     harness.run();
     let told: Vec<(PointerKind, f64)> =
         harness.state().pointer.iter().map(|event| (event.kind, event.at_px.x)).collect();
-    let mut expected = vec![(PointerKind::Moved, 200.0), (PointerKind::Pressed(Button::Left), 200.0)];
-    expected.extend(places[1..].iter().map(|at| (PointerKind::Moved, f64::from(at.x))));
-    expected.extend([(PointerKind::Moved, -30.0), (PointerKind::Released(Button::Left), -30.0)]);
+    let mut expected = vec![(PointerKind::Move, 200.0), (PointerKind::Press(Button::Left), 200.0)];
+    expected.extend(places[1..].iter().map(|at| (PointerKind::Move, f64::from(at.x))));
+    expected.extend([(PointerKind::Move, -30.0), (PointerKind::Release(Button::Left), -30.0)]);
     assert_eq!(told, expected);
 }
 
@@ -157,15 +157,18 @@ fn buttons_the_wheel_and_leaving_are_told() {
         source: egui::MouseWheelSource::Unknown,
         modifiers: Modifiers::SHIFT,
     });
+    harness.event(Event::Zoom(1.21));
     harness.event(Event::PointerGone);
     harness.run();
     let told: Vec<PointerKind> = harness.state().pointer.iter().map(|event| event.kind).collect();
-    let pair = |button| [PointerKind::Pressed(button), PointerKind::Released(button)];
-    let mut expected = vec![PointerKind::Moved];
+    let pair = |button| [PointerKind::Press(button), PointerKind::Release(button)];
+    let mut expected = vec![PointerKind::Move];
     expected.extend(pair(Button::Middle));
     expected.extend(pair(Button::Right));
-    expected.extend([PointerKind::Wheel(2.0), PointerKind::Left]);
-    assert_eq!(told, expected);
+    expected.push(PointerKind::Wheel(2.0));
+    assert_eq!(told[..6], expected);
+    let [PointerKind::Wheel(pinched), PointerKind::Leave] = told[6..] else { panic!("{told:?}") };
+    assert!((pinched - 2.0).abs() < 1e-6, "spreading two fingers is turning the wheel: {pinched}");
     assert!(harness.state().pointer[5].held.shift);
 }
 
@@ -178,7 +181,7 @@ fn losing_the_window_ends_a_drag() {
     harness.event(Event::WindowFocused(false));
     harness.run();
     let last = harness.state().pointer.last().expect("something was told");
-    assert_eq!(last.kind, PointerKind::Released(Button::Left));
+    assert_eq!(last.kind, PointerKind::Release(Button::Left));
 }
 
 #[test]
@@ -186,7 +189,7 @@ fn a_press_on_a_chip_is_none_on_the_picture() {
     let mut harness = harness(Page::new(Badge::Reference(0.0)));
     harness.get_by_role_and_label(Role::Button, "Trust").click();
     harness.run();
-    let pressed = |event: &PointerEvent| matches!(event.kind, PointerKind::Pressed(_));
+    let pressed = |event: &PointerEvent| matches!(event.kind, PointerKind::Press(_));
     assert!(!harness.state().pointer.iter().any(pressed), "{:?}", harness.state().pointer);
     let Some(Ask::Session(session)) = harness.state().last.asks.first() else {
         panic!("the overlays are asked for")
@@ -215,12 +218,12 @@ fn chips_ask_for_what_they_say() {
     harness.run();
     harness.get_by_label("Free view").click();
     harness.run();
-    assert_eq!(harness.state().last.look, Some(Look::Free));
+    assert_eq!(harness.state().last.look, Some(CameraChoice::Free));
     harness.state_mut().badge = Badge::Free(0.0);
     harness.run();
     harness.get_by_role_and_label(Role::Button, "To the shot").click();
     harness.run();
-    assert_eq!(harness.state().last.look, Some(Look::Shot));
+    assert_eq!(harness.state().last.look, Some(CameraChoice::Shot));
 }
 
 #[test]

@@ -5,7 +5,6 @@ use impasto_scene::document::{ObjectKey, Scene};
 use impasto_scene::motion;
 
 use super::{Done, counted, object_mut, region_mut, unlocked_object, unlocked_region};
-use crate::document::exists;
 use crate::euler;
 use crate::names;
 use crate::refusal::Refusal;
@@ -85,7 +84,7 @@ fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
         items => format!("Delete {}", of_items(items)),
     };
     for item in items.iter().rev() {
-        if !exists(scene, item) {
+        if !item.is_in(scene) {
             continue;
         }
         match item {

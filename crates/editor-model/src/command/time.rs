@@ -5,7 +5,6 @@ use impasto_scene::motion::{self, CameraPose};
 
 use super::{Done, finite, object_mut, unlocked_object};
 use crate::refusal::Refusal;
-use crate::timeline::ease_name;
 
 /// Whose keys.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -73,7 +72,7 @@ impl Time {
                 finite(*by)?;
                 let before = scene.clone();
                 for (of, frame) in keys {
-                    copy_key(scene, &before, (of, *frame), frame + by)?;
+                    copy_key(scene, &before, of, *frame, frame + by)?;
                 }
                 Ok(Done::new(format!("Copy {}", counted(keys))))
             }
@@ -123,6 +122,15 @@ impl KeyOf {
             Self::Camera => "shot",
             Self::Object(name) => name,
         }
+    }
+}
+
+/// What people call an ease.
+pub fn ease_name(ease: Ease) -> &'static str {
+    match ease {
+        Ease::Smooth => "smooth",
+        Ease::Linear => "linear",
+        Ease::Step => "hold",
     }
 }
 
@@ -212,7 +220,7 @@ fn move_key(scene: &mut Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Ref
 }
 
 /// Copies a key of the scene as it was before.
-fn copy_key(scene: &mut Scene, before: &Scene, (of, from): (&KeyOf, f64), to: f64) -> Result<(), Refusal> {
+fn copy_key(scene: &mut Scene, before: &Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Refusal> {
     match of {
         KeyOf::Camera => {
             let Some(key) = before.camera.keys.iter().find(|key| key.frame == from) else { return Ok(()) };

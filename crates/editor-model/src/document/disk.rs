@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use impasto_scene::assets::{AssetFolders, AssetRequest};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::Report;
 use impasto_scene::save;
@@ -87,14 +88,13 @@ impl Document {
         self.file.as_ref().is_some_and(is_other)
     }
 
-    /// Writes the scene to a file, which is its own from then on. The history stays.
+    /// Writes the scene to a file, which is its own from then on. The history stays. Returns what [`Document::save_copy`] does.
     ///
     /// # Errors
-    /// When what the scene names would not be found from there, the file system refuses, or it is the document's own file and
-    /// not all of that could be read; the old file is untouched.
-    pub fn save_as(&mut self, target: &Path) -> Result<(), SaveError> {
+    /// As [`Document::save_copy`], and when it is the document's own file and not all of that could be read.
+    pub fn save_as(&mut self, target: &Path) -> Result<Vec<String>, SaveError> {
         self.may_save_over(target)?;
-        self.save_copy(target)?;
+        let missing = self.save_copy(target)?;
         // What was written, should somebody else have written since.
         let text = save::to_ron(self.scene());
         let written = |stamp| Stamp { bytes: text.len() as u64, hash: stamp::hash(text.as_bytes()), ..stamp };
@@ -103,7 +103,7 @@ impl Document {
         self.loaded = Arc::new(LoadedScene { path: target.to_owned(), ..(*self.loaded).clone() });
         self.source = None;
         self.history.mark_saved();
-        Ok(())
+        Ok(missing)
     }
 
     fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
@@ -116,24 +116,41 @@ impl Document {
         }
     }
 
-    /// Writes the scene to another file, and stays with its own.
+    /// Writes the scene to another file, and stays with its own. Returns the files that the scene names and that are neither
+    /// in the folder of `target` nor in the scene's own, where that is another.
     ///
     /// # Errors
-    /// As [`Document::save_as`].
-    pub fn save_copy(&self, target: &Path) -> Result<(), SaveError> {
+    /// When the scene's folder has a file that the scene names and that of `target` has not, or the file system refuses; what
+    /// was at `target` is untouched.
+    pub fn save_copy(&self, target: &Path) -> Result<Vec<String>, SaveError> {
         let folder_of = |path: &Path| {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
             let folder = folder.unwrap_or(Path::new("."));
             folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
         };
-        if folder_of(target) != folder_of(&self.loaded.path)
-            && let Some(mesh) = self.files_named().find(|name| !folder_of(target).join(name).is_file())
-        {
-            let (target, mesh, folder) = (target.to_owned(), mesh.to_owned(), self.folder().to_owned());
-            return Err(SaveError::FilesElsewhere { target, mesh, folder });
+        let mut missing = Vec::new();
+        if folder_of(target) != folder_of(&self.loaded.path) {
+            let is_there = |name: &&str| folder_of(target).join(name.trim().replace('\\', "/")).is_file();
+            for name in self.files_named().filter(|name| !is_there(name)) {
+                if self.file_at_hand(name).is_some() {
+                    let (target, mesh, folder) =
+                        (target.to_owned(), name.to_owned(), self.folder().to_owned());
+                    return Err(SaveError::FilesElsewhere { target, mesh, folder });
+                }
+                missing.push(name.to_owned());
+            }
         }
         let write = save::write(target, self.scene());
-        write.map_err(|source| SaveError::Unwritable { target: target.to_owned(), source })
+        write.map_err(|source| SaveError::Unwritable { target: target.to_owned(), source })?;
+        Ok(missing)
+    }
+
+    /// Where a file that the scene names lies in the scene's folder; none where it is not there.
+    pub fn file_at_hand(&self, name: &str) -> Option<PathBuf> {
+        let root = self.folder();
+        let beside = root.join("scene.ron");
+        let request = AssetRequest { beside: &beside, root, name, max_bytes: u64::MAX };
+        AssetFolders::default().find(&request).ok()
     }
 
     /// The files that the scene names, but for those of the house.

@@ -8,15 +8,15 @@ use impasto_scene::document::{GuidePoint, Scene};
 use impasto_scene::load::salvage::{self, Loss};
 use impasto_scene::problem::Problem;
 
-use super::opening::Source;
 use super::{Document, Step};
 use crate::change::{SceneChange, head};
 use crate::command::{Command, Directions};
 use crate::refusal::Refusal;
+use crate::source::Source;
 
 /// One thing that is wrong with the document, for a list.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ProblemRow {
     /// What, and where in the text.
     pub problem: Problem,
     /// What serves until it is mended, as a sentence; empty for what is only odd.
@@ -53,7 +53,7 @@ pub enum Repair {
 
 impl Document {
     /// Everything that is wrong or odd: what keeps the scene from being saved over its file, then the rest.
-    pub fn problems(&self) -> Vec<Row> {
+    pub fn problems(&self) -> Vec<ProblemRow> {
         let losses = self.open_losses().map(|(index, loss)| {
             let mut repairs = Vec::new();
             let user = |mesh: &String| self.scene().objects.iter().find(|object| object.mesh == *mesh);
@@ -65,14 +65,18 @@ impl Document {
                 verb: fix.verb.clone(),
                 is_certain: fix.is_certain,
             }));
-            Row { problem: loss.problem.clone(), instead: loss.instead.clone(), repairs }
+            ProblemRow { problem: loss.problem.clone(), instead: loss.instead.clone(), repairs }
         });
         let warnings = self.loaded.warnings.iter().map(|problem| {
             let snap = guide_in(&problem.field_path).and_then(|(region, guide)| {
                 let region = self.scene().regions.get(region)?.name.clone();
                 Some(Repair::Snap { region, guide })
             });
-            Row { problem: problem.clone(), instead: String::new(), repairs: snap.into_iter().collect() }
+            ProblemRow {
+                problem: problem.clone(),
+                instead: String::new(),
+                repairs: snap.into_iter().collect(),
+            }
         });
         losses.chain(warnings).collect()
     }

@@ -1,58 +1,17 @@
-//! Opening what has errors: a scene as far as it can be read, with the text that it was read from.
+//! Opening scenes with errors, as far as they can be read, and copies of unsaved work.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use impasto_scene::document::Scene;
 use impasto_scene::load::LoadOptions;
-use impasto_scene::load::salvage::{self, Loss, Salvaged};
-use impasto_scene::loaded::LoadedScene;
-use impasto_scene::mesh_file::MeshFile;
+use impasto_scene::load::salvage;
 use impasto_scene::problem::Report;
 
 use super::Document;
 use crate::history::History;
 use crate::recovery::Copy;
+use crate::source::Source;
 use crate::stamp::Stamp;
-
-/// The text that a scene was read from, not all of which could be read.
-#[derive(Clone, Debug)]
-pub struct Source {
-    /// The text.
-    pub text: String,
-    /// What could not be read, in the order of the text.
-    pub losses: Vec<Loss>,
-    /// The scene as far as it was read.
-    pub(super) scene: Scene,
-    /// What stands in for meshes that cannot be used.
-    stand_ins: BTreeMap<String, Arc<MeshFile>>,
-}
-
-impl Source {
-    /// None where nothing was lost.
-    pub(super) fn of(salvaged: &Salvaged) -> Option<Self> {
-        let Salvaged { loaded, losses, text } = salvaged;
-        let names = losses.iter().filter_map(|loss| loss.mesh.as_ref());
-        let stand_in = |name: &String| Some((name.clone(), Arc::clone(loaded.meshes.get(name)?)));
-        let stand_ins = names.filter_map(stand_in).collect();
-        (!losses.is_empty()).then(|| Self {
-            text: text.clone(),
-            losses: losses.clone(),
-            scene: loaded.scene.clone(),
-            stand_ins,
-        })
-    }
-
-    /// A scene that holds what stands in, too, so that an edit can come back to it.
-    pub(super) fn held(&self, loaded: &LoadedScene) -> LoadedScene {
-        let mut held = loaded.clone();
-        for (name, stand_in) in &self.stand_ins {
-            held.meshes.entry(name.clone()).or_insert_with(|| Arc::clone(stand_in));
-        }
-        held
-    }
-}
 
 impl Document {
     /// Opens a scene as far as it can be read. While anything of it could not be, saving over its file is refused.
@@ -95,7 +54,7 @@ impl Document {
 
     /// Whether a mesh, as an object names it, is not there or cannot be used: nothing or a box stands in for it.
     pub fn lacks_mesh(&self, mesh: &str) -> bool {
-        let is_boxed = |source: &Arc<Source>| source.stand_ins.contains_key(mesh);
+        let is_boxed = |source: &Arc<Source>| source.has_stand_in(mesh);
         self.source.as_ref().is_some_and(is_boxed) || !self.shown().meshes.contains_key(mesh)
     }
 }

@@ -1,3 +1,5 @@
+//! Tests of documents with errors, and of files that other programs change.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -172,6 +174,31 @@ fn a_mesh_that_was_changed_is_read_again_without_an_entry() {
     fs::write(mesh, "f 1 2 3").expect("written");
     assert!(document.read_files_again().is_err());
     assert_eq!(document.loaded().meshes["meshes/leaf.obj"].mesh.triangles.len(), 1, "the last good one");
+}
+
+#[test]
+fn a_scene_whose_mesh_or_folder_is_gone_is_saved_elsewhere_and_what_is_missing_is_told_once() {
+    for whole_folder in [false, true] {
+        let folder = Folder::with(&scene("meshes/leaf.obj", ""));
+        let mut editor = crate::editor::Editor::new(folder.open());
+        let gone = if whole_folder { folder.0.path().to_owned() } else { folder.0.path().join("meshes") };
+        let place = tempfile::tempdir().expect("a folder");
+        fs::rename(gone, place.path().join("renamed")).expect("renamed");
+        let elsewhere = place.path().join("elsewhere");
+        fs::create_dir(&elsewhere).expect("made");
+        let words = " without meshes/leaf.obj, which was not found";
+        editor.save_copy(&elsewhere.join("copy.ron")).expect("written");
+        editor.save(Some(&elsewhere.join("own.ron"))).expect("written");
+        let said: Vec<String> = editor.take_said().into_iter().map(|said| said.words).collect();
+        let copy = format!("Saved a copy as {}{words}", elsewhere.join("copy.ron").display());
+        assert_eq!(said, [copy, format!("Saved own.ron{words}")]);
+        assert_eq!(editor.document().file(), Some(&*elsewhere.join("own.ron")));
+        let again = Document::open_with_problems(&elsewhere.join("copy.ron"), &LoadOptions::default());
+        assert_eq!(again.expect("opens").scene(), editor.document().scene());
+        // Where the scene is now, it is saved as any other.
+        editor.save(None).expect("saved");
+        assert_eq!(editor.take_said()[0].words, "Saved own.ron");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use impasto_scene::motion;
 
 use super::{Busy, Editor, Request, reference_frame};
 use crate::camera_rig::{AxisView, Looking};
-use crate::command::{Arrange, Command, Directions, Edit};
+use crate::command::{Command, Directions, Edit};
 use crate::keymap::Action;
 use crate::picking::View;
 use crate::refusal::Refusal;
@@ -32,6 +32,7 @@ impl Editor {
             Action::Revert => self.requests.push(Request::Revert),
             Action::Quit => self.requests.push(Request::Quit),
             Action::ImportMesh => self.requests.push(Request::Import),
+            Action::ReadSource => self.requests.push(Request::ReadSource),
             Action::Palette => self.requests.push(Request::Palette),
             Action::Shortcuts => self.requests.push(Request::Shortcuts),
             Action::Rename => self.requests.push(Request::Rename),
@@ -121,8 +122,7 @@ impl Editor {
             }
             Action::LookThrough => self.looking = Looking::Shot,
             Action::CameraFromView => {
-                let (frame, pose) = (self.session.frame, self.camera());
-                if self.run(&Command::Arrange(Arrange::SetCamera { frame, pose })) {
+                if self.place_shot(self.camera()) {
                     self.looking = Looking::Shot;
                 }
             }
@@ -154,7 +154,7 @@ impl Editor {
                 // Over the viewport the key takes hold at once, as in Blender; elsewhere it takes the tool up.
                 match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
                     Some(at_px) if matches!(self.busy, Busy::Idle) => {
-                        self.begin_transform((operation, None), (at_px, false), view);
+                        self.begin_transform(operation, None, at_px, false, view);
                     }
                     _ => self.session.set_tool(tool),
                 }

@@ -3,7 +3,7 @@
 use impasto_scene::problem::Report;
 
 use super::Editor;
-use crate::document::{Document, SaveError, Step};
+use crate::document::{Document, Step};
 use crate::refusal::Refusal;
 use crate::watch::News;
 
@@ -88,16 +88,6 @@ impl Editor {
         })
     }
 
-    /// Saves in the place of what somebody else wrote.
-    ///
-    /// # Errors
-    /// See [`crate::Document::save_over`].
-    pub fn save_over(&mut self) -> Result<(), SaveError> {
-        self.document.save_over()?;
-        self.say(format!("Saved {}", self.document.name()));
-        Ok(())
-    }
-
     /// Takes in what changed on the disk, where that drops no edit: view, selection and mode stay. For any thread, since it may
     /// read many files; none where the user has to be asked.
     pub fn taking_in(&self, news: News) -> Option<impl FnOnce() -> Mended + Send + use<>> {
@@ -174,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_that_was_edited_here_and_there_is_asked_about_and_a_save_makes_what_was_read_late() {
+    fn edits_on_both_sides_are_asked_about_and_a_save_drops_what_is_being_read() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut editor = editor(folder.path());
         seed(&mut editor, 7);

@@ -6,7 +6,7 @@ use impasto_scene::motion::CameraPose;
 
 use super::Editor;
 use crate::picking::{Hit, Picker};
-use crate::tools::{Painted, Shown};
+use crate::tools::{Painted, PaintedDirection};
 
 impl Editor {
     /// As [`Editor::prepared`], with what a picker on another thread has built of it.
@@ -17,13 +17,13 @@ impl Editor {
 }
 
 /// A painting as a camera sees it; none before the first is prepared.
-pub(super) struct Seen<'a> {
+pub(super) struct PaintedView<'a> {
     pub(super) painting: Option<&'a Painting>,
     pub(super) camera: &'a CameraPose,
     pub(super) frame: f64,
 }
 
-impl Painted for Seen<'_> {
+impl Painted for PaintedView<'_> {
     fn region_at(&self, hit: &Hit) -> Option<usize> {
         let painting = self.painting?;
         let place = Particle {
@@ -38,7 +38,7 @@ impl Painted for Seen<'_> {
         (region < painting.scene().regions.len()).then_some(region)
     }
 
-    fn shown_at(&self, hit: &Hit) -> Option<Shown> {
+    fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection> {
         let painting = self.painting?;
         if hit.object >= painting.scene().objects.len() {
             return None;
@@ -52,6 +52,6 @@ impl Painted for Seen<'_> {
             radius: f64::from((high - low).length()) * 0.2,
         };
         let shown = painting.angle_at(&place, self.camera, self.frame)?;
-        Some(Shown { angle_rad: f64::from(shown.angle_rad), trust: f64::from(shown.kappa) })
+        Some(PaintedDirection { angle_rad: f64::from(shown.angle_rad), trust: f64::from(shown.kappa) })
     }
 }

@@ -1,3 +1,5 @@
+//! Tests of the editor by plain events: drags, cancelling, typed numbers, stroke previews.
+
 use std::path::Path;
 
 use glam::DVec2;
@@ -55,7 +57,7 @@ fn act(editor: &mut Editor, action: Action) {
 
 fn key(editor: &mut Editor, key: Key) {
     let view = view(editor);
-    assert!(editor.key(key, Modifiers::default(), (false, &view)), "{key:?} means nothing here");
+    assert!(editor.key(key, Modifiers::default(), false, &view), "{key:?} means nothing here");
 }
 
 /// Where the object that is seen largest shows.

@@ -1,3 +1,5 @@
+//! Tests of the keymap: no conflicts, documented keys, scopes.
+
 use std::collections::HashMap;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of picking against a search of all triangles.
+
 use glam::{DQuat, DVec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::hash::scramble;

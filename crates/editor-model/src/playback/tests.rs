@@ -1,3 +1,5 @@
+//! Tests of playback with a simulated clock and slow pictures.
+
 use super::*;
 
 fn course(first: i64, last: i64, fps: f64) -> Course {

@@ -1,3 +1,5 @@
+//! Tests of recovery copies: offered after a crash, never while their session lives.
+
 use std::path::PathBuf;
 use std::sync::OnceLock;
 

@@ -1,3 +1,5 @@
+//! Tests of the render sheet: plans, faults, command lines and progress.
+
 use super::*;
 
 fn document() -> Document {

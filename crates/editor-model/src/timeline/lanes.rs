@@ -73,12 +73,3 @@ pub fn next_ease(ease: Ease) -> Ease {
         Ease::Step => Ease::Smooth,
     }
 }
-
-/// What people call it.
-pub fn ease_name(ease: Ease) -> &'static str {
-    match ease {
-        Ease::Smooth => "smooth",
-        Ease::Linear => "linear",
-        Ease::Step => "hold",
-    }
-}

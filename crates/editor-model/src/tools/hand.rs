@@ -16,16 +16,16 @@ use crate::session::{RegionBy, Tool};
 #[derive(Clone, Debug, Default)]
 pub struct Hand {
     tool: Option<Tool>,
-    held: Held,
+    held: ToolState,
     sizing: Option<Sizing>,
     /// A button is still down whose press ended a size: its release says nothing.
     let_go: bool,
     at_px: Option<DVec2>,
 }
 
-/// The machine of a tool.
+/// The state of the tool that is held.
 #[derive(Clone, Debug, Default)]
-enum Held {
+enum ToolState {
     #[default]
     Nothing,
     Brush(Brush),
@@ -38,11 +38,11 @@ impl Hand {
     /// Whether a gesture is under way: keys go to it first, and Esc ends it.
     pub fn is_busy(&self) -> bool {
         let held = match &self.held {
-            Held::Nothing => false,
-            Held::Brush(brush) => brush.is_busy(),
-            Held::Curve(curve) => curve.is_busy(),
-            Held::Fill(fill) => fill.is_busy(),
-            Held::Turn(turn) => turn.is_busy(),
+            ToolState::Nothing => false,
+            ToolState::Brush(brush) => brush.is_busy(),
+            ToolState::Curve(curve) => curve.is_busy(),
+            ToolState::Fill(fill) => fill.is_busy(),
+            ToolState::Turn(turn) => turn.is_busy(),
         };
         held || self.sizing.is_some()
     }
@@ -51,7 +51,7 @@ impl Hand {
     pub fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         if self.tool != Some(tool) {
             let at_px = self.at_px;
-            *self = Self { tool: Some(tool), held: Held::of(tool), at_px, ..Self::default() };
+            *self = Self { tool: Some(tool), held: ToolState::of(tool), at_px, ..Self::default() };
         }
         if let ToolEvent::Hover { at_px, .. }
         | ToolEvent::Press { at_px, .. }
@@ -84,15 +84,15 @@ impl Hand {
             return output;
         }
         match &mut self.held {
-            Held::Brush(_) if tool == Tool::Region && around.options.region_by != RegionBy::Brush => {
+            ToolState::Brush(_) if tool == Tool::Region && around.options.region_by != RegionBy::Brush => {
                 region::take(event, around)
             }
-            Held::Brush(brush) => brush.take(tool, event, around),
-            Held::Curve(curve) => curve.take(event, around),
-            Held::Fill(fill) => fill.take(event, around),
-            Held::Turn(turn) => turn.take(event, around),
-            Held::Nothing if tool == Tool::Pick => turn::pick(event, around),
-            Held::Nothing => ToolOutput::default(),
+            ToolState::Brush(brush) => brush.take(tool, event, around),
+            ToolState::Curve(curve) => curve.take(event, around),
+            ToolState::Fill(fill) => fill.take(event, around),
+            ToolState::Turn(turn) => turn.take(event, around),
+            ToolState::Nothing if tool == Tool::Pick => turn::pick(event, around),
+            ToolState::Nothing => ToolOutput::default(),
         }
     }
 
@@ -121,7 +121,7 @@ impl Hand {
     }
 }
 
-impl Held {
+impl ToolState {
     fn of(tool: Tool) -> Self {
         match tool {
             Tool::Comb | Tool::Smooth | Tool::Erase | Tool::Region => Self::Brush(Brush::default()),

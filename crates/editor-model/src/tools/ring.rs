@@ -63,10 +63,10 @@ impl Ring {
     /// At a hit, `radius_px` wide where the surface faces the eye.
     pub(super) fn on(hit: &Hit, radius_px: f64, around: &Surroundings) -> Self {
         let radius = radius_px / hit.px_per_model_unit(around.view, around.poses);
-        Self::lying(hit.object, (hit.position_in_model, hit.normal_in_model), radius, around)
+        Self::lying(hit.object, hit.position_in_model, hit.normal_in_model, radius, around)
     }
 
-    fn lying(object: usize, (position, normal): (DVec3, DVec3), radius: f64, around: &Surroundings) -> Self {
+    fn lying(object: usize, position: DVec3, normal: DVec3, radius: f64, around: &Surroundings) -> Self {
         let (right, up) = normal.any_orthonormal_pair();
         let circle = |radius: f64| -> Vec<DVec2> {
             let at = |piece: usize| {
@@ -91,8 +91,8 @@ impl Ring {
             .map(|flip| {
                 let (at, normal) = (hit.position_in_model * flip, hit.normal_in_model * flip);
                 let found = around.picker.closest_on_surface(hit.object, at, normal, radius * 0.5);
-                let place = found.map_or((at, normal), |found| (found.position, found.normal));
-                let ring = Self::lying(hit.object, place, radius, around);
+                let (position, normal) = found.map_or((at, normal), |found| (found.position, found.normal));
+                let ring = Self::lying(hit.object, position, normal, radius, around);
                 Self { mirrored: true, hollow: found.is_none(), ..ring }
             })
             .collect()

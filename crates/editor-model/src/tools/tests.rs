@@ -79,7 +79,7 @@ struct World {
 
 /// Regions by height, one direction everywhere.
 struct Stub {
-    shown: Option<Shown>,
+    shown: Option<PaintedDirection>,
 }
 
 impl Painted for Stub {
@@ -87,7 +87,7 @@ impl Painted for Stub {
         (hit.object == 0).then_some(usize::from(hit.position_in_model.y > 0.5))
     }
 
-    fn shown_at(&self, _: &Hit) -> Option<Shown> {
+    fn shown_at(&self, _: &Hit) -> Option<PaintedDirection> {
         self.shown
     }
 }
@@ -118,7 +118,7 @@ impl World {
             options,
             hand: Hand::default(),
             secs: 0.0,
-            painted: Stub { shown: Some(Shown { angle_rad: 10f64.to_radians(), trust: 0.97 }) },
+            painted: Stub { shown: Some(PaintedDirection { angle_rad: 10f64.to_radians(), trust: 0.97 }) },
             _folder: folder,
         }
     }

@@ -1,11 +1,11 @@
-//! Doing what panels and the editor ask for.
+//! Carries out what the panels ask for, and the editor's requests to the window.
 
 use egui::Context;
 use impasto_editor_model::editor::{Mend, Request};
 use impasto_editor_model::picking::View;
 
 use super::EditorApp;
-use crate::files::dialogs::Ask as FileAsk;
+use crate::files::file_ask::FileAsk;
 use crate::panels::work::WorkKind;
 use crate::panels::{self, Ask};
 
@@ -48,7 +48,7 @@ impl EditorApp {
             Ask::Recapture(frame) => self.sheets.recapture = Some(frame),
             Ask::StopWork(WorkKind::Reading) => self.stop_reading(),
             Ask::StopWork(WorkKind::Preparing) => {
-                self.studio.stop_preparing();
+                self.picture_flow.stop_preparing();
                 self.toast("Preparing was stopped: the picture is the one before", None, false);
             }
             Ask::StopWork(WorkKind::Rendering) => {}
@@ -74,6 +74,11 @@ impl EditorApp {
                 Request::Quit => self.quit_asking(),
                 Request::Revert => self.mend(Mend::ReadAgain),
                 Request::Import => self.files.dialogs.open(ctx, FileAsk::ImportMesh, &start),
+                Request::ReadSource => {
+                    if let Some(text) = panels::problems::unread_text(ctx, self.editor.document()) {
+                        self.mend(Mend::ReadText(text));
+                    }
+                }
                 Request::Palette => self.sheets.palette = true,
                 Request::Shortcuts => self.sheets.shortcuts = true,
                 Request::Rename => drop(panels::rename(ctx, self.editor.document())),

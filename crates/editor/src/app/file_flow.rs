@@ -1,4 +1,4 @@
-//! Files: new, open, save, import, what is dropped, and the questions on the way.
+//! New, open, save, import and dropped files, with the questions that come first.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -7,20 +7,23 @@ use egui::{Context, Ui};
 use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
 use impasto_editor_model::document::{Document, SaveError};
+use impasto_editor_model::editor::Mend;
 use impasto_editor_model::keymap::Preset;
 use impasto_scene::document::BrushMix;
 
 use super::EditorApp;
 use super::long_work::MeshFor;
 use crate::files::beside::Copies;
-use crate::files::dialogs::{Answer, Ask, FileDialogs};
-use crate::files::incoming::{self, Present, adopt_picture};
+use crate::files::dialogs::{Answer, FileDialogs};
+use crate::files::file_ask::FileAsk;
+use crate::files::incoming::{self, Present, Step, adopt_picture};
 use crate::files::preferences::{self, Keys, Preferences};
 use crate::panels::ask_close::{self, Question};
+use crate::panels::problems;
 use crate::panels::welcome::{self, Choices, Left};
 use crate::theme;
 
-/// What goes on once unsaved work is settled.
+/// What happens once unsaved work is saved or dropped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Next {
     Close,
@@ -28,18 +31,18 @@ enum Next {
     Open(PathBuf),
 }
 
-/// Dialogs and what waits for them.
+/// The state of file dialogs and of questions about files.
 pub(super) struct FileFlow {
     pub(super) dialogs: FileDialogs,
-    /// Waits until unsaved work is settled.
+    /// What happens once the question about unsaved work is answered.
     waiting: Option<Next>,
-    /// Whether the question about it shows; else a file is being asked for.
-    asks: bool,
-    /// The object that a mesh is being chosen for.
+    /// The question about unsaved work that is open.
+    asks: Option<Unsaved>,
+    /// The object for which a mesh is being chosen.
     pub(super) mesh_of: Option<String>,
-    /// Since when there are edits.
+    /// When the first unsaved edit was noticed.
     edited_since: Option<Instant>,
-    /// A scene that waits to be saved into another folder, with the files that would go with it.
+    /// A save into another folder that waits for an answer: are its files to be copied there?
     along: Option<Along>,
     closes: bool,
 }
@@ -50,12 +53,21 @@ struct Along {
     copies: Copies,
 }
 
-/// What a file is written as.
+/// Work that closing the document would lose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unsaved {
+    /// Text in the panel of problems that was edited and not read.
+    Text,
+    /// Edits of the scene.
+    Edits,
+}
+
+/// Which kind of save it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SaveTo {
-    /// The document's own from then on.
+    /// The file becomes the document's own.
     Own,
-    /// A copy.
+    /// A copy; the document keeps its own file.
     Copy,
 }
 
@@ -64,7 +76,7 @@ impl FileFlow {
         Self {
             dialogs,
             waiting: None,
-            asks: false,
+            asks: None,
             mesh_of: None,
             edited_since: None,
             along: None,
@@ -73,27 +85,27 @@ impl FileFlow {
     }
 
     pub(super) fn is_asking(&self) -> bool {
-        self.asks || self.along.is_some() || self.dialogs.is_open()
+        self.asks.is_some() || self.along.is_some() || self.dialogs.is_open()
     }
 }
 
-/// Writes the preferences down; words where that fails.
+/// Saves the preferences. The error is a sentence for the user.
 pub(super) fn keep(preferences: &Preferences) -> Result<(), String> {
     let Some(folder) = preferences::config_folder() else { return Ok(()) };
     preferences::save(&folder, preferences).map_err(|error| error.to_string())
 }
 
 impl EditorApp {
-    /// Whether the window may close now; else a question shows.
+    /// Whether the window may close now. If not, a question about unsaved work is open.
     pub(super) fn may_close(&mut self) -> bool {
         if self.render.holds_window() {
             return false;
         }
-        if !self.editor.document().is_edited() {
+        let Some(unsaved) = self.unsaved() else {
             self.note_last_seen();
             return true;
-        }
-        self.wait_for(Next::Close);
+        };
+        self.wait_for(Next::Close, unsaved);
         false
     }
 
@@ -112,16 +124,23 @@ impl EditorApp {
     }
 
     fn settle_then(&mut self, next: Next) {
-        if self.editor.document().is_edited() {
-            self.wait_for(next);
-        } else {
-            self.go_on(next);
+        match self.unsaved() {
+            Some(unsaved) => self.wait_for(next, unsaved),
+            None => self.go_on(next),
         }
     }
 
-    fn wait_for(&mut self, next: Next) {
+    /// The unsaved work to ask about first; none if there is none.
+    fn unsaved(&self) -> Option<Unsaved> {
+        let document = self.editor.document();
+        let has_text = problems::unread_text(&self.ctx, document).is_some();
+        let edits = || document.is_edited().then_some(Unsaved::Edits);
+        has_text.then_some(Unsaved::Text).or_else(edits)
+    }
+
+    fn wait_for(&mut self, next: Next, unsaved: Unsaved) {
         self.files.waiting = Some(next);
-        self.files.asks = true;
+        self.files.asks = Some(unsaved);
     }
 
     fn go_on(&mut self, next: Next) {
@@ -137,20 +156,20 @@ impl EditorApp {
                 self.editor.open(Document::empty(&folder));
                 self.sheets.problems = false;
                 self.keymap();
-                self.studio.forget();
+                self.picture_flow.forget();
                 self.render.forget();
             }
             Next::Open(path) => self.open(&path),
         }
     }
 
-    /// Saves to a file, or to the document's own. Whether that went well.
+    /// Saves to `target`, or to the document's own file. Returns whether it was written.
     pub(super) fn save(&mut self, target: Option<&Path>) -> bool {
         let saved = self.editor.save(target);
         self.saved(saved)
     }
 
-    /// What follows a save.
+    /// Deals with the result of a save. Returns whether it was written.
     pub(super) fn saved(&mut self, saved: Result<(), SaveError>) -> bool {
         match saved {
             Ok(()) => {
@@ -165,7 +184,7 @@ impl EditorApp {
                 false
             }
             Err(error) => {
-                // What was to go on waits for a save that goes well.
+                // Closing or opening goes on only after a save that succeeds.
                 self.files.waiting = None;
                 self.ask_about_saving(error);
                 false
@@ -173,7 +192,7 @@ impl EditorApp {
         }
     }
 
-    /// Sheets and questions about files. Whether the window closes.
+    /// Shows sheets and questions about files. Returns whether the window is to close.
     pub(super) fn file_sheets(&mut self, ctx: &Context, ui: &mut Ui) -> bool {
         self.welcome_sheet(ctx);
         self.dropped(ui);
@@ -183,8 +202,11 @@ impl EditorApp {
         } else if self.files.edited_since.is_none() {
             self.files.edited_since = Some(Instant::now());
         }
-        if self.files.asks {
-            self.ask_about_changes(ctx);
+        if let Some(unsaved) = self.files.asks {
+            match unsaved {
+                Unsaved::Text => self.ask_about_text(ctx),
+                Unsaved::Edits => self.ask_about_changes(ctx),
+            }
         } else if self.files.along.is_some() {
             self.ask_to_take_along(ctx);
         } else if self.safe.is_asking() {
@@ -203,11 +225,29 @@ impl EditorApp {
         self.files.closes
     }
 
+    fn ask_about_text(&mut self, ctx: &Context) {
+        let question = Question::UnreadText { name: self.editor.document().name() };
+        let Some(answer) = ask_close::ask(ctx, &question) else { return };
+        self.files.asks = None;
+        match (answer, self.files.waiting.take()) {
+            (ask_close::Answer::Discard, Some(next)) if self.editor.document().is_edited() => {
+                self.wait_for(next, Unsaved::Edits);
+            }
+            (ask_close::Answer::Discard, Some(next)) => self.go_on(next),
+            (ask_close::Answer::ReadText, _) => {
+                if let Some(text) = problems::unread_text(ctx, self.editor.document()) {
+                    self.mend(Mend::ReadText(text));
+                }
+            }
+            _ => {}
+        }
+    }
+
     fn ask_about_changes(&mut self, ctx: &Context) {
         let minutes = self.files.edited_since.map_or(0, |since| since.elapsed().as_secs() / 60);
         let question = Question::SaveChanges { name: self.editor.document().name(), minutes };
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
-        self.files.asks = false;
+        self.files.asks = None;
         match answer {
             ask_close::Answer::Save if self.editor.document().file().is_some() => {
                 if self.save(None)
@@ -216,10 +256,10 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
-            // Goes on once the file is written.
+            // What waits goes on once the file is written.
             ask_close::Answer::Save => {
                 let start = self.editor.document().suggested_file();
-                self.files.dialogs.open(ctx, Ask::SaveAs, &start);
+                self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
             }
             ask_close::Answer::Discard => {
                 if let Some(next) = self.files.waiting.take() {
@@ -236,32 +276,32 @@ impl EditorApp {
             return;
         };
         match answer.ask {
-            Ask::Open => self.open_asking(&path),
-            Ask::ImportMesh => self.import(&path),
-            Ask::SaveAs => {
+            FileAsk::Open => self.open_asking(&path),
+            FileAsk::ImportMesh => self.take_step(Step::Import(path)),
+            FileAsk::SaveAs => {
                 if self.save(Some(&path))
                     && let Some(next) = self.files.waiting.take()
                 {
                     self.go_on(next);
                 }
             }
-            // With losses the copy is gone on with: the file that was read stays what it is.
-            Ask::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
-            Ask::SaveCopy => self.save_copy(&path),
-            Ask::LocateMesh => self.replace_mesh(&path),
-            Ask::RenderOutput => self.render_to(&path),
+            // After a scene with errors, the document goes on as the copy, so that the broken file stays as it is.
+            FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
+            FileAsk::SaveCopy => self.save_copy(&path),
+            FileAsk::LocateMesh => self.replace_mesh(&path),
+            FileAsk::RenderOutput => self.render_to(&path),
         }
     }
 
     fn save_copy(&mut self, path: &Path) {
-        match self.editor.document().save_copy(path) {
-            Ok(()) => self.toast(format!("Saved a copy as {}", path.display()), None, false),
+        match self.editor.save_copy(path) {
+            Ok(()) => {}
             Err(SaveError::FilesElsewhere { target, .. }) => self.take_along(target, SaveTo::Copy),
             Err(error) => self.toast(error.to_string(), None, true),
         }
     }
 
-    /// Asks whether the scene's files are to be copied to where it is to be saved.
+    /// Asks whether the scene's files are to be copied into the folder of `target`.
     fn take_along(&mut self, target: PathBuf, to: SaveTo) {
         let document = self.editor.document();
         let folder = target.parent().unwrap_or(Path::new("."));
@@ -305,14 +345,14 @@ impl EditorApp {
         if Present::of(document) == Present::Nothing {
             return self.open(path);
         }
-        // What has no folder of its own yet has the mesh's.
+        // A document without a folder of its own takes the mesh's.
         if let Some(folder) = std::path::absolute(path).ok().as_deref().and_then(Path::parent) {
             self.editor.live_in(folder);
         }
         self.read_mesh(path, MeshFor::Import);
     }
 
-    /// The mesh that was chosen for the object that asked for one.
+    /// Gives the mesh that was chosen to the object that asked for one.
     fn replace_mesh(&mut self, path: &Path) {
         let Some(object) = self.files.mesh_of.take() else { return };
         self.read_mesh(path, MeshFor::Replace(object));
@@ -334,7 +374,7 @@ impl EditorApp {
         }
     }
 
-    /// A picture becomes the brush of the selected region, or of the scene.
+    /// Makes a picture the brush of the selected region, or of the scene.
     pub(super) fn brush(&mut self, path: &Path) {
         let folder = self.editor.document().folder().to_owned();
         match adopt_picture(path, &folder) {
@@ -377,7 +417,7 @@ impl EditorApp {
         match left {
             None => return,
             Some(Left::OpenMesh | Left::OpenScene) => {
-                self.files.dialogs.open(ctx, Ask::Open, &start);
+                self.files.dialogs.open(ctx, FileAsk::Open, &start);
             }
             Some(Left::StillLife) => match still_life() {
                 Some(path) => self.open(&path),
@@ -393,7 +433,7 @@ impl EditorApp {
     }
 }
 
-/// The still life that comes with Impasto: in the folder that one works in, beside the program, or in the source.
+/// Finds the still life that comes with Impasto: in the working folder, beside the program, or in the source.
 fn still_life() -> Option<PathBuf> {
     let file = Path::new("scenes/still_life.ron");
     let mut folders: Vec<PathBuf> = std::env::current_dir().into_iter().collect();

@@ -1,4 +1,4 @@
-//! Strokes under the ring as a comb would lay them, while the hand moves before a press.
+//! Previews how a comb would turn the strokes under its ring, while the pointer moves before a press.
 
 use egui::Context;
 use glam::DVec2;
@@ -7,18 +7,18 @@ use impasto_editor_model::stroke_fields::field_values;
 use impasto_editor_model::tools::Foreseen;
 use impasto_painting::{FrameOptions, SurfacePlace};
 
-use super::picture::Studio;
+use super::picture::PictureFlow;
 use crate::viewport::overlay::{Comb, ForeseenStroke};
 
-/// Of no more than this many strokes those are shown that are so far apart, points: more would hide what they show.
+/// At most this many strokes are looked at, and those shown are at least `APART_PX` apart, so that the picture stays visible.
 const MOST: usize = 600;
 const APART_PX: f64 = 11.0;
-/// As long as the strokes, but no longer than this.
+/// A preview is as long as its stroke, up to this length.
 const LONGEST_PX: f32 = 28.0;
-/// They come and go in this time, seconds.
+/// Time to fade in and out, seconds.
 const FADE_S: f32 = 0.15;
 
-/// The strokes that were foreseen last, and how much of them still shows.
+/// The strokes of the last preview, and how far they have faded in.
 #[derive(Default)]
 pub(super) struct ForeseenStrokes {
     of: Option<(Foreseen, u64)>,
@@ -28,13 +28,13 @@ pub(super) struct ForeseenStrokes {
 }
 
 impl ForeseenStrokes {
-    /// Follows the hand.
-    pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, studio: &Studio) {
+    /// Updates the preview for where the pointer is now.
+    pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, picture_flow: &PictureFlow) {
         let held = editor.held();
         let wanted = editor.tool_output().foreseen.filter(|_| !held.shift && !held.alt);
         let id = egui::Id::unique("foreseen strokes");
         if editor.is_moving() {
-            // The stroke itself is seen from now on.
+            // During the gesture the strokes themselves are seen.
             *self = Self::default();
             ctx.animate_bool_with_time(id, false, 0.0);
             return;
@@ -50,25 +50,25 @@ impl ForeseenStrokes {
             strength: options.strength as f32,
             even: options.even,
         });
-        let of = Some((foreseen, studio.prepared()));
+        let of = Some((foreseen, picture_flow.prepared()));
         if self.of != of {
-            self.strokes = strokes(&foreseen, editor, studio).unwrap_or_default();
+            self.strokes = strokes(&foreseen, editor, picture_flow).unwrap_or_default();
             self.of = of;
         }
     }
 
-    /// What the viewport draws.
+    /// The strokes, the comb, and the opacity to draw them with; none if nothing is to be drawn.
     pub(super) fn shown(&self) -> Option<(&[ForeseenStroke], Comb, f32)> {
         self.comb.filter(|_| self.share > 0.0).map(|comb| (&self.strokes[..], comb, self.share))
     }
 }
 
-/// The strokes in the ring that a comb would turn: those of the region under it.
-fn strokes(foreseen: &Foreseen, editor: &Editor, studio: &Studio) -> Option<Vec<ForeseenStroke>> {
+/// The strokes in the ring that belong to the region under the pointer: a comb turns no others.
+fn strokes(foreseen: &Foreseen, editor: &Editor, picture_flow: &PictureFlow) -> Option<Vec<ForeseenStroke>> {
     let painting = editor.painting()?;
     let scene = painting.scene();
     scene.objects.get(foreseen.object)?;
-    let framing = studio.layout().framings().first()?;
+    let framing = picture_flow.layout().framings().first()?;
     let camera = framing.widened(&editor.camera());
     let size_px = framing.viewport().size();
     let shot_height_px = framing.shot().height();

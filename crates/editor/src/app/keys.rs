@@ -1,4 +1,4 @@
-//! From egui's keys to the editor's.
+//! Translates egui's keys and `Alt` with the wheel for the editor.
 
 use egui::{Event, Key as EguiKey, MouseWheelUnit, Ui};
 use impasto_editor_model::editor::Editor;
@@ -6,13 +6,13 @@ use impasto_editor_model::keymap::{Key, Modifiers};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::timeline::TimelineEvent;
 
-/// Hands the keys of this pass to the editor, those of the number pad first; what it takes does not reach the panels.
+/// Passes the keys of this pass to the editor, those of the number pad first. Keys that it uses do not reach the panels.
 pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec<(Key, Modifiers)>) {
     let typing = ui.ctx().text_edit_focused();
-    // A control that was reached by Tab has Space, Enter and the arrows to itself.
+    // A control with the keyboard focus uses Space, Enter and the arrows itself.
     let walking = !typing && ui.memory(|memory| memory.focused().is_some());
     for (key, held) in numpad {
-        editor.key(key, held, (typing, view));
+        editor.key(key, held, typing, view);
     }
     let events = ui.input(|input| input.events.clone());
     let mut taken = Vec::new();
@@ -27,7 +27,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
         if walking && own {
             continue;
         }
-        if key != Key::Tab && editor.key(key, held, (typing, view)) {
+        if key != Key::Tab && editor.key(key, held, typing, view) {
             taken.push(index);
         }
     }
@@ -37,7 +37,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
     ui.input_mut(|input| {
         let mut index = 0;
         input.events.retain(|event| {
-            // The letter of a key that was taken is no text.
+            // The letter of a key that the editor used is not typed.
             let is_taken = taken.contains(&index) || !typing && matches!(event, Event::Text(_));
             index += 1;
             !is_taken
@@ -45,7 +45,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
     });
 }
 
-/// With Alt, the wheel goes from frame to frame, wherever the pointer is.
+/// With `Alt`, the wheel steps through frames, wherever the pointer is.
 pub(super) fn wheel(ui: &mut Ui, editor: &mut Editor) {
     if !ui.input(|input| input.modifiers.alt) {
         return;

@@ -1,4 +1,4 @@
-//! Where the user was in a scene: it opens again in its last mode and view.
+//! Remembers mode and view of each scene, so that it opens again as it was left.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::EditorApp;
 use crate::files::preferences::LastView;
 
 impl EditorApp {
-    /// Keeps mode and view of the scene that is open.
+    /// Remembers mode and view of the open scene.
     pub(super) fn note_last_seen(&mut self) {
         let Some(file) = self.editor.document().file().map(Path::to_owned) else { return };
         let view = match &self.editor.looking {
@@ -22,10 +22,10 @@ impl EditorApp {
         self.keep_preferences();
     }
 
-    /// Goes where the user was in a scene that was just opened.
+    /// Restores mode and view of a scene that was just opened.
     pub(super) fn go_to_last_seen(&mut self, file: &Path) {
         let Some(seen) = self.preferences.last_seen_in(file).cloned() else { return };
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         self.editor.set_mode(seen.mode, &view);
         if let Some(view) = seen.view {
             let free = free_view(&view, &self.editor.shot());
@@ -43,7 +43,7 @@ fn view_of(pose: &CameraPose) -> LastView {
     }
 }
 
-/// With the lens of the shot; parallel rays show as much at the target as that would.
+/// A free view with the shot's lens. If that is perspective and the view was orthographic, things at the target keep their size.
 fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
     let mut free = FreeView::new(CameraPose {
         eye: DVec3::from(view.eye),

@@ -1,4 +1,4 @@
-//! Lights as they are shown over the picture.
+//! The icons of lights over the picture.
 
 use impasto_editor_model::Item;
 use impasto_editor_model::editor::Editor;
@@ -12,13 +12,13 @@ use crate::viewport::Framing;
 const ICON: f32 = 14.0;
 const SELECTED: f32 = 17.0;
 
-/// An icon in a dark colour still has this much white, to be seen.
+/// Icons of dark lights are mixed with this much white, so that they can be seen.
 const LEAST_WHITE: f32 = 0.25;
 
-/// How much of the ring shows at which a lamp is as bright as a sun of intensity 1.
+/// Opacity of the ring at the distance where a lamp is as bright as a sun of intensity 1.
 const RANGE_ALPHA: f32 = 0.8;
 
-/// The lights of what is shown: an icon in the light's colour; of a selected lamp, how far it reaches.
+/// An icon in its colour for each light, and for a selected lamp the ring that shows how far it reaches.
 pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboard> {
     let lights = &editor.document().shown().scene.lights;
     let px_per_point = framing.size_px()[1] as f32 / framing.viewport().height();
@@ -56,7 +56,7 @@ fn ink(Color(color): Color) -> [f32; 4] {
     [r, g, b, 1.0]
 }
 
-/// How far from it a lamp lights a facing surface as a sun of intensity 1 does, world units.
+/// The distance at which a lamp lights a facing surface as brightly as a sun of intensity 1, world units.
 fn range(light: &Light) -> Option<f32> {
     (light.kind == LightKind::Point && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)
 }

@@ -1,9 +1,9 @@
-//! What takes longer than a hand waits: files are read on a thread of their own, and the status line says so.
+//! Files are read on a thread of their own, which the window never waits for; the status line shows what takes its time.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use egui::Context;
@@ -20,26 +20,23 @@ use crate::files::incoming::{Adopted, Step, adopt_mesh, name_of};
 use crate::panels::work::{Work, WorkKind};
 use crate::window::Waker;
 
-/// What is done within this time is done in the same pass.
-const AT_ONCE: Duration = Duration::from_millis(80);
-
-/// What takes longer than this is shown.
+/// Work that takes longer than this is shown in the status line.
 const SHOWN_AFTER: Duration = Duration::from_millis(200);
 
 /// What a mesh is read for.
 #[derive(Clone, Debug)]
 pub(super) enum MeshFor {
-    /// A new object.
+    /// To add a new object.
     Import,
-    /// An object that has another.
+    /// To replace the mesh of this object.
     Replace(String),
 }
 
-/// What was read.
+/// The result of reading.
 enum Came {
     Opened(PathBuf, Result<Box<Document>, Report>),
     Mesh(MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
-    /// The document's own files, anew; where others changed them, what.
+    /// The document's own files, read again; with what another program changed, if that was the reason.
     Mended(Option<News>, Box<Mended>),
 }
 
@@ -47,12 +44,12 @@ struct Reading {
     words: String,
     since: Instant,
     came: Receiver<Came>,
-    /// The document when it began: its folder, and its version.
+    /// Folder and revision of the document when reading began.
     folder: PathBuf,
     revision: u64,
 }
 
-/// Files that are being read, and those that wait.
+/// The file that is being read, and the files that wait for it.
 pub(super) struct LongWork {
     waker: Waker,
     reading: Option<Reading>,
@@ -64,42 +61,35 @@ impl LongWork {
         Self { waker, reading: None, queue: VecDeque::new() }
     }
 
-    /// Lets go of what is being read: what comes of it is thrown away.
+    /// Drops what is being read and what waits: their results are ignored.
     pub(super) fn forget(&mut self) {
         self.reading = None;
         self.queue.clear();
     }
 
-    /// What the status line shows.
+    /// The entry in the status line; none while it has taken little time.
     pub(super) fn work(&self) -> Option<Work> {
         let reading = self.reading.as_ref().filter(|reading| reading.since.elapsed() >= SHOWN_AFTER)?;
         Some(Work { words: reading.words.clone(), share: None, kind: WorkKind::Reading })
     }
 
-    /// Begins to read. What is read at once is given back; else it comes by [`LongWork::poll`].
-    fn read(
-        &mut self,
-        words: String,
-        document: &Document,
-        work: impl FnOnce() -> Came + Send + 'static,
-    ) -> Option<(Came, Reading)> {
+    /// Starts reading and drops what was being read. [`EditorApp::follow_reading`] takes the result in a later pass.
+    fn read(&mut self, words: String, document: &Document, work: impl FnOnce() -> Came + Send + 'static) {
         let (sender, came) = channel();
         let waker = self.waker.clone();
         let run = move || {
-            // Nobody listens once it was stopped.
+            // Fails once reading was stopped and nobody listens.
             let _stopped = sender.send(work());
             waker.wake();
         };
         let spawned = std::thread::Builder::new().name("reading".to_owned()).spawn(run);
         let folder = document.folder().to_owned();
-        let reading = Reading { words, since: Instant::now(), came, folder, revision: document.revision() };
-        match spawned.map(|_| reading.came.recv_timeout(AT_ONCE)) {
-            Ok(Ok(came)) => return Some((came, reading)),
-            Ok(Err(RecvTimeoutError::Timeout)) => self.reading = Some(reading),
-            // The next look finds that nothing comes.
-            Ok(Err(RecvTimeoutError::Disconnected)) | Err(_) => self.reading = Some(reading),
+        // Without a thread the channel is closed: the next pass reports that reading failed.
+        if spawned.is_err() {
+            self.waker.wake();
         }
-        None
+        self.reading =
+            Some(Reading { words, since: Instant::now(), came, folder, revision: document.revision() });
     }
 }
 
@@ -109,20 +99,17 @@ impl EditorApp {
         self.long.forget();
         let path = path.to_owned();
         let words = format!("Opening {}\u{2026}", name_of(&path));
-        let came = self.long.read(words, self.editor.document(), move || {
+        self.long.read(words, self.editor.document(), move || {
             let document = Document::open_with_problems(&path, &LoadOptions::default());
             Came::Opened(path, document.map(Box::new))
         });
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
     }
 
-    /// Brings a mesh into the document.
+    /// Reads a mesh for the document.
     pub(super) fn read_mesh(&mut self, path: &Path, what_for: MeshFor) {
         let (path, folder) = (path.to_owned(), self.editor.document().folder().to_owned());
         let words = format!("Importing {}\u{2026}", name_of(&path));
-        let came = self.long.read(words, self.editor.document(), move || {
+        self.long.read(words, self.editor.document(), move || {
             let read = || {
                 let adopted = adopt_mesh(&path, &folder).map_err(|error| error.to_string())?;
                 let file = folder.join(&adopted.name);
@@ -132,12 +119,9 @@ impl EditorApp {
             };
             Came::Mesh(what_for, read())
         });
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
     }
 
-    /// Does something about what is wrong with the document.
+    /// Repairs the document or reads it again.
     pub(super) fn mend(&mut self, mend: Mend) {
         if let Some(reading) = &self.long.reading {
             let words = format!("{} Stop it first, or wait", reading.words);
@@ -145,23 +129,15 @@ impl EditorApp {
         }
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
         let mending = self.editor.mending(mend);
-        let came =
-            self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
+        self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
     }
 
-    /// Takes in what others changed. Whether it could be begun: else the user has to be asked.
+    /// Starts to read what another program changed. False if that would lose edits, so that the user has to be asked.
     pub(super) fn take_in(&mut self, news: News) -> bool {
         let Some(taking_in) = self.editor.taking_in(news) else { return false };
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
-        let came = self
-            .long
+        self.long
             .read(words, self.editor.document(), move || Came::Mended(Some(news), Box::new(taking_in())));
-        if let Some((came, reading)) = came {
-            self.take_read(came, &reading);
-        }
         true
     }
 
@@ -170,7 +146,7 @@ impl EditorApp {
         self.long.reading.is_some()
     }
 
-    /// Does this, after what is being read.
+    /// Does this, after the file that is being read.
     pub(super) fn take_step(&mut self, step: Step) {
         if self.long.reading.is_some() {
             return self.long.queue.push_back(step);
@@ -183,7 +159,7 @@ impl EditorApp {
         }
     }
 
-    /// Takes what has been read.
+    /// Takes the result of reading, once it is there, and goes on with what waits.
     pub(super) fn follow_reading(&mut self, ctx: &Context) {
         let Some(reading) = self.long.reading.take() else { return };
         match reading.came.try_recv() {
@@ -205,11 +181,11 @@ impl EditorApp {
         }
     }
 
-    /// What runs beside the window, as the status line shows it; the rightmost first.
+    /// The work in the background, for the status line, from right to left.
     pub(super) fn works(&self, ctx: &Context) -> Vec<Work> {
         let mut works: Vec<Work> = self.render.work().into_iter().collect();
         works.extend(self.long.work());
-        if let Some(waited) = self.studio.preparing_for() {
+        if let Some(waited) = self.picture_flow.preparing_for() {
             match SHOWN_AFTER.checked_sub(waited).filter(|rest| !rest.is_zero()) {
                 Some(rest) => ctx.request_repaint_after(rest),
                 None => {
@@ -221,7 +197,7 @@ impl EditorApp {
         works
     }
 
-    /// The only object by its name, or the scene.
+    /// Name of the only object, or of the scene.
     fn what_is_painted(&self) -> String {
         let document = self.editor.document();
         match &document.scene().objects[..] {
@@ -230,7 +206,7 @@ impl EditorApp {
         }
     }
 
-    /// Ends what is being read; the document is as it was.
+    /// Stops reading; the document stays as it is.
     pub(super) fn stop_reading(&mut self) {
         if let Some(reading) = &self.long.reading {
             let words =
@@ -244,7 +220,7 @@ impl EditorApp {
         let document = self.editor.document();
         match came {
             Came::Opened(path, opened) => {
-                // Nobody was asked about work that was done since.
+                // Edits that were made while it was read are not thrown away.
                 if document.revision() != reading.revision && document.is_edited() {
                     let name = document.name();
                     let words = format!("{} was not opened: {name} was edited meanwhile", name_of(&path));

@@ -1,6 +1,4 @@
-//! What is drawn over the picture, made from what the editor knows; what is costly is kept while its inputs stay.
-
-use std::sync::Arc;
+//! The marks over the picture: rings, guides, direction lines, outlines. Costly ones are cached until their inputs change.
 
 use egui::{Color32, Ui};
 use glam::{DAffine3, DVec2, DVec3};
@@ -13,12 +11,13 @@ use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_painting::Painting;
 use impasto_scene::document::{Guide, LightKind, Scene};
-use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::motion::CameraPose;
 use impasto_scene::new_scene::REGION_COLORS;
 
 use super::foreseen::ForeseenStrokes;
 use super::motion_marks;
-use super::picture::Studio;
+use super::picture::PictureFlow;
+use super::picture_view::PictureView;
 use crate::viewport::overlay::{
     CurvePart, GuideCurve, HairMark, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
     StandIn,
@@ -26,11 +25,11 @@ use crate::viewport::overlay::{
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
 use crate::viewport::{Framing, HairLook, Marks, hair_marks};
 
-/// The map of what shows has so many cells a point, and so many while the view moves.
+/// Cells per point of the map of visible surfaces, at rest and while the view moves.
 const CELLS_PER_POINT: f64 = 0.5;
 const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
-/// What one picture's marks are made from, kept with what it was made of.
+/// The cached marks of the one or two pictures.
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],
@@ -48,7 +47,7 @@ struct Half {
     path: Option<MotionPath>,
 }
 
-/// What the kept marks depend on.
+/// The inputs of the cached marks.
 #[derive(Clone, PartialEq)]
 struct Key {
     prepared: u64,
@@ -61,7 +60,7 @@ struct Key {
     moving: bool,
 }
 
-/// What a map of the surfaces depends on: an edit of directions leaves it as it is.
+/// The inputs of the map of visible surfaces. Directions are not among them.
 #[derive(PartialEq)]
 struct MapKey {
     bodies: Vec<StandingBody>,
@@ -70,7 +69,7 @@ struct MapKey {
     cells_per_point: f64,
 }
 
-/// Marks that are made anew in every pass.
+/// Marks that are made in every pass.
 pub(super) struct Fresh {
     rings: Vec<Ring>,
     needle: Option<Needle>,
@@ -84,35 +83,28 @@ pub(super) struct Fresh {
     hides_pointer: bool,
 }
 
-/// Which of the two pictures of a comparison; one alone is the first.
-pub(super) struct Seen<'a> {
-    pub(super) index: usize,
-    pub(super) camera: &'a CameraPose,
-    pub(super) frame: f64,
-}
-
 impl MarkCache {
-    /// Makes anew what does not hold any more.
-    pub(super) fn refresh(&mut self, editor: &Editor, studio: &Studio, seen: &Seen<'_>) {
+    /// Updates the marks whose inputs have changed.
+    pub(super) fn refresh(&mut self, editor: &Editor, picture_flow: &PictureFlow, picture: &PictureView<'_>) {
         let Some(painting) = editor.painting() else { return };
-        let Some(&framing) = studio.layout().framings().get(seen.index) else { return };
+        let Some(&framing) = picture_flow.layout().framings().get(picture.index) else { return };
         let session = &editor.session;
         if editor.time().playback.is_playing() {
-            // What plays is looked at, and has the time to itself.
-            self.halves[seen.index] = Half::default();
+            // During playback no time is spent on marks.
+            self.halves[picture.index] = Half::default();
             return;
         }
         let key = Key {
-            prepared: studio.prepared(),
-            camera: seen.camera.clone(),
-            frame: seen.frame,
+            prepared: picture_flow.prepared(),
+            camera: picture.camera.clone(),
+            frame: picture.frame,
             framing,
             overlays: session.overlays,
             mode: session.mode,
             selected: editor.document().selection().active().cloned(),
             moving: editor.is_navigating(),
         };
-        let half = &mut self.halves[seen.index];
+        let half = &mut self.halves[picture.index];
         if half.of.as_ref() == Some(&key) {
             return;
         }
@@ -125,10 +117,10 @@ impl MarkCache {
         if !(shows_hairs || session.overlays.regions || outlines) {
             return;
         }
-        let view = framing.view(seen.camera);
+        let view = framing.view(picture.camera);
         let key = MapKey {
-            bodies: bodies(painting, seen.frame),
-            camera: seen.camera.clone(),
+            bodies: StandingBody::all(painting, picture.frame),
+            camera: picture.camera.clone(),
             framing,
             cells_per_point: if editor.is_navigating() { MOVING_CELLS_PER_POINT } else { CELLS_PER_POINT },
         };
@@ -142,7 +134,7 @@ impl MarkCache {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
             let object = active.filter(|_| session.mode != Mode::Paint);
             let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
-            half.hairs = hair_marks(painting, (seen.camera, seen.frame), &framing, &map, &look);
+            half.hairs = hair_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
         }
         if session.overlays.regions {
             let names: Vec<(&str, Color32)> = scene
@@ -157,13 +149,13 @@ impl MarkCache {
             half.outline = Some(Outline::new(&map, |object| object == active));
             if session.mode == Mode::Animate && !editor.is_navigating() {
                 half.path = motion_marks::path(scene, active);
-                half.ghosts = motion_marks::ghosts(painting, seen, &framing, active);
+                half.ghosts = motion_marks::ghosts(painting, picture, &framing, active);
             }
         }
         half.map = Some((key, map));
     }
 
-    /// All marks of a picture, those of the hand included where `fresh` is handed in.
+    /// All marks of a picture; with `fresh`, also those that are made in every pass.
     pub(super) fn marks<'a>(&'a self, index: usize, editor: &Editor, fresh: Option<&'a Fresh>) -> Marks<'a> {
         let half = &self.halves[index];
         let marks = Marks {
@@ -200,7 +192,7 @@ impl MarkCache {
     }
 }
 
-/// What the hand and the selection show in this pass.
+/// The marks of the tool and of the selection in this pass.
 pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     let output = editor.tool_output();
     let is_painting = editor.session.mode == Mode::Paint;
@@ -222,7 +214,7 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
             adrift_px: Vec::new(),
         });
     }
-    // A label beside the ring waits for a rest.
+    // The label beside the ring appears once the pointer rests.
     if is_painting && has_ring {
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(420));
     }
@@ -240,21 +232,6 @@ pub(super) fn fresh(editor: &Editor, view: &View, ui: &Ui) -> Fresh {
     }
 }
 
-pub(super) fn bodies(painting: &Painting, frame: f64) -> Vec<StandingBody> {
-    let scene = painting.scene();
-    let poses = motion::poses_at(scene, frame);
-    let shapes = painting.shapes_at(frame);
-    let shapes = shapes.into_iter().enumerate();
-    shapes
-        .map(|(object, shape)| StandingBody {
-            surface: Arc::clone(painting.surface(object)),
-            shape,
-            world_from_model: poses[object],
-            visible: !scene.objects[object].hidden,
-        })
-        .collect()
-}
-
 fn region_of(painting: &Painting, face: Face) -> Option<usize> {
     let surface = painting.surface(face.object as usize);
     let [a, b, c] = surface.mesh.corners(face.triangle as usize);
@@ -269,7 +246,7 @@ fn region_of(painting: &Painting, face: Face) -> Option<usize> {
     (region < painting.scene().regions.len()).then_some(region)
 }
 
-/// The colours of a scene's regions: their own, or those of the list in turn.
+/// The colours of a scene's regions: their own, or the next of the default ones.
 fn region_colours(scene: &Scene) -> Vec<Color32> {
     let colour = |index: usize, own: Option<impasto_scene::document::Color>| {
         let [r, g, b] =
@@ -287,7 +264,7 @@ fn selected_region(editor: &Editor, scene: &Scene) -> Option<usize> {
     scene.regions.iter().position(|region| region.name == *name)
 }
 
-/// The guides of the selected region; of a selected guide, its handles.
+/// The guides of the selected region, with handles on a selected guide.
 fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> {
     let Some(region) = selected_region(editor, scene) else { return Vec::new() };
     let region = &scene.regions[region];
@@ -326,14 +303,14 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
         .map(|(object, point)| {
             let position_in_world = poses[object].transform_point3(point.position);
-            // What hides it is asked of the surfaces; which way it faces, of nobody.
+            // It faces the eye, so that only surfaces in front can hide it.
             let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }
         })
         .collect()
 }
 
-/// Where suns shine and, seen from elsewhere, the shot camera.
+/// Marks for suns and, when looking through another camera, for the shot camera.
 fn stand_ins(editor: &Editor, scene: &Scene) -> Vec<(StandIn, bool)> {
     let selection = editor.document().selection();
     let sun = |place: &LightPlace| {

@@ -1,8 +1,8 @@
-//! The editor in its window: panels and viewport round `editor_model::Editor`, and the thread that draws.
+//! The application: connects `editor_model::Editor` with the panels, the viewport and the painting thread.
 //!
 //! ```text
 //! keys, pointer ─▶ Editor ─▶ scene as shown ─▶ Worker ─▶ painting, pictures ─▶ viewport
-//! panels ─▶ Ask ──────▲                                       └─▶ hairs, picking
+//! panels ─▶ Ask ──────▲                                       └─▶ direction marks, picking
 //! ```
 
 mod asks;
@@ -15,9 +15,11 @@ mod long_work;
 mod marks;
 mod motion_marks;
 mod picture;
+mod picture_view;
 mod render_flow;
 mod safe_keeping;
 mod shader_flow;
+mod telling;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -27,14 +29,13 @@ use egui::{CentralPanel, Context, Ui};
 use impasto_editor_model::document::Document;
 use impasto_editor_model::editor::{Editor, Offer, Said, reference_frame};
 use impasto_editor_model::keymap::{Digits, Keymap, Preset};
-use impasto_editor_model::session::Mode;
 use impasto_gl_render::ShaderTexts;
 use impasto_scene::problem::Report;
 
-use crate::EditOptions;
 use crate::files::dialogs::FileDialogs;
 use crate::files::preferences::{Keys, Loaded, Preferences};
-use crate::panels::{self, Area, Ask, Numbers, Shown, area};
+use crate::options::EditOptions;
+use crate::panels::{self, Area, Ask, Numbers, PanelInput, area};
 use crate::theme;
 use crate::widgets::{Toast, toasts};
 use crate::window::{self, Opened, numpad_pressed, tab_pressed};
@@ -43,18 +44,20 @@ use impasto_gl_render::shader_folder::ShaderFolder;
 use file_flow::FileFlow;
 use long_work::LongWork;
 use marks::MarkCache;
-use picture::{News, Studio};
+use picture::{News, PictureFlow};
 use render_flow::RenderFlow;
 use safe_keeping::SafeKeeping;
 use shader_flow::ShaderFlow;
+use telling::Telling;
 
-/// A line at the bottom stays so long; what was refused, too.
+/// How long a message at the bottom stays.
 const TOAST: Duration = Duration::from_secs(4);
 
-/// The editor in its window.
+/// The application in its window.
 pub(crate) struct EditorApp {
+    ctx: Context,
     editor: Editor,
-    studio: Studio,
+    picture_flow: PictureFlow,
     marks: MarkCache,
     files: FileFlow,
     safe: SafeKeeping,
@@ -65,20 +68,18 @@ pub(crate) struct EditorApp {
     sheets: Sheets,
     toasts: Vec<(Toast, Instant, Option<Offer>)>,
     folds: Folds,
-    tell: Option<fn(&str)>,
-    told: String,
-    menu_was_open: bool,
+    telling: Telling,
     likely_meshes: LikelyMeshes,
 }
 
-/// The meshes that are not there, and what is likely meant by them.
+/// Missing meshes, with the files of the folder that are likely meant.
 #[derive(Default)]
 struct LikelyMeshes {
     of: Vec<String>,
     found: Vec<(String, String)>,
 }
 
-/// Which sheets lie over the window.
+/// Which sheets are open over the window.
 #[derive(Default)]
 struct Sheets {
     welcome: bool,
@@ -88,7 +89,7 @@ struct Sheets {
     problems: bool,
 }
 
-/// What is folded away.
+/// Which panels are folded away.
 #[derive(Default)]
 struct Folds {
     column: bool,
@@ -97,17 +98,22 @@ struct Folds {
 }
 
 impl EditorApp {
-    /// An app with what the command line named, or with an empty scene.
+    /// Opens what the command line names, or an empty scene.
     pub(crate) fn new(
         options: &EditOptions,
-        (loaded, shaders): (Loaded, Option<(ShaderFolder, ShaderTexts)>),
+        loaded: Loaded,
+        shaders: Option<(ShaderFolder, ShaderTexts)>,
         opened: &Opened,
     ) -> Self {
         let preferences = loaded.preferences;
         let here = std::env::current_dir().unwrap_or_else(|_| PathBuf::from("."));
         let mut app = Self {
+            ctx: opened.ctx.clone(),
             editor: Editor::new(Document::empty(&here)),
-            studio: Studio::new(options.driver.unwrap_or(preferences.driver), opened.waker.clone()),
+            picture_flow: PictureFlow::new(
+                options.driver.unwrap_or(preferences.driver),
+                opened.waker.clone(),
+            ),
             marks: MarkCache::default(),
             files: FileFlow::new(FileDialogs::new(options.dialogs)),
             safe: SafeKeeping::new(),
@@ -121,9 +127,7 @@ impl EditorApp {
             preferences,
             toasts: Vec::new(),
             folds: Folds::default(),
-            tell: options.tell,
-            told: String::new(),
-            menu_was_open: false,
+            telling: Telling::new(options.tell),
             likely_meshes: LikelyMeshes::default(),
         };
         app.keymap();
@@ -166,7 +170,7 @@ impl EditorApp {
                 let losses = document.loss_count();
                 self.editor.open(document);
                 self.keymap();
-                self.studio.forget();
+                self.picture_flow.forget();
                 self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = losses > 0;
@@ -209,12 +213,12 @@ impl EditorApp {
 
     fn page(&mut self, ui: &mut Ui) {
         let status = self.editor.status();
-        let driver = self.studio.driver().to_owned();
+        let driver = self.picture_flow.driver().to_owned();
         let recent: Vec<PathBuf> = self.preferences.recent_there().into_iter().map(Path::to_owned).collect();
         let mut asks: Vec<Ask> = Vec::new();
         self.likely_meshes.follow(self.editor.document());
         let works = self.works(ui.ctx());
-        let shown = Shown {
+        let shown = PanelInput {
             document: self.editor.document(),
             session: &self.editor.session,
             time: self.editor.time(),
@@ -222,9 +226,9 @@ impl EditorApp {
             keys: self.editor.keymap.preset,
             status: &status,
             numbers: Numbers {
-                strokes: self.studio.strokes(),
-                strokes_of: self.studio.strokes_of(),
-                pictures_per_second: self.studio.pictures_per_second(),
+                strokes: self.picture_flow.strokes(),
+                strokes_of: self.picture_flow.strokes_of(),
+                pictures_per_second: self.picture_flow.pictures_per_second(),
                 driver: &driver,
                 works: &works,
             },
@@ -249,7 +253,7 @@ impl EditorApp {
         CentralPanel::default()
             .frame(egui::Frame::NONE)
             .show(ui, |ui| area(ui, Area::Viewport, |ui| self.viewport(ui, &mut asks)));
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         for ask in asks {
             self.answer(ask, ui.ctx(), &view);
         }
@@ -271,7 +275,7 @@ impl EditorApp {
             let (_, _, offers) = self.toasts.remove(clicked);
             match offers {
                 Some(Offer::Undo) => {
-                    let view = self.studio.view(&self.editor);
+                    let view = self.picture_flow.view(&self.editor);
                     self.editor.act(impasto_editor_model::keymap::Action::Undo, &view);
                 }
                 Some(Offer::PoseAgain) => self.editor.pose_again(),
@@ -282,38 +286,10 @@ impl EditorApp {
             ctx.request_repaint_after(Duration::from_millis(500));
         }
     }
-
-    /// Tells which frame of what is played came up, and where the clock stood.
-    fn tell_played(&self) {
-        let playback = &self.editor.time().playback;
-        let clock = playback.clock_frame(self.editor.now_secs());
-        if let (Some(tell), Some(clock)) = (self.tell, clock) {
-            let (frame, dropped) = (self.editor.session.frame, playback.dropped());
-            tell(&format!("playing: frame {frame}, clock {clock:.3}, dropped {dropped}"));
-        }
-    }
-
-    /// Tells what the window shows, each time that it has come to rest on something else.
-    fn tell_rest(&mut self, ctx: &Context) {
-        // In its first pass a menu is only measured: it cannot be clicked before the second.
-        let menu_is_open = egui::Popup::is_any_open(ctx);
-        let menu_is_shown = std::mem::replace(&mut self.menu_was_open, menu_is_open) && menu_is_open;
-        let (Some(tell), Some(version)) = (self.tell, self.studio.at_rest()) else { return };
-        let over = match (self.is_modal(), menu_is_shown) {
-            (true, _) => ", under a sheet",
-            (false, true) => ", under a menu",
-            (false, false) => "",
-        };
-        let words = format!("at rest, version {version}: {}{over}", value(&self.editor));
-        if words != self.told {
-            tell(&words);
-            self.told = words;
-        }
-    }
 }
 
 impl LikelyMeshes {
-    /// Looks round in the folder where other meshes are missing than before.
+    /// Searches the folder again if other meshes are missing than before.
     fn follow(&mut self, document: &Document) {
         let loaded = document.shown();
         let is_missing = |mesh: &&str| document.lacks_mesh(mesh);
@@ -331,15 +307,15 @@ impl window::App for EditorApp {
         let ctx = ui.ctx().clone();
         self.editor.tick(ui.input(|input| input.time));
         self.follow_reading(&ctx);
-        let news = self.studio.poll(&ctx, &mut self.editor);
+        let news = self.picture_flow.poll(&ctx, &mut self.editor);
         if news == Some(News::NextOfFilm) {
             self.tell_played();
         }
-        // While a hand turns the view, the window changes with the picture.
-        if news.is_none() && self.editor.is_navigating() && self.studio.is_awaited() {
+        // While the view is turned, the window is redrawn only with the picture, so that marks stay on it.
+        if news.is_none() && self.editor.is_navigating() && self.picture_flow.is_awaited() {
             frame.hold();
         }
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         let focused = ui.input(|input| input.focused);
         if self.folds.had_focus && !focused {
             self.editor.focus_lost(&view);
@@ -349,7 +325,7 @@ impl window::App for EditorApp {
         }
         self.folds.had_focus = focused;
         let numpad = numpad_pressed(&ctx);
-        // An open menu has Esc to itself, and what is typed over it is meant for it.
+        // Keys belong to an open menu.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);
@@ -383,9 +359,17 @@ impl window::App for EditorApp {
     fn on_close_request(&mut self) -> bool {
         self.may_close()
     }
+
+    fn wants_controls(&self) -> bool {
+        self.telling.is_on()
+    }
+
+    fn controls(&mut self, controls: &egui::accesskit::TreeUpdate) {
+        self.telling.tell_controls(&self.ctx, controls);
+    }
 }
 
-/// Where the playhead stands to the reference.
+/// The badge in the viewport: reference, another frame, or a free view.
 fn badge(editor: &Editor) -> crate::viewport::Badge {
     use crate::viewport::Badge;
     let reference = reference_frame(editor.document().scene());
@@ -397,23 +381,4 @@ fn badge(editor: &Editor) -> crate::viewport::Badge {
     } else {
         Badge::Turned { frame, reference }
     }
-}
-
-/// What a screen reader says of the viewport.
-fn value(editor: &Editor) -> String {
-    let session = &editor.session;
-    let mode = match session.mode {
-        Mode::Arrange => "Arrange",
-        Mode::Paint => "Paint",
-        Mode::Animate => "Animate",
-    };
-    let tool = format!("{:?}", session.tool()).to_lowercase();
-    let camera = if editor.looking == impasto_editor_model::camera_rig::Looking::Shot {
-        "shot camera"
-    } else {
-        "free view"
-    };
-    let reference =
-        if reference_frame(editor.document().scene()) == session.frame { ", reference" } else { "" };
-    format!("{mode}, {tool}, {camera}, frame {}{reference}", session.frame)
 }

@@ -1,4 +1,4 @@
-//! What Animate shows of a motion: the way of the selected object with its keys, and where it stands at those beside this frame.
+//! The marks of Animate: the path of the selected object with its keys, and its outlines at the keys before and after.
 
 use glam::{DAffine3, DVec3};
 use impasto_editor_model::editor::Editor;
@@ -6,19 +6,17 @@ use impasto_painting::Painting;
 use impasto_scene::document::{Object, Scene};
 use impasto_scene::motion;
 
-use super::marks::bodies;
+use super::picture_view::PictureView;
 use crate::viewport::Framing;
 use crate::viewport::overlay::{MissingMesh, MotionPath, Outline};
-use crate::viewport::surface_map::SurfaceMap;
+use crate::viewport::surface_map::{StandingBody, SurfaceMap};
 
-use super::marks::Seen;
-
-/// A way has no more dots than this.
+/// The most dots of a path.
 const MOST_PLACES: f64 = 400.0;
-/// Ghosts are looked at coarsely: cells a point.
+/// Cells per point of the map that ghosts are outlined from; coarse.
 const CELLS_PER_POINT: f64 = 0.3;
 
-/// Where an object goes from its first key to its last; none where it stands still.
+/// The path of an object from its first key to its last; none if it does not move.
 pub(super) fn path(scene: &Scene, object: usize) -> Option<MotionPath> {
     let keys = &scene.objects.get(object)?.keys;
     let (first, last) = (keys.first()?.frame, keys.last()?.frame);
@@ -32,17 +30,22 @@ pub(super) fn path(scene: &Scene, object: usize) -> Option<MotionPath> {
     moves.then_some(MotionPath { places, keys })
 }
 
-/// The object's outlines at the keys before and after a frame, with the camera where it is now.
-pub(super) fn ghosts(painting: &Painting, seen: &Seen<'_>, framing: &Framing, object: usize) -> Vec<Outline> {
+/// The object's outlines at the keys before and after the frame, seen by the current camera.
+pub(super) fn ghosts(
+    painting: &Painting,
+    picture: &PictureView<'_>,
+    framing: &Framing,
+    object: usize,
+) -> Vec<Outline> {
     let Some(keys) = painting.scene().objects.get(object).map(|object| &object.keys) else {
         return Vec::new();
     };
     let frames = keys.iter().map(|key| key.frame);
-    let before = frames.clone().rfind(|frame| *frame < seen.frame);
-    let after = frames.clone().find(|frame| *frame > seen.frame);
-    let view = framing.view(seen.camera);
+    let before = frames.clone().rfind(|frame| *frame < picture.frame);
+    let after = frames.clone().find(|frame| *frame > picture.frame);
+    let view = framing.view(picture.camera);
     let ghost = |frame: f64| {
-        let mut bodies = bodies(painting, frame);
+        let mut bodies = StandingBody::all(painting, frame);
         for (index, body) in bodies.iter_mut().enumerate() {
             body.visible &= index == object;
         }
@@ -51,7 +54,7 @@ pub(super) fn ghosts(painting: &Painting, seen: &Seen<'_>, framing: &Framing, ob
     before.into_iter().chain(after).map(ghost).collect()
 }
 
-/// Boxes for the objects whose meshes were not found, where they stand now.
+/// Boxes for objects whose meshes were not found, at their current poses.
 pub(super) fn missing(editor: &Editor, poses: &[DAffine3]) -> Vec<MissingMesh> {
     let document = editor.document();
     let boxed = |(index, object): (usize, &Object)| {

@@ -1,4 +1,4 @@
-//! The thread that draws, seen from the window: what it is asked for, and what it has to tell.
+//! The window's side of the painting thread: asks it for pictures and takes its reports.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -16,28 +16,28 @@ use crate::viewport::{Framing, Layout, Pictures};
 use crate::window::Waker;
 use crate::worker::{Job, Report, ViewJob, Worker};
 
-/// Pictures of the last second tell how many come a second.
+/// Pictures per second are counted over this time, seconds.
 const SPAN_S: f64 = 1.0;
 
-/// What the thread had to tell.
+/// What came from the thread in this pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum News {
-    /// Anything.
+    /// Some report.
     Any,
-    /// The picture that is the next of what is played.
+    /// The next picture of the film that plays.
     NextOfFilm,
 }
 
-/// The thread, what it was asked for last, and what it has sent.
-pub(super) struct Studio {
+/// The thread, what it was last asked for, and what it has sent.
+pub(super) struct PictureFlow {
     worker: Option<Worker>,
     driver: String,
     pub(super) pictures: Pictures,
     pub(super) trouble: Option<String>,
     asked: Option<(u64, Vec<ViewJob>)>,
-    /// Whether the newest scene is prepared.
+    /// The version of the scene that was prepared last.
     prepared: u64,
-    /// The scene that is being prepared, and since when.
+    /// The version of the scene that is being prepared, and since when.
     preparing: Option<(u64, Instant)>,
     layout: Layout,
     strokes: usize,
@@ -45,7 +45,7 @@ pub(super) struct Studio {
     came: VecDeque<Instant>,
 }
 
-impl Studio {
+impl PictureFlow {
     pub(super) fn new(driver: DriverChoice, waker: Waker) -> Self {
         let driver = match driver {
             DriverChoice::Auto => Driver::Auto,
@@ -75,7 +75,7 @@ impl Studio {
         }
     }
 
-    /// Another document: its pictures are not those of the last one.
+    /// Drops all pictures: another document was opened.
     pub(super) fn forget(&mut self) {
         self.pictures.clear();
         self.asked = None;
@@ -95,7 +95,7 @@ impl Studio {
         &self.strokes_of
     }
 
-    /// Whether the painting is that of what is shown.
+    /// The version of the scene that was prepared last.
     pub(super) fn prepared(&self) -> u64 {
         self.prepared
     }
@@ -106,7 +106,7 @@ impl Studio {
         (newest.elapsed().as_secs_f64() < SPAN_S && recent > 1).then_some(recent as f64)
     }
 
-    /// How long a scene has been prepared, as long as it is.
+    /// For how long the scene has been prepared; none if none is being prepared.
     pub(super) fn preparing_for(&self) -> Option<Duration> {
         self.preparing.map(|(_, since)| since.elapsed())
     }
@@ -127,7 +127,7 @@ impl Studio {
         }
     }
 
-    /// What the viewport shows, for picking and tools.
+    /// The view of the first picture, for picking and tools.
     pub(super) fn view(&self, editor: &Editor) -> View {
         self.layout.framings()[0].view(&self.camera(editor))
     }
@@ -145,7 +145,7 @@ impl Studio {
         self.layout = layout;
     }
 
-    /// Takes what the thread has to tell.
+    /// Takes the reports of the thread.
     pub(super) fn poll(&mut self, ctx: &Context, editor: &mut Editor) -> Option<News> {
         let mut news = None;
         let worker = self.worker.as_ref()?;
@@ -191,7 +191,7 @@ impl Studio {
         news
     }
 
-    /// Whether a picture of what was asked for last is still to come.
+    /// Whether a picture that was asked for has not come yet.
     pub(super) fn is_awaited(&self) -> bool {
         let shows = |(index, view): (usize, &ViewJob)| {
             self.pictures.of(index).is_some_and(|(_, shown, _)| shown.looks_like(view))
@@ -209,7 +209,7 @@ impl Studio {
         views.iter().enumerate().all(is_done).then_some(*version)
     }
 
-    /// Asks for pictures of what is to be seen, where it is not what was asked for last.
+    /// Asks for the pictures to show now, unless they were asked for already.
     pub(super) fn ask(&mut self, editor: &Editor) {
         let (loaded, version) = editor.shown();
         if loaded.scene.objects.is_empty() {
@@ -233,7 +233,7 @@ impl Studio {
         self.asked = Some(job);
     }
 
-    /// What is to be seen at a frame.
+    /// The views to show at a frame.
     fn views(&self, editor: &Editor, frame: f64) -> Vec<ViewJob> {
         let scene = &editor.shown().0.scene;
         let shading = editor.session.shading;

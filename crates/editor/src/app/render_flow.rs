@@ -1,4 +1,4 @@
-//! Rendering from the window: the sheet, the thread, the questions, and what is told when it ends.
+//! Rendering to files from the window: the render sheet, its thread, and its questions.
 
 use std::path::Path;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use impasto_editor_model::render_settings::{
 use impasto_gl_render::ShaderTexts;
 
 use super::EditorApp;
-use crate::files::dialogs::Ask as FileAsk;
+use crate::files::file_ask::FileAsk;
 use crate::files::show_folder::show_folder;
 use crate::panels::ask_close::{self, Answer, Question};
 use crate::panels::render_sheet::{RenderAsk, RenderShown, render_sheet};
@@ -18,28 +18,28 @@ use crate::panels::work::{Work, WorkKind};
 use crate::rendering::Rendering;
 use crate::window::Waker;
 
-/// Time between two looks at the clock while frames come.
+/// How often the progress is updated while frames are rendered.
 const TICK: Duration = Duration::from_millis(500);
 
-/// The sheet, and the frames that come.
+/// The state of the render sheet, and the rendering under way.
 pub(super) struct RenderFlow {
     waker: Waker,
     settings: Option<RenderSettings>,
-    /// The scene's size when the settings were looked at last.
+    /// The scene's size when the sheet was last opened.
     size_of_scene: (u32, u32),
     is_open: bool,
     running: Option<Rendering>,
     picture: Option<TextureHandle>,
     asks: Option<About>,
-    /// Whether the end was told.
+    /// Whether the end was reported.
     told: bool,
 }
 
-/// What has to be settled.
+/// The question that is open.
 enum About {
-    /// So many of its files are there already.
+    /// This many of the files exist already.
     Existing(Box<RenderPlan>, u64),
-    /// The window would close while frames come.
+    /// The window would close while frames are rendered.
     Closing,
 }
 
@@ -57,7 +57,7 @@ impl RenderFlow {
         }
     }
 
-    /// Another document has settings of its own. What is being rendered goes on.
+    /// Resets the settings for another document. A rendering under way goes on.
     pub(super) fn forget(&mut self) {
         self.settings = None;
     }
@@ -66,7 +66,7 @@ impl RenderFlow {
         self.is_open || self.asks.is_some()
     }
 
-    /// Whether the window must not close without a question; asks it.
+    /// Whether the window must stay open because frames are rendered; if so, opens the question.
     pub(super) fn holds_window(&mut self) -> bool {
         let runs = self.running.as_ref().is_some_and(|running| !running.is_over());
         if runs {
@@ -89,7 +89,7 @@ impl RenderFlow {
 
     fn begin(&mut self, plan: RenderPlan, shaders: ShaderTexts) -> Result<(), String> {
         let waker = self.waker.clone();
-        // What ran before is over: its files are written.
+        // The rendering before is finished, and its files are written.
         self.running = None;
         self.picture = None;
         let running = Rendering::start(plan, shaders, move || waker.wake());
@@ -109,7 +109,7 @@ impl EditorApp {
         let flow = &mut self.render;
         let settings =
             flow.settings.get_or_insert_with(|| RenderSettings::of(self.editor.document().scene()));
-        // Whoever has not chosen a size renders the scene's.
+        // As long as no other size was chosen, follow the scene's.
         if settings.size_px == [flow.size_of_scene.0, flow.size_of_scene.1] {
             settings.size_px = [size.0, size.1];
         }
@@ -120,7 +120,7 @@ impl EditorApp {
         }
     }
 
-    /// Shows what is to be shown of rendering.
+    /// Shows the sheet and the questions of rendering.
     pub(super) fn render_sheets(&mut self, ctx: &Context) {
         self.follow_rendering(ctx);
         if self.render.asks.is_some() {
@@ -155,7 +155,7 @@ impl EditorApp {
         let shown = RenderShown {
             document: self.editor.document(),
             frame: self.editor.session.frame,
-            driver: self.studio.driver(),
+            driver: self.picture_flow.driver(),
             progress: progress.as_ref(),
             picture: self.render.picture.as_ref(),
         };
@@ -260,7 +260,7 @@ impl EditorApp {
         }
     }
 
-    /// Frames go to files like this one.
+    /// Sets the output to files named like this one.
     pub(super) fn render_to(&mut self, file: &Path) {
         let folder = self.editor.document().folder();
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());

@@ -1,4 +1,4 @@
-//! That no work is lost: copies of what is not saved, what a session before left behind, and files that others change.
+//! Keeps work from being lost: recovery copies, offers of copies that a crash left behind, and files that other programs change.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -12,21 +12,21 @@ use impasto_scene::load::LoadOptions;
 use impasto_scene::problem::Report;
 
 use super::EditorApp;
-use crate::files::dialogs::Ask as FileAsk;
+use crate::files::file_ask::FileAsk;
 use crate::files::preferences;
 use crate::panels::ask_close::{self, Answer, Question};
 
-/// Time between two looks at the files of the document.
+/// How often the document's files are checked for changes.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Copies, offers, and what is watched.
+/// The recovery copy of this session, offers of older ones, and the files that are watched.
 pub(super) struct SafeKeeping {
     folder: Option<PathBuf>,
     keeper: Option<Keeper>,
     cadence: Cadence,
-    /// Whether this session has a copy on the disk, or has ordered one.
+    /// Whether a copy of this session is on the disk or being written.
     has_copy: bool,
-    /// What sessions before left behind, to be asked about one by one.
+    /// Copies that earlier sessions left behind, to be asked about one by one.
     offers: VecDeque<Offer>,
     watch: Watch,
     next_look: Instant,
@@ -35,19 +35,19 @@ pub(super) struct SafeKeeping {
     trouble: Option<String>,
 }
 
-/// What has to be settled.
+/// The question that is open.
 #[derive(Clone, Copy, Debug)]
 enum About {
-    /// Another program wrote the file, and there are edits.
+    /// Another program changed the file, and there are unsaved edits.
     Changed,
-    /// The file would be saved over, and another program wrote it.
+    /// Saving would overwrite what another program has written.
     SavingOver,
-    /// The file was read with losses: so many, the first in this line.
+    /// The scene has this many problems left, the first in this line, so that it cannot be saved over its file.
     Losses(usize, usize),
 }
 
 impl SafeKeeping {
-    /// Ready to keep; where that cannot be, the window says so.
+    /// Opens the recovery folder; if that fails, the window reports it.
     pub(super) fn new() -> Self {
         let folder = preferences::recovery_folder();
         let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
@@ -74,12 +74,12 @@ impl SafeKeeping {
         self.asks.is_some() || !self.offers.is_empty()
     }
 
-    /// Looks at the files at the next chance.
+    /// Checks the files in the next pass.
     pub(super) fn look_now(&mut self) {
         self.next_look = Instant::now();
     }
 
-    /// The work was given up: its copy goes.
+    /// Removes the copy: the work was saved or dropped.
     pub(super) fn give_up(&mut self) {
         if std::mem::take(&mut self.has_copy)
             && let Some(keeper) = &self.keeper
@@ -99,7 +99,7 @@ impl SafeKeeping {
 }
 
 impl EditorApp {
-    /// Asks about the copies that sessions before left behind: of one scene, or of any.
+    /// Finds copies that earlier sessions left behind, of one scene or of any, to ask about them.
     pub(super) fn offer_copies(&mut self, of: Option<&Path>) {
         let Some(folder) = &self.safe.folder else { return };
         let of = of.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned()));
@@ -110,7 +110,7 @@ impl EditorApp {
         self.safe.offers = offers.into();
     }
 
-    /// Copies what is due, and looks whether others changed the document's files.
+    /// Writes a copy if one is due, and checks whether other programs changed the document's files.
     pub(super) fn keep_safe(&mut self, ctx: &Context) {
         if let Some(words) = self.safe.trouble.take() {
             self.toast(words, None, true);
@@ -145,7 +145,7 @@ impl EditorApp {
         }
     }
 
-    /// Copies the work now, before something that may go wrong.
+    /// Writes a copy now, before something that may go wrong.
     pub(super) fn keep_before_risk(&mut self) {
         let document = self.editor.document();
         if document.is_edited() && self.preferences.autosave_minutes > 0 {
@@ -160,7 +160,7 @@ impl EditorApp {
         }
     }
 
-    /// Says why a save did not go, or asks what is to be done.
+    /// Reports why a save failed, or asks what to do.
     pub(super) fn ask_about_saving(&mut self, error: SaveError) {
         match error {
             SaveError::ChangedOutside { .. } => self.safe.asks = Some(About::SavingOver),
@@ -169,7 +169,7 @@ impl EditorApp {
         }
     }
 
-    /// Shows the question that is open.
+    /// Shows the open question and carries out its answer.
     pub(super) fn ask_about_safety(&mut self, ctx: &Context) {
         let name = self.editor.document().name();
         let question = match self.safe.asks {
@@ -217,7 +217,7 @@ impl EditorApp {
                     self.toast(format!("The copy was not removed: {error}"), None, true);
                 }
             }
-            // Later: with the lock it goes back to whoever asks next.
+            // Later: dropping the offer releases its lock, so that it is offered again.
             _ => {}
         }
     }
@@ -228,7 +228,7 @@ impl EditorApp {
                 self.keep_before_risk();
                 self.editor.open(document);
                 self.keymap();
-                self.studio.forget();
+                self.picture_flow.forget();
                 self.render.forget();
                 self.sheets.welcome = false;
                 self.sheets.problems = self.editor.document().loss_count() > 0;

@@ -1,4 +1,4 @@
-//! Shaders of one's own, in place of the program's: read again whenever they change, for pictures and for files.
+//! The user's own shaders (`--shaders`): read again whenever they change, and used for pictures and files.
 
 use std::time::{Duration, Instant};
 
@@ -8,10 +8,10 @@ use impasto_gl_render::ShaderTexts;
 use super::EditorApp;
 use impasto_gl_render::shader_folder::ShaderFolder;
 
-/// Time between two looks at the folder.
+/// How often the folder is checked.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// The folder, where one was named.
+/// The shader folder, if one was given.
 #[derive(Default)]
 pub(super) struct ShaderFlow {
     folder: Option<ShaderFolder>,
@@ -20,12 +20,12 @@ pub(super) struct ShaderFlow {
 }
 
 impl ShaderFlow {
-    /// What files are drawn with.
+    /// The shaders to render files with.
     pub(super) fn texts(&self) -> ShaderTexts {
         self.texts.clone()
     }
 
-    /// What a command is told to draw with the same.
+    /// The arguments with which `impasto render` uses the same shaders.
     pub(super) fn arguments(&self) -> Vec<String> {
         let folder = self.folder.as_ref().map(|folder| folder.path().to_string_lossy().into_owned());
         folder.map_or_else(Vec::new, |folder| vec!["--shaders".to_owned(), folder])
@@ -36,11 +36,11 @@ impl EditorApp {
     /// Draws with a folder's shaders from now on.
     pub(super) fn use_shaders(&mut self, opened: Option<(ShaderFolder, ShaderTexts)>) {
         let Some((folder, texts)) = opened else { return };
-        self.studio.replace_shaders(texts.clone());
+        self.picture_flow.replace_shaders(texts.clone());
         self.shaders = ShaderFlow { folder: Some(folder), texts, next_look: None };
     }
 
-    /// Looks at the folder, now and then.
+    /// Checks the folder from time to time, and draws with what has changed.
     pub(super) fn look_at_shaders(&mut self, ctx: &Context) {
         let flow = &mut self.shaders;
         let Some(folder) = &mut flow.folder else { return };
@@ -51,7 +51,7 @@ impl EditorApp {
                 None => {}
                 Some(Ok(texts)) => {
                     flow.texts.clone_from(&texts);
-                    self.studio.replace_shaders(texts);
+                    self.picture_flow.replace_shaders(texts);
                 }
                 Some(Err(words)) => self.toast(words, None, true),
             }

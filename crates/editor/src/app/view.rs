@@ -1,31 +1,28 @@
-//! The viewport in the window: what it is given to show, and what comes back from it.
+//! Connects the viewport with the editor: its inputs, and its events.
 
 use egui::Ui;
 use impasto_editor_model::camera_rig::Looking;
-use impasto_editor_model::editor::{PointerEvent, PointerKind, reference_frame};
+use impasto_editor_model::editor::reference_frame;
 use impasto_editor_model::picking::View;
 use impasto_scene::motion;
 
-use super::marks::{self, MarkCache, Seen};
-use super::{EditorApp, badge, value};
+use super::marks::{self, MarkCache};
+use super::picture_view::PictureView;
+use super::telling::value;
+use super::{EditorApp, badge};
 use crate::panels::Ask;
 use crate::viewport::overlay::Sight;
-use crate::viewport::{
-    Badge, Layout, Look, Marks, Now, PointerKind as Kind, ViewportEvents, ViewportInput, viewport,
-};
-
-/// A pinch by this factor is a step of the wheel.
-const PINCH_STEP: f64 = 1.1;
+use crate::viewport::{Badge, CameraChoice, Layout, Marks, Now, ViewportEvents, ViewportInput, viewport};
 
 impl EditorApp {
-    /// Shows the viewport, and asks for the pictures that it will show next.
+    /// Shows the viewport, and asks the painting thread for the next pictures.
     pub(super) fn viewport(&mut self, ui: &mut Ui, asks: &mut Vec<Ask>) {
         let area = ui.max_rect();
         let scene = &self.editor.document().shown().scene;
         let (size, pixels_per_point) = (scene.size, ui.ctx().pixels_per_point());
         let is_empty = scene.objects.is_empty();
         let compares = self.editor.session.compare && !is_empty;
-        self.studio.set_layout(if compares {
+        self.picture_flow.set_layout(if compares {
             Layout::compare(area, size, pixels_per_point)
         } else {
             Layout::single(area, size, pixels_per_point)
@@ -33,18 +30,18 @@ impl EditorApp {
         let (reference_camera, reference) = motion::referred_to(scene, &scene.reference);
         let (camera, frame) = (self.editor.camera(), self.editor.session.frame);
         let first = if compares {
-            Seen { index: 0, camera: &reference_camera, frame: reference }
+            PictureView { index: 0, camera: &reference_camera, frame: reference }
         } else {
-            Seen { index: 0, camera: &camera, frame }
+            PictureView { index: 0, camera: &camera, frame }
         };
-        let second = compares.then_some(Seen { index: 1, camera: &camera, frame });
-        self.marks.refresh(&self.editor, &self.studio, &first);
+        let second = compares.then_some(PictureView { index: 1, camera: &camera, frame });
+        self.marks.refresh(&self.editor, &self.picture_flow, &first);
         if let Some(second) = &second {
-            self.marks.refresh(&self.editor, &self.studio, second);
+            self.marks.refresh(&self.editor, &self.picture_flow, second);
         }
-        let view = self.studio.view(&self.editor);
+        let view = self.picture_flow.view(&self.editor);
         self.editor.rested(ui.input(|input| input.time), &view);
-        self.marks.foreseen.follow(ui.ctx(), &self.editor, &self.studio);
+        self.marks.foreseen.follow(ui.ctx(), &self.editor, &self.picture_flow);
         let fresh = marks::fresh(&self.editor, &view, ui);
         let poses = self.editor.poses();
         let visible = |object: usize| !self.editor.document().shown().scene.objects[object].hidden;
@@ -55,7 +52,7 @@ impl EditorApp {
         let note = self.turned_words();
         let under_cursor = self.editor.tool_output().label.clone().unwrap_or_default();
         let input = ViewportInput {
-            pictures: &self.studio.pictures,
+            pictures: &self.picture_flow.pictures,
             session: &self.editor.session,
             camera: first.camera,
             through_shot: self.editor.looking == Looking::Shot,
@@ -69,15 +66,15 @@ impl EditorApp {
             badge: badge(&self.editor),
             value: &value(&self.editor),
             under_cursor: &under_cursor,
-            empty: is_empty,
-            trouble: self.studio.trouble.as_deref(),
+            empty: is_empty && !self.is_reading(),
+            trouble: self.picture_flow.trouble.as_deref(),
         };
-        let events = viewport(ui, self.studio.layout(), &input);
+        let events = viewport(ui, self.picture_flow.layout(), &input);
         self.take(events, asks, &view);
-        self.studio.ask(&self.editor);
+        self.picture_flow.ask(&self.editor);
     }
 
-    /// What Compare says of the selected object: how far it turned, and its strokes with it.
+    /// The note of Compare: how far the selected object has turned since the reference.
     fn turned_words(&self) -> String {
         let Some(object) = self.editor.active_object() else { return String::new() };
         let name = &self.editor.document().shown().scene.objects[object].name;
@@ -88,26 +85,16 @@ impl EditorApp {
 
     fn take(&mut self, events: ViewportEvents, asks: &mut Vec<Ask>, view: &View) {
         for event in events.pointer {
-            let kind = match event.kind {
-                Kind::Moved => PointerKind::Move,
-                Kind::Pressed(button) => PointerKind::Press(button),
-                Kind::Released(button) => PointerKind::Release(button),
-                Kind::Wheel(steps) => PointerKind::Wheel(steps),
-                Kind::Pinch(factor) => PointerKind::Wheel(factor.ln() / PINCH_STEP.ln()),
-                Kind::Left => PointerKind::Leave,
-                Kind::DoublePressed => continue,
-            };
-            let event = PointerEvent { kind, at_px: event.at_px, held: event.held, at_secs: event.at_secs };
-            // The view may have moved by the event before.
-            let view = self.studio.view(&self.editor);
+            // The event before may have moved the view.
+            let view = self.picture_flow.view(&self.editor);
             self.editor.pointer(&event, &view);
         }
         asks.extend(events.asks);
         let shot = self.editor.shot();
         match events.look {
-            Some(Look::Shot) => self.editor.looking = Looking::Shot,
-            Some(Look::Free) => drop(self.editor.looking.free(&shot)),
-            Some(Look::Along(axis)) => self.editor.looking.free(&shot).look_along(axis),
+            Some(CameraChoice::Shot) => self.editor.looking = Looking::Shot,
+            Some(CameraChoice::Free) => drop(self.editor.looking.free(&shot)),
+            Some(CameraChoice::Along(axis)) => self.editor.looking.free(&shot).look_along(axis),
             None => {}
         }
         if events.orbit_px != glam::DVec2::ZERO {

@@ -62,7 +62,7 @@ impl Copies {
                     }
                 }
             }
-            files.insert(PathBuf::from(name), file);
+            files.insert(PathBuf::from(name.trim().replace('\\', "/")), file);
         }
         let mut copies = Self::default();
         for (name, file) in files {
@@ -170,6 +170,28 @@ mod tests {
         let there = Document::open(&target, &LoadOptions::default()).unwrap();
         assert_eq!(there.loaded().meshes["meshes/a.obj"].materials.len(), 1);
         assert_eq!(between(&document, to.path()).unwrap().count(), 0, "they are there already");
+    }
+
+    #[test]
+    fn what_is_lost_keeps_nothing_from_being_saved() {
+        let (folder, mut document) = scene();
+        std::fs::remove_file(folder.path().join("meshes/a.obj")).unwrap();
+        let to = tempfile::tempdir().unwrap();
+        assert_eq!(between(&document, to.path()).unwrap().count(), 0, "there is nothing to copy");
+        let missing = document.save_as(&to.path().join("t.ron")).expect("saved without asking");
+        assert_eq!(missing, ["meshes/a.obj"]);
+    }
+
+    #[test]
+    fn names_with_backslashes_are_taken_along() {
+        let (folder, _) = scene();
+        let path = folder.path().join("s.ron");
+        std::fs::write(&path, SCENE.replace("meshes/a.obj", "meshes\\\\a.obj")).unwrap();
+        let mut document = Document::open(&path, &LoadOptions::default()).unwrap();
+        let to = tempfile::tempdir().unwrap();
+        between(&document, to.path()).unwrap().carry_out(to.path()).unwrap();
+        document.save_as(&to.path().join("t.ron")).unwrap();
+        Document::open(&to.path().join("t.ron"), &LoadOptions::default()).expect("whole there");
     }
 
     #[test]

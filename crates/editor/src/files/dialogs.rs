@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Align2, Area, Context, Frame, Id, Margin, RichText, vec2};
 
-use super::incoming::Kind;
+use super::file_ask::FileAsk;
 use super::path_sheet::{PathSheet, Picked};
 use crate::theme::{Theme, measure, type_face};
 use crate::widgets::Button;
@@ -24,66 +24,11 @@ const HAND: Duration = Duration::from_millis(300);
 /// How long the window waits before it offers its own sheet too.
 pub const PATIENCE: Duration = Duration::from_secs(3);
 
-/// What a file is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Ask {
-    /// Open a scene, or a mesh in a new scene.
-    Open,
-    /// Import a mesh.
-    ImportMesh,
-    /// Save the scene to another file.
-    SaveAs,
-    /// Save a copy of the scene.
-    SaveCopy,
-    /// Find a mesh that the scene names.
-    LocateMesh,
-    /// Choose where rendered frames go.
-    RenderOutput,
-}
-
-impl Ask {
-    /// The head of the dialog.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Open => "Open a scene or a mesh",
-            Self::ImportMesh => "Import a mesh",
-            Self::SaveAs => "Save the scene as",
-            Self::SaveCopy => "Save a copy of the scene",
-            Self::LocateMesh => "Locate the mesh",
-            Self::RenderOutput => "Choose where the frames go",
-        }
-    }
-
-    /// The kinds of files that answer it.
-    pub fn kinds(self) -> &'static [Kind] {
-        match self {
-            Self::Open => &[Kind::Scene, Kind::Mesh],
-            Self::ImportMesh | Self::LocateMesh => &[Kind::Mesh],
-            Self::SaveAs | Self::SaveCopy => &[Kind::Scene],
-            Self::RenderOutput => &[Kind::Picture],
-        }
-    }
-
-    /// The file that is meant, with the ending that it needs, whatever was typed.
-    pub(super) fn completed(self, path: PathBuf) -> PathBuf {
-        match self {
-            Self::SaveAs | Self::SaveCopy => as_file(path, Kind::Scene, ".ron"),
-            Self::RenderOutput => as_file(path, Kind::Picture, ".png"),
-            Self::Open | Self::ImportMesh | Self::LocateMesh => path,
-        }
-    }
-
-    /// The file is written.
-    pub fn is_save(self) -> bool {
-        matches!(self, Self::SaveAs | Self::SaveCopy | Self::RenderOutput)
-    }
-}
-
-/// What came of an [`Ask`].
+/// What came of an [`FileAsk`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// What was asked.
-    pub ask: Ask,
+    pub ask: FileAsk,
     /// The file; none where the user let it be. Of a save, its name ends in `.ron`, and a file that is there may be
     /// replaced.
     pub path: Option<PathBuf>,
@@ -107,16 +52,16 @@ pub struct FileDialogs {
 }
 
 /// Shows the desktop's dialog and waits for it; the path to begin with is a folder, or a file to be saved.
-type Choose = fn(Ask, &Path) -> Option<PathBuf>;
+type Choose = fn(FileAsk, &Path) -> Option<PathBuf>;
 
 struct Open {
-    ask: Ask,
+    ask: FileAsk,
     start: PathBuf,
     since: Instant,
-    shown: Shown,
+    shown: ShownAs,
 }
 
-enum Shown {
+enum ShownAs {
     Desktop(Receiver<Option<PathBuf>>),
     Sheet(PathSheet),
 }
@@ -135,12 +80,12 @@ impl FileDialogs {
 
     /// Asks for a file. `start` is a folder; to save, the file that is proposed. Nothing happens while another dialog is
     /// open.
-    pub fn open(&mut self, ctx: &Context, ask: Ask, start: &Path) {
+    pub fn open(&mut self, ctx: &Context, ask: FileAsk, start: &Path) {
         if self.open.is_some() {
             return;
         }
         let shown = match self.source {
-            Source::InApp => Shown::Sheet(PathSheet::new(ask, start)),
+            Source::InApp => ShownAs::Sheet(PathSheet::new(ask, start)),
             Source::Desktop => {
                 let (answer, answers) = channel();
                 let (choose, from, ctx) = (self.choose, start.to_owned(), ctx.clone());
@@ -149,7 +94,7 @@ impl FileDialogs {
                     let _late = answer.send(choose(ask, &from));
                     ctx.request_repaint();
                 });
-                Shown::Desktop(answers)
+                ShownAs::Desktop(answers)
             }
         };
         self.open = Some(Open { ask, start: start.to_owned(), since: Instant::now(), shown });
@@ -161,17 +106,17 @@ impl FileDialogs {
         let open = self.open.as_mut()?;
         let ask = open.ask;
         let path = match &mut open.shown {
-            Shown::Sheet(sheet) => match sheet.show(ctx)? {
+            ShownAs::Sheet(sheet) => match sheet.show(ctx)? {
                 Picked::File(path) => Some(path),
                 Picked::Cancelled => None,
             },
-            Shown::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
+            ShownAs::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
                 (Ok(Some(path)), _) => Some(ask.completed(path)),
                 (Ok(None), waited) if waited > HAND => None,
                 (Ok(None) | Err(TryRecvError::Disconnected), _) => {
                     // There is no dialog here: it is not tried again.
                     self.source = Source::InApp;
-                    open.shown = Shown::Sheet(PathSheet::new(ask, &open.start));
+                    open.shown = ShownAs::Sheet(PathSheet::new(ask, &open.start));
                     ctx.request_repaint();
                     return None;
                 }
@@ -183,7 +128,7 @@ impl FileDialogs {
                         }
                         None => match offer(ctx)? {
                             Offer::Sheet => {
-                                open.shown = Shown::Sheet(PathSheet::new(ask, &open.start));
+                                open.shown = ShownAs::Sheet(PathSheet::new(ask, &open.start));
                                 ctx.request_repaint();
                                 return None;
                             }
@@ -196,15 +141,6 @@ impl FileDialogs {
         self.open = None;
         Some(Answer { ask, path })
     }
-}
-
-fn as_file(path: PathBuf, kind: Kind, ending: &str) -> PathBuf {
-    if Kind::of(&path) == Some(kind) {
-        return path;
-    }
-    let mut name = path.into_os_string();
-    name.push(ending);
-    PathBuf::from(name)
 }
 
 enum Offer {
@@ -249,16 +185,16 @@ fn has_session_bus() -> bool {
     is_set("XDG_RUNTIME_DIR").is_some_and(|folder| PathBuf::from(folder).join("bus").exists())
 }
 
-fn choose_on_desktop(ask: Ask, start: &Path) -> Option<PathBuf> {
+fn choose_on_desktop(ask: FileAsk, start: &Path) -> Option<PathBuf> {
     let mut dialog = rfd::FileDialog::new().set_title(ask.title());
     dialog = match ask {
-        Ask::Open => dialog
+        FileAsk::Open => dialog
             .add_filter("Scenes and meshes", &["ron", "obj", "OBJ"])
             .add_filter("Scenes", &["ron"])
             .add_filter("Meshes", &["obj", "OBJ"]),
-        Ask::ImportMesh | Ask::LocateMesh => dialog.add_filter("Meshes", &["obj", "OBJ"]),
-        Ask::SaveAs | Ask::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
-        Ask::RenderOutput => dialog.add_filter("Pictures", &["png"]),
+        FileAsk::ImportMesh | FileAsk::LocateMesh => dialog.add_filter("Meshes", &["obj", "OBJ"]),
+        FileAsk::SaveAs | FileAsk::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
+        FileAsk::RenderOutput => dialog.add_filter("Pictures", &["png"]),
     };
     if !ask.is_save() {
         return dialog.set_directory(start).pick_file();

@@ -2,6 +2,7 @@
 
 pub mod beside;
 pub mod dialogs;
+pub mod file_ask;
 pub mod incoming;
 pub mod nearby;
 pub mod path_sheet;

@@ -11,12 +11,12 @@ use egui::{
     vec2,
 };
 
-use super::dialogs::Ask;
+use super::file_ask::FileAsk;
 use super::incoming::{self, Kind, name_of};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{Button, Dialog, dialog, sheet};
-use listing::{Listing, Row, resolve};
+use listing::{ListedFile, Listing, resolve};
 
 /// Width of the sheet, and height of its list, points.
 const WIDTH: f32 = 620.0;
@@ -33,7 +33,7 @@ pub enum Picked {
 
 /// Asks for a file.
 pub struct PathSheet {
-    ask: Ask,
+    ask: FileAsk,
     listing: Listing,
     /// What stands in the field.
     typed: String,
@@ -47,7 +47,7 @@ pub struct PathSheet {
 
 impl PathSheet {
     /// A sheet that begins in the folder `start`; to save, with the file `start` in the field.
-    pub fn new(ask: Ask, start: &Path) -> Self {
+    pub fn new(ask: FileAsk, start: &Path) -> Self {
         let is_file = ask.is_save() && !start.is_dir();
         let typed = if is_file { name_of(start) } else { String::new() };
         let folder = if is_file { start.parent().unwrap_or(Path::new("")) } else { start };
@@ -125,12 +125,12 @@ impl PathSheet {
             ui.label(RichText::new(words).font(type_face::small()).color(tokens.weak));
         }
         match chosen {
-            Some((Row::Parent | Row::Folder(_), _)) => {
+            Some((ListedFile::Parent | ListedFile::Folder(_), _)) => {
                 if let Some((row, _)) = &chosen {
                     self.enter(row.name());
                 }
             }
-            Some((Row::File(name), is_final)) => {
+            Some((ListedFile::File(name), is_final)) => {
                 self.typed = name;
                 self.error = None;
                 if is_final {
@@ -269,7 +269,7 @@ enum Judged {
     Replaces(PathBuf),
 }
 
-fn show_row(ui: &mut Ui, row: &Row, is_on: bool) -> egui::Response {
+fn show_row(ui: &mut Ui, row: &ListedFile, is_on: bool) -> egui::Response {
     let tokens = Tokens::of(ui);
     let size = vec2(ui.available_width(), measure::TREE_ROW);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -284,8 +284,8 @@ fn show_row(ui: &mut Ui, row: &Row, is_on: bool) -> egui::Response {
         ui.painter().rect_stroke(rect, measure::CORNER, ring, egui::StrokeKind::Inside);
     }
     let icon = match row {
-        Row::Parent | Row::Folder(_) => icons::OPEN_FOLDER,
-        Row::File(_) => icons::OBJECT,
+        ListedFile::Parent | ListedFile::Folder(_) => icons::OPEN_FOLDER,
+        ListedFile::File(_) => icons::OBJECT,
     };
     let middle = rect.left_center() + vec2(measure::PANEL_PADDING, 0.0);
     let font = type_face::icon(measure::SMALL_ICON);

@@ -12,6 +12,11 @@ pub enum Question {
         /// Since when it is edited, minutes.
         minutes: u64,
     },
+    /// The window closes, or another scene opens, and the text of the scene was edited and not read.
+    UnreadText {
+        /// The document's name.
+        name: String,
+    },
     /// Another frame becomes the reference.
     Recapture {
         /// The frame.
@@ -79,6 +84,8 @@ pub enum Answer {
     Recapture,
     /// Read the file again and drop the edits.
     ReadAgain,
+    /// Read the scene from the text that was edited.
+    ReadText,
     /// Copy the files, then save.
     Copy,
     /// Save under another name.
@@ -112,6 +119,11 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
                 minutes => format!("You edited it for {minutes} minutes."),
             },
             &[("Don\u{2019}t save", Answer::Discard), ("Cancel", Answer::Cancel), ("Save", Answer::Save)],
+        ),
+        Question::UnreadText { name } => (
+            format!("Drop your changes to the text of \u{201c}{name}\u{201d}?"),
+            "They have not been read: the scene does not have them.".to_owned(),
+            &[("Drop them", Answer::Discard), ("Cancel", Answer::Cancel), ("Read them", Answer::ReadText)],
         ),
         Question::Recapture { frame } => (
             format!("Take frame {frame} as the new reference?"),

@@ -2,20 +2,20 @@
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
-use super::{Area, Ask, Shown, area, inspector, tree};
+use super::{Area, Ask, PanelInput, area, inspector, tree};
 use crate::theme::Tokens;
 
 /// A window at least so wide has a wider column.
 const WIDE: f32 = 1600.0;
 
 /// Whether the column leaves enough of the window for the picture, or for both pictures of a comparison.
-pub fn column_fits(ui: &Ui, shown: &Shown<'_>) -> bool {
+pub fn column_fits(ui: &Ui, shown: &PanelInput<'_>) -> bool {
     let compares = shown.session.compare && !shown.document.scene().objects.is_empty();
     ui.available_width() >= if compares { WIDE } else { 900.0 }
 }
 
 /// Takes the right column off the `Ui`. The line between tree and inspector can be dragged.
-pub fn column(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn column(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let is_wide = ui.ctx().content_rect().width() >= WIDE;
     let (width, tree_height) = if is_wide { (336.0, 330.0) } else { (280.0, 252.0) };
     // Each of the two keeps what its lines were dragged to.

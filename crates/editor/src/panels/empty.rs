@@ -3,13 +3,13 @@
 use egui::{Align, Layout, Rect, RichText, vec2};
 use impasto_editor_model::keymap::Action;
 
-use super::{Ask, Shown, row, text_width, within};
+use super::{Ask, PanelInput, row, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::Button;
 
 /// Stands in the middle of `ui`, where a scene has no objects; else nothing.
-pub fn empty(ui: &mut egui::Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn empty(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if !shown.document.scene().objects.is_empty() {
         return;
     }

@@ -1,9 +1,11 @@
+//! The menus of the top bar: which commands stand in them, and in which order.
+
 use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{Hairs, Mode};
 
-use super::{Ask, Shown, file_name, row, text_width, within};
+use super::{Ask, PanelInput, file_name, row, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::MenuRow;
@@ -146,7 +148,7 @@ pub(super) fn actions() -> Vec<Action> {
 }
 
 /// File, Edit, View and Help.
-pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn menus(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     const PADDING: f32 = 10.0;
     let wide = MENUS.iter().map(|(name, _)| text_width(ui, name, type_face::body()) + 2.0 * PADDING).sum();
     let size = egui::vec2(wide, measure::BUTTON);
@@ -160,13 +162,13 @@ pub(super) fn menus(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         };
         MenuBar::new().style(style).ui(ui, |ui| {
             for (name, lines) in MENUS {
-                ui.menu_button(name, |ui| list(ui, lines, (shown, asks)));
+                ui.menu_button(name, |ui| list(ui, lines, shown, asks));
             }
         });
     });
 }
 
-fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let names = lines.iter().map(|line| {
         let keys = if let Do(action) = line { shown.keys_of(*action) } else { String::new() };
@@ -191,7 +193,7 @@ fn list(ui: &mut Ui, lines: &[Line], (shown, asks): (&Shown<'_>, &mut Vec<Ask>))
                 ui.add_space(5.0);
             }
             Recent => sub(ui, words_of(*line), |ui| recent(ui, shown, asks)),
-            Sub(name, lines) => sub(ui, name, |ui| list(ui, lines, (shown, asks))),
+            Sub(name, lines) => sub(ui, name, |ui| list(ui, lines, shown, asks)),
             CopyRenderCommand => {
                 let file = shown.document.file();
                 let reason = file.is_none().then_some("Save the scene first");
@@ -236,7 +238,7 @@ fn sub(ui: &mut Ui, words: &str, contents: impl FnOnce(&mut Ui)) {
     SubMenu::new().show(ui, &response, contents);
 }
 
-fn recent(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn recent(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if shown.recent.is_empty() {
         let words = RichText::new("Scenes you save will be listed here.").font(type_face::small());
         ui.set_width(240.0);
@@ -257,7 +259,7 @@ fn recent(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// Whether what an action switches is on.
-fn is_on(shown: &Shown<'_>, action: Action) -> bool {
+fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
     let session = shown.session;
     match action {
         Action::Arrange => session.mode == Mode::Arrange,

@@ -44,7 +44,7 @@ pub use tree::tree;
 
 /// What the panels show.
 #[derive(Clone, Copy)]
-pub struct Shown<'a> {
+pub struct PanelInput<'a> {
     /// The document.
     pub document: &'a Document,
     /// Mode, tools, view.
@@ -65,7 +65,7 @@ pub struct Shown<'a> {
     pub likely_meshes: &'a [(String, String)],
 }
 
-impl Shown<'_> {
+impl PanelInput<'_> {
     /// The keys as menus and tooltips write them.
     pub fn keymap(&self) -> Keymap {
         Keymap { preset: self.keys, ..Keymap::default() }

@@ -3,7 +3,7 @@
 use egui::{Id, Key, RichText, Role, ScrollArea, TextEdit, WidgetInfo};
 use impasto_editor_model::keymap::Action;
 
-use super::{Ask, Shown, menus};
+use super::{Ask, PanelInput, menus};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{MenuRow, sheet};
 
@@ -18,10 +18,10 @@ struct Memory {
 }
 
 /// Shows the search over everything. True once it closes: a command was run, or `Esc` was pressed.
-pub fn palette(ctx: &egui::Context, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
+pub fn palette(ctx: &egui::Context, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let id = Id::unique("command search");
     let mut memory = ctx.data(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
-    let close = sheet(ctx, "Find a command", WIDTH, |ui| contents(ui, &mut memory, (shown, asks)));
+    let close = sheet(ctx, "Find a command", WIDTH, |ui| contents(ui, &mut memory, shown, asks));
     ctx.data_mut(|data| {
         if close {
             data.remove::<Memory>(id);
@@ -32,7 +32,7 @@ pub fn palette(ctx: &egui::Context, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> b
     close
 }
 
-fn contents(ui: &mut egui::Ui, memory: &mut Memory, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) -> bool {
+fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let (up, down, enter, escape) = ui.input_mut(|input| {
         let none = egui::Modifiers::NONE;
         (

@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Align, Align2, Color32, FontId, Id, Key, Modifiers, Panel, Rect, RichText, Role, ScrollArea, Sense,
-    TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, Context, FontId, Id, Panel, Rect, RichText, Role, ScrollArea, Sense, TextEdit,
+    Ui, WidgetInfo, pos2, vec2,
 };
-use impasto_editor_model::document::{Repair, Row, Source};
+use impasto_editor_model::document::{ProblemRow, Repair, Source};
 use impasto_editor_model::editor::Mend;
-use impasto_editor_model::{Item, Selection};
+use impasto_editor_model::{Document, Item, Selection};
 use impasto_scene::problem::Place;
 
-use super::{Ask, Shown, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button};
@@ -41,8 +41,20 @@ struct Memory {
     go_to: Option<usize>,
 }
 
+fn memory_id() -> Id {
+    Id::unique("problems panel")
+}
+
+/// The text as it was edited beside the list, where it has not been read yet.
+pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
+    let source = document.source()?;
+    let memory: Memory = ctx.data(|data| data.get_temp(memory_id()))?;
+    let is_of_source = memory.begun_from.is_some_and(|from| from.text == source.text);
+    (is_of_source && memory.typed != source.text).then_some(memory.typed)
+}
+
 /// Takes 232 points at the bottom of `ui`. False once it is closed or nothing is wrong any more.
-pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
+pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let rows = shown.document.problems();
     if rows.is_empty() {
         return false;
@@ -54,7 +66,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
     let shown_panel = panel.show(ui, |ui| {
         let whole = ui.max_rect();
         ui.painter().hline(whole.x_range(), whole.top(), (2.0, tokens.vermilion));
-        let id = Id::unique("problems panel");
+        let id = memory_id();
         let mut memory: Memory = ui.data(|data| data.get_temp(id)).unwrap_or_default();
         memory.selected = memory.selected.min(rows.len() - 1);
         let split = whole.left() + (whole.width() * LIST).round();
@@ -80,7 +92,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
             part(egui::Rangef::new(split + 1.0, whole.right()), head_rect.bottom() + 1.0, whole.bottom());
         let place = rows[memory.selected].problem.place;
         within(ui, source_rect, egui::Layout::top_down(Align::Min), |ui| {
-            source(ui, (shown, place), &mut memory, asks);
+            source(ui, shown, place, &mut memory, asks);
         });
         ui.data_mut(|data| data.insert_temp(id, memory));
     });
@@ -89,7 +101,7 @@ pub fn problems(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) -> bool {
 }
 
 /// False where it is closed.
-fn head(ui: &mut Ui, shown: &Shown<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
+fn head(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
     let tokens = Tokens::of(ui);
     let is_lossy = shown.document.loss_count() > 0;
     let glyph = if is_lossy { (icons::ERROR, tokens.vermilion) } else { (icons::WARNING, tokens.ochre) };
@@ -128,7 +140,7 @@ fn fix_all(ui: &mut Ui, count: usize, asks: &mut Vec<Ask>) {
     ui.label(note.color(Tokens::of(ui).weak));
 }
 
-fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
+fn list(ui: &mut Ui, rows: &[ProblemRow], memory: &mut Memory, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().id_salt("problems").auto_shrink(false).show_rows(
         ui,
@@ -138,7 +150,7 @@ fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
             for index in range {
                 let (rect, response) =
                     ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
-                line(ui, (rect, &response), (&rows[index], memory.selected == index), asks);
+                line(ui, rect, &response, &rows[index], memory.selected == index, asks);
                 if response.clicked() {
                     memory.selected = index;
                     memory.go_to = rows[index].problem.place.map(|place| place.line);
@@ -150,7 +162,7 @@ fn list(ui: &mut Ui, rows: &[Row], memory: &mut Memory, asks: &mut Vec<Ask>) {
 }
 
 /// What a problem is of, where that can be selected.
-fn concerned(row: &Row) -> Option<Item> {
+fn concerned(row: &ProblemRow) -> Option<Item> {
     row.repairs.iter().find_map(|repair| match repair {
         Repair::Locate { object } => Some(Item::Object(object.clone())),
         Repair::Snap { region, .. } => Some(Item::Region(region.clone())),
@@ -161,12 +173,14 @@ fn concerned(row: &Row) -> Option<Item> {
 /// One problem: its place, its words, what mends it.
 fn line(
     ui: &mut Ui,
-    (rect, response): (Rect, &egui::Response),
-    (shown, is_selected): (&Row, bool),
+    rect: Rect,
+    response: &egui::Response,
+    shown: &ProblemRow,
+    is_selected: bool,
     asks: &mut Vec<Ask>,
 ) {
     let tokens = Tokens::of(ui);
-    let Row { problem, instead, repairs } = shown;
+    let ProblemRow { problem, instead, repairs } = shown;
     let is_fatal = problem.severity.is_fatal();
     if is_selected || response.hovered() {
         ui.painter().rect_filled(rect, 0.0, if is_selected { tokens.sel } else { tokens.hov });
@@ -227,7 +241,7 @@ fn line(
         ),
         (second, type_face::small(), tokens.weak, middle + 9.0),
     ] {
-        let mut job = with_code(&words, (font, colour));
+        let mut job = with_code(&words, font, colour);
         job.wrap = egui::text::TextWrapping::truncate_at_width(wide);
         let galley = ui.painter().layout_job(job);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(words_left, y), galley.size()).min;
@@ -235,7 +249,7 @@ fn line(
     }
     let whole = format!("{}\n{}", sentence(&problem.message), sentence(&problem.mend));
     response.clone().on_hover_ui(|ui| {
-        let mut job = with_code(&whole, (type_face::body(), tokens.text));
+        let mut job = with_code(&whole, type_face::body(), tokens.text);
         (job.break_on_newline, job.wrap.max_width) = (true, ui.spacing().tooltip_width);
         ui.label(job);
     });
@@ -264,7 +278,7 @@ fn repair_button(ui: &mut Ui, repair: &Repair, asks: &mut Vec<Ask>) {
 }
 
 /// One line, with what stands between backticks in the type of the source.
-fn with_code(words: &str, (font, colour): (FontId, Color32)) -> LayoutJob {
+fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     let mut job = LayoutJob { break_on_newline: false, ..LayoutJob::default() };
     for (index, part) in words.split('`').enumerate() {
         let font = if index % 2 == 1 { type_face::number() } else { font.clone() };
@@ -284,7 +298,8 @@ fn sentence(words: &str) -> String {
 /// The text with its lines numbered and the one with the problem marked.
 fn source(
     ui: &mut Ui,
-    (shown, place): (&Shown<'_>, Option<Place>),
+    shown: &PanelInput<'_>,
+    place: Option<Place>,
     memory: &mut Memory,
     asks: &mut Vec<Ask>,
 ) {
@@ -309,10 +324,6 @@ fn source(
         return excerpt(ui, &source.text, marked);
     }
     let id = Id::unique("problems source");
-    let is_typing = ui.memory(|memory| memory.has_focus(id));
-    if is_typing && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter)) {
-        asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
-    }
     let mut area = ScrollArea::both().id_salt("source").auto_shrink(false);
     if let Some(line) = memory.go_to.take() {
         area = area.vertical_scroll_offset((line.saturating_sub(4) as f32 * LINE).max(0.0));
@@ -342,9 +353,14 @@ fn source(
         });
     });
     if is_changed {
-        let words = "Ctrl Enter reads it again; the file on disk stays";
-        let at = ui.max_rect().right_bottom() - vec2(14.0, 8.0);
-        ui.painter().text(at, Align2::RIGHT_BOTTOM, words, type_face::small(), tokens.ochre);
+        let corner = ui.max_rect().right_bottom() - vec2(14.0, 8.0);
+        let rect = Rect::from_min_max(corner - vec2(ui.max_rect().width(), measure::BUTTON), corner);
+        let button =
+            within(ui, rect, row_from_right(), |ui| Button::new("Read this text").primary().show(ui));
+        let tip = "Reads the scene from the text above (Ctrl Enter). The file on disk stays as it is.";
+        if button.on_hover_text(tip).clicked() {
+            asks.push(Ask::Mend(Mend::ReadText(memory.typed.clone())));
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use egui::{Panel, ScrollArea, Ui, vec2};
 use impasto_editor_model::session::{Mode, Tool};
 
 use super::tool_names::face;
-use super::{Ask, Shown};
+use super::{Ask, PanelInput};
 use crate::theme::{Tokens, measure};
 use crate::widgets::{self, Tip};
 
@@ -17,7 +17,7 @@ const PAINT: &[&[Tool]] = &[
 ];
 
 /// Takes the left 48 points of `ui`.
-pub fn rail(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn rail(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::left("rail").exact_size(measure::RAIL).resizable(false).frame(frame).show(ui, |ui| {
         // Over open lanes a low window has no room for all of them.
@@ -28,7 +28,7 @@ pub fn rail(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-fn tools(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn tools(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 2.0;
     let groups = if shown.session.mode == Mode::Paint { PAINT } else { POSING };
     for (index, group) in groups.iter().enumerate() {
@@ -37,17 +37,17 @@ fn tools(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.painter().hline(rect.x_range(), rect.center().y, (1.0, Tokens::of(ui).div));
         }
         for tool in *group {
-            button(ui, (shown, *tool), asks);
+            button(ui, shown, *tool, asks);
         }
     }
 }
 
-fn button(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), asks: &mut Vec<Ask>) {
+fn button(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, asks: &mut Vec<Ask>) {
     let face = face(tool);
     let key = face.action.map(|action| shown.keys_of(action)).unwrap_or_default();
     let letter = if key.chars().count() == 1 { key.as_str() } else { "" };
     let on = shown.session.tool() == tool;
-    let response = widgets::rail_button(ui, (face.icon, face.name), letter, on);
+    let response = widgets::rail_button(ui, face.icon, face.name, letter, on);
     let response = Tip { name: face.name, key: &key, effect: face.effect, range: "" }.on(response);
     if response.clicked() && !on {
         asks.push(shown.session_with(|session| session.set_tool(tool)));

@@ -140,7 +140,7 @@ fn told(ui: &mut Ui, fault: Option<&Fault>, field: Field) {
 }
 
 /// A field of text; changed with every letter.
-fn text(ui: &mut Ui, (name, wide): (&str, f32), typed: &mut String, wrong: bool) -> egui::Response {
+fn text(ui: &mut Ui, name: &str, wide: f32, typed: &mut String, wrong: bool) -> egui::Response {
     let tokens = Tokens::of(ui);
     let mut frame = egui::Frame::new().fill(tokens.field).corner_radius(measure::CORNER);
     if wrong {
@@ -182,7 +182,7 @@ fn frames(
             }
         }
         let wrong = plan.is_err_and(|fault| fault.field == Field::Frames);
-        if text(ui, ("Frames", 130.0), &mut list, wrong).changed() {
+        if text(ui, "Frames", 130.0, &mut list, wrong).changed() {
             (settings.which, settings.list) = (Which::Listed, list);
         }
         if let Ok(plan) = plan {
@@ -222,7 +222,7 @@ fn files(ui: &mut Ui, settings: &mut RenderSettings, fault: Option<&Fault>) -> O
     labelled(ui, "Files", |ui| {
         let wrong = fault.is_some_and(|fault| fault.field == Field::Output);
         let wide = ui.available_width() - 88.0;
-        text(ui, ("Output files", wide), &mut settings.output, wrong);
+        text(ui, "Output files", wide, &mut settings.output, wrong);
         let browse = Button::new("Browse\u{2026}").name("Browse for output files");
         browse.show(ui).clicked().then_some(RenderAsk::Browse)
     })
@@ -248,7 +248,7 @@ fn driver(ui: &mut Ui, shown: &RenderShown<'_>, settings: &mut RenderSettings) {
         };
         let names = [automatic.as_str(), "EGL", "OSMesa, in software"];
         let mut chosen = DRIVERS.iter().position(|driver| *driver == settings.driver).unwrap_or(0);
-        if widgets::combo(ui, ("Driver", None), &names, &mut chosen).changed() {
+        if widgets::combo(ui, "Driver", None, &names, &mut chosen).changed() {
             settings.driver = DRIVERS[chosen];
         }
         ui.add_space(12.0);

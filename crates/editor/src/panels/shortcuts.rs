@@ -3,7 +3,7 @@
 use egui::{RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
 
-use super::{Shown, row, row_from_right, within};
+use super::{PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, sheet};
@@ -18,7 +18,7 @@ struct Group {
 }
 
 /// Shows the sheet over everything. True once it closes.
-pub fn shortcuts(ctx: &egui::Context, shown: &Shown<'_>) -> bool {
+pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
     let room = ctx.content_rect().size() - vec2(48.0, 48.0);
     let inner = room.x.min(1136.0) - 2.0 * measure::SHEET_PADDING;
     let columns = ((inner / COLUMN) as usize).max(1);

@@ -2,7 +2,7 @@
 
 use egui::{Panel, RichText, Role, WidgetInfo, accesskit};
 
-use super::{Ask, Numbers, Shown, row, row_from_right, within};
+use super::{Ask, Numbers, PanelInput, row, row_from_right, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets;
 
@@ -14,7 +14,7 @@ struct Part<'a> {
 }
 
 /// Takes the lowest 24 points of `ui`.
-pub fn status_line(ui: &mut egui::Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn status_line(ui: &mut egui::Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("status line").exact_size(measure::STATUS_LINE).resizable(false).frame(frame).show(
         ui,

@@ -7,7 +7,7 @@ use impasto_scene::motion;
 
 use super::timeline::across::{self, Across, KEY};
 use super::timeline::{self, transport};
-use super::{Ask, Shown, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{Button, Tip};
@@ -18,7 +18,7 @@ const LINE: f32 = 35.0;
 const LABELS: f32 = 128.0;
 
 /// Takes the lowest 44 points of `ui`, or as much as the lanes need.
-pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn strip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if shown.session.shows_lanes() {
         return timeline::lanes(ui, shown, asks);
     }
@@ -34,12 +34,12 @@ pub fn strip(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             ui.min_rect().left()
         });
         let across = left + 22.0..=(right - 66.0).max(left + 23.0);
-        ruler(ui, Rect::from_x_y_ranges(across, whole.y_range()), (shown, asks));
+        ruler(ui, Rect::from_x_y_ranges(across, whole.y_range()), shown, asks);
     });
 }
 
 /// From the right end.
-fn range(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn range(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);
     let response = Button::new("Keys").name("Show keys").icon(icons::KEYS_UP).plain().show(ui);
@@ -55,14 +55,14 @@ fn range(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     transport::dropped(ui, shown);
 }
 
-fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+fn ruler(ui: &mut Ui, rect: Rect, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let scene = shown.document.scene();
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };
     // The first and the last key can be hit from outside too.
     let response =
         ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
-    across::scrub(ui, &response, across, (shown, asks));
+    across::scrub(ui, &response, across, shown, asks);
 
     let clip = ui.painter().with_clip_rect(rect.expand2(vec2(12.0, 0.0)));
     let tokens = Tokens::of(ui);
@@ -75,7 +75,7 @@ fn ruler(ui: &mut Ui, rect: Rect, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
             across::number(ui, pos2(x + 4.0, top + 22.0), Align2::LEFT_CENTER, frame);
         }
     }
-    across::drops(ui, (across, line + 3.0), shown);
+    across::drops(ui, across, line + 3.0, shown);
     let reference = across.x(motion::referred_to(scene, &scene.reference).1);
     clip.vline(reference, top + 16.0..=line, (1.0, tokens.viridian));
     let pin = (icons::REFERENCE.glyph(), type_face::icon(12.0));

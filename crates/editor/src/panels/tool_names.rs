@@ -1,3 +1,5 @@
+//! The icon, name, key and tooltip of each tool.
+
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::Tool;
 

@@ -4,7 +4,7 @@ use egui::{Align2, Panel, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2}
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::Mode;
 
-use super::{Ask, Shown, divider, menus, row, row_from_right, text_width, within};
+use super::{Ask, PanelInput, divider, menus, row, row_from_right, text_width, within};
 use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, Tip};
@@ -17,7 +17,7 @@ const SWITCH: f32 = 278.0;
 const MODES: [Mode; 3] = [Mode::Arrange, Mode::Paint, Mode::Animate];
 
 /// Takes the top 40 points of `ui`.
-pub fn top_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn top_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
@@ -30,7 +30,7 @@ pub fn top_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn left(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = 0.0;
     ui.add_space(15.0);
     let mark = RichText::new(icons::APP.glyph()).font(type_face::icon(measure::ICON));
@@ -44,7 +44,7 @@ fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         (Action::Undo, icons::UNDO, shown.document.undo_text()),
         (Action::Redo, icons::REDO, shown.document.redo_text()),
     ] {
-        if travel(ui, (shown, action), icon, entry).clicked() {
+        if travel(ui, shown, action, icon, entry).clicked() {
             asks.push(Ask::Act(action));
         }
         ui.add_space(4.0);
@@ -54,7 +54,7 @@ fn left(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// Undo or redo; the tooltip names the entry.
-fn travel(ui: &mut Ui, (shown, action): (&Shown<'_>, Action), icon: Icon, entry: Option<&str>) -> Response {
+fn travel(ui: &mut Ui, shown: &PanelInput<'_>, action: Action, icon: Icon, entry: Option<&str>) -> Response {
     let response =
         ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
     match entry {
@@ -68,7 +68,7 @@ fn travel(ui: &mut Ui, (shown, action): (&Shown<'_>, Action), icon: Icon, entry:
 }
 
 /// The document's name, which ends in an ellipsis where it would push the modes.
-fn document(ui: &mut Ui, shown: &Shown<'_>) {
+fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let (name, edited) = (shown.document.name(), shown.document.is_edited());
     let off = shown.document.loss_count() > 0;
@@ -106,7 +106,7 @@ fn document(ui: &mut Ui, shown: &Shown<'_>) {
     }
 }
 
-fn modes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn modes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let session = shown.session;
     let mut mode = MODES.iter().position(|mode| *mode == session.mode).unwrap_or(0);
     if widgets::mode_switch(ui, &mut mode).changed() {
@@ -115,7 +115,7 @@ fn modes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// From the right end.
-fn right(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn right(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(measure::GAP);
     let reason = shown.why_not(Action::Render);

@@ -151,7 +151,7 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
         for (keys, words, name) in
             [(Preset::Blender, "Blender", "Keys like Blender"), (Preset::Maya, "Maya", "Keys like Maya")]
         {
-            if widgets::radio_named(ui, (words, name), choices.keys == keys).clicked() {
+            if widgets::radio_named(ui, words, name, choices.keys == keys).clicked() {
                 choices.keys = keys;
             }
         }

@@ -1,3 +1,5 @@
+//! Frames in files: written whole, stopped, kept, and refused by the disk.
+
 use std::path::Path;
 
 use impasto_editor_model::Document;

@@ -1,3 +1,5 @@
+//! The fonts of the window.
+
 use std::sync::Arc;
 
 use egui::{FontData, FontDefinitions, FontFamily};

@@ -1,3 +1,5 @@
+//! The theme as an egui style.
+
 use egui::{Color32, Context, CornerRadius, Margin, Shadow, Stroke, Style, TextStyle, Visuals, vec2};
 
 use super::{Theme, Tokens, fonts, measure, type_face};

@@ -1,3 +1,5 @@
+//! The colours of both themes, each named by what it is for.
+
 use egui::{Color32, Ui};
 
 /// Which of the two palettes.

@@ -6,47 +6,47 @@ use impasto_editor_model::camera_rig::AxisView;
 use impasto_editor_model::keymap::Action;
 use impasto_editor_model::session::{Hairs, Mode, Session, Shading};
 
-use super::{Badge, Look, ViewportEvents, ViewportInput};
+use super::{Badge, CameraChoice, ViewportEvents, ViewportInput};
 use crate::icons;
 use crate::panels::Ask;
 use crate::theme::{Tokens, type_face};
 use crate::widgets::{AxisBall, Tip, chip, chip_divider, combo, icon_toggle};
 
 const INSET: f32 = 12.0;
-const LOOKS: [(&str, Look); 5] = [
-    ("Shot camera", Look::Shot),
-    ("Free view", Look::Free),
-    ("Front", Look::Along(AxisView::Front)),
-    ("Right", Look::Along(AxisView::Right)),
-    ("Top", Look::Along(AxisView::Top)),
+const LOOKS: [(&str, CameraChoice); 5] = [
+    ("Shot camera", CameraChoice::Shot),
+    ("Free view", CameraChoice::Free),
+    ("Front", CameraChoice::Along(AxisView::Front)),
+    ("Right", CameraChoice::Along(AxisView::Right)),
+    ("Top", CameraChoice::Along(AxisView::Top)),
 ];
 const SHADINGS: [(&str, Shading); 3] =
     [("Painted", Shading::Painted), ("Shaded", Shading::Shaded), ("Trust", Shading::Trust)];
 
 pub(super) fn show(ui: &Ui, area: Rect, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
-    float(ui, "view and shading", (area, Align2::LEFT_TOP), |ui| {
+    float(ui, "view and shading", area, Align2::LEFT_TOP, |ui| {
         chip(ui, |ui| looks(ui, input, events));
     });
-    float(ui, "overlays", (area, Align2::RIGHT_TOP), |ui| {
+    float(ui, "overlays", area, Align2::RIGHT_TOP, |ui| {
         chip(ui, |ui| overlays(ui, input.session, events));
     });
-    float(ui, "badge", (area, Align2::LEFT_BOTTOM), |ui| {
+    float(ui, "badge", area, Align2::LEFT_BOTTOM, |ui| {
         chip(ui, |ui| badge(ui, input, events));
     });
     if input.now.is_none() {
-        float(ui, "axis ball", (area, Align2::RIGHT_BOTTOM), |ui| {
+        float(ui, "axis ball", area, Align2::RIGHT_BOTTOM, |ui| {
             let view_from_world = glam::Mat3::from_mat4(input.camera.view_from_world().as_mat4());
             let ball = AxisBall { view_from_world }.show(ui, "Axis ball");
             events.orbit_px += glam::DVec2::new(f64::from(ball.dragged.x), f64::from(ball.dragged.y));
             if let Some(axis) = ball.clicked_axis {
-                events.look = Some(Look::Along(axis_view(axis)));
+                events.look = Some(CameraChoice::Along(axis_view(axis)));
             }
         });
     }
 }
 
 /// In a layer of its own, so that a press on it is none on the picture.
-fn float(ui: &Ui, name: &str, (area, corner): (Rect, Align2), contents: impl FnOnce(&mut Ui)) {
+fn float(ui: &Ui, name: &str, area: Rect, corner: Align2, contents: impl FnOnce(&mut Ui)) {
     let inner = area.shrink(INSET);
     let at = corner.pos_in_rect(&inner);
     Area::new(Id::unique(("viewport chip", name)))
@@ -60,12 +60,12 @@ fn float(ui: &Ui, name: &str, (area, corner): (Rect, Align2), contents: impl FnO
 
 fn looks(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
     let mut look = usize::from(!input.through_shot);
-    if combo(ui, ("View", Some(icons::CAMERA)), &LOOKS.map(|(name, _)| name), &mut look).changed() {
+    if combo(ui, "View", Some(icons::CAMERA), &LOOKS.map(|(name, _)| name), &mut look).changed() {
         events.look = Some(LOOKS[look].1);
     }
     chip_divider(ui);
     let mut shading = SHADINGS.iter().position(|(_, of)| *of == input.session.shading).unwrap_or(0);
-    if combo(ui, ("Shading", Some(icons::SHADING)), &SHADINGS.map(|(name, _)| name), &mut shading).changed() {
+    if combo(ui, "Shading", Some(icons::SHADING), &SHADINGS.map(|(name, _)| name), &mut shading).changed() {
         let session = Session { shading: SHADINGS[shading].1, ..input.session.clone() };
         events.asks.push(Ask::Session(Box::new(session)));
     }
@@ -136,7 +136,7 @@ fn badge(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
         match (input.now.is_some(), input.badge) {
             (true, _) | (false, Badge::Turned { .. }) => events.asks.push(Ask::Act(Action::Compare)),
             (false, Badge::Reference(_)) => events.recapture = true,
-            (false, Badge::Free(_)) => events.look = Some(Look::Shot),
+            (false, Badge::Free(_)) => events.look = Some(CameraChoice::Shot),
         }
     }
     ui.add_space(2.0);

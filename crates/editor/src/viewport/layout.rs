@@ -74,7 +74,8 @@ fn snapped(at: Rect) -> Rect {
 pub(super) fn titles(
     painter: &Painter,
     layout: &Layout,
-    (now, input): (&Now<'_>, &ViewportInput<'_>),
+    now: &Now<'_>,
+    input: &ViewportInput<'_>,
     tokens: &Tokens,
 ) {
     let reference = match input.badge {

@@ -7,10 +7,10 @@ use crate::worker::{Picture, ViewJob};
 /// The last picture of each view.
 #[derive(Default)]
 pub struct Pictures {
-    shown: Vec<Option<Shown>>,
+    shown: Vec<Option<ShownPicture>>,
 }
 
-struct Shown {
+struct ShownPicture {
     texture: TextureHandle,
     view: ViewJob,
     serial: u64,
@@ -32,7 +32,7 @@ impl Pictures {
             }
             empty => {
                 let texture = ctx.load_texture(format!("view {index}"), ImageData::Color(image), options);
-                *empty = Some(Shown { texture, view, serial, exact });
+                *empty = Some(ShownPicture { texture, view, serial, exact });
             }
         }
     }

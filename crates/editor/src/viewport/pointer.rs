@@ -1,52 +1,25 @@
-//! From egui's events to plain ones: in order, no press lost, moves between two presses only as many as the hand made.
+//! From egui's events to those of the editor, in the order in which they came; places in points from the viewport's upper left
+//! corner, Y down.
 
 use egui::{Event, MouseWheelUnit, PointerButton, Ui};
 use glam::DVec2;
+use impasto_editor_model::editor::{PointerEvent, PointerKind};
 use impasto_editor_model::keymap::{Button, Modifiers};
 
 use super::framing::Framing;
 
-/// What the pointer did over the viewport. Places in points from its upper left corner, Y down.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointerEvent {
-    /// What.
-    pub kind: PointerKind,
-    /// Where; while a button is held, perhaps outside.
-    pub at_px: DVec2,
-    /// With what held.
-    pub held: Modifiers,
-    /// Seconds of the window's clock.
-    pub at_secs: f64,
-}
+/// Two fingers that spread by this factor are one step of the wheel.
+const PINCH_STEP: f64 = 1.1;
 
-/// What the pointer did.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointerKind {
-    /// It moved.
-    Moved,
-    /// A button went down over the viewport.
-    Pressed(Button),
-    /// A button that went down over the viewport went up.
-    Released(Button),
-    /// The wheel, in steps; away from the hand is positive.
-    Wheel(f64),
-    /// Two fingers spread (above 1) or closed.
-    Pinch(f64),
-    /// It left the viewport, no button held.
-    Left,
-    /// It was pressed twice at one place. Comes after the second press.
-    DoublePressed,
-}
-
-/// What is kept from one pass to the next.
+/// The pointer over the viewport, from one pass to the next.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Held {
+pub(super) struct Pointer {
     buttons: Vec<Button>,
     last_px: DVec2,
     inside: bool,
 }
 
-impl Held {
+impl Pointer {
     /// The events of this pass. `over` says whether a place of the window is on the picture and not on what floats over it.
     pub(super) fn events(
         &mut self,
@@ -54,10 +27,7 @@ impl Held {
         framing: &Framing,
         over: impl Fn(egui::Pos2) -> bool,
     ) -> Vec<PointerEvent> {
-        let (raw, at_secs, double) = ui.input(|input| {
-            let double = input.pointer.button_double_clicked(PointerButton::Primary);
-            (input.raw.events.clone(), input.time, double)
-        });
+        let (raw, at_secs) = ui.input(|input| (input.raw.events.clone(), input.time));
         let mut held = ui.input(|input| plain(input.modifiers));
         let mut events = Vec::new();
         for event in raw {
@@ -67,9 +37,9 @@ impl Held {
                     let inside = over(at);
                     self.last_px = framing.from_window(at);
                     if inside || !self.buttons.is_empty() {
-                        push(PointerKind::Moved, self.last_px, held);
+                        push(PointerKind::Move, self.last_px, held);
                     } else if self.inside {
-                        push(PointerKind::Left, self.last_px, held);
+                        push(PointerKind::Leave, self.last_px, held);
                     }
                     self.inside = inside;
                 }
@@ -82,15 +52,15 @@ impl Held {
                         if !self.buttons.contains(&button) {
                             self.buttons.push(button);
                         }
-                        push(PointerKind::Pressed(button), self.last_px, held);
+                        push(PointerKind::Press(button), self.last_px, held);
                     } else if !pressed && self.buttons.contains(&button) {
-                        self.buttons.retain(|held| *held != button);
-                        push(PointerKind::Released(button), self.last_px, held);
+                        self.buttons.retain(|other| *other != button);
+                        push(PointerKind::Release(button), self.last_px, held);
                     }
                 }
                 Event::PointerGone => {
                     if self.inside && self.buttons.is_empty() {
-                        push(PointerKind::Left, self.last_px, held);
+                        push(PointerKind::Leave, self.last_px, held);
                     }
                     self.inside = false;
                 }
@@ -106,23 +76,16 @@ impl Held {
                     push(PointerKind::Wheel(steps), self.last_px, plain(modifiers));
                 }
                 Event::Zoom(factor) if self.inside => {
-                    push(PointerKind::Pinch(f64::from(factor)), self.last_px, held)
+                    let steps = f64::from(factor).ln() / PINCH_STEP.ln();
+                    push(PointerKind::Wheel(steps), self.last_px, held);
                 }
                 Event::WindowFocused(false) => {
                     for button in std::mem::take(&mut self.buttons) {
-                        push(PointerKind::Released(button), self.last_px, held);
+                        push(PointerKind::Release(button), self.last_px, held);
                     }
                 }
                 _ => {}
             }
-        }
-        if double && self.inside {
-            events.push(PointerEvent {
-                kind: PointerKind::DoublePressed,
-                at_px: self.last_px,
-                held,
-                at_secs,
-            });
         }
         events
     }

@@ -30,7 +30,8 @@ pub struct HairLook<'a> {
 /// The hairs of a painting at a frame, seen through a camera (not widened) in a framing. `map` is what that camera sees.
 pub fn hair_marks(
     painting: &Painting,
-    (camera, frame): (&CameraPose, f64),
+    camera: &CameraPose,
+    frame: f64,
     framing: &Framing,
     map: &SurfaceMap,
     look: &HairLook<'_>,

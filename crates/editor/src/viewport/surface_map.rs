@@ -6,9 +6,10 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec4};
 use impasto_core::ScreenMap;
 use impasto_editor_model::picking::View;
-use impasto_painting::BodyShape;
 use impasto_painting::frame::BodySurface;
+use impasto_painting::{BodyShape, Painting};
 use impasto_scene::document::Lens;
+use impasto_scene::motion;
 
 /// A point may lie this share of its depth behind the surface that shows, and still be that surface.
 const LEEWAY: f32 = 0.006;
@@ -48,6 +49,21 @@ pub struct StandingBody {
     pub visible: bool,
 }
 
+impl StandingBody {
+    /// The bodies of a painting as they stand at a frame, by the places of their objects in the scene.
+    pub fn all(painting: &Painting, frame: f64) -> Vec<Self> {
+        let scene = painting.scene();
+        let poses = motion::poses_at(scene, frame);
+        let body = |(object, shape)| Self {
+            surface: Arc::clone(painting.surface(object)),
+            shape,
+            world_from_model: poses[object],
+            visible: !scene.objects[object].hidden,
+        };
+        painting.shapes_at(frame).into_iter().enumerate().map(body).collect()
+    }
+}
+
 /// Of the very same surface, standing alike.
 impl PartialEq for StandingBody {
     fn eq(&self, other: &Self) -> bool {
@@ -80,7 +96,7 @@ impl SurfaceMap {
             let corners = corners(body, &view.map(body.world_from_model));
             for (triangle, vertices) in body.surface.mesh.triangles.iter().enumerate() {
                 let face = Face { object: object as u32, triangle: triangle as u32 };
-                map.add(vertices.map(|vertex| corners[vertex as usize]), near, (view.size_px, face));
+                map.add(vertices.map(|vertex| corners[vertex as usize]), near, view.size_px, face);
             }
         }
         map
@@ -121,7 +137,7 @@ impl SurfaceMap {
         depth as f32 <= farthest * (1.0 + LEEWAY)
     }
 
-    fn add(&mut self, corners: [Corner; 3], near: f64, (size_px, face): (DVec2, Face)) {
+    fn add(&mut self, corners: [Corner; 3], near: f64, size_px: DVec2, face: Face) {
         let kept = before(corners, near);
         for index in 2..kept.len() {
             self.fill([kept[0], kept[index - 1], kept[index]], size_px, face);

@@ -1,3 +1,5 @@
+//! The ball that shows and sets how the view is turned.
+
 use egui::{Align2, Color32, FontId, Response, Role, Sense, Stroke, Ui, Vec2, vec2};
 use glam::{Mat3, Vec3};
 
@@ -63,13 +65,7 @@ impl AxisBall {
                 painter.circle_filled(at, KNOB, colour);
                 let font =
                     FontId::new(10.0, egui::FontFamily::Name(crate::theme::type_face::SEMIBOLD.into()));
-                draw::words(
-                    painter,
-                    at,
-                    Align2::CENTER_CENTER,
-                    (LETTERS[axis], font),
-                    Color32::from_gray(27),
-                );
+                draw::words(painter, at, Align2::CENTER_CENTER, LETTERS[axis], font, Color32::from_gray(27));
             } else if near {
                 painter.circle(at, KNOB - 2.0, tokens.chip, Stroke::new(1.5, colour));
             }

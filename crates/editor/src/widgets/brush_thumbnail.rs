@@ -1,3 +1,5 @@
+//! A button with the picture of a brush.
+
 use egui::{Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, TextureId, Ui, pos2, vec2};
 
 use super::draw;

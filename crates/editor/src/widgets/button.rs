@@ -1,3 +1,5 @@
+//! Buttons with words or an icon.
+
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
 use super::draw;
@@ -97,10 +99,10 @@ impl<'a> Button<'a> {
         painter.rect_filled(rect, draw::corner(), fill);
         let mut at = rect.left_center() + vec2(padding, 0.0);
         if let Some(icon) = self.icon {
-            draw::icon(painter, at + vec2(measure::ICON / 2.0, 0.0), (icon, measure::ICON), colour);
+            draw::icon(painter, at + vec2(measure::ICON / 2.0, 0.0), icon, measure::ICON, colour);
             at.x += before;
         }
-        draw::words(painter, at, Align2::LEFT_CENTER, (self.words, font), colour);
+        draw::words(painter, at, Align2::LEFT_CENTER, self.words, font, colour);
         draw::focus_ring(ui, &response, rect, measure::CORNER);
         match self.on {
             Some(on) => draw::named_state(&response, Role::Button, self.name, on),
@@ -117,7 +119,7 @@ pub fn primary_button(ui: &mut Ui, words: &str) -> Response {
 
 /// A square button of one icon, 28 points; it fills when the pointer is over it.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
-    let response = square(ui, icon, (None, Color32::TRANSPARENT));
+    let response = square(ui, icon, None, Color32::TRANSPARENT);
     draw::named(&response, Role::Button, name);
     response
 }
@@ -125,14 +127,14 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
 /// As [`icon_button`], on the ground of a field: it stands for one.
 pub fn field_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let ground = Tokens::of(ui).field;
-    let response = square(ui, icon, (None, ground));
+    let response = square(ui, icon, None, ground);
     draw::named(&response, Role::Button, name);
     response
 }
 
 /// A square button of one icon that stays on or off.
 pub fn icon_toggle(ui: &mut Ui, icon: Icon, name: &str, on: &mut bool) -> Response {
-    let mut response = square(ui, icon, (Some(*on), Color32::TRANSPARENT));
+    let mut response = square(ui, icon, Some(*on), Color32::TRANSPARENT);
     if response.clicked() {
         *on = !*on;
         response.mark_changed();
@@ -141,7 +143,7 @@ pub fn icon_toggle(ui: &mut Ui, icon: Icon, name: &str, on: &mut bool) -> Respon
     response
 }
 
-fn square(ui: &mut Ui, icon: Icon, (on, ground): (Option<bool>, Color32)) -> Response {
+fn square(ui: &mut Ui, icon: Icon, on: Option<bool>, ground: Color32) -> Response {
     let tokens = Tokens::of(ui);
     let side = if on.is_some() { 26.0 } else { measure::BUTTON };
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
@@ -149,7 +151,7 @@ fn square(ui: &mut Ui, icon: Icon, (on, ground): (Option<bool>, Color32)) -> Res
         if on == Some(true) { (tokens.sel, tokens.accent_text) } else { (ground, tokens.text) };
     let fill = if on == Some(true) { rest } else { draw::fill(tokens, &response, rest) };
     ui.painter().rect_filled(rect, draw::corner(), fill);
-    draw::icon(ui.painter(), rect.center(), (icon, measure::ICON), colour);
+    draw::icon(ui.painter(), rect.center(), icon, measure::ICON, colour);
     draw::focus_ring(ui, &response, rect, measure::CORNER);
     response
 }

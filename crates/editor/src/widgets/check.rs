@@ -1,3 +1,5 @@
+//! Check boxes and radio buttons.
+
 use egui::{Align2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::draw;
@@ -17,7 +19,7 @@ pub fn checkbox(ui: &mut Ui, name: &str, on: &mut bool) -> Response {
     let painter = ui.painter();
     if *on {
         painter.rect_filled(mark, 3.0, tokens.accent);
-        draw::icon(painter, mark.center(), (icons::CHECK, 14.0), tokens.on_accent);
+        draw::icon(painter, mark.center(), icons::CHECK, 14.0, tokens.on_accent);
     } else {
         let fill = draw::fill(tokens, &response, tokens.field);
         painter.rect(mark, 3.0, fill, Stroke::new(1.0, tokens.out), StrokeKind::Inside);
@@ -29,11 +31,11 @@ pub fn checkbox(ui: &mut Ui, name: &str, on: &mut bool) -> Response {
 
 /// One of several, with its name beside it.
 pub fn radio(ui: &mut Ui, name: &str, on: bool) -> Response {
-    radio_named(ui, (name, name), on)
+    radio_named(ui, name, name, on)
 }
 
 /// As [`radio`], with words that do not say its whole name.
-pub fn radio_named(ui: &mut Ui, (words, name): (&str, &str), on: bool) -> Response {
+pub fn radio_named(ui: &mut Ui, words: &str, name: &str, on: bool) -> Response {
     let (mark, response) = row(ui, words);
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
@@ -54,6 +56,6 @@ fn row(ui: &mut Ui, name: &str) -> (Rect, Response) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let mark = Rect::from_center_size(pos2(rect.left() + BOX / 2.0, rect.center().y), vec2(BOX, BOX));
     let at = pos2(mark.right() + measure::GAP, rect.center().y);
-    draw::words(ui.painter(), at, Align2::LEFT_CENTER, (name, type_face::body()), Tokens::of(ui).text);
+    draw::words(ui.painter(), at, Align2::LEFT_CENTER, name, type_face::body(), Tokens::of(ui).text);
     (mark, response)
 }

@@ -1,3 +1,5 @@
+//! A group of controls that floats over the picture.
+
 use egui::{Frame, InnerResponse, Margin, Sense, Ui, vec2};
 
 use super::draw;

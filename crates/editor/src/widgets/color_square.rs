@@ -1,3 +1,5 @@
+//! A square that shows a colour and opens its picker.
+
 use egui::color_picker::{Alpha, color_picker_color32};
 use egui::{Color32, Popup, PopupCloseBehavior, Response, Role, Sense, StrokeKind, Ui, vec2};
 

@@ -1,3 +1,5 @@
+//! A control that picks one of several from a menu.
+
 use egui::{Align2, Color32, Popup, Response, Role, Sense, Ui, vec2};
 
 use super::draw;
@@ -7,12 +9,7 @@ use crate::theme::{Tokens, measure, type_face};
 /// Picks one of `choices` from a menu; `chosen` is its place in them. With an icon it has no fill at rest, as on a chip.
 ///
 /// Changed where another was picked.
-pub fn combo(
-    ui: &mut Ui,
-    (name, icon): (&str, Option<Icon>),
-    choices: &[&str],
-    chosen: &mut usize,
-) -> Response {
+pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     let shown = choices.get(*chosen).copied().unwrap_or_default();
     let before = icon.map_or(0.0, |_| measure::SMALL_ICON + 6.0);
@@ -29,14 +26,15 @@ pub fn combo(
         draw::icon(
             painter,
             at + vec2(measure::SMALL_ICON / 2.0, 0.0),
-            (icon, measure::SMALL_ICON),
+            icon,
+            measure::SMALL_ICON,
             tokens.text,
         );
         at.x += before;
     }
-    draw::words(painter, at, Align2::LEFT_CENTER, (shown, type_face::body()), tokens.text);
+    draw::words(painter, at, Align2::LEFT_CENTER, shown, type_face::body(), tokens.text);
     let down = rect.right_center() - vec2(padding + 5.0, 0.0);
-    draw::icon(painter, down, (icons::MENU_DOWN, measure::ICON), tokens.text);
+    draw::icon(painter, down, icons::MENU_DOWN, measure::ICON, tokens.text);
     draw::focus_ring(ui, &response, rect, measure::CORNER);
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::labeled(Role::ComboBox, response.enabled(), name);
@@ -68,12 +66,13 @@ fn menu_row(ui: &mut Ui, words: &str, on: bool) -> Response {
         draw::icon(
             ui.painter(),
             rect.left_center() + vec2(14.0, 0.0),
-            (icons::CHECK, 16.0),
+            icons::CHECK,
+            16.0,
             tokens.accent_text,
         );
     }
     let at = rect.left_center() + vec2(28.0, 0.0);
-    draw::words(ui.painter(), at, Align2::LEFT_CENTER, (words, type_face::body()), tokens.text);
+    draw::words(ui.painter(), at, Align2::LEFT_CENTER, words, type_face::body(), tokens.text);
     draw::named_state(&response, Role::MenuItemRadio, words, on);
     response
 }

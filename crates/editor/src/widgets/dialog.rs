@@ -1,3 +1,5 @@
+//! Questions that must be answered first.
+
 use egui::{Area, Color32, Context, CornerRadius, Frame, Id, Key, Margin, Modal, RichText, Ui};
 
 use super::Button;

@@ -1,3 +1,5 @@
+//! What widgets draw alike: fills, focus rings, icons, words, names.
+
 use egui::{
     Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui,
     WidgetInfo,
@@ -25,8 +27,8 @@ pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect, corner: f32) 
     }
 }
 
-pub(super) fn icon(painter: &Painter, centre: Pos2, (icon, size): (Icon, f32), colour: Color32) {
-    words(painter, centre, Align2::CENTER_CENTER, (icon.glyph(), type_face::icon(size)), colour);
+pub(super) fn icon(painter: &Painter, centre: Pos2, icon: Icon, size: f32, colour: Color32) {
+    words(painter, centre, Align2::CENTER_CENTER, icon.glyph(), type_face::icon(size), colour);
 }
 
 /// Text whose box stands at `at` by `align`. Returns the box.
@@ -34,7 +36,8 @@ pub(super) fn words(
     painter: &Painter,
     at: Pos2,
     align: Align2,
-    (text, font): (&str, FontId),
+    text: &str,
+    font: FontId,
     colour: Color32,
 ) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), font, colour);
@@ -44,12 +47,7 @@ pub(super) fn words(
 }
 
 /// Text in one line that ends with an ellipsis where it would pass `width`.
-pub(super) fn words_within(
-    ui: &Ui,
-    at: Pos2,
-    (text, font): (&str, FontId),
-    (colour, width): (Color32, f32),
-) -> Rect {
+pub(super) fn words_within(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: Color32, width: f32) -> Rect {
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(0.0));
     let galley = ui.painter().layout_job(job);

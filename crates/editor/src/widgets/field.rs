@@ -1,9 +1,11 @@
+//! A field for a number: dragged, typed, or stepped by arrow keys and the wheel.
+
 use std::ops::RangeInclusive;
 
 use egui::accesskit::{Action, ActionData};
 use egui::{
-    Align2, CornerRadius, CursorIcon, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, CornerRadius, CursorIcon, EventFilter, InputState, Key, Rect, Response, Role, Sense, Stroke,
+    StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
 mod typed;
@@ -13,9 +15,10 @@ use super::{Tip, draw};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 
-/// A number: a box whose filled part is its place in the range. Drag it, scroll over it, press the arrows on it, or type
-/// after a click or `Enter`; a double click brings its default back. What is typed beyond its limits, or is no number, is
-/// marked where it stands and not taken.
+/// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`, or
+/// stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held. Otherwise the
+/// wheel scrolls what the field stands in. A double click brings the default back. What is typed beyond the limits, or is no
+/// number, is marked and not taken.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
@@ -164,11 +167,11 @@ impl<'a> NumberField<'a> {
 
         let mut editor = None;
         let mut reset = false;
-        if memory.typed.is_some() && self.is_double_clicked(ui, (id, frame)) {
+        if memory.typed.is_some() && self.is_double_clicked(ui, id, frame) {
             memory.typed = None;
             reset = true;
         } else if memory.typed.is_some() {
-            let (done, cancelled) = self.type_in(ui, (id, frame), &mut memory, &mut editor);
+            let (done, cancelled) = self.type_in(ui, id, frame, &mut memory, &mut editor);
             began |= done && !cancelled;
             ended |= done && !cancelled;
         } else {
@@ -219,11 +222,11 @@ impl<'a> NumberField<'a> {
         let room = measure::LABEL - measure::GAP;
         // A unit stands in the box: it is not said twice.
         let label = self.name.strip_suffix(self.unit).map_or(self.name, str::trim_end);
-        draw::words_within(ui, row.left_center(), (label, type_face::body()), (tokens.weak, room));
+        draw::words_within(ui, row.left_center(), label, type_face::body(), tokens.weak, room);
         if let Some(error) = self.error {
             let at = pos2(frame.left(), row.bottom() + 10.0);
             let room = row.right() - frame.left();
-            draw::words_within(ui, at, (error, type_face::small()), (tokens.vermilion, room));
+            draw::words_within(ui, at, error, type_face::small(), tokens.vermilion, room);
         }
         (row, frame)
     }
@@ -242,12 +245,13 @@ impl<'a> NumberField<'a> {
 
     fn step_by_wheel(&self, ui: &Ui, response: &Response, memory: &mut Memory) -> f64 {
         const POINTS_A_STEP: f32 = 40.0;
-        if !response.hovered() {
+        let (is_under_pointer, has_focus) = (response.hovered(), response.has_focus());
+        let scrolled = is_under_pointer.then(|| ui.input_mut(|input| scrolled(input, has_focus)));
+        let Some(scrolled) = scrolled.flatten() else {
             memory.scrolled = 0.0;
             return 0.0;
-        }
-        // Taken away, so that the panel under the field stays where it is.
-        memory.scrolled += ui.input_mut(|input| std::mem::take(&mut input.smooth_scroll_delta).y);
+        };
+        memory.scrolled += scrolled;
         let steps = (memory.scrolled / POINTS_A_STEP).round();
         memory.scrolled -= steps * POINTS_A_STEP;
         f64::from(steps)
@@ -316,7 +320,7 @@ impl<'a> NumberField<'a> {
         let response = ui.interact(hit, ui.scope_id().with(&name), Sense::click());
         let tokens = Tokens::of(ui);
         let colour = if response.hovered() { tokens.text } else { tokens.weak };
-        draw::icon(ui.painter(), centre, (icons::UNDO, 14.0), colour);
+        draw::icon(ui.painter(), centre, icons::UNDO, 14.0, colour);
         draw::focus_ring(ui, &response, hit, measure::CORNER);
         draw::named(&response, Role::Button, &name);
         if response.clicked() {
@@ -354,14 +358,14 @@ impl<'a> NumberField<'a> {
         let colour = if self.warns { tokens.ochre } else { tokens.text };
         let mut at = frame.left_center() + vec2(8.0, 0.0);
         if !self.letter.is_empty() {
-            draw::words(painter, at, Align2::LEFT_CENTER, (self.letter, type_face::small()), tokens.weak);
+            draw::words(painter, at, Align2::LEFT_CENTER, self.letter, type_face::small(), tokens.weak);
             at.x += 11.0;
         }
         let (at, align) =
             if self.centred { (frame.center(), Align2::CENTER_CENTER) } else { (at, Align2::LEFT_CENTER) };
-        draw::words(painter, at, align, (&self.shown(), type_face::number()), colour);
+        draw::words(painter, at, align, &self.shown(), type_face::number(), colour);
         let end = frame.right_center() - vec2(8.0, 0.0);
-        draw::words(painter, end, Align2::RIGHT_CENTER, (self.unit, type_face::small()), tokens.weak);
+        draw::words(painter, end, Align2::RIGHT_CENTER, self.unit, type_face::small(), tokens.weak);
         draw::focus_ring(ui, response, frame, measure::CORNER);
     }
 
@@ -398,7 +402,9 @@ impl<'a> NumberField<'a> {
         if let Some(default) = self.default {
             range = format!("{range}, default {}", self.text_of(default));
         }
-        Tip { range: range.trim_start_matches(", "), ..self.tip }.on(response)
+        let range = [range.trim_start_matches(", "), "Ctrl and the wheel change it."];
+        let range = if range[0].is_empty() { range[1].to_owned() } else { range.join(". ") };
+        Tip { range: &range, ..self.tip }.on(response)
     }
 
     fn read(&self, typed: &str) -> Option<f64> {
@@ -420,4 +426,14 @@ impl<'a> NumberField<'a> {
         let text = format!("{value:.*}", self.decimals);
         text.strip_prefix('-').map_or(text.clone(), |rest| format!("\u{2212}{rest}"))
     }
+}
+
+/// By how many points the wheel turned for the field; none where the turn is for what the field stands in.
+fn scrolled(input: &mut InputState, has_focus: bool) -> Option<f32> {
+    if input.modifiers.command {
+        // With Ctrl, egui reads the wheel as a zoom by this much for each point.
+        return Some(input.zoom_delta().ln() / egui::InputOptions::default().scroll_zoom_speed);
+    }
+    // Taken away, so that what the field stands in does not scroll as well.
+    has_focus.then(|| std::mem::take(&mut input.smooth_scroll_delta).y)
 }

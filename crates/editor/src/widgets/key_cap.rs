@@ -1,3 +1,5 @@
+//! Keys as they are printed on a keyboard.
+
 use egui::{Align2, Response, Role, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::draw;
@@ -10,7 +12,7 @@ pub fn key_cap(ui: &mut Ui, key: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let line = Stroke::new(1.0, tokens.div);
     ui.painter().rect(rect, 3.0, egui::Color32::TRANSPARENT, line, StrokeKind::Inside);
-    draw::words(ui.painter(), rect.center(), Align2::CENTER_CENTER, (key, small_number()), tokens.weak);
+    draw::words(ui.painter(), rect.center(), Align2::CENTER_CENTER, key, small_number(), tokens.weak);
     draw::named(&response, Role::Label, key);
     response
 }

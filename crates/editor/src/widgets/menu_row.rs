@@ -1,3 +1,5 @@
+//! A command in a menu, with its keys.
+
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
 use super::draw;
@@ -35,12 +37,12 @@ impl MenuRow<'_> {
         let weak = if lit { tokens.text } else { tokens.weak };
         if self.on {
             let at = rect.left_center() + vec2(14.0, 0.0);
-            draw::icon(ui.painter(), at, (icons::CHECK, measure::SMALL_ICON), tokens.text);
+            draw::icon(ui.painter(), at, icons::CHECK, measure::SMALL_ICON, tokens.text);
         }
         let at = rect.left_center() + vec2(28.0, 0.0);
-        draw::words(ui.painter(), at, Align2::LEFT_CENTER, (self.words, type_face::body()), tokens.text);
+        draw::words(ui.painter(), at, Align2::LEFT_CENTER, self.words, type_face::body(), tokens.text);
         let end = rect.right_center() - vec2(12.0, 0.0);
-        draw::words(ui.painter(), end, Align2::RIGHT_CENTER, (self.keys, type_face::number()), weak);
+        draw::words(ui.painter(), end, Align2::RIGHT_CENTER, self.keys, type_face::number(), weak);
         draw::named_state(&response, Role::MenuItem, self.words, self.on);
         response
     }

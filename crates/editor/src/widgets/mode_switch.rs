@@ -1,3 +1,5 @@
+//! The switch between Arrange, Paint and Animate.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;
@@ -35,9 +37,9 @@ pub fn mode_switch(ui: &mut Ui, mode: &mut usize) -> Response {
         };
         ui.painter().rect_filled(part, draw::corner(), fill);
         let glyph = part.left_center() + vec2(11.0 + measure::SMALL_ICON / 2.0, 0.0);
-        draw::icon(ui.painter(), glyph, (icon, measure::SMALL_ICON), colour);
+        draw::icon(ui.painter(), glyph, icon, measure::SMALL_ICON, colour);
         let at = part.left_center() + vec2(11.0 + measure::SMALL_ICON + 6.0, 0.0);
-        draw::words(ui.painter(), at, Align2::LEFT_CENTER, (words, font), colour);
+        draw::words(ui.painter(), at, Align2::LEFT_CENTER, words, font, colour);
         draw::focus_ring(ui, &response, part, measure::CORNER);
         draw::named_state(&response, Role::RadioButton, words, on);
     }

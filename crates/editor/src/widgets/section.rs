@@ -1,3 +1,5 @@
+//! The head of a part of the inspector, which folds it.
+
 use egui::{Align2, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;
@@ -21,12 +23,12 @@ pub fn section(ui: &mut Ui, name: &str, note: &str, open: &mut bool) -> Response
     painter.hline(rect.x_range(), rect.top() + 0.5, (1.0, tokens.div));
     let middle = rect.center().y + 0.5;
     let arrow = if *open { icons::EXPANDED } else { icons::FOLDED };
-    draw::icon(painter, pos2(rect.left() + 16.0, middle), (arrow, measure::ICON), tokens.text);
+    draw::icon(painter, pos2(rect.left() + 16.0, middle), arrow, measure::ICON, tokens.text);
     let at = pos2(rect.left() + 28.0, middle);
-    draw::words(painter, at, Align2::LEFT_CENTER, (name, type_face::head()), tokens.text);
+    draw::words(painter, at, Align2::LEFT_CENTER, name, type_face::head(), tokens.text);
     let end = pos2(rect.right() - measure::GAP, middle);
     let weak = if response.hovered() { tokens.text } else { tokens.weak };
-    draw::words(painter, end, Align2::RIGHT_CENTER, (note, type_face::small()), weak);
+    draw::words(painter, end, Align2::RIGHT_CENTER, note, type_face::small(), weak);
     draw::focus_ring(ui, &response, rect.shrink(3.0), 2.0);
     draw::named_state(&response, Role::DisclosureTriangle, name, *open);
     if !note.is_empty() {

@@ -1,3 +1,5 @@
+//! A few choices side by side, one of them on.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;
@@ -54,7 +56,7 @@ pub fn segmented_named(ui: &mut Ui, choices: &[(&str, &str)], chosen: &mut usize
         };
         ui.painter().rect_filled(seen, draw::corner(), fill);
         let colour = if on || response.hovered() { tokens.text } else { tokens.weak };
-        draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, (words, type_face::small()), colour);
+        draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, words, type_face::small(), colour);
         draw::focus_ring(ui, &response, seen, measure::CORNER);
         draw::named_state(&response, Role::RadioButton, name, on);
     }

@@ -1,3 +1,5 @@
+//! Tooltips of one form: name, key, effect, range.
+
 use egui::{Response, RichText};
 
 use crate::theme::{Tokens, type_face};

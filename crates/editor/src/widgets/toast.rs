@@ -1,3 +1,5 @@
+//! Lines that come up at the bottom and go by themselves.
+
 use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
 
 use super::{Button, draw};

@@ -1,3 +1,5 @@
+//! X, Y and Z side by side, each on or off.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;
@@ -29,7 +31,7 @@ pub fn toggle_group(ui: &mut Ui, names: [&str; 3], on: &mut [bool; 3]) -> Respon
         let seen = part.shrink2(vec2(0.0, INSET));
         let fill = if *on { rest } else { draw::fill(tokens, &response, rest) };
         ui.painter().rect_filled(seen, draw::corner(), fill);
-        draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, (letter, type_face::small()), colour);
+        draw::words(ui.painter(), seen.center(), Align2::CENTER_CENTER, letter, type_face::small(), colour);
         draw::focus_ring(ui, &response, seen, measure::CORNER);
         draw::named_state(&response, Role::Button, name, *on);
     }

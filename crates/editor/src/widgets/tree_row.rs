@@ -1,3 +1,5 @@
+//! A row of the scene tree.
+
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
 use super::draw;
@@ -111,11 +113,12 @@ impl TreeRow<'_> {
             ui.painter(),
             pos2(end, middle),
             Align2::RIGHT_CENTER,
-            (self.note, type_face::small()),
+            self.note,
+            type_face::small(),
             weak,
         );
         let room = note.left() - measure::GAP - name_at.x;
-        draw::words_within(ui, name_at, (self.name, type_face::body()), (colour, room));
+        draw::words_within(ui, name_at, self.name, type_face::body(), colour, room);
         draw::focus_ring(ui, &response, rect.shrink(3.0), 2.0);
         RowResponse { response, toggled, hide_clicked: clicks[1], lock_clicked: clicks[0] }
     }
@@ -126,11 +129,11 @@ impl TreeRow<'_> {
         let text = if self.hidden { weak } else { tokens.text };
         match self.mark {
             RowMark::Icon(icon) => {
-                draw::icon(ui.painter(), at, (icon, measure::SMALL_ICON), weak);
+                draw::icon(ui.painter(), at, icon, measure::SMALL_ICON, weak);
                 (at + vec2(14.0, 0.0), text)
             }
             RowMark::Wrong(icon) => {
-                draw::icon(ui.painter(), at, (icon, measure::SMALL_ICON), tokens.vermilion);
+                draw::icon(ui.painter(), at, icon, measure::SMALL_ICON, tokens.vermilion);
                 (at + vec2(14.0, 0.0), tokens.vermilion)
             }
             RowMark::Colour(colour) => {
@@ -157,7 +160,7 @@ impl TreeRow<'_> {
         let hit = Rect::from_center_size(at, vec2(measure::HIT, measure::HIT));
         let response = ui.interact(hit, row.id.with(verb), Sense::click());
         let colour = if response.hovered() { Tokens::of(ui).text } else { colour };
-        draw::icon(ui.painter(), at, (icon, measure::SMALL_ICON), colour);
+        draw::icon(ui.painter(), at, icon, measure::SMALL_ICON, colour);
         draw::focus_ring(ui, &response, hit.shrink(2.0), measure::CORNER);
         draw::named_state(&response, Role::Button, &format!("{verb} {}", self.name), on);
         response.clicked()

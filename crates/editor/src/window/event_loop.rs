@@ -1,3 +1,5 @@
+//! The event loop: from winit's events to passes of egui, and from those to what the window shows.
+
 use std::panic::catch_unwind;
 use std::time::{Duration, Instant};
 
@@ -152,7 +154,11 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
         // It must know the window before the window shows.
         state.init_accesskit(event_loop, &window, self.proxy.clone());
 
-        let app = make(&Opened { ctx, waker: Waker(self.proxy.clone()), driver: gl.driver() });
+        let opened = Opened { ctx, waker: Waker(self.proxy.clone()), driver: gl.driver() };
+        let app = make(&opened);
+        if app.wants_controls() {
+            opened.ctx.enable_accesskit();
+        }
         let mut open = OpenWindow {
             app,
             painter,
@@ -331,6 +337,9 @@ impl<A: App> OpenWindow<A> {
             close |= asks.close;
             hold &= asks.hold;
             self.textures.append(output.textures_delta);
+            if let Some(controls) = &output.platform_output.accesskit_update {
+                self.app.controls(controls);
+            }
             self.state.handle_platform_output(&self.window, output.platform_output);
             for (_, viewport) in output.viewport_output {
                 let mut asked = Vec::new();

@@ -1,3 +1,5 @@
+//! Which keys move egui's focus, and which are the editor's.
+
 use egui::{Context, Event, Id, Key, Modifiers, Plugin, RawInput, Ui};
 
 /// Which keys reach egui's own focus, so that the editor's keys work: add it to the context as a plugin.

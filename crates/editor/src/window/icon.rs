@@ -1,3 +1,5 @@
+//! The program's icon, drawn in code.
+
 use winit::window::Icon;
 
 const SIDE: u32 = 64;

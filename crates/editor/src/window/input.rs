@@ -1,3 +1,5 @@
+//! Splits what happened between two frames into passes that egui and the editor can follow.
+
 use egui::{Event, RawInput};
 
 /// Splits what happened since the last frame, so that no pass sees more than one press or release of a button, and none

@@ -34,6 +34,14 @@ pub trait App {
     fn on_close_request(&mut self) -> bool {
         true
     }
+
+    /// Whether [`App::controls`] is to be called.
+    fn wants_controls(&self) -> bool {
+        false
+    }
+
+    /// The controls of the last pass, as a screen reader is told of them.
+    fn controls(&mut self, _controls: &egui::accesskit::TreeUpdate) {}
 }
 
 /// How to open the window.

@@ -1,3 +1,5 @@
+//! Keys of the number pad, which egui takes for those of the main row.
+
 use egui::{Context, Id};
 use impasto_editor_model::keymap::{Key, Modifiers};
 use winit::event::{ElementState, KeyEvent};

@@ -6,7 +6,7 @@ use std::thread::JoinHandle;
 use impasto_painting::{Frame, Painting, Recall};
 
 use super::ViewJob;
-use super::studio::{Manner, frame_of};
+use super::view_frame::{DrawOptions, frame_of};
 
 /// A frame that is computed before it is asked for.
 #[derive(Default)]
@@ -15,43 +15,46 @@ pub(super) struct Ahead(Option<Computing>);
 struct Computing {
     view: ViewJob,
     size_px: [u32; 2],
-    exact: bool,
+    is_exact: bool,
     serial: u64,
     frame: JoinHandle<Frame>,
 }
 
 impl Ahead {
-    /// Begins to compute a view that will likely be asked for next, drawn in the same manner.
+    /// Begins to compute a view that will likely be asked for next, drawn in the same options.
     pub(super) fn begin(
         &mut self,
-        (painting, serial): (&Painting, u64),
+        painting: &Painting,
+        serial: u64,
         view: &ViewJob,
-        (manner, recall): (&Manner<'_>, Option<Arc<Recall>>),
+        options: &DrawOptions<'_>,
+        recall: Option<Arc<Recall>>,
     ) {
-        let (size_px, exact) = (manner.size_px, manner.exact);
+        let (size_px, is_exact) = (options.size_px, options.is_exact);
         let (painting, theirs) = (painting.clone(), view.clone());
         let compute = move || {
-            let manner = Manner { size_px, exact, give_up: &|| false };
-            frame_of(&painting, &theirs, &manner, recall.as_deref())
+            let options = DrawOptions { size_px, is_exact, give_up: &|| false };
+            frame_of(&painting, &theirs, &options, recall.as_deref())
         };
         // Without a thread it is computed when it is asked for.
         let thread = std::thread::Builder::new().name("ahead".to_owned()).spawn(compute);
-        self.0 = thread.ok().map(|frame| Computing { view: view.clone(), size_px, exact, serial, frame });
+        self.0 = thread.ok().map(|frame| Computing { view: view.clone(), size_px, is_exact, serial, frame });
     }
 
-    /// The frame that was computed, with its view, where it will do for what is asked: the same, or the one before it in a
-    /// film that goes on to `next`.
+    /// Takes the frame that was computed and its view, if it can be shown in place of `view`: it is of the same view, or in a
+    /// film that plays on to `next` of the frame just before it.
     pub(super) fn take(
         &mut self,
         serial: u64,
-        (view, next): (&ViewJob, Option<&ViewJob>),
-        manner: &Manner<'_>,
+        view: &ViewJob,
+        next: Option<&ViewJob>,
+        options: &DrawOptions<'_>,
     ) -> Option<(ViewJob, Frame)> {
         let ahead = self.0.take()?;
         let goes_on = next.is_some_and(|next| next.frame > view.frame);
         let is_just_before = goes_on && view.frame - ahead.view.frame == 1.0;
         let is_like = ahead.serial == serial
-            && (ahead.size_px, ahead.exact) == (manner.size_px, manner.exact)
+            && (ahead.size_px, ahead.is_exact) == (options.size_px, options.is_exact)
             && ahead.view.size_px == view.size_px
             && ahead.view.shot_height_px == view.shot_height_px
             && ahead.view.shading == view.shading
@@ -86,26 +89,26 @@ mod tests {
             lights: Vec::new(),
             moving: true,
         };
-        let manner = |side| Manner { size_px: [side, 45], exact: false, give_up: &|| false };
+        let options = |side| DrawOptions { size_px: [side, 45], is_exact: false, give_up: &|| false };
         let mut ahead = Ahead::default();
         let next = view(6.0);
-        assert!(ahead.take(1, (&view(3.0), None), &manner(80)).is_none());
+        assert!(ahead.take(1, &view(3.0), None, &options(80)).is_none());
         for (asked, next) in [(3.0, None), (4.0, Some(&next))] {
-            ahead.begin((&painting, 1), &view(3.0), (&manner(80), None));
-            let (of, frame) = ahead.take(1, (&view(asked), next), &manner(80)).unwrap();
+            ahead.begin(&painting, 1, &view(3.0), &options(80), None);
+            let (of, frame) = ahead.take(1, &view(asked), next, &options(80)).unwrap();
             assert_eq!(of.frame, 3.0);
-            let there = frame_of(&painting, &view(3.0), &manner(80), None);
+            let there = frame_of(&painting, &view(3.0), &options(80), None);
             assert!(!there.strokes.is_empty());
             assert_eq!(format!("{:?}", frame.strokes), format!("{:?}", there.strokes));
         }
         // Another moment, another scene, another size: it is of no use.
         for (serial, asked, side) in [(1, 5.0, 80), (1, 2.0, 80), (2, 3.0, 80), (1, 3.0, 96)] {
-            ahead.begin((&painting, 1), &view(3.0), (&manner(80), None));
-            let taken = ahead.take(serial, (&view(asked), Some(&next)), &manner(side));
+            ahead.begin(&painting, 1, &view(3.0), &options(80), None);
+            let taken = ahead.take(serial, &view(asked), Some(&next), &options(side));
             assert!(taken.is_none(), "{serial} {asked} {side}");
         }
         // The last frame of all is drawn itself.
-        ahead.begin((&painting, 1), &view(3.0), (&manner(80), None));
-        assert!(ahead.take(1, (&view(4.0), Some(&view(4.0))), &manner(80)).is_none());
+        ahead.begin(&painting, 1, &view(3.0), &options(80), None);
+        assert!(ahead.take(1, &view(4.0), Some(&view(4.0)), &options(80)).is_none());
     }
 }

@@ -1,3 +1,5 @@
+//! The painting thread: which pictures come, in which order, and what it gives up.
+
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

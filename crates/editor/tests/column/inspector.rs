@@ -76,6 +76,47 @@ fn a_region_shows_all_that_can_be_set() {
     assert_eq!(length.accesskit_node().value().as_deref(), Some("64px"));
 }
 
+/// Turns the wheel over a field by one step towards the hand or away from it.
+fn turn_the_wheel(harness: &mut Harness<'_, Column>, name: &str, by: f32, modifiers: Modifiers) {
+    harness.hover_at(harness.get_by_label(name).rect().center());
+    harness.run();
+    let event = egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: vec2(0.0, by),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers,
+    };
+    harness.event(egui::Event::ModifiersChanged(modifiers));
+    harness.event(event);
+    harness.run_steps(12);
+    harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    harness.run();
+}
+
+#[test]
+fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ctrl() {
+    let mut column = Column::open("still_life.ron");
+    column.document.select(region("apple").into_iter().collect());
+    let mut harness = super::harness_of(column, impasto_editor::theme::Theme::Dark, super::SIZE);
+    let top = |harness: &Harness<'_, Column>| harness.get_by_label("Length").rect().top();
+    let length = |harness: &Harness<'_, Column>| harness.state().region("apple").strokes.length_px;
+    let before = (top(&harness), length(&harness));
+    turn_the_wheel(&mut harness, "Length", -1.0, Modifiers::NONE);
+    assert!(top(&harness) < before.0 - 10.0, "it scrolls");
+    assert_eq!((length(&harness), harness.state().log.len()), (before.1, 0));
+
+    turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::COMMAND);
+    let by_ctrl = length(&harness).expect("a step");
+    assert_eq!(harness.state().log, ["merged Length 65 px"]);
+    harness.get_by_label("Length").focus();
+    harness.run();
+    let place = top(&harness);
+    turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::NONE);
+    assert!(length(&harness).expect("a step") > by_ctrl);
+    assert_eq!(top(&harness), place, "what turns the number does not scroll");
+}
+
 #[test]
 fn an_object_shows_all_that_can_be_set() {
     let mut harness = harness("apple.ron", object("apple"));

@@ -13,7 +13,7 @@ use egui::accesskit::Toggled;
 use egui::{Key, Role, Vec2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder};
-use impasto_editor::panels::{self, Ask, Numbers, Shown};
+use impasto_editor::panels::{self, Ask, Numbers, PanelInput};
 use impasto_editor::theme::{self, Theme};
 use impasto_editor_model::command::Command;
 use impasto_editor_model::keymap::{Action, Preset};
@@ -51,7 +51,7 @@ impl Column {
     pub fn ui(&mut self, ui: &mut egui::Ui) {
         let mut asks = Vec::new();
         let time = Default::default();
-        let shown = Shown {
+        let shown = PanelInput {
             time: &time,
             document: &self.document,
             session: &self.session,

@@ -1,3 +1,5 @@
+//! The bars of a page with every control.
+
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 use impasto_editor::icons::{self, Icon};
 use impasto_editor::theme::{Tokens, measure, type_face};
@@ -95,7 +97,7 @@ pub fn rail(page: &mut Page, ui: &mut Ui) {
     ui.vertical_centered(|ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
         for (index, (icon, name, letter)) in tools.into_iter().enumerate() {
-            if widgets::rail_button(ui, (icon, name), letter, page.tool == index).clicked() {
+            if widgets::rail_button(ui, icon, name, letter, page.tool == index).clicked() {
                 page.tool = index;
             }
         }

@@ -1,3 +1,5 @@
+//! The right column of a page with every control.
+
 use egui::{Align, Frame, Layout, Margin, RichText, Ui};
 use impasto_editor::icons;
 use impasto_editor::theme::{Tokens, measure, type_face};
@@ -37,7 +39,7 @@ pub fn column(page: &mut Page, ui: &mut Ui) {
                 let room = measure::LABEL - ui.min_rect().width() - 8.0;
                 ui.add_space(room);
                 let choices = ["Angle", "Around", "Automatic"];
-                widgets::combo(ui, ("Base direction", None), &choices, &mut page.base);
+                widgets::combo(ui, "Base direction", None, &choices, &mut page.base);
                 NumberField::new("Base angle", &mut page.angle, f64::NEG_INFINITY..=f64::INFINITY)
                     .unlabelled(64.0)
                     .unit("\u{b0}")

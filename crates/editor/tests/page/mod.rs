@@ -130,14 +130,16 @@ impl Page {
             widgets::chip(ui, |ui| {
                 widgets::combo(
                     ui,
-                    ("View", Some(icons::CAMERA)),
+                    "View",
+                    Some(icons::CAMERA),
                     &["Shot camera", "Free view"],
                     &mut self.view,
                 );
                 widgets::chip_divider(ui);
                 widgets::combo(
                     ui,
-                    ("Shading", Some(icons::SHADING)),
+                    "Shading",
+                    Some(icons::SHADING),
                     &["Painted", "Lit", "Trust"],
                     &mut self.shading,
                 );

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use impasto_editor::panels::ask_close::{self, Answer, Question};
 use impasto_editor::panels::{
-    Ask, Numbers, Shown, empty, options_bar, palette, rail, shortcuts, status_line, strip, top_bar, welcome,
+    Ask, Numbers, PanelInput, empty, options_bar, palette, rail, shortcuts, status_line, strip, top_bar,
+    welcome,
 };
 use impasto_editor::theme::{Theme, Tokens};
 use impasto_editor_model::command::SceneEdit;
@@ -111,7 +112,7 @@ impl Page {
         let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
         ui.set_clip_rect(whole);
         let mut asks = Vec::new();
-        let shown = Shown {
+        let shown = PanelInput {
             time: &self.time,
             document: &self.document,
             session: &self.session,

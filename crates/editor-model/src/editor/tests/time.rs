@@ -1,9 +1,11 @@
+//! Tests of time in the editor: keys, loose poses, playback and scrubbing.
+
 use impasto_scene::document::{Ease, ObjectKey, Scene};
 
 use super::*;
 use crate::command::{KeyOf, Pose, Time};
 use crate::playback::Pacing;
-use crate::timeline::{KeyAt, KeysEvent, Place, TimelineEvent};
+use crate::timeline::{KeyAt, KeysEvent, LanePosition, TimelineEvent};
 
 /// The apple's editor in Animate, with the apple selected, at a frame.
 fn animating(frame: f64) -> (Editor, String) {
@@ -129,6 +131,62 @@ fn with_the_view_locked_to_it_orbit_keys_the_shot() {
     assert_eq!(editor.document().undo_count(), count + 2);
 }
 
+/// Frame and eye of the shot camera's keys.
+fn camera_keys(scene: &Scene) -> Vec<(f64, [f64; 3])> {
+    scene.camera.keys.iter().map(|key| (key.frame, key.eye)).collect()
+}
+
+/// Moves the shot camera by its tool, or looks at the scene from elsewhere and brings the camera there.
+fn move_the_shot(editor: &mut Editor, by_tool: bool) {
+    let at = middle_of_the_apple(editor);
+    if by_tool {
+        let view = view(editor);
+        editor.take_up(Tool::ShotCamera, &view);
+        drag(editor, Button::Left, [at, at + DVec2::new(80.0, 0.0)], HERE);
+    } else {
+        drag(editor, Button::Middle, [at, at + DVec2::new(80.0, 0.0)], HERE);
+        act(editor, Action::CameraFromView);
+    }
+}
+
+#[test]
+fn in_animate_the_shot_camera_is_keyed_at_this_frame_and_no_other_key_moves() {
+    for by_tool in [true, false] {
+        let (mut editor, _) = animating(60.0);
+        let before = camera_keys(editor.document().scene());
+        move_the_shot(&mut editor, by_tool);
+        let [first, new, last] = camera_keys(editor.document().scene())[..] else { panic!("a key is added") };
+        assert_eq!(vec![first, last], before);
+        assert_eq!(new.0, 60.0);
+        assert_eq!(editor.looking, Looking::Shot);
+        // Once more changes the key that is there.
+        move_the_shot(&mut editor, by_tool);
+        let after = camera_keys(editor.document().scene());
+        assert_eq!((after.len(), after[0], after[2]), (3, first, last));
+        assert_ne!(after[1], new);
+        // Without Auto key the pose waits for the key that keeps it.
+        editor.session.auto_key = false;
+        editor.session.frame = 30.0;
+        move_the_shot(&mut editor, by_tool);
+        assert_eq!(camera_keys(editor.document().scene()), after);
+        assert!(editor.time().is_loose("shot"));
+    }
+}
+
+#[test]
+fn in_arrange_the_shot_camera_moves_with_all_its_keys() {
+    for by_tool in [true, false] {
+        let (mut editor, _) = animating(60.0);
+        act(&mut editor, Action::Arrange);
+        editor.session.frame = 60.0;
+        let before = camera_keys(editor.document().scene());
+        move_the_shot(&mut editor, by_tool);
+        let after = camera_keys(editor.document().scene());
+        assert_eq!(after.len(), before.len());
+        assert!(before.iter().zip(&after).all(|(before, after)| before.0 == after.0 && before.1 != after.1));
+    }
+}
+
 /// Plays for so many seconds; pictures come at once. The frames that were shown.
 fn play_on(editor: &mut Editor, from: f64, secs: f64) -> Vec<f64> {
     let mut shown = Vec::new();
@@ -186,13 +244,13 @@ fn a_scrub_pauses_and_what_played_plays_on_from_there() {
 }
 
 fn press(editor: &mut Editor, key: KeyAt) {
-    let at = Place { x_px: key.1 * 4.0, y_px: 48.0, frame: key.1, lane: 1 };
+    let at = LanePosition { x_px: key.1 * 4.0, y_px: 48.0, frame: key.1, lane: 1 };
     editor.timeline(TimelineEvent::Keys(KeysEvent::Press { at, key: Some(key), adds: false }));
 }
 
 fn drag_key(editor: &mut Editor, key: KeyAt, to: f64) {
     press(editor, key);
-    let at = Place { x_px: to * 4.0, y_px: 48.0, frame: to, lane: 1 };
+    let at = LanePosition { x_px: to * 4.0, y_px: 48.0, frame: to, lane: 1 };
     editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));
     editor.timeline(TimelineEvent::Keys(KeysEvent::Release));
 }
@@ -209,9 +267,9 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     assert_eq!(editor.time().keys.selected(), [(of(), 73.0)], "it stays selected where it went");
     // Shift D, a move, a press.
     let view = view(&editor);
-    assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, (false, &view)));
+    assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, false, &view));
     for frame in [73.0, 83.0] {
-        let at = Place { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
+        let at = LanePosition { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
         editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));
     }
     assert!(editor.status().starts_with("Copy 1 key by +10"), "{}", editor.status());

@@ -1,3 +1,5 @@
+//! Tests of the brush tools: comb, smooth, smear, erase, region brush.
+
 use impasto_scene::document::{GuideMode, Selector};
 
 use super::*;
@@ -211,7 +213,7 @@ fn an_eraser_cuts_guides_and_takes_away_what_it_covers() {
 fn smearing_carries_the_direction_of_the_press() {
     let mut world = World::new();
     world.options.smear = true;
-    world.painted.shown = Some(Shown { angle_rad: 80f64.to_radians(), trust: 1.0 });
+    world.painted.shown = Some(PaintedDirection { angle_rad: 80f64.to_radians(), trust: 1.0 });
     world.drag(Tool::Smooth, &[LEFT, RIGHT], NONE);
     assert_eq!(world.document.undo_text(), Some("Smear skin"));
     for point in &world.guides(0)[0].points {

@@ -1,3 +1,5 @@
+//! Dialogs of the desktop that answer, are missing, break or never come.
+
 use std::fs;
 use std::thread::sleep;
 
@@ -13,7 +15,7 @@ struct Page {
     answers: Vec<Answer>,
 }
 
-fn page(source: Source, choose: Choose, ask: Ask, start: &Path) -> Harness<'static, Page> {
+fn page(source: Source, choose: Choose, ask: FileAsk, start: &Path) -> Harness<'static, Page> {
     let dialogs = FileDialogs { source, choose, open: None };
     let mut harness = Harness::builder()
         .with_size(vec2(1280.0, 800.0))
@@ -53,10 +55,10 @@ fn wait_for_offer(harness: &mut Harness<'_, Page>) {
 #[test]
 fn what_the_desktop_answers_is_the_answer() {
     let mut harness =
-        page(Source::Desktop, |_, start| Some(start.join("a")), Ask::SaveAs, Path::new("/scenes"));
+        page(Source::Desktop, |_, start| Some(start.join("a")), FileAsk::SaveAs, Path::new("/scenes"));
     wait(&mut harness, |harness| !harness.state().answers.is_empty());
     let path = Some(PathBuf::from("/scenes/a.ron"));
-    assert_eq!(harness.state().answers, [Answer { ask: Ask::SaveAs, path }]);
+    assert_eq!(harness.state().answers, [Answer { ask: FileAsk::SaveAs, path }]);
     assert!(!harness.state().dialogs.is_open());
 }
 
@@ -64,20 +66,20 @@ fn what_the_desktop_answers_is_the_answer() {
 fn nothing_at_once_means_no_dialogs_and_the_window_shows_its_own() {
     let home = tempfile::tempdir().expect("a temporary folder");
     fs::write(home.path().join("apple.obj"), "").expect("written");
-    let mut harness = page(Source::Desktop, |_, _| None, Ask::Open, home.path());
+    let mut harness = page(Source::Desktop, |_, _| None, FileAsk::Open, home.path());
     wait(&mut harness, has_sheet);
     harness.get_by_label("apple.obj").click();
     harness.run();
     harness.get_by_label("Open").click();
     harness.run();
     let path = Some(home.path().join("apple.obj"));
-    assert_eq!(harness.state().answers, [Answer { ask: Ask::Open, path }]);
+    assert_eq!(harness.state().answers, [Answer { ask: FileAsk::Open, path }]);
     assert_eq!(harness.state().dialogs.source, Source::InApp, "the desktop is not asked again");
 }
 
 #[test]
 fn a_crash_of_the_desktops_dialog_is_no_answer() {
-    let mut harness = page(Source::Desktop, |_, _| panic!("the portal broke"), Ask::Open, Path::new("/"));
+    let mut harness = page(Source::Desktop, |_, _| panic!("the portal broke"), FileAsk::Open, Path::new("/"));
     wait(&mut harness, has_sheet);
 }
 
@@ -87,9 +89,9 @@ fn nothing_after_a_while_is_a_cancel() {
         sleep(HAND * 2);
         None
     };
-    let mut harness = page(Source::Desktop, choose, Ask::ImportMesh, Path::new("/"));
+    let mut harness = page(Source::Desktop, choose, FileAsk::ImportMesh, Path::new("/"));
     wait(&mut harness, |harness| !harness.state().answers.is_empty());
-    assert_eq!(harness.state().answers, [Answer { ask: Ask::ImportMesh, path: None }]);
+    assert_eq!(harness.state().answers, [Answer { ask: FileAsk::ImportMesh, path: None }]);
     assert_eq!(harness.state().dialogs.source, Source::Desktop);
 }
 
@@ -99,7 +101,7 @@ fn a_dialog_that_hangs_leaves_a_way() {
         sleep(Duration::from_secs(3600));
         None
     };
-    let mut harness = page(Source::Desktop, choose, Ask::Open, Path::new("/"));
+    let mut harness = page(Source::Desktop, choose, FileAsk::Open, Path::new("/"));
     harness.step();
     assert!(harness.query_by_label("Choose here instead").is_none(), "the desktop has the word at first");
     wait_for_offer(&mut harness);
@@ -107,10 +109,10 @@ fn a_dialog_that_hangs_leaves_a_way() {
     wait(&mut harness, has_sheet);
     harness.get_by_label("Cancel").click();
     harness.run();
-    assert_eq!(harness.state().answers, [Answer { ask: Ask::Open, path: None }]);
+    assert_eq!(harness.state().answers, [Answer { ask: FileAsk::Open, path: None }]);
 
     let ctx = harness.ctx.clone();
-    harness.state_mut().dialogs.open(&ctx, Ask::Open, Path::new("/"));
+    harness.state_mut().dialogs.open(&ctx, FileAsk::Open, Path::new("/"));
     wait_for_offer(&mut harness);
     harness.get_by_label("Cancel").click();
     wait(&mut harness, |harness| harness.state().answers.len() == 2);
@@ -119,9 +121,9 @@ fn a_dialog_that_hangs_leaves_a_way() {
 
 #[test]
 fn one_dialog_at_a_time() {
-    let mut harness = page(Source::InApp, |_, _| None, Ask::Open, Path::new("/"));
+    let mut harness = page(Source::InApp, |_, _| None, FileAsk::Open, Path::new("/"));
     let ctx = harness.ctx.clone();
-    harness.state_mut().dialogs.open(&ctx, Ask::SaveAs, Path::new("/"));
+    harness.state_mut().dialogs.open(&ctx, FileAsk::SaveAs, Path::new("/"));
     harness.run();
     assert!(harness.query_by_label("Save").is_none() && harness.query_by_label("Open").is_some());
 }

@@ -1,3 +1,5 @@
+//! Copying a mesh or a picture, with the files that it names, into a scene's folder.
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;

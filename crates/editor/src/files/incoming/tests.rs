@@ -1,3 +1,5 @@
+//! Files that are dropped or imported: what is taken, copied and refused.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

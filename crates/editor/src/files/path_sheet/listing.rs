@@ -13,14 +13,14 @@ const MAX_ENTRIES: usize = 50_000;
 
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Row {
+pub(super) enum ListedFile {
     /// The folder that this one lies in.
     Parent,
     Folder(String),
     File(String),
 }
 
-impl Row {
+impl ListedFile {
     pub(super) fn name(&self) -> &str {
         match self {
             Self::Parent => "..",
@@ -34,7 +34,7 @@ impl Row {
 pub(super) struct Listing {
     pub(super) folder: PathBuf,
     /// The way up, folders, files of the wanted kinds; names of all alphabets, capitals and small letters together.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<ListedFile>,
     /// What should be said about the list.
     pub(super) note: Option<String>,
 }
@@ -43,7 +43,7 @@ impl Listing {
     pub(super) fn read(folder: &Path, kinds: &[Kind]) -> Self {
         let mut rows = Vec::new();
         if folder.parent().is_some() {
-            rows.push(Row::Parent);
+            rows.push(ListedFile::Parent);
         }
         let (found, note) = match entries(folder, kinds) {
             Ok(found) if found.len() > MAX_ROWS => {
@@ -68,8 +68,8 @@ impl Listing {
             read = entries(&resolve(&self.folder, folder), kinds).ok()?;
             &read
         };
-        let names = rows.iter().filter(|row| **row != Row::Parent).map(|row| match row {
-            Row::Folder(name) => format!("{name}/"),
+        let names = rows.iter().filter(|row| **row != ListedFile::Parent).map(|row| match row {
+            ListedFile::Folder(name) => format!("{name}/"),
             row => row.name().to_owned(),
         });
         let fitting: Vec<String> = names.filter(|name| name.starts_with(start)).collect();
@@ -84,7 +84,7 @@ impl Listing {
 }
 
 /// The folders, then the files of the wanted kinds, each by name. Hidden ones are left out.
-fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<Row>> {
+fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
     let (mut folders, mut files) = (Vec::new(), Vec::new());
     for entry in fs::read_dir(folder)?.flatten().take(MAX_ENTRIES) {
         // A name that is no text can be shown by nobody.
@@ -102,7 +102,7 @@ fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<Row>> {
     for names in [&mut folders, &mut files] {
         names.sort_by_cached_key(|name| (name.to_lowercase(), name.clone()));
     }
-    Ok(folders.into_iter().map(Row::Folder).chain(files.into_iter().map(Row::File)).collect())
+    Ok(folders.into_iter().map(ListedFile::Folder).chain(files.into_iter().map(ListedFile::File)).collect())
 }
 
 /// The whole path that is meant by what is typed in a folder; `~` is the user's home.

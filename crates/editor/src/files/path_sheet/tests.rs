@@ -1,3 +1,5 @@
+//! The window's own file dialog, driven by name.
+
 use std::fs;
 
 use egui::{Key, Modifiers, vec2};
@@ -15,7 +17,7 @@ struct Page {
 }
 
 /// A sheet over a folder with two scenes, a mesh, a text, a hidden file and a folder with a scene.
-fn sheet(ask: Ask, start: &str) -> (Harness<'static, Page>, tempfile::TempDir) {
+fn sheet(ask: FileAsk, start: &str) -> (Harness<'static, Page>, tempfile::TempDir) {
     let home = tempfile::tempdir().expect("a temporary folder");
     for name in
         ["still_life.ron", "still_water.ron", "Apple.OBJ", "diary.txt", ".hidden.ron", "shots/roll.ron"]
@@ -60,22 +62,22 @@ fn field(harness: &Harness<'_, Page>) -> String {
 
 #[test]
 fn folders_stand_first_then_files_that_can_be_opened() {
-    let (harness, home) = sheet(Ask::Open, "");
+    let (harness, home) = sheet(FileAsk::Open, "");
     let rows = &harness.state().sheet.listing.rows;
-    let names: Vec<&str> = rows.iter().map(Row::name).collect();
+    let names: Vec<&str> = rows.iter().map(ListedFile::name).collect();
     assert_eq!(names, ["..", "shots", "Apple.OBJ", "still_life.ron", "still_water.ron"]);
     for name in names {
         harness.get_by_label(name);
     }
     let folder = harness.get_by_label("Folder").accesskit_node().value();
     assert_eq!(folder.as_deref(), home.path().to_str());
-    let (harness, _home) = sheet(Ask::ImportMesh, "");
+    let (harness, _home) = sheet(FileAsk::ImportMesh, "");
     assert!(harness.query_by_label("still_life.ron").is_none());
 }
 
 #[test]
 fn a_file_is_picked_by_clicks() {
-    let (mut harness, home) = sheet(Ask::Open, "");
+    let (mut harness, home) = sheet(FileAsk::Open, "");
     harness.get_by_label("shots").click();
     harness.run();
     harness.get_by_label("roll.ron").click();
@@ -88,7 +90,7 @@ fn a_file_is_picked_by_clicks() {
 
 #[test]
 fn a_file_is_picked_by_the_keyboard_alone() {
-    let (mut harness, home) = sheet(Ask::Open, "");
+    let (mut harness, home) = sheet(FileAsk::Open, "");
     type_in(&mut harness, "sti");
     press(&mut harness, Key::Tab);
     assert_eq!(field(&harness), "still_", "as far as there is one way on");
@@ -98,7 +100,7 @@ fn a_file_is_picked_by_the_keyboard_alone() {
     press(&mut harness, Key::Enter);
     assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("still_water.ron"))));
 
-    let (mut harness, home) = sheet(Ask::Open, "");
+    let (mut harness, home) = sheet(FileAsk::Open, "");
     type_in(&mut harness, "sh");
     press(&mut harness, Key::Tab);
     type_in(&mut harness, "r");
@@ -110,7 +112,7 @@ fn a_file_is_picked_by_the_keyboard_alone() {
 
 #[test]
 fn tab_goes_on_where_nothing_can_be_completed() {
-    let (mut harness, _home) = sheet(Ask::Open, "");
+    let (mut harness, _home) = sheet(FileAsk::Open, "");
     let is_in_field =
         |harness: &Harness<'_, Page>| harness.get_by_label("File name").accesskit_node().is_focused();
     assert!(is_in_field(&harness));
@@ -127,12 +129,12 @@ fn tab_goes_on_where_nothing_can_be_completed() {
 #[test]
 fn what_cannot_be_had_is_said_under_the_field() {
     for (ask, typed, words) in [
-        (Ask::Open, "", "Choose a file"),
-        (Ask::Open, "gone.ron", "There is no file gone.ron"),
-        (Ask::Open, "nowhere/gone.ron", "There is no folder"),
-        (Ask::Open, "diary.txt", "no scene"),
-        (Ask::ImportMesh, "still_life.ron", "not what is asked for"),
-        (Ask::SaveAs, "nowhere/new", "There is no folder"),
+        (FileAsk::Open, "", "Choose a file"),
+        (FileAsk::Open, "gone.ron", "There is no file gone.ron"),
+        (FileAsk::Open, "nowhere/gone.ron", "There is no folder"),
+        (FileAsk::Open, "diary.txt", "no scene"),
+        (FileAsk::ImportMesh, "still_life.ron", "not what is asked for"),
+        (FileAsk::SaveAs, "nowhere/new", "There is no folder"),
     ] {
         let (mut harness, _home) = sheet(ask, "");
         type_in(&mut harness, typed);
@@ -146,7 +148,7 @@ fn what_cannot_be_had_is_said_under_the_field() {
 
 #[test]
 fn a_folder_that_is_typed_is_entered() {
-    let (mut harness, home) = sheet(Ask::Open, "");
+    let (mut harness, home) = sheet(FileAsk::Open, "");
     type_in(&mut harness, "shots/");
     press(&mut harness, Key::Enter);
     harness.get_by_label("roll.ron");
@@ -160,7 +162,7 @@ fn a_folder_that_is_typed_is_entered() {
 
 #[test]
 fn a_save_asks_before_it_replaces() {
-    let (mut harness, home) = sheet(Ask::SaveAs, "still_life.ron");
+    let (mut harness, home) = sheet(FileAsk::SaveAs, "still_life.ron");
     assert_eq!(field(&harness), "still_life.ron");
     harness.get_by_label("Save").click();
     harness.run();
@@ -177,12 +179,12 @@ fn a_save_asks_before_it_replaces() {
 
 #[test]
 fn a_save_gives_the_name_its_ending() {
-    let (mut harness, home) = sheet(Ask::SaveCopy, "apple.v2");
+    let (mut harness, home) = sheet(FileAsk::SaveCopy, "apple.v2");
     harness.get_by_label("Save").click();
     harness.run();
     assert_eq!(harness.state().picked, Some(Picked::File(home.path().join("apple.v2.ron"))));
 
-    let (mut harness, _home) = sheet(Ask::SaveCopy, "still_life");
+    let (mut harness, _home) = sheet(FileAsk::SaveCopy, "still_life");
     harness.get_by_label("Save").click();
     harness.run();
     harness.get_by_label("Replace");
@@ -190,7 +192,7 @@ fn a_save_gives_the_name_its_ending() {
 
 #[test]
 fn the_sheet_rests() {
-    let (mut harness, _home) = sheet(Ask::Open, "");
+    let (mut harness, _home) = sheet(FileAsk::Open, "");
     let before = harness.state().passes;
     harness.run();
     assert!(harness.state().passes - before <= 2, "it draws only when something changes");

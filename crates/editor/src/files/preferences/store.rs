@@ -1,3 +1,5 @@
+//! Where preferences and copies of unsaved work lie, and how preferences are read and written.
+
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

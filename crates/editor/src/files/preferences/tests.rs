@@ -1,3 +1,5 @@
+//! Preferences are read back as they were saved; a broken file does no harm.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -25,10 +25,10 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         ui.label(egui::RichText::new("shot").font(type_face::head()));
         head_note(ui, "camera");
     });
-    section(ui, ("Lens", ""), true, |ui| lens(ui, asker));
+    section(ui, "Lens", "", true, |ui| lens(ui, asker));
     let frame = asker.shown.session.frame;
     let animate = asker.shown.session.mode == Mode::Animate;
-    section(ui, (&format!("Pose at frame {frame}"), ""), true, |ui| place(ui, asker, animate));
+    section(ui, &format!("Pose at frame {frame}"), "", true, |ui| place(ui, asker, animate));
     if animate {
         let key = asker.stored().camera.keys.iter().find(|key| key.frame == frame);
         pose::of_key(ui, asker, KeyOf::Camera, key.map(|key| key.ease));
@@ -129,10 +129,10 @@ fn place(ui: &mut Ui, asker: &mut Asker<'_, '_>, animate: bool) {
         }
     };
     let pair = |of: fn(&CameraPose) -> DVec3| [of(&now).to_array(), of(&was).to_array()];
-    vector(ui, asker, ("Eye", "Where the camera stands, in the world."), pair(|pose| pose.eye), |eye| {
+    vector(ui, asker, "Eye", "Where the camera stands, in the world.", pair(|pose| pose.eye), |eye| {
         set(CameraPose { eye: DVec3::from(eye), ..was.clone() })
     });
-    vector(ui, asker, ("Target", "What it looks at, in the world."), pair(|pose| pose.target), |target| {
+    vector(ui, asker, "Target", "What it looks at, in the world.", pair(|pose| pose.target), |target| {
         set(CameraPose { target: DVec3::from(target), ..was.clone() })
     });
     let number = Number {

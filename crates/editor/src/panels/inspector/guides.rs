@@ -21,18 +21,18 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
     let count = region.guides.len().to_string();
     // A guide that was picked in the picture is to be seen here.
     let open = is_wide(ui) || active.is_some();
-    section(ui, ("Guides", &count), open, |ui| {
+    section(ui, "Guides", &count, open, |ui| {
         if region.guides.is_empty() {
             note(ui, "No guides. Comb over the region, or draw a curve (V).");
         }
         let mut placed = Vec::new();
         for (index, guide) in region.guides.iter().enumerate() {
-            let rect = guide_row(ui, asker, (&region.name, index, guide), active == Some(index));
+            let rect = guide_row(ui, asker, &region.name, index, guide, active == Some(index));
             placed.push(rect);
             if active == Some(index)
                 && let Some(stored) = stored.guides.get(index)
             {
-                settings(ui, asker, (&region.name, index), [guide, stored]);
+                settings(ui, asker, &region.name, index, [guide, stored]);
             }
         }
         reorder(ui, asker, &region.name, &placed);
@@ -66,7 +66,9 @@ fn reorder(ui: &Ui, asker: &mut Asker<'_, '_>, region: &str, placed: &[Rect]) {
 fn guide_row(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,
-    (region, index, guide): (&str, usize, &Guide),
+    region: &str,
+    index: usize,
+    guide: &Guide,
     selected: bool,
 ) -> Rect {
     let tokens = Tokens::of(ui);
@@ -115,7 +117,8 @@ fn guide_row(
 fn settings(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,
-    (region, index): (&str, usize),
+    region: &str,
+    index: usize,
     [guide, stored]: [&Guide; 2],
 ) {
     let set = |settings| {

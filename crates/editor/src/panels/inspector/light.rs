@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         head_icon(ui, icons::LIGHT, weak);
         asker.name(ui, "Light name", &Item::Light(name.to_owned()));
     });
-    section(ui, ("Light", ""), true, |ui| rows(ui, asker, [light, stored]));
+    section(ui, "Light", "", true, |ui| rows(ui, asker, [light, stored]));
 }
 
 fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
@@ -63,13 +63,13 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
         set(Light { intensity: to, ..stored.clone() }, what)
     });
     if let (LightKind::Sun, Some(shown), Some(was)) = (light.kind, light.direction, stored.direction) {
-        let label = ("Shines", "Where the light travels to, in the world.");
-        vector(ui, asker, label, [shown, was], |direction| {
+        let effect = "Where the light travels to, in the world.";
+        vector(ui, asker, "Shines", effect, [shown, was], |direction| {
             set(Light { direction: Some(direction), ..stored.clone() }, "direction")
         });
     }
     if let (LightKind::Point, Some(shown), Some(was)) = (light.kind, light.position, stored.position) {
-        vector(ui, asker, ("Place", "Where the lamp stands, in the world."), [shown, was], |position| {
+        vector(ui, asker, "Place", "Where the lamp stands, in the world.", [shown, was], |position| {
             set(Light { position: Some(position), ..stored.clone() }, "place")
         });
     }

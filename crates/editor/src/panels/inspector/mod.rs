@@ -1,6 +1,7 @@
 //! The inspector: the settings of what is selected, or of the scene.
 
 mod camera;
+mod edited_strokes;
 mod guides;
 mod ink;
 mod light;
@@ -20,10 +21,10 @@ use impasto_editor_model::Item;
 use impasto_editor_model::command::Command;
 use impasto_scene::document::Scene;
 
-use super::{Ask, Shown};
+use super::{Ask, PanelInput};
 
 /// The settings of what is selected. It fills the width and height of `ui`, which has no margins.
-pub fn inspector(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let active = shown.document.selection().active().cloned();
     let mut asker = Asker { shown, asks };
@@ -47,7 +48,7 @@ pub fn inspector(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 
 /// What is shown, and where a part of the inspector asks for changes.
 struct Asker<'a, 'b> {
-    shown: &'a Shown<'a>,
+    shown: &'a PanelInput<'a>,
     asks: &'b mut Vec<Ask>,
 }
 

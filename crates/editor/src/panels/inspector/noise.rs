@@ -10,7 +10,7 @@ use impasto_scene::limits::{MAX_NOISE_INTENSITY, MAX_STRENGTH, NOISE_LAYERS, NOI
 
 use super::Asker;
 use super::number::Number;
-use super::parts::{Look, pick, reset, row, seen, text};
+use super::parts::{FieldStyle, pick, reset, row, seen, text};
 use crate::widgets::{self, Tip};
 
 /// A number of a part of the noise: how it is shown, read and set.
@@ -89,7 +89,7 @@ fn texture<T: Clone>(
 ) {
     let key = egui::Id::unique((label, &object.name));
     let name = of(&mut now.clone()).clone().unwrap_or_default();
-    let typed = row(ui, "Picture", |ui| text(ui, (label, key), &name, Look::Field));
+    let typed = row(ui, "Picture", |ui| text(ui, label, key, &name, FieldStyle::Field));
     if let Some(typed) = typed {
         let mut next = was.clone();
         *of(&mut next) = Some(typed.trim().to_owned()).filter(|name| !name.is_empty());

@@ -8,7 +8,7 @@ use impasto_scene::limits::MAX_PARTICLES_OF_OBJECT;
 
 use super::number::Number;
 use super::parts::{
-    Look, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
+    FieldStyle, at_end, body, head, head_icon, head_note, note, pick, reset, row, section, seen, text,
 };
 use super::{Asker, noise, pose};
 use crate::icons;
@@ -49,14 +49,14 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     ui.add_enabled_ui(!object.locked, |ui| {
         pose::of_object(ui, asker, [object, stored]);
         if mesh.is_some() {
-            section(ui, ("Mesh", ""), false, |ui| mesh_rows(ui, asker, [object, stored]));
+            section(ui, "Mesh", "", false, |ui| mesh_rows(ui, asker, [object, stored]));
         }
-        section(ui, ("Material", ""), false, |ui| material(ui, asker, [object, stored]));
+        section(ui, "Material", "", false, |ui| material(ui, asker, [object, stored]));
         let parent = object.parent.as_deref().unwrap_or("none");
-        section(ui, ("Parent", parent), false, |ui| parent_row(ui, asker, object));
+        section(ui, "Parent", parent, false, |ui| parent_row(ui, asker, object));
     });
     let count = scenes[0].regions.iter().filter(|region| region.on.object() == Some(name)).count();
-    section(ui, ("Regions", &count.to_string()), false, |ui| regions(ui, asker, name));
+    section(ui, "Regions", &count.to_string(), false, |ui| regions(ui, asker, name));
 }
 
 /// What is said of an object whose file is not there.
@@ -70,7 +70,7 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
             ),
         );
         ui.add_space(4.0);
-        path_row(ui, asker, object, Look::Wrong);
+        path_row(ui, asker, object, FieldStyle::Wrong);
         let likely = asker.shown.likely_meshes.iter().find(|(missing, _)| *missing == object.mesh);
         if let Some((_, mesh)) = likely {
             let words = format!("Use {}", mesh.rsplit('/').next().unwrap_or(mesh));
@@ -93,9 +93,9 @@ fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
 }
 
 /// The mesh's path, which can be typed.
-fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: Look) {
+fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: FieldStyle) {
     let key = egui::Id::unique(("mesh", &object.name));
-    let typed = row(ui, "Mesh", |ui| text(ui, ("Mesh file", key), &object.mesh, look));
+    let typed = row(ui, "Mesh", |ui| text(ui, "Mesh file", key, &object.mesh, look));
     if let Some(mesh) = typed {
         let object = object.name.clone();
         asker.ask(Command::Arrange(Arrange::ReplaceMesh { object, mesh }));
@@ -103,7 +103,7 @@ fn path_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object, look: Look)
 }
 
 fn mesh_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
-    path_row(ui, asker, object, Look::Field);
+    path_row(ui, asker, object, FieldStyle::Field);
     let name = &object.name;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

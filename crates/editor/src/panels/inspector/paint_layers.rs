@@ -6,9 +6,9 @@ use impasto_scene::document::{LayerNumber, LayerSettings, ResolvedStrokes};
 use impasto_scene::presets::LayerKind;
 
 use super::Asker;
+use super::edited_strokes::EditedStrokes;
 use super::number::Number;
 use super::parts::{pick, row};
-use super::strokes::Place;
 use crate::panels::column_state::ColumnState;
 use crate::widgets::Tip;
 
@@ -35,7 +35,7 @@ fn shown() -> impl Iterator<Item = (&'static LayerNumber, Number<'static>)> {
     })
 }
 
-pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let chosen = ColumnState::with(ui.ctx(), |state| state.paint_layer).min(LayerKind::ALL.len() - 1);
     row(ui, "Paint layer", |ui| {
         let names = LayerKind::ALL.map(LayerKind::name);

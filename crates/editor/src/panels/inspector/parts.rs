@@ -28,7 +28,8 @@ pub(super) fn is_wide(ui: &Ui) -> bool {
 /// A part that opens and folds; `note` stands at its head's right end.
 pub(super) fn section(
     ui: &mut Ui,
-    (name, note): (&str, &str),
+    name: &str,
+    note: &str,
     open_at_first: bool,
     contents: impl FnOnce(&mut Ui),
 ) {
@@ -54,11 +55,11 @@ pub(super) fn body(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 
 /// A row with a label at its left, as numbers have it.
 pub(super) fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
-    row_with(ui, (label, measure::LABEL), contents)
+    row_with(ui, label, measure::LABEL, contents)
 }
 
 /// As [`row`], with a label `wide` points wide.
-pub(super) fn row_with<R>(ui: &mut Ui, (label, wide): (&str, f32), contents: impl FnOnce(&mut Ui) -> R) -> R {
+pub(super) fn row_with<R>(ui: &mut Ui, label: &str, wide: f32, contents: impl FnOnce(&mut Ui) -> R) -> R {
     ui.horizontal(|ui| {
         ui.set_min_height(measure::FIELD);
         let gap = ui.spacing().item_spacing.x;
@@ -122,30 +123,32 @@ pub(super) fn head_icon(ui: &mut Ui, icon: Icon, colour: Color32) {
 }
 
 /// One line of text to edit, as wide as its words where it is a `head`. Returns what was typed, once it is done.
-pub(super) fn text(ui: &mut Ui, (name, key): (&str, Id), current: &str, look: Look) -> Option<String> {
+pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: FieldStyle) -> Option<String> {
     let id = key.with(name);
     let draft: Option<String> = ui.data(|data| data.get_temp(id.with("draft")));
     let mut typed = draft.clone().unwrap_or_else(|| current.to_owned());
     let tokens = Tokens::of(ui);
     let (font, colour) = match look {
-        Look::Head => (type_face::head(), tokens.text),
-        Look::Field => (type_face::number(), tokens.text),
-        Look::Wrong => (type_face::number(), tokens.vermilion),
+        FieldStyle::Head => (type_face::head(), tokens.text),
+        FieldStyle::Field => (type_face::number(), tokens.text),
+        FieldStyle::Wrong => (type_face::number(), tokens.vermilion),
     };
     let room = ui.available_width();
     let wide = match look {
-        Look::Head => {
+        FieldStyle::Head => {
             let words = ui.painter().layout_no_wrap(typed.clone(), font.clone(), colour).size().x;
             (words + 3.0).clamp(24.0, (room - HEAD_END).max(24.0))
         }
-        Look::Field | Look::Wrong => room - 16.0,
+        FieldStyle::Field | FieldStyle::Wrong => room - 16.0,
     };
     let frame = match look {
-        Look::Head => Frame::NONE,
-        Look::Field => Frame::new().fill(tokens.field).corner_radius(4.0),
-        Look::Wrong => Frame::new().fill(tokens.field).corner_radius(4.0).stroke((1.0, tokens.vermilion)),
+        FieldStyle::Head => Frame::NONE,
+        FieldStyle::Field => Frame::new().fill(tokens.field).corner_radius(4.0),
+        FieldStyle::Wrong => {
+            Frame::new().fill(tokens.field).corner_radius(4.0).stroke((1.0, tokens.vermilion))
+        }
     };
-    let margin = if look == Look::Head { Margin::symmetric(0, 4) } else { Margin::symmetric(8, 4) };
+    let margin = if look == FieldStyle::Head { Margin::symmetric(0, 4) } else { Margin::symmetric(8, 4) };
     let edit = egui::TextEdit::singleline(&mut typed)
         .id(id)
         .font(font)
@@ -171,7 +174,7 @@ pub(super) fn text(ui: &mut Ui, (name, key): (&str, Id), current: &str, look: Lo
 
 /// How a line of text looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look {
+pub(super) enum FieldStyle {
     /// As the head of the inspector.
     Head,
     /// As a field.
@@ -195,7 +198,7 @@ pub(super) fn reset(ui: &mut Ui, name: &str) -> bool {
 /// A combo with a tooltip; returns the choice where another was picked.
 pub(super) fn pick(ui: &mut Ui, tip: Tip<'_>, choices: &[&str], chosen: usize) -> Option<usize> {
     let mut picked = chosen;
-    let response = widgets::combo(ui, (tip.name, None), choices, &mut picked);
+    let response = widgets::combo(ui, tip.name, None, choices, &mut picked);
     tip.on(response);
     (picked != chosen).then_some(picked)
 }
@@ -251,7 +254,7 @@ impl Asker<'_, '_> {
     /// The name at the head; what is typed renames the thing.
     pub(super) fn name(&mut self, ui: &mut Ui, label: &str, item: &Item) {
         let key = Id::unique(("name", item));
-        if let Some(name) = text(ui, (label, key), item.name(), Look::Head) {
+        if let Some(name) = text(ui, label, key, item.name(), FieldStyle::Head) {
             self.ask(Command::Edit(Edit::Rename(item.clone(), name)));
         }
     }
@@ -275,10 +278,11 @@ fn small_toggle(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> bool {
 /// Three numbers of a place or a direction side by side, each with its axis.
 pub(super) fn axes(
     ui: &mut Ui,
-    (label, wide): (&str, f32),
+    label: &str,
+    wide: f32,
     mut field: impl FnMut(&mut Ui, (usize, &'static str, String), f32),
 ) {
-    row_with(ui, (label, wide), |ui| {
+    row_with(ui, label, wide, |ui| {
         let gap = ui.spacing().item_spacing.x;
         let width = ((ui.available_width() - 2.0 * gap) / 3.0).floor();
         for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {

@@ -32,7 +32,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
         (_, true) => "keyed",
         _ => "",
     };
-    section(ui, (&title, note), true, |ui| {
+    section(ui, &title, note, true, |ui| {
         let now = motion::key_at(asker.scene(), object, frame);
         let was = motion::key_at(asker.stored(), stored, frame);
         let set = |field: PoseField, value: f64| {
@@ -49,7 +49,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
             ("Turn", [now.rotation_deg, was.rotation_deg], PoseField::Turn),
         ];
         for (label, [now, was], of_axis) in rows {
-            axes(ui, (label, NARROW_LABEL), |ui, (axis, letter, name), width| {
+            axes(ui, label, NARROW_LABEL, |ui, (axis, letter, name), width| {
                 let turns = label == "Turn";
                 let number = Number {
                     letter,
@@ -62,7 +62,7 @@ pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]
                 asker.number(ui, &number, [now[axis], was[axis]], |to| set(of_axis(axis), to.unwrap_or(0.0)));
             });
         }
-        super::parts::row_with(ui, ("Scale", NARROW_LABEL), |ui| {
+        super::parts::row_with(ui, "Scale", NARROW_LABEL, |ui| {
             let number = Number {
                 unit: "\u{d7}",
                 range: *KEY_SCALE.start()..=f64::INFINITY,
@@ -98,7 +98,7 @@ fn posed(was: &ObjectKey, field: PoseField, value: f64) -> ObjectKey {
 /// The key at the frame that is shown, or a button that sets one.
 pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Option<Ease>) {
     let frame = asker.shown.session.frame;
-    section(ui, ("This key", if ease.is_some() { "" } else { "none here" }), true, |ui| {
+    section(ui, "This key", if ease.is_some() { "" } else { "none here" }, true, |ui| {
         let Some(ease) = ease else {
             if Button::new("Key this frame").show(ui).clicked() {
                 asker.ask(Command::Time(Time::SetKey(of, frame)));
@@ -120,7 +120,7 @@ pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Op
             asker.asks.push(Ask::Session(Box::new(session)));
         }
         // The label leaves the column its width.
-        super::parts::row_with(ui, ("Ease out", EASE_LABEL), |ui| {
+        super::parts::row_with(ui, "Ease out", EASE_LABEL, |ui| {
             let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
             let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);
             if widgets::segmented_of(ui, "Ease", &["Smooth", "Linear", "Hold"], &mut chosen).changed() {

@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         body(ui, |ui| note(ui, &format!("{what} is locked.")));
     }
     ui.add_enabled_ui(locked.is_none(), |ui| {
-        section(ui, ("Direction", ""), true, |ui| direction(ui, asker, [region, stored]));
+        section(ui, "Direction", "", true, |ui| direction(ui, asker, [region, stored]));
         strokes::of_region(ui, asker, name);
         guides::section_of(ui, asker, [region, stored]);
         strokes::advanced(ui, asker, Some(name));
@@ -130,23 +130,19 @@ fn base(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored]: [&Region; 2]) 
             });
         }
         (Direction::Along(axis), Direction::Along(was)) => {
-            vector(ui, asker, ("Axis", "Strokes run along this axis of the object."), [*axis, *was], |to| {
+            vector(ui, asker, "Axis", "Strokes run along this axis of the object.", [*axis, *was], |to| {
                 set(Direction::Along(to))
             });
         }
         (Direction::Around(axis), Direction::Around(was)) => {
-            vector(ui, asker, ("Axis", "Strokes wind round this axis of the object."), [*axis, *was], |to| {
+            vector(ui, asker, "Axis", "Strokes wind round this axis of the object.", [*axis, *was], |to| {
                 set(Direction::Around(to))
             });
         }
         (Direction::Toward(at), Direction::Toward(was)) => {
-            vector(
-                ui,
-                asker,
-                ("Point", "Strokes point to here, in the object's space."),
-                [*at, *was],
-                |to| set(Direction::Toward(to)),
-            );
+            vector(ui, asker, "Point", "Strokes point to here, in the object's space.", [*at, *was], |to| {
+                set(Direction::Toward(to))
+            });
         }
         (Direction::Curvature(bend), _) => row(ui, "Bend", |ui| {
             let mut most = usize::from(*bend == Bend::Max);
@@ -162,11 +158,12 @@ fn base(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored]: [&Region; 2]) 
 pub(super) fn vector(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,
-    (label, effect): (&str, &str),
+    label: &str,
+    effect: &str,
     [shown, stored]: [[f64; 3]; 2],
     command: impl Fn([f64; 3]) -> Command,
 ) {
-    axes(ui, (label, NARROW_LABEL), |ui, (axis, letter, name), width| {
+    axes(ui, label, NARROW_LABEL, |ui, (axis, letter, name), width| {
         let number = Number {
             letter,
             range: ANY,

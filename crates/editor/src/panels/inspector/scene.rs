@@ -22,12 +22,12 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         ui.add_space(4.0);
         ui.label(egui::RichText::new("Scene").font(type_face::head()));
     });
-    section(ui, ("Picture", ""), true, |ui| picture(ui, asker));
-    section(ui, ("Time", ""), true, |ui| time(ui, asker));
-    section(ui, ("Style", ""), true, |ui| style(ui, asker));
-    section(ui, ("All strokes", ""), false, |ui| strokes::contents(ui, asker, None));
+    section(ui, "Picture", "", true, |ui| picture(ui, asker));
+    section(ui, "Time", "", true, |ui| time(ui, asker));
+    section(ui, "Style", "", true, |ui| style(ui, asker));
+    section(ui, "All strokes", "", false, |ui| strokes::contents(ui, asker, None));
     strokes::advanced(ui, asker, None);
-    section(ui, ("Reference", ""), false, |ui| reference(ui, asker));
+    section(ui, "Reference", "", false, |ui| reference(ui, asker));
 }
 
 fn picture(ui: &mut Ui, asker: &mut Asker<'_, '_>) {

@@ -2,12 +2,13 @@
 
 use egui::{Ui, vec2};
 use impasto_core::brush;
-use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange, StrokesOf};
+use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange};
 use impasto_editor_model::stroke_fields::{FieldValue, field_values};
-use impasto_scene::document::{BrushMix, Edges, InspectorPlace, Scene, StrokeSettings};
+use impasto_scene::document::{BrushMix, Edges, InspectorPlace};
 use impasto_scene::limits::MAX_LAYER;
-use impasto_scene::presets::{self, ResolvedStrokes};
+use impasto_scene::presets;
 
+use super::edited_strokes::EditedStrokes;
 use super::number::Number;
 use super::parts::{note, pick, reset, row, section};
 use super::{Asker, paint_layers};
@@ -16,58 +17,15 @@ use crate::panels::column_state::ColumnState;
 use crate::panels::status_line::grouped;
 use crate::widgets::{self, Button, Tip};
 
-/// The stroke settings of one place, as they are shown and as they are stored.
-pub(super) struct Place<'a> {
-    pub(super) of: StrokesOf,
-    pub(super) own: [&'a StrokeSettings; 2],
-    pub(super) resolved: [ResolvedStrokes; 2],
-    index: Option<usize>,
-}
-
-impl<'a> Place<'a> {
-    fn new(asker: &Asker<'a, '_>, region: Option<&str>) -> Option<Self> {
-        let scenes = [asker.scene(), asker.stored()];
-        let index_in =
-            |scene: &Scene| scene.regions.iter().position(|other| Some(other.name.as_str()) == region);
-        let indices = scenes.map(index_in);
-        if region.is_some() && indices.contains(&None) {
-            return None;
-        }
-        let own = |which: usize| {
-            let scene = scenes[which];
-            indices[which].map_or(&scene.strokes, |index| &scene.regions[index].strokes)
-        };
-        Some(Self {
-            of: region.map_or(StrokesOf::Scene, |name| StrokesOf::Region(name.to_owned())),
-            own: [own(0), own(1)],
-            resolved: [0, 1].map(|which| presets::resolve(scenes[which], indices[which])),
-            index: indices[0],
-        })
-    }
-
-    /// What would hold with other settings here.
-    pub(super) fn resolve(&self, scene: &Scene, own: &StrokeSettings) -> ResolvedStrokes {
-        match self.index {
-            Some(_) => presets::resolve_with(scene, &scene.strokes, Some(own)),
-            None => presets::resolve_with(scene, own, None),
-        }
-    }
-
-    /// Changes one setting here.
-    pub(super) fn set(&self, change: StrokeChange) -> Command {
-        Command::Regions(Regions::SetStroke(self.of.clone(), change))
-    }
-}
-
 pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
     let strokes = asker.shown.numbers.strokes_of.iter().find(|(name, _)| name == region);
     let note = strokes.map_or_else(String::new, |(_, count)| format!("{} shown", grouped(*count)));
-    section(ui, ("Strokes", &note), true, |ui| contents(ui, asker, Some(region)));
+    section(ui, "Strokes", &note, true, |ui| contents(ui, asker, Some(region)));
 }
 
 /// Brush, numbers and layer.
 pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
-    let Some(place) = Place::new(asker, region) else { return };
+    let Some(place) = EditedStrokes::new(asker, region) else { return };
     if region.is_none() {
         preset(ui, asker, &place);
     }
@@ -86,7 +44,7 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     asker.number(ui, &layer, layers, |to| place.set(StrokeChange::Layer(to.map(|to| to.round() as i32))));
 }
 
-fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, advanced: bool) {
+fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>, advanced: bool) {
     let shown = field_values(asker.scene(), place.index);
     let stored = field_values(asker.stored(), place.index);
     let is_here =
@@ -96,7 +54,12 @@ fn numbers(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, advanced: 
     }
 }
 
-fn number(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, [shown, stored]: [&FieldValue; 2]) {
+fn number(
+    ui: &mut Ui,
+    asker: &mut Asker<'_, '_>,
+    place: &EditedStrokes<'_>,
+    [shown, stored]: [&FieldValue; 2],
+) {
     let field = shown.field;
     let look = &field.shown;
     let number = Number {
@@ -114,7 +77,7 @@ fn number(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>, [shown, sto
 }
 
 /// One radio for each brush; with Shift or Ctrl a brush is taken into the mix, or out of it.
-fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let loaded = asker.shown.document.shown();
     let mix = &place.resolved[0].body().brushes;
     let names = brush::NAMES.iter().copied().chain(loaded.brushes.keys().map(String::as_str));
@@ -177,7 +140,7 @@ fn effect_of(brush: &str) -> &'static str {
     }
 }
 
-fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let is_region = place.index.is_some();
     // The paper's rule holds for a whole scene.
     let mut names: Vec<&str> =
@@ -206,8 +169,8 @@ fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
 
 /// What is seldom set: more numbers, edges, layers of paint, preset, seed; and strokes to copy and paste.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
-    let Some(place) = Place::new(asker, region) else { return };
-    section(ui, ("Advanced", "edges, layers, seed"), false, |ui| {
+    let Some(place) = EditedStrokes::new(asker, region) else { return };
+    section(ui, "Advanced", "edges, layers, seed", false, |ui| {
         if region.is_some() {
             preset(ui, asker, &place);
         }
@@ -219,7 +182,7 @@ pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     });
 }
 
-fn edges(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn edges(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let [shown, stored] = place.resolved.each_ref().map(|resolved| resolved.edges);
     let over = |edges| match edges {
         Edges::Overrun(px) => Some(px),
@@ -268,7 +231,7 @@ pub(super) fn seed(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     });
 }
 
-fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &Place<'_>) {
+fn copy_and_paste(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let copied = ColumnState::with(ui.ctx(), |state| state.copied_strokes.clone());
     ui.add_space(4.0);
     ui.horizontal(|ui| {

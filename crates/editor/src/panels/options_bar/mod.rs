@@ -9,10 +9,10 @@ use egui::{Panel, Popup, PopupCloseBehavior, RichText, Ui, vec2};
 use impasto_editor_model::Item;
 use impasto_editor_model::session::{Mode, Tool, ToolOptions};
 
-use self::settings::{Control, Place, Setting};
+use self::settings::{BarPlace, Control, Setting};
 use super::tool_names::face;
 use super::top_bar::WIDE;
-use super::{Ask, Shown, divider, row, row_from_right, text_width, within};
+use super::{Ask, PanelInput, divider, row, row_from_right, text_width, within};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
@@ -26,7 +26,7 @@ const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 type Say = fn(&'static str) -> &'static str;
 
 /// Takes the top 40 points of `ui`.
-pub fn options_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::top("options bar").exact_size(measure::OPTIONS_BAR).resizable(false).frame(frame).show(ui, |ui| {
         if let Some(options) = bar(ui, shown, |words| words) {
@@ -36,7 +36,7 @@ pub fn options_bar(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// The bar's contents. The settings, where one was changed.
-fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
+fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Say) -> Option<ToolOptions> {
     let mut options = shown.session.options.clone();
     let tool = shown.session.tool();
     let all = settings::of(tool, &options);
@@ -52,22 +52,22 @@ fn bar(ui: &mut Ui, shown: &Shown<'_>, say: Say) -> Option<ToolOptions> {
             let width = width(ui, setting, say);
             let fits = ui.cursor().left() + width + measure::GAP <= right;
             match setting.place {
-                Place::Always if fits => on_bar(ui, setting, (&mut options, say)),
-                Place::Wide if fits && wide => on_bar(ui, setting, (&mut options, say)),
-                Place::WideRight if fits && wide => {
+                BarPlace::Always if fits => on_bar(ui, setting, &mut options, say),
+                BarPlace::Wide if fits && wide => on_bar(ui, setting, &mut options, say),
+                BarPlace::WideRight if fits && wide => {
                     right -= width + measure::GAP;
                     let rect = egui::Rect::from_x_y_ranges(right..=right + width, whole.y_range());
-                    within(ui, rect, row(), |ui| control(ui, setting, (&mut options, say)));
+                    within(ui, rect, row(), |ui| control(ui, setting, &mut options, say));
                 }
                 _ => behind.push(index),
             }
         }
-        hint(ui, (shown, tool), right, say);
+        hint(ui, shown, tool, right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
         within(ui, rect, row_from_right(), |ui| {
             ui.add_space(measure::GAP);
             let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
-            more(ui, &behind, (&mut options, say));
+            more(ui, &behind, &mut options, say);
         });
     });
     (options != shown.session.options).then_some(options)
@@ -99,14 +99,14 @@ fn width(ui: &Ui, setting: &Setting, say: Say) -> f32 {
     divider + label + control
 }
 
-fn on_bar(ui: &mut Ui, setting: &Setting, (options, say): (&mut ToolOptions, Say)) {
+fn on_bar(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) {
     if setting.apart {
         divider(ui);
     }
     if !setting.label.is_empty() {
         note(ui, say(setting.label));
     }
-    control(ui, setting, (options, say));
+    control(ui, setting, options, say);
 }
 
 fn note(ui: &mut Ui, words: &str) {
@@ -114,7 +114,7 @@ fn note(ui: &mut Ui, words: &str) {
     ui.add(egui::Label::new(words).extend());
 }
 
-fn control(ui: &mut Ui, setting: &Setting, (options, say): (&mut ToolOptions, Say)) {
+fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) {
     match &setting.control {
         Control::Choice(choice) => {
             let words: Vec<_> = choice.words.iter().map(|(words, name)| (say(words), *name)).collect();
@@ -143,7 +143,7 @@ fn control(ui: &mut Ui, setting: &Setting, (options, say): (&mut ToolOptions, Sa
 }
 
 /// What one should know about a tool or a mode, where there is room.
-fn hint(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), right: f32, say: Say) {
+fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Say) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
         (Tool::Pick | Tool::ShotCamera, _) => [
             (say(face(tool).effect).to_owned(), false),
@@ -179,7 +179,7 @@ fn hint(ui: &mut Ui, (shown, tool): (&Shown<'_>, Tool), right: f32, say: Say) {
 }
 
 /// The button at the bar's end, and what stands behind it.
-fn more(ui: &mut Ui, behind: &[&Setting], (options, say): (&mut ToolOptions, Say)) {
+fn more(ui: &mut Ui, behind: &[&Setting], options: &mut ToolOptions, say: Say) {
     let name = "More tool options";
     let response =
         ui.add_enabled_ui(!behind.is_empty(), |ui| widgets::icon_button(ui, icons::MORE_OPTIONS, name)).inner;
@@ -196,7 +196,7 @@ fn more(ui: &mut Ui, behind: &[&Setting], (options, say): (&mut ToolOptions, Say
                         note(ui, say(setting.label));
                         ui.add_space(labels + left + measure::GAP - ui.cursor().left());
                     }
-                    control(ui, setting, (options, say));
+                    control(ui, setting, options, say);
                     ui.allocate_space(vec2(0.0, measure::ROW));
                 });
             }

@@ -1,9 +1,11 @@
+//! The settings of each tool: what the options bar shows of them, and where.
+
 use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
 use impasto_scene::document::LightKind;
 
 /// When a setting stands on the bar; else, and where there is no room, it stands behind the button at the bar's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum BarPlace {
     Always,
     /// In a wide window.
     Wide,
@@ -14,7 +16,7 @@ pub(super) enum Place {
 
 /// One setting of a tool.
 pub(super) struct Setting {
-    pub(super) place: Place,
+    pub(super) place: BarPlace,
     /// Before the control; empty for none.
     pub(super) label: &'static str,
     pub(super) control: Control,
@@ -48,7 +50,7 @@ pub(super) struct Number {
     pub(super) effect: &'static str,
 }
 
-fn at(place: Place, label: &'static str, control: Control) -> Setting {
+fn at(place: BarPlace, label: &'static str, control: Control) -> Setting {
     Setting { place, label, control, apart: false }
 }
 
@@ -81,7 +83,7 @@ fn radius() -> Setting {
         get: |options| &mut options.radius_px,
         effect: "How far from the pointer the brush reaches.",
     };
-    at(Place::Always, "Radius", Control::Number(number))
+    at(BarPlace::Always, "Radius", Control::Number(number))
 }
 
 fn strength() -> Setting {
@@ -94,12 +96,12 @@ fn strength() -> Setting {
         get: |options| &mut options.strength,
         effect: "How far strokes give in to the brush.",
     };
-    at(Place::Always, "Strength", Control::Number(number))
+    at(BarPlace::Always, "Strength", Control::Number(number))
 }
 
 fn falloff() -> Setting {
     at(
-        Place::Wide,
+        BarPlace::Wide,
         "Falloff",
         choice!(even: [false => "Soft", "Soft falloff"; true => "Even", "Even falloff";]),
     )
@@ -115,22 +117,22 @@ fn steady() -> Setting {
         get: |options| &mut options.steady,
         effect: "The brush follows on a string, so that a trembling hand draws a calm line.",
     };
-    at(Place::Wide, "Steady", Control::Number(number))
+    at(BarPlace::Wide, "Steady", Control::Number(number))
 }
 
 fn mirror() -> Setting {
-    apart(at(Place::Always, "Mirror", Control::Mirror))
+    apart(at(BarPlace::Always, "Mirror", Control::Mirror))
 }
 
 fn front_only() -> Setting {
     let control = Control::Check { words: "Front faces only", get: |options| &mut options.front_only };
-    at(Place::WideRight, "", control)
+    at(BarPlace::WideRight, "", control)
 }
 
 fn foresee() -> Setting {
     let control =
         Control::Check { words: "Show what a stroke would do", get: |options| &mut options.foresee };
-    at(Place::Never, "", control)
+    at(BarPlace::Never, "", control)
 }
 
 fn brush() -> [Setting; 4] {
@@ -139,7 +141,7 @@ fn brush() -> [Setting; 4] {
 
 fn axes() -> Setting {
     apart(at(
-        Place::Always,
+        BarPlace::Always,
         "Axes",
         choice!(axes: [
             Axes::World => "World", "World axes";
@@ -155,7 +157,7 @@ fn snap(turns: bool) -> Setting {
     } else {
         choice!(snap: [false => "Off", "Snap off"; true => "0.1", "Snap";])
     };
-    at(Place::Always, "Snap", control)
+    at(BarPlace::Always, "Snap", control)
 }
 
 fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -> Setting {
@@ -172,7 +174,7 @@ fn angle(name: &'static str, get: fn(&mut ToolOptions) -> &mut f64, most: f64) -
             "The flood stops where faces bend by more."
         },
     };
-    at(Place::Always, "Angle", Control::Number(number))
+    at(BarPlace::Always, "Angle", Control::Number(number))
 }
 
 /// The settings of a tool, in the order of the bar.
@@ -183,7 +185,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
         Tool::Move | Tool::Scale => settings.extend([axes(), snap(false)]),
         Tool::Turn => settings.extend([axes(), snap(true)]),
         Tool::AddLight => settings.push(apart(at(
-            Place::Always,
+            BarPlace::Always,
             "",
             choice!(light: [
                 LightKind::Sun => "Sun", "Sun";
@@ -193,7 +195,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
         ))),
         Tool::Comb => {
             let sense = choice!(against: [false => "Along", "Along"; true => "Against", "Against";]);
-            settings.push(at(Place::Always, "", sense));
+            settings.push(at(BarPlace::Always, "", sense));
             settings.extend(brush());
             settings.extend([mirror(), front_only(), foresee()]);
         }
@@ -202,7 +204,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
         }
         Tool::Fill => {
             settings.push(at(
-                Place::Always,
+                BarPlace::Always,
                 "",
                 choice!(fill: [
                     FillKind::Automatic => "Automatic", "Automatic";
@@ -218,13 +220,13 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
             }
         }
         Tool::TurnDirection => settings.push(at(
-            Place::Always,
+            BarPlace::Always,
             "",
             choice!(flip: [true => "Flip", "Flip"; false => "By angle", "By angle";]),
         )),
         Tool::Smooth => {
             let smear = choice!(smear: [false => "Smooth", "Smooth out"; true => "Smear", "Smear";]);
-            settings.push(at(Place::Always, "", smear));
+            settings.push(at(BarPlace::Always, "", smear));
             settings.extend(brush());
             settings.extend([mirror(), front_only()]);
         }
@@ -237,7 +239,7 @@ pub(super) fn of(tool: Tool, options: &ToolOptions) -> Vec<Setting> {
 
 fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {
     settings.push(at(
-        Place::Always,
+        BarPlace::Always,
         "",
         choice!(region_by: [
             RegionBy::Brush => "Brush", "Region by brush";
@@ -247,7 +249,7 @@ fn region(settings: &mut Vec<Setting>, options: &ToolOptions) {
         ]),
     ));
     settings.push(apart(at(
-        Place::Always,
+        BarPlace::Always,
         "",
         choice!(region_does: [
             RegionDoes::New => "New", "New region";

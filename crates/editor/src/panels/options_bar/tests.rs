@@ -1,3 +1,5 @@
+//! The options bar has room for long words at every width.
+
 use egui::{Rect, accesskit, pos2, vec2};
 use impasto_editor_model::keymap::Preset;
 use impasto_editor_model::session::{FillKind, RegionBy};
@@ -50,7 +52,7 @@ fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String
     theme::apply(&ctx, Theme::Dark, 1.0);
     let document = Document::empty(std::path::Path::new("."));
     let time = Default::default();
-    let shown = Shown {
+    let shown = PanelInput {
         time: &time,
         document: &document,
         session,

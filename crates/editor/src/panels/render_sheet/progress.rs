@@ -42,7 +42,7 @@ pub(super) fn card(ui: &mut Ui, progress: &RenderProgress, picture: Option<&Text
             at.y += LINE;
         }
     }
-    state(ui, (at + vec2(0.0, 4.0), words.right()), progress);
+    state(ui, at + vec2(0.0, 4.0), words.right(), progress);
 }
 
 fn bar(ui: &Ui, words: Rect, progress: &RenderProgress) {
@@ -64,7 +64,7 @@ fn bar(ui: &Ui, words: Rect, progress: &RenderProgress) {
 }
 
 /// What it is at, or how it ended.
-fn state(ui: &Ui, (at, right): (egui::Pos2, f32), progress: &RenderProgress) {
+fn state(ui: &Ui, at: egui::Pos2, right: f32, progress: &RenderProgress) {
     let tokens = Tokens::of(ui);
     let (icon, colour) = match (&progress.outcome, progress.stage) {
         (Some(Outcome::Failed(_)), _) => (Some(icons::ERROR), tokens.vermilion),

@@ -3,7 +3,7 @@
 use egui::{Align2, Pos2, Rect, Response, Role, Shape, Ui, WidgetInfo, accesskit, pos2, vec2};
 use impasto_editor_model::timeline::TimelineEvent;
 
-use crate::panels::{Ask, Shown};
+use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, type_face};
 
 /// Half the width of a key.
@@ -62,7 +62,8 @@ pub(in crate::panels) fn scrub(
     ui: &Ui,
     response: &Response,
     across: Across,
-    (shown, asks): (&Shown<'_>, &mut Vec<Ask>),
+    shown: &PanelInput<'_>,
+    asks: &mut Vec<Ask>,
 ) {
     let frame = shown.session.frame;
     response.widget_info(|| {
@@ -108,7 +109,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
 }
 
 /// Marks at the frames that were dropped.
-pub(in crate::panels) fn drops(ui: &Ui, (across, top): (Across, f32), shown: &Shown<'_>) {
+pub(in crate::panels) fn drops(ui: &Ui, across: Across, top: f32, shown: &PanelInput<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {
         let left = across.x(frame as f64);

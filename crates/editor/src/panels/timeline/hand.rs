@@ -1,12 +1,13 @@
 //! The pointer over the lanes: every press and release counts, however many come in one pass.
 
 use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
+use impasto_editor_model::command::ease_name;
 use impasto_editor_model::command::{Command, Time};
-use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, Place, TimelineEvent, ease_name};
+use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, LanePosition, TimelineEvent};
 use impasto_scene::document::Ease;
 
 use super::across::Across;
-use crate::panels::{Ask, Shown};
+use crate::panels::{Ask, PanelInput};
 use crate::theme::measure;
 use crate::widgets::MenuRow;
 
@@ -26,11 +27,11 @@ pub(super) struct Lying<'a> {
 }
 
 impl Lying<'_> {
-    fn place(&self, at: Pos2) -> Place {
+    fn place(&self, at: Pos2) -> LanePosition {
         let y = at.y - self.top;
         // Above the first lane there is the first.
         let lane = (y / self.lane).floor().max(0.0) as usize;
-        Place { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
+        LanePosition { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
     }
 
     /// The key under the pointer: the nearest of its lane.
@@ -52,7 +53,7 @@ struct Memory {
 }
 
 /// Hands the pointer's events on.
-pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let id = ui.scope_id().with("lanes hand");
     let layer = ui.layer_id();
     let ctx = ui.ctx().clone();
@@ -102,7 +103,7 @@ pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, (shown, asks): (&Shown<'_>, &
         }
     }
     if let Some((keys, hit, at)) = &memory.menu {
-        menu(ui, (id, *at), (keys, *hit), asks);
+        menu(ui, id, *at, keys, *hit, asks);
     }
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
@@ -115,7 +116,7 @@ fn between(lying: &Lying<'_>, at: Pos2) -> Option<KeyAt> {
 }
 
 /// Eases, and for keys their end.
-fn menu(ui: &Ui, (id, at): (Id, Pos2), (keys, hit): (&[KeyAt], bool), asks: &mut Vec<Ask>) {
+fn menu(ui: &Ui, id: Id, at: Pos2, keys: &[KeyAt], hit: bool, asks: &mut Vec<Ask>) {
     let anchor = PopupAnchor::Position(at);
     let popup = Popup::new(id, ui.ctx().clone(), anchor, ui.layer_id());
     popup.kind(egui::PopupKind::Menu).open_memory(None).width(150.0).show(|ui| {

@@ -4,13 +4,14 @@ use egui::{
     Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
 };
 use impasto_editor_model::command::KeyOf;
-use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent, ease_name};
+use impasto_editor_model::command::ease_name;
+use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
 
 use super::across::{Across, KEY, diamond, filled};
 use crate::icons;
-use crate::panels::{Ask, Shown, text_width};
+use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
 
@@ -19,7 +20,7 @@ const SWING: f32 = 3.0;
 
 /// Where a lane is drawn.
 #[derive(Clone, Copy)]
-pub(super) struct Row {
+pub(super) struct LaneRow {
     /// The whole row.
     pub(super) rect: Rect,
     /// Where its name ends.
@@ -37,7 +38,7 @@ pub(super) fn item(of: &KeyOf) -> Item {
 }
 
 /// What stands before the keys: a click selects; the camera can be locked to the view.
-pub(super) fn name(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.max.x = row.names;
     let item = item(&lane.of);
@@ -83,7 +84,7 @@ pub(super) fn name(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_
 }
 
 /// The keys of a lane, the ways between them, and what a drag would do.
-pub(super) fn keys(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.min.x = row.names;
     let label = format!("{} keys", lane.of.name());
@@ -127,7 +128,7 @@ pub(super) fn keys(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_
             mark(&painter, to, key.ease, tokens.key);
             painter.add(Shape::closed_line(diamond(to, 10.0), Stroke::new(1.5, tokens.text)));
         }
-        node(ui, (lane, key, at), &list, (is_selected, asks));
+        node(ui, lane, key, at, &list, is_selected, asks);
     }
     for frame in replaced {
         let at = pos2(row.across.x(frame) + 14.0, middle);
@@ -142,9 +143,12 @@ pub(super) fn keys(ui: &mut Ui, row: Row, lane: &Lane, (shown, asks): (&Shown<'_
 /// What a screen reader finds of a key, and what a click of its does.
 fn node(
     ui: &mut Ui,
-    (lane, key, at): (&Lane, &LaneKey, Pos2),
+    lane: &Lane,
+    key: &LaneKey,
+    at: Pos2,
     list: &egui::Response,
-    (selected, asks): (bool, &mut Vec<Ask>),
+    selected: bool,
+    asks: &mut Vec<Ask>,
 ) {
     let hit = Rect::from_center_size(at, vec2(measure::HIT, measure::HIT));
     let mut ui = ui.new_child(UiBuilder::new().max_rect(hit).accessibility_parent(list.id));

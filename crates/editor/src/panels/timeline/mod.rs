@@ -11,11 +11,11 @@ use egui::{Color32, Panel, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2
 use impasto_editor_model::Session;
 use impasto_editor_model::timeline;
 
-use super::{Ask, Shown, row, row_from_right, within};
+use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::theme::{Tokens, measure};
 
 use hand::Lying;
-use lanes::Row;
+use lanes::LaneRow;
 
 /// Height of the row of buttons.
 const BAR: f32 = 40.0;
@@ -31,7 +31,7 @@ pub fn height(session: &Session, window_width: f32) -> f32 {
 }
 
 /// Takes the lowest part of `ui`, with lanes.
-pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let (height, lane_height, names) = measures(ui.ctx().content_rect().width());
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::bottom("lanes").exact_size(height).resizable(false).frame(frame).show(ui, |ui| {
@@ -49,14 +49,14 @@ pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
         let (top, rows) = below.split_top_bottom_at_y(below.top() + ruler::HEIGHT);
         let on_ruler = Rect::from_x_y_ranges(right.x_range(), top.y_range());
         let whole = ruler::across(scene, right);
-        let across = zoom::seen(ui, (right, on_ruler), whole, shown.session.frame);
-        ruler::ground(ui, right, (across, &shown.document.shown().scene));
+        let across = zoom::seen(ui, right, on_ruler, whole, shown.session.frame);
+        ruler::ground(ui, right, across, &shown.document.shown().scene);
         ui.painter().vline(names.right(), names.y_range(), (1.0, Tokens::of(ui).div));
-        ruler::ruler(ui, on_ruler, across, (shown, asks));
+        ruler::ruler(ui, on_ruler, across, shown, asks);
 
         let lanes = timeline::lanes(scene);
         let first = within(ui, rows, egui::Layout::top_down(egui::Align::Min), |ui| {
-            rows_of(ui, (&lanes, lane_height), (names.right(), across), (shown, asks))
+            rows_of(ui, &lanes, lane_height, names.right(), across, shown, asks)
         });
         ruler::over(ui, right, across, shown);
         let lying = Lying {
@@ -66,7 +66,7 @@ pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
             across,
             lanes: &lanes,
         };
-        hand::hand(ui, &lying, (shown, asks));
+        hand::hand(ui, &lying, shown, asks);
         if let Some([from, to]) = shown.time.keys.boxed() {
             let corner = |[x, y]: [f64; 2]| pos2(x as f32, first + y as f32);
             let rect = Rect::from_two_pos(corner(from), corner(to));
@@ -81,9 +81,12 @@ pub(super) fn lanes(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 /// The rows, which scroll. Returns where the first one begins.
 fn rows_of(
     ui: &mut Ui,
-    (lanes, height): (&[timeline::Lane], f32),
-    (names, across): (f32, across::Across),
-    (shown, asks): (&Shown<'_>, &mut Vec<Ask>),
+    lanes: &[timeline::Lane],
+    height: f32,
+    names: f32,
+    across: across::Across,
+    shown: &PanelInput<'_>,
+    asks: &mut Vec<Ask>,
 ) -> f32 {
     ui.spacing_mut().item_spacing.y = 0.0;
     // Below the rows there is room for the reference's pin, which would hide a key.
@@ -113,9 +116,9 @@ fn rows_of(
             let is_selected = shown.document.selection().contains(&lanes::item(&lane.of));
             let fill = if is_selected { tokens.sel.gamma_multiply(0.8) } else { Color32::TRANSPARENT };
             ui.painter().rect_filled(rect, 0.0, fill);
-            let row = Row { rect, names, across };
-            lanes::name(ui, row, lane, (shown, asks));
-            lanes::keys(ui, row, lane, (shown, asks));
+            let row = LaneRow { rect, names, across };
+            lanes::name(ui, row, lane, shown, asks);
+            lanes::keys(ui, row, lane, shown, asks);
         }
         rect.top()
     });

@@ -8,7 +8,7 @@ use impasto_scene::motion;
 
 use super::across::{self, Across};
 use crate::icons;
-use crate::panels::{Ask, Shown};
+use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, measure, type_face};
 
 /// Height of the strip below the lanes in which the reference's pin stands.
@@ -32,7 +32,7 @@ pub(super) fn across(scene: &Scene, rect: Rect) -> Across {
 }
 
 /// Draws the ground of ruler and lanes: the range is lit.
-pub(super) fn ground(ui: &Ui, rect: Rect, (across, scene): (Across, &Scene)) {
+pub(super) fn ground(ui: &Ui, rect: Rect, across: Across, scene: &Scene) {
     let tokens = Tokens::of(ui);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| across.x(frame as f64));
     ui.painter().rect_filled(rect, 0.0, tokens.app);
@@ -43,11 +43,11 @@ pub(super) fn ground(ui: &Ui, rect: Rect, (across, scene): (Across, &Scene)) {
 }
 
 /// The ruler, which scrubs; at the ends of the range, its grips.
-pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) {
+pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
-    let is_gripped = grips(ui, rect, across, (shown, asks));
+    let is_gripped = grips(ui, rect, across, shown, asks);
     if !is_gripped {
-        across::scrub(ui, &response, across, (shown, asks));
+        across::scrub(ui, &response, across, shown, asks);
     }
     let tokens = Tokens::of(ui);
     let step = across.label_step(LABELS);
@@ -59,7 +59,7 @@ pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, (shown, asks): (&Sh
             across::number(ui, pos2(x, rect.top() + 8.0), Align2::CENTER_CENTER, frame);
         }
     }
-    across::drops(ui, (across, rect.bottom() - 8.0), shown);
+    across::drops(ui, across, rect.bottom() - 8.0, shown);
     if response.has_focus() {
         let ring = egui::Stroke::new(2.0, tokens.accent_text);
         ui.painter().rect_stroke(rect.shrink(1.0), measure::CORNER, ring, egui::StrokeKind::Inside);
@@ -67,7 +67,7 @@ pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, (shown, asks): (&Sh
 }
 
 /// The ends of the range can be dragged. Returns whether a hand is on one.
-fn grips(ui: &mut Ui, rect: Rect, across: Across, (shown, asks): (&Shown<'_>, &mut Vec<Ask>)) -> bool {
+fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let timeline = &shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;
     let mut is_gripped = false;
@@ -110,7 +110,7 @@ fn grips(ui: &mut Ui, rect: Rect, across: Across, (shown, asks): (&Shown<'_>, &m
 }
 
 /// What stands over ruler and lanes: the reference's pin, and the playhead with its flag.
-pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &Shown<'_>) {
+pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let scene = shown.document.scene();
     let painter = ui.painter().with_clip_rect(rect);

@@ -9,7 +9,7 @@ use impasto_scene::document::Timeline;
 use impasto_scene::limits::MAX_FRAME;
 
 use crate::icons;
-use crate::panels::{Ask, Shown, divider, text_width};
+use crate::panels::{Ask, PanelInput, divider, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 
@@ -17,7 +17,7 @@ use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
 /// To the ends, a step, play; and the frame that is shown.
-pub(in crate::panels) fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = 1.0;
     ui.add_space(7.0);
     let plays = shown.time.playback.is_playing();
@@ -55,7 +55,7 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Ve
 }
 
 /// Behind the transport, where there is room: the time, Auto key and Set key.
-pub(super) fn keying(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.add_space(8.0);
     let seconds = shown.session.frame / shown.document.scene().timeline.fps;
     let words = format!("{seconds:.2} s");
@@ -91,7 +91,7 @@ pub(super) fn keying(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// From the right end: fold, loop, rate and range as fields, and how it is played.
-pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);
     let response = widgets::icon_button(ui, icons::KEYS_DOWN, "Hide keys");
@@ -110,7 +110,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
         .reading(&|text| text.trim().trim_end_matches("fps").trim().replace(',', ".").parse().ok())
         .unit("fps");
     let answer = field.unlabelled(if decimals == 0 { 62.0 } else { 92.0 }).show(ui);
-    asks.extend(asked(&answer, (value, [fps, stored.fps]), Time::SetFps));
+    asks.extend(asked(&answer, value, [fps, stored.fps], Time::SetFps));
     for (name, is_end) in [("Range end", true), ("Range start", false)] {
         let before = if is_end { last } else { first } as f64;
         let mut value = before;
@@ -118,7 +118,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
         let field = NumberField::new(name, &mut value, f64::NEG_INFINITY..=f64::INFINITY);
         let answer = field.limits(least..=most).unlabelled(50.0).show(ui);
         let kept = if is_end { stored.last } else { stored.first } as f64;
-        asks.extend(asked(&answer, (value, [before, kept]), |to| match is_end {
+        asks.extend(asked(&answer, value, [before, kept], |to| match is_end {
             true => Time::SetRange(stored.first, to as i64),
             false => Time::SetRange(to as i64, stored.last),
         }));
@@ -128,14 +128,14 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) 
     dropped(ui, shown);
     let mut pacing = usize::from(shown.session.pacing == Pacing::EveryFrame);
     let choices = ["Real time", "Every frame"];
-    if widgets::combo(ui, ("Pacing", Some(icons::DROPPED)), &choices, &mut pacing).changed() {
+    if widgets::combo(ui, "Pacing", Some(icons::DROPPED), &choices, &mut pacing).changed() {
         let pacing = if pacing == 0 { Pacing::RealTime } else { Pacing::EveryFrame };
         asks.push(shown.session_with(|session| session.pacing = pacing));
     }
 }
 
 /// Whether playing begins again.
-pub(in crate::panels) fn looped(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut looped = shown.session.looped;
     let response = widgets::icon_toggle(ui, icons::LOOP, "Loop", &mut looped);
     let effect = "Playing begins again at the end of the range.";
@@ -145,7 +145,7 @@ pub(in crate::panels) fn looped(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<A
 }
 
 /// What was dropped since the last play, or how fast every frame comes.
-pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &Shown<'_>) {
+pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &PanelInput<'_>) {
     let playback = &shown.time.playback;
     let words = match (shown.session.pacing, playback.dropped(), playback.rate()) {
         (Pacing::EveryFrame, _, Some(rate)) => format!("{rate:.1} fps"),
@@ -164,7 +164,8 @@ pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &Shown<'_>) {
 /// What a field asks for: a drag shows as it goes and is one entry.
 fn asked(
     answer: &FieldResponse,
-    (value, [shown, stored]): (f64, [f64; 2]),
+    value: f64,
+    [shown, stored]: [f64; 2],
     time: impl Fn(f64) -> Time,
 ) -> Option<Ask> {
     let command = || Command::Time(time(value));

@@ -9,22 +9,22 @@ const FEWEST: f64 = 8.0;
 
 /// What is seen of the frames, and the frame that was shown last.
 #[derive(Clone, Copy, Default)]
-struct Seen {
+struct VisibleFrames {
     frames: Option<[f64; 2]>,
     shown: f64,
 }
 
 /// `Ctrl` and the wheel zoom about the pointer, `Shift` and the wheel move along, a double click on the ruler shows all frames.
 /// The playhead is followed.
-pub(super) fn seen(ui: &Ui, (area, ruler): (Rect, Rect), whole: Across, frame: f64) -> Across {
+pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: Across, frame: f64) -> Across {
     let id = Id::unique("frames that are seen");
-    let mut seen = ui.data_mut(|data| data.get_temp::<Seen>(id)).unwrap_or_default();
+    let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();
     let (pointer, zoom, along, is_double) = ui.input(|input| {
         let is_double = input.pointer.button_double_clicked(egui::PointerButton::Primary);
         (input.pointer.hover_pos(), f64::from(input.zoom_delta()), input.smooth_scroll_delta().x, is_double)
     });
     if let Some(at) = pointer.filter(|at| area.contains(*at)) {
-        seen.frames = zoomed(whole, seen.frames, (zoom, at.x), along);
+        seen.frames = zoomed(whole, seen.frames, zoom, at.x, along);
         if is_double && ruler.contains(at) {
             seen.frames = None;
         }
@@ -40,7 +40,7 @@ pub(super) fn seen(ui: &Ui, (area, ruler): (Rect, Rect), whole: Across, frame: f
 }
 
 /// The frames after a turn of the wheel; none for all of them.
-fn zoomed(whole: Across, frames: Option<[f64; 2]>, (zoom, x): (f64, f32), along_px: f32) -> Option<[f64; 2]> {
+fn zoomed(whole: Across, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: f32) -> Option<[f64; 2]> {
     let [first, last] = frames.unwrap_or([whole.first, whole.last]);
     if !zoom.is_finite() || zoom <= 0.0 || (zoom == 1.0 && along_px == 0.0) {
         return frames;
@@ -88,25 +88,25 @@ mod tests {
         let mut frames: Option<[f64; 2]> = None;
         for (zoom, x) in [(2.0, 700.0), (1.5, 700.0), (1.25, 700.0)] {
             let before = frames.map_or(WHOLE, |[first, last]| Across { first, last, ..WHOLE }).place(x);
-            frames = zoomed(WHOLE, frames, (zoom, x), 0.0);
+            frames = zoomed(WHOLE, frames, zoom, x, 0.0);
             let [first, last] = frames.expect("zoomed in");
             let after = Across { first, last, ..WHOLE }.place(x);
             assert!((before - after).abs() < 1e-9, "{before} {after}");
         }
         let [first, last] = frames.expect("zoomed in");
         assert!((last - first - 100.0 / 3.75).abs() < 1e-9);
-        assert_eq!(zoomed(WHOLE, frames, (0.01, 700.0), 0.0), None, "out again: all of it");
+        assert_eq!(zoomed(WHOLE, frames, 0.01, 700.0, 0.0), None, "out again: all of it");
     }
 
     #[test]
     fn it_stays_within_the_whole_and_above_the_fewest() {
-        let [first, last] = zoomed(WHOLE, None, (1e9, 1200.0), 0.0).expect("zoomed in");
+        let [first, last] = zoomed(WHOLE, None, 1e9, 1200.0, 0.0).expect("zoomed in");
         assert_eq!([first, last], [92.0, 100.0]);
-        assert_eq!(zoomed(WHOLE, Some([92.0, 100.0]), (1.0, 700.0), -5000.0), Some([92.0, 100.0]));
-        assert_eq!(zoomed(WHOLE, Some([92.0, 100.0]), (1.0, 700.0), 500.0), Some([88.0, 96.0]));
-        assert_eq!(zoomed(WHOLE, Some([20.0, 40.0]), (f64::NAN, 700.0), 0.0), Some([20.0, 40.0]));
+        assert_eq!(zoomed(WHOLE, Some([92.0, 100.0]), 1.0, 700.0, -5000.0), Some([92.0, 100.0]));
+        assert_eq!(zoomed(WHOLE, Some([92.0, 100.0]), 1.0, 700.0, 500.0), Some([88.0, 96.0]));
+        assert_eq!(zoomed(WHOLE, Some([20.0, 40.0]), f64::NAN, 700.0, 0.0), Some([20.0, 40.0]));
         let still = Across { first: 4.0, last: 4.0, ..WHOLE };
-        assert_eq!(zoomed(still, None, (2.0, 700.0), 3.0), None);
+        assert_eq!(zoomed(still, None, 2.0, 700.0, 3.0), None);
     }
 
     #[test]

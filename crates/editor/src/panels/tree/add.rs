@@ -10,10 +10,10 @@ use impasto_scene::motion;
 
 use crate::icons::{self, Icon};
 use crate::panels::column_state::ColumnState;
-use crate::panels::{Ask, Shown};
+use crate::panels::{Ask, PanelInput};
 use crate::widgets::Button;
 
-pub(super) fn menu(button: &Response, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn menu(button: &Response, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let asked = ColumnState::with(&button.ctx, |state| std::mem::take(&mut state.opens_add_menu));
     if asked {
         Popup::open_id(&button.ctx, Popup::default_response_id(button));
@@ -51,7 +51,7 @@ fn entry(ui: &mut Ui, icon: Icon, words: &str) -> bool {
 }
 
 /// A light up and to the left of the camera, which shines where the camera looks.
-fn light(shown: &Shown<'_>, kind: LightKind) -> Arrange {
+fn light(shown: &PanelInput<'_>, kind: LightKind) -> Arrange {
     let camera = motion::camera_at(shown.document.scene(), shown.session.frame);
     let back = camera.eye - camera.target;
     let left = back.cross(DVec3::Y).normalize_or(DVec3::NEG_X) * back.length();
@@ -71,7 +71,7 @@ fn object_of<'a>(scene: &'a Scene, active: Option<&'a Item>) -> Option<&'a str> 
 }
 
 /// Regions that the object could have and has not: the whole of it, its groups, its materials.
-fn regions(shown: &Shown<'_>, object: &str) -> Vec<Region> {
+fn regions(shown: &PanelInput<'_>, object: &str) -> Vec<Region> {
     let loaded = shown.document.loaded();
     let of_object = loaded.scene.objects.iter().find(|other| other.name == object);
     let mut wanted = vec![Region::new(object, Selector::Object(object.to_owned()))];

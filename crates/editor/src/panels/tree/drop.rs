@@ -5,13 +5,13 @@ use impasto_editor_model::Item;
 use impasto_editor_model::command::{Command, Edit};
 use impasto_scene::document::Scene;
 
-use super::rows::Row;
+use super::rows::TreeLine;
 use crate::panels::Ask;
 use crate::theme::Tokens;
 
 /// Where a dragged row would go.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Place<'a> {
+enum DropTarget<'a> {
     Before(&'a Item),
     After(&'a Item),
     Onto(&'a Item),
@@ -29,8 +29,10 @@ pub(super) fn begin(response: &Response, item: &Item) {
 /// Shows where the dragged row would go, and asks for it when it is let go.
 pub(super) fn drag_and_drop(
     ui: &Ui,
-    (scene, rows): (&Scene, &[Row]),
-    (placed, area): (&[Rect], Rect),
+    scene: &Scene,
+    rows: &[TreeLine],
+    placed: &[Rect],
+    area: Rect,
     asks: &mut Vec<Ask>,
 ) {
     let Some(item) = DragAndDrop::payload::<Item>(ui.ctx()) else { return };
@@ -43,21 +45,21 @@ pub(super) fn drag_and_drop(
         Some((onto, rect)) => {
             let part = (at.y - rect.top()) / rect.height();
             let place = match part {
-                ..0.3 => Place::Before(onto),
-                0.7.. => Place::After(onto),
-                _ => Place::Onto(onto),
+                ..0.3 => DropTarget::Before(onto),
+                0.7.. => DropTarget::After(onto),
+                _ => DropTarget::Onto(onto),
             };
             (place, rect)
         }
-        None => (Place::Off, area),
+        None => (DropTarget::Off, area),
     };
     let Some(command) = command_of(scene, &item, place) else { return };
     let line = Stroke::new(2.0, Tokens::of(ui).accent_text);
     match place {
-        Place::Before(_) => _ = ui.painter().hline(rect.x_range(), rect.top(), line),
-        Place::After(_) => _ = ui.painter().hline(rect.x_range(), rect.bottom(), line),
-        Place::Onto(_) => _ = ui.painter().rect_stroke(rect, 4.0, line, StrokeKind::Inside),
-        Place::Off => {}
+        DropTarget::Before(_) => _ = ui.painter().hline(rect.x_range(), rect.top(), line),
+        DropTarget::After(_) => _ = ui.painter().hline(rect.x_range(), rect.bottom(), line),
+        DropTarget::Onto(_) => _ = ui.painter().rect_stroke(rect, 4.0, line, StrokeKind::Inside),
+        DropTarget::Off => {}
     }
     if ui.input(|input| input.pointer.any_released()) {
         DragAndDrop::clear_payload(ui.ctx());
@@ -66,7 +68,7 @@ pub(super) fn drag_and_drop(
 }
 
 /// What letting go of `dragged` would do; none where it would do nothing.
-fn command_of(scene: &Scene, dragged: &Item, place: Place<'_>) -> Option<Command> {
+fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Command> {
     let reorder = |target: &Item, after: bool| {
         let [from, to] = [dragged, target].map(|item| index_of(scene, item));
         let (from, to) = (from?, to? + usize::from(after));
@@ -82,13 +84,20 @@ fn command_of(scene: &Scene, dragged: &Item, place: Place<'_>) -> Option<Command
         object.and_then(|object| object.parent.as_deref())
     };
     match (dragged, place) {
-        (_, Place::Before(target) | Place::After(target) | Place::Onto(target)) if target == dragged => None,
-        (Item::Object(name), Place::Onto(Item::Object(onto))) => {
+        (_, DropTarget::Before(target) | DropTarget::After(target) | DropTarget::Onto(target))
+            if target == dragged =>
+        {
+            None
+        }
+        (Item::Object(name), DropTarget::Onto(Item::Object(onto))) => {
             (parent_of(name) != Some(onto)).then(|| put(name, Some(onto)))
         }
-        (Item::Object(name), Place::Before(Item::Object(beside)) | Place::After(Item::Object(beside))) => {
-            let (Place::Before(target) | Place::After(target)) = place else { return None };
-            let moved = reorder(target, matches!(place, Place::After(_)));
+        (
+            Item::Object(name),
+            DropTarget::Before(Item::Object(beside)) | DropTarget::After(Item::Object(beside)),
+        ) => {
+            let (DropTarget::Before(target) | DropTarget::After(target)) = place else { return None };
+            let moved = reorder(target, matches!(place, DropTarget::After(_)));
             let parent = parent_of(beside);
             if parent == parent_of(name) {
                 return moved;
@@ -97,13 +106,17 @@ fn command_of(scene: &Scene, dragged: &Item, place: Place<'_>) -> Option<Command
                 parent.map_or(format!("Take {name} off"), |parent| format!("Put {name} under {parent}"));
             Some(Command::Several(text, std::iter::once(put(name, parent)).chain(moved).collect()))
         }
-        (Item::Object(name), Place::Off) => parent_of(name).is_some().then(|| put(name, None)),
-        (Item::Region(_), Place::Before(target @ Item::Region(_)))
-        | (Item::Light(_), Place::Before(target @ Item::Light(_))) => reorder(target, false),
-        (Item::Region(_), Place::After(target @ Item::Region(_)) | Place::Onto(target @ Item::Region(_)))
-        | (Item::Light(_), Place::After(target @ Item::Light(_)) | Place::Onto(target @ Item::Light(_))) => {
-            reorder(target, true)
-        }
+        (Item::Object(name), DropTarget::Off) => parent_of(name).is_some().then(|| put(name, None)),
+        (Item::Region(_), DropTarget::Before(target @ Item::Region(_)))
+        | (Item::Light(_), DropTarget::Before(target @ Item::Light(_))) => reorder(target, false),
+        (
+            Item::Region(_),
+            DropTarget::After(target @ Item::Region(_)) | DropTarget::Onto(target @ Item::Region(_)),
+        )
+        | (
+            Item::Light(_),
+            DropTarget::After(target @ Item::Light(_)) | DropTarget::Onto(target @ Item::Light(_)),
+        ) => reorder(target, true),
         _ => None,
     }
 }

@@ -9,16 +9,16 @@ use impasto_editor_model::command::{Command, Edit};
 use impasto_editor_model::{Item, Selection};
 
 use super::column_state::ColumnState;
-use super::{Ask, Shown};
+use super::{Ask, PanelInput};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip, TreeRow};
-use rows::Row;
+use rows::TreeLine;
 
 pub(super) use rows::region_color;
 
 /// The scene tree. It fills the width and height of `ui`, which has no margins.
-pub fn tree(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+pub fn tree(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     head(ui, shown, asks);
     let loaded = shown.document.shown();
@@ -41,17 +41,17 @@ pub fn tree(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
                 Some((item, typed)) if row.item.as_ref() == Some(item) => {
                     rename_row(ui, row, typed.clone(), asks)
                 }
-                _ => show_row(ui, row, (shown, moved), asks),
+                _ => show_row(ui, row, shown, moved, asks),
             };
             placed.push(rect);
         }
         words_below(ui, &rows, &state, loaded.scene.objects.is_empty());
         placed
     });
-    drop::drag_and_drop(ui, (&loaded.scene, &rows), (&output.inner, output.inner_rect), asks);
+    drop::drag_and_drop(ui, &loaded.scene, &rows, &output.inner, output.inner_rect, asks);
 }
 
-fn head(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
+fn head(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let search = ColumnState::with(ui.ctx(), |state| state.search.clone());
     ui.horizontal(|ui| {
         ui.set_height(32.0);
@@ -96,7 +96,13 @@ fn head(ui: &mut Ui, shown: &Shown<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-fn show_row(ui: &mut Ui, row: &Row, (shown, moved): (&Shown<'_>, bool), asks: &mut Vec<Ask>) -> egui::Rect {
+fn show_row(
+    ui: &mut Ui,
+    row: &TreeLine,
+    shown: &PanelInput<'_>,
+    moved: bool,
+    asks: &mut Vec<Ask>,
+) -> egui::Rect {
     let selection = shown.document.selection();
     let selected = match &row.item {
         Some(item) => {
@@ -159,7 +165,7 @@ fn show_row(ui: &mut Ui, row: &Row, (shown, moved): (&Shown<'_>, bool), asks: &m
 }
 
 /// A row whose name is typed.
-fn rename_row(ui: &mut Ui, row: &Row, mut typed: String, asks: &mut Vec<Ask>) -> egui::Rect {
+fn rename_row(ui: &mut Ui, row: &TreeLine, mut typed: String, asks: &mut Vec<Ask>) -> egui::Rect {
     let size = vec2(ui.available_width(), measure::TREE_ROW);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter().rect_filled(rect, 0.0, Tokens::of(ui).sel);
@@ -199,7 +205,7 @@ fn rename_row(ui: &mut Ui, row: &Row, mut typed: String, asks: &mut Vec<Ask>) ->
 }
 
 /// What stands under the rows where there is nothing, or nothing was found.
-fn words_below(ui: &mut Ui, rows: &[Row], state: &ColumnState, empty: bool) {
+fn words_below(ui: &mut Ui, rows: &[TreeLine], state: &ColumnState, empty: bool) {
     let words = match &state.search {
         Some(text) if rows.is_empty() => format!("Nothing is named \u{201c}{}\u{201d}.", text.trim()),
         _ if empty => "No objects yet. Drop an OBJ anywhere, or press +".to_owned(),

@@ -14,7 +14,7 @@ const ROWS_OPEN_AT_FIRST: usize = 20;
 
 /// One row of the scene tree.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct TreeLine {
     /// What it stands for; none for the canvas.
     pub(super) item: Option<Item>,
     /// What it shows.
@@ -37,7 +37,7 @@ pub(super) struct Row {
     pub(super) locked: bool,
 }
 
-impl Row {
+impl TreeLine {
     fn new(item: Item, kind: &'static str, mark: RowMark) -> Self {
         Self {
             name: item.name().to_owned(),
@@ -69,17 +69,17 @@ impl Row {
 }
 
 /// The rows as they are shown, top to bottom.
-pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<Row> {
+pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<TreeLine> {
     let loaded = document.shown();
     let scene = &loaded.scene;
     let searched = state.search.as_deref().map(str::trim).filter(|text| !text.is_empty());
-    let camera = Row {
+    let camera = TreeLine {
         keyed: scene.camera.keys.len() > 1,
-        ..Row::new(Item::Camera, "camera", RowMark::Icon(icons::CAMERA))
+        ..TreeLine::new(Item::Camera, "camera", RowMark::Icon(icons::CAMERA))
     };
     let mut rows = vec![camera];
     let light = RowMark::Icon(icons::LIGHT);
-    rows.extend(scene.lights.iter().map(|of| Row::new(Item::Light(of.name.clone()), "light", light)));
+    rows.extend(scene.lights.iter().map(|of| TreeLine::new(Item::Light(of.name.clone()), "light", light)));
     let few = scene.objects.len() + scene.regions.len() + rows.len() <= ROWS_OPEN_AT_FIRST;
     let listing = Listing { document, state, few, all: searched.is_some() };
     listing.objects_on(None, 0, &mut rows);
@@ -91,10 +91,10 @@ pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<Row> {
             .filter(|(_, region)| region.on.object().is_none())
             .map(|(index, region)| region_row((index, region), 0)),
     );
-    rows.push(Row {
+    rows.push(TreeLine {
         item: None,
         name: "canvas".to_owned(),
-        ..Row::new(Item::Camera, "background", RowMark::Icon(icons::BACKDROP))
+        ..TreeLine::new(Item::Camera, "background", RowMark::Icon(icons::BACKDROP))
     });
     match searched {
         Some(text) => found(rows, &text.to_lowercase()),
@@ -110,7 +110,7 @@ struct Listing<'a> {
 }
 
 impl Listing<'_> {
-    fn objects_on(&self, parent: Option<&str>, depth: usize, rows: &mut Vec<Row>) {
+    fn objects_on(&self, parent: Option<&str>, depth: usize, rows: &mut Vec<TreeLine>) {
         let scene = &self.document.shown().scene;
         for object in scene.objects.iter().filter(|object| object.parent.as_deref() == parent) {
             let name = object.name.as_str();
@@ -121,14 +121,14 @@ impl Listing<'_> {
                 || scene.objects.iter().any(|other| other.parent.as_deref() == Some(name));
             let open = self.all || self.state.rows.get(name).copied().unwrap_or(self.few);
             let wrong = self.document.lacks_mesh(&object.mesh);
-            rows.push(Row {
+            rows.push(TreeLine {
                 depth,
                 expanded: is_parent.then_some(open),
                 note: if wrong { "mesh missing".to_owned() } else { String::new() },
                 keyed: object.keys.len() > 1,
                 hidden: object.hidden,
                 locked: object.locked,
-                ..Row::new(Item::Object(name.to_owned()), "object", mark_of(wrong))
+                ..TreeLine::new(Item::Object(name.to_owned()), "object", mark_of(wrong))
             });
             if is_parent && open {
                 rows.extend(regions().map(|region| region_row(region, depth + 1)));
@@ -142,13 +142,13 @@ fn mark_of(wrong: bool) -> RowMark {
     if wrong { RowMark::Wrong(icons::WARNING) } else { RowMark::Icon(icons::OBJECT) }
 }
 
-fn region_row((index, region): (usize, &Region), depth: usize) -> Row {
-    Row {
+fn region_row((index, region): (usize, &Region), depth: usize) -> TreeLine {
+    TreeLine {
         depth,
         note: note_of(region),
         hidden: region.hidden,
         locked: region.locked,
-        ..Row::new(
+        ..TreeLine::new(
             Item::Region(region.name.clone()),
             "region",
             RowMark::Colour(shown_color(region.color, index)),
@@ -188,7 +188,7 @@ fn note_of(region: &Region) -> String {
 }
 
 /// The rows whose names hold `text`, with the rows that they lie under.
-fn found(rows: Vec<Row>, text: &str) -> Vec<Row> {
+fn found(rows: Vec<TreeLine>, text: &str) -> Vec<TreeLine> {
     let mut kept = Vec::new();
     let mut under = 0;
     for row in rows.into_iter().rev() {

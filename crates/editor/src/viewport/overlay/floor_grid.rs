@@ -1,3 +1,5 @@
+//! The grid on the floor.
+
 use egui::Stroke;
 use glam::DVec3;
 

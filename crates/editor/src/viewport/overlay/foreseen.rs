@@ -1,3 +1,5 @@
+//! Strokes under the ring, drawn as a comb would turn them.
+
 use glam::DVec2;
 
 use super::Sheet;

@@ -1,3 +1,5 @@
+//! The handles that move, turn and scale.
+
 use egui::{Color32, Pos2, Shape, Stroke};
 use glam::DVec2;
 use impasto_editor_model::gizmo::{Gizmo, Handle, HandleShape};
@@ -32,10 +34,10 @@ fn draw(sheet: &Sheet<'_>, handle: &Handle, colour: Color32) {
                     vec![to - along - side, to + along - side, to + along + side, to - along + side];
                 sheet.painter.add(Shape::convex_polygon(corners, colour, edge));
             } else {
-                sheet.painter.add(ink::head(to, direction, (15.0, 13.0), (colour, edge)));
+                sheet.painter.add(ink::head(to, direction, 15.0, 13.0, colour, edge));
             }
             let font = egui::FontId { size: 14.0, ..type_face::head() };
-            ink::edged_words(sheet.painter, to + direction * 12.0, (&letter.to_string(), font), ink::WHITE);
+            ink::edged_words(sheet.painter, to + direction * 12.0, &letter.to_string(), font, ink::WHITE);
         }
         HandleShape::Square { corners_px } => {
             let corners: Vec<Pos2> = corners_px.iter().map(|&at| sheet.at(at)).collect();

@@ -1,3 +1,5 @@
+//! Guides as lines with an arrow and handles.
+
 use egui::{Color32, Pos2, Stroke, vec2};
 use glam::{DVec2, DVec3};
 
@@ -73,7 +75,7 @@ pub fn guide_curve(sheet: &Sheet<'_>, guide: &GuideCurve) {
         let direction = (to - from).normalized();
         let fill = if guide.lit == Some(CurvePart::Arrow) { ink::WHITE } else { OVER_PAINT.accent_text };
         let tip = to + direction * 8.0;
-        sheet.painter.add(ink::head(tip, direction, (12.0, 11.0), (fill, Stroke::new(1.2, EDGE))));
+        sheet.painter.add(ink::head(tip, direction, 12.0, 11.0, fill, Stroke::new(1.2, EDGE)));
     }
     for &(index, at_px) in guide.handles_px.iter().filter(|_| guide.selected) {
         let lit = guide.lit == Some(CurvePart::Handle(index));
@@ -85,6 +87,6 @@ pub fn guide_curve(sheet: &Sheet<'_>, guide: &GuideCurve) {
         sheet.painter.circle_stroke(at, HANDLE, Stroke::new(3.6, ink::black(0.5)));
         sheet.painter.circle_stroke(at, HANDLE, Stroke::new(1.8, OVER_PAINT.vermilion));
         let font = crate::theme::type_face::small();
-        ink::edged_words(sheet.painter, at + vec2(0.0, -14.0), ("off the surface", font), Color32::WHITE);
+        ink::edged_words(sheet.painter, at + vec2(0.0, -14.0), "off the surface", font, Color32::WHITE);
     }
 }

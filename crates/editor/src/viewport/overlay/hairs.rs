@@ -1,3 +1,5 @@
+//! Short lines that show the direction of strokes, and how far each can be trusted.
+
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use glam::DVec2;
 
@@ -56,7 +58,7 @@ fn draw(painter: &Painter, ends: [Pos2; 2], hair: HairInk, share: f32) {
         HairInk::Plain => ink(ink::WHITE).segment(painter, ends),
         HairInk::Region(colour) => ink(colour).segment(painter, ends),
         HairInk::Trust(kappa) if kappa > SURE => ink(ink::WHITE).segment(painter, ends),
-        HairInk::Trust(kappa) if kappa >= FAIR => ink(OVER_PAINT.ochre).dashed(painter, &ends, (5.0, 2.0)),
+        HairInk::Trust(kappa) if kappa >= FAIR => ink(OVER_PAINT.ochre).dashed(painter, &ends, 5.0, 2.0),
         HairInk::Trust(_) => {
             let (step, count) = ((ends[1] - ends[0]) / LENGTH, 4);
             for dot in 0..count {

@@ -38,7 +38,7 @@ impl Ink {
         painter.add(Shape::line(points.to_vec(), self.over));
     }
 
-    pub(super) fn dashed(&self, painter: &Painter, points: &[Pos2], (dash, gap): (f32, f32)) {
+    pub(super) fn dashed(&self, painter: &Painter, points: &[Pos2], dash: f32, gap: f32) {
         painter.extend(Shape::dashed_line(points, self.under, dash, gap));
         painter.extend(Shape::dashed_line(points, self.over, dash, gap));
     }
@@ -54,8 +54,10 @@ pub(super) fn along(angle_rad: f32) -> Vec2 {
 pub(super) fn head(
     tip: Pos2,
     direction: Vec2,
-    (length, width): (f32, f32),
-    (fill, edge): (Color32, Stroke),
+    length: f32,
+    width: f32,
+    fill: Color32,
+    edge: Stroke,
 ) -> Shape {
     let back = tip - direction * length;
     let side = direction.rot90() * (width * 0.5);
@@ -63,7 +65,7 @@ pub(super) fn head(
 }
 
 /// Words in white, edged with black on all sides.
-pub(super) fn edged_words(painter: &Painter, at: Pos2, (text, font): (&str, FontId), colour: Color32) {
+pub(super) fn edged_words(painter: &Painter, at: Pos2, text: &str, font: FontId, colour: Color32) {
     for (x, y) in
         [(-1.0, -1.0), (0.0, -1.4), (1.0, -1.0), (-1.4, 0.0), (1.4, 0.0), (-1.0, 1.0), (0.0, 1.4), (1.0, 1.0)]
     {

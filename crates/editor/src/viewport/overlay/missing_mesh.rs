@@ -1,3 +1,5 @@
+//! The box that stands in for a mesh that was not found.
+
 use egui::{Color32, Rect, Stroke, pos2, vec2};
 use glam::DVec3;
 

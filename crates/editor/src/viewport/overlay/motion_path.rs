@@ -1,3 +1,5 @@
+//! The path of the selected object, with its keys.
+
 use egui::{Pos2, Shape, Stroke, Vec2, vec2};
 use glam::DVec3;
 
@@ -42,7 +44,7 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
         let (frame, at) = keys[index];
         let number = format!("{frame:.0}");
         let at = at + vec2(0.0, half + 12.0);
-        ink::edged_words(sheet.painter, at, (&number, type_face::number()), ink::WHITE);
+        ink::edged_words(sheet.painter, at, &number, type_face::number(), ink::WHITE);
     }
 }
 

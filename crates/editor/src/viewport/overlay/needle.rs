@@ -1,3 +1,5 @@
+//! The needle in a tool's ring, and the words beside it.
+
 use egui::{Color32, Stroke, pos2, vec2};
 use glam::DVec2;
 use impasto_editor_model::tools::Needle;
@@ -20,7 +22,7 @@ pub fn needle(sheet: &Sheet<'_>, needle: &Needle, radius_px: f64) {
     if needle.headed {
         ink.segment(sheet.painter, [from, to - direction * 9.0]);
         let edge = Stroke::new(1.2, ink::black(0.5));
-        sheet.painter.add(ink::head(to, direction, (12.0, 10.0), (ink::WHITE, edge)));
+        sheet.painter.add(ink::head(to, direction, 12.0, 10.0, ink::WHITE, edge));
     } else {
         ink.segment(sheet.painter, [from, to]);
     }

@@ -1,3 +1,5 @@
+//! The outline of what is selected, and of its ghosts at other keys.
+
 use egui::Pos2;
 use glam::DVec2;
 

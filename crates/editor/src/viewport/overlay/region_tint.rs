@@ -1,3 +1,5 @@
+//! Regions tinted in their colours, with their names.
+
 use egui::{Color32, Mesh, Rect, Shape, pos2};
 use glam::DVec2;
 
@@ -102,5 +104,5 @@ pub fn region_tint(sheet: &Sheet<'_>, tint: &RegionTint) {
         edge.line(sheet.painter, &line);
     }
     let at = sheet.at(tint.middle_px);
-    ink::edged_words(sheet.painter, pos2(at.x, at.y), (&tint.name, type_face::head()), Color32::WHITE);
+    ink::edged_words(sheet.painter, pos2(at.x, at.y), &tint.name, type_face::head(), Color32::WHITE);
 }

@@ -1,3 +1,5 @@
+//! The ring of a tool.
+
 use egui::{Color32, Pos2};
 use glam::DVec2;
 use impasto_editor_model::tools::Ring;
@@ -17,7 +19,7 @@ pub fn ring(sheet: &Sheet<'_>, ring: &Ring) {
     }
     Ink::new(1.8, ink::white(share), (4.2, ink::black(0.7 * share))).line(sheet.painter, &outline);
     let inner = Ink::new(1.0, ink::white(0.55 * share), (2.0, ink::black(0.25 * share)));
-    inner.dashed(sheet.painter, &line(&ring.half_px), (4.0, 5.0));
+    inner.dashed(sheet.painter, &line(&ring.half_px), 4.0, 5.0);
     let centre = sheet.at(ring.at_px);
     sheet.painter.circle_filled(centre, 3.4, ink::black(0.5 * share));
     sheet.painter.circle_filled(centre, 2.2, ink::white(share));

@@ -1,3 +1,5 @@
+//! The border of the shot, and the veil over what is outside.
+
 use egui::{Color32, Painter, Rect, StrokeKind};
 
 use super::ink;

@@ -1,3 +1,5 @@
+//! Which points of surfaces can be seen, by one ray each.
+
 use glam::{DAffine3, DVec3};
 use impasto_editor_model::picking::{Picker, View};
 

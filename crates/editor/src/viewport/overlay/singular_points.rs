@@ -1,3 +1,5 @@
+//! Points where strokes have no direction.
+
 use egui::{Color32, Shape, Stroke, vec2};
 use glam::DVec3;
 

@@ -1,3 +1,5 @@
+//! Marks for suns and the shot camera, which have no surface.
+
 use egui::{Align2, Color32, Stroke, vec2};
 use glam::DVec3;
 

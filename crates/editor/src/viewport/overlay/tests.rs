@@ -1,3 +1,5 @@
+//! Overlays are judged by the shapes that they draw.
+
 use std::path::Path;
 use std::sync::Arc;
 

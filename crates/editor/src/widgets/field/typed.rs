@@ -10,7 +10,8 @@ impl NumberField<'_> {
     pub(super) fn type_in(
         &mut self,
         ui: &mut Ui,
-        (id, frame): (egui::Id, Rect),
+        id: egui::Id,
+        frame: Rect,
         memory: &mut Memory,
         editor: &mut Option<Response>,
     ) -> (bool, bool) {
@@ -73,7 +74,7 @@ impl NumberField<'_> {
     }
 
     /// The second click of a double click lands in the text that the first one opened.
-    pub(super) fn is_double_clicked(&mut self, ui: &Ui, (id, frame): (egui::Id, Rect)) -> bool {
+    pub(super) fn is_double_clicked(&mut self, ui: &Ui, id: egui::Id, frame: Rect) -> bool {
         let Some(default) = self.default else { return false };
         let is_here = ui.input(|input| {
             let pointer = &input.pointer;

@@ -1,47 +1,43 @@
-//! The thread's own: what it keeps from job to job, and how it works one off.
+//! What the painting thread does with a job: prepare the scene, draw drafts, then draw exactly.
 
 use std::any::Any;
-use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::ColorImage;
 use impasto_editor_model::picking::Picker;
-use impasto_editor_model::session::Shading;
 use impasto_gl_render::context::{self, Driver, OpenOptions};
 use impasto_gl_render::{RenderError, Renderer};
-use impasto_painting::frame::Style;
-use impasto_painting::{
-    Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, Quality, Recall, StrokeColors,
-};
+use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, Recall};
 use impasto_scene::mesh_file::MeshFile;
 
 use super::ahead::Ahead;
 use super::desk::{Desk, Order};
 use super::draft::DraftSize;
+use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
 
 /// A job that is this old, without a later one, is drawn exactly.
 const REST: Duration = Duration::from_millis(100);
 
-/// Works until the desk is closed. What panics is told and thrown away; the next job begins with a new studio.
+/// Works until the desk is closed. What panics is told and thrown away; the next job begins with a new worker.
 pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
     let tell = |report: Report| {
         desk.report(report);
         wake();
     };
-    let mut studio = None;
+    let mut worker = None;
     let mut work = |order: Option<&Order>| {
         let worked = catch_unwind(AssertUnwindSafe(|| {
-            let studio = studio.get_or_insert_with(|| Studio::open(driver, &tell));
+            let worker = worker.get_or_insert_with(|| PaintWorker::open(driver, &tell));
             if let Some(order) = order {
-                studio.work(order, desk, &tell);
+                worker.work(order, desk, &tell);
             }
         }));
         if let Err(panic) = worked {
             tell(Report::Failed(format!("the picture could not be made: {}", words(panic.as_ref()))));
-            let broken = studio.take();
+            let broken = worker.take();
             // A broken driver may break again when it is let go.
             let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
         }
@@ -51,7 +47,7 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
     while let Some(order) = desk.take() {
         work(Some(&order));
     }
-    let _ = catch_unwind(AssertUnwindSafe(|| drop(studio)));
+    let _ = catch_unwind(AssertUnwindSafe(|| drop(worker)));
     desk.end();
 }
 
@@ -63,7 +59,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
 
 type Tell<'a> = &'a dyn Fn(Report);
 
-struct Studio {
+struct PaintWorker {
     preparer: Preparer,
     /// Builds what the window needs to pick.
     picker: Picker,
@@ -101,7 +97,7 @@ impl Drawn {
     }
 }
 
-impl Studio {
+impl PaintWorker {
     fn open(driver: Driver, tell: Tell<'_>) -> Self {
         let renderer = context::open(driver, &OpenOptions::default())
             .map_err(|error| error.to_string())
@@ -148,12 +144,8 @@ impl Studio {
             let began = Instant::now();
             for &index in &drafts {
                 let size_px = self.draft_size.of(views[index].size_px);
-                if !self.draw(
-                    &painting,
-                    (order, index),
-                    &Manner { size_px, exact: false, give_up: &|| false },
-                    tell,
-                ) {
+                let options = DrawOptions { size_px, is_exact: false, give_up: &|| false };
+                if !self.draw(&painting, order, index, &options, tell) {
                     return;
                 }
             }
@@ -170,8 +162,8 @@ impl Studio {
         }
         for index in exact {
             let give_up = || !quick && desk.is_stale(order);
-            let manner = Manner { size_px: views[index].size_px, exact: true, give_up: &give_up };
-            if !self.draw(&painting, (order, index), &manner, tell) {
+            let options = DrawOptions { size_px: views[index].size_px, is_exact: true, give_up: &give_up };
+            if !self.draw(&painting, order, index, &options, tell) {
                 return;
             }
         }
@@ -208,8 +200,8 @@ impl Studio {
             }
             let began = Instant::now();
             let size_px = self.draft_size.of(view.size_px);
-            let manner = Manner { size_px, exact: false, give_up: &|| false };
-            let frame = plain.bare(&view.camera, view.frame, &options(view, &manner));
+            let options = DrawOptions { size_px, is_exact: false, give_up: &|| false };
+            let frame = plain.bare(&view.camera, view.frame, &frame_options(view, &options));
             self.on_driver = None;
             renderer.set_billboards(&view.lights_in(size_px));
             let Ok(picture) = renderer.render(&frame) else { return };
@@ -294,24 +286,25 @@ impl Studio {
     fn draw(
         &mut self,
         painting: &Painting,
-        (order, index): (&Order, usize),
-        manner: &Manner<'_>,
+        order: &Order,
+        index: usize,
+        options: &DrawOptions<'_>,
         tell: Tell<'_>,
     ) -> bool {
         let Some(renderer) = &mut self.renderer else { return false };
         let (view, serial) = (&order.job.views[index], order.job.serial);
         let began = Instant::now();
         let next = order.ahead.get(index);
-        let ahead = self.ahead.take(serial, (view, next), manner);
+        let ahead = self.ahead.take(serial, view, next, options);
         let (view, frame) = ahead.map_or_else(|| (view.clone(), None), |(view, frame)| (view, Some(frame)));
         let recall = self.drawn[index].as_ref().and_then(|drawn| drawn.recall.clone());
         if let Some(next) = next {
-            self.ahead.begin((painting, serial), next, (manner, recall.clone()));
+            self.ahead.begin(painting, serial, next, options, recall.clone());
         }
         let recall = recall.as_deref();
         self.on_driver = None;
-        renderer.set_billboards(&view.lights_in(manner.size_px));
-        let (frame, picture) = render(renderer, (painting, &view, frame), manner, recall);
+        renderer.set_billboards(&view.lights_in(options.size_px));
+        let (frame, picture) = render(renderer, painting, &view, frame, options, recall);
         let strokes = frame.strokes.len();
         let strokes_of = counted(&frame, painting.scene().regions.len());
         let picture = match picture {
@@ -324,41 +317,20 @@ impl Studio {
             }
         };
         let seconds = began.elapsed().as_secs_f64();
-        if manner.exact {
+        if options.is_exact {
             self.exact_s = Some(seconds);
         }
         self.turn = self.turn.wrapping_add(1);
         let resolved = renderer.resolved_strokes();
         let is_there = |index: usize| resolved.get(index).is_some_and(|stroke| stroke.alpha > 0.0);
         let recall = (strokes > 0).then(|| Arc::new(Recall::of(painting, &frame, is_there, self.turn)));
-        let exact = manner.exact;
+        let exact = options.is_exact;
         self.on_driver = Some(index);
         self.drawn[index] =
             Some(Drawn { view: view.clone(), serial, exact, strokes: (strokes, strokes_of.clone()), recall });
         let image = Arc::new(picture);
         tell(Report::Picture(Picture { index, view, serial, image, exact, strokes, strokes_of, seconds }));
         true
-    }
-}
-
-/// How a view is drawn.
-pub(super) struct Manner<'a> {
-    pub(super) size_px: [u32; 2],
-    pub(super) exact: bool,
-    pub(super) give_up: &'a dyn Fn() -> bool,
-}
-
-/// How a view is looked at.
-fn options(view: &ViewJob, manner: &Manner<'_>) -> FrameOptions {
-    let share = manner.size_px[1] as f32 / view.size_px[1] as f32;
-    FrameOptions {
-        shot_height_px: Some(view.shot_height_px * share),
-        quality: if manner.exact { Quality::Exact } else { Quality::Draft },
-        colors: match view.shading {
-            Shading::Trust => StrokeColors::Trust,
-            Shading::Painted | Shading::Shaded => StrokeColors::Scene,
-        },
-        ..FrameOptions::new(manner.size_px)
     }
 }
 
@@ -370,49 +342,29 @@ fn counted(frame: &Frame, regions: usize) -> Vec<usize> {
     counts
 }
 
-/// What the renderer draws of a view.
-pub(super) fn frame_of(
-    painting: &Painting,
-    view: &ViewJob,
-    manner: &Manner<'_>,
-    recall: Option<&Recall>,
-) -> Frame {
-    let painting = styled(painting, view.shading);
-    let options = options(view, manner);
-    let mut frame = painting.bare(&view.camera, view.frame, &options);
-    let recall = recall.filter(|_| !manner.exact);
-    frame.lay(painting.strokes(&view.camera, view.frame, &options, recall));
-    frame
-}
-
-/// The scene stays as it was prepared: only the style differs.
-fn styled(painting: &Painting, shading: Shading) -> Cow<'_, Painting> {
-    match shading {
-        Shading::Shaded => Cow::Owned(painting.in_style(Style::Reference)),
-        Shading::Painted | Shading::Trust => Cow::Borrowed(painting),
-    }
-}
-
-/// The frame, perhaps computed before, and its picture; `None` where it was given up.
+/// The frame, `computed` before or now, and its picture; no picture where it was given up.
 fn render(
     renderer: &mut Renderer,
-    (painting, view, computed): (&Painting, &ViewJob, Option<Frame>),
-    manner: &Manner<'_>,
+    painting: &Painting,
+    view: &ViewJob,
+    computed: Option<Frame>,
+    options: &DrawOptions<'_>,
     recall: Option<&Recall>,
 ) -> (Frame, Result<Option<ColorImage>, RenderError>) {
     let (frame, picture) = match computed {
-        None if !manner.exact => {
+        None if !options.is_exact => {
             // A draft is never given up: whoever asks has to wait for the driver.
-            let (painting, options) = (styled(painting, view.shading), options(view, manner));
+            let painting = styled(painting, view.shading);
+            let options = frame_options(view, options);
             let mut frame = painting.bare(&view.camera, view.frame, &options);
             let strokes = || painting.strokes(&view.camera, view.frame, &options, recall);
             let picture = renderer.render_with(&mut frame, strokes).map(Some);
             (frame, picture)
         }
         computed => {
-            let frame = computed.unwrap_or_else(|| frame_of(painting, view, manner, None));
-            let picture = if manner.exact {
-                renderer.render_unless(&frame, &mut || (manner.give_up)())
+            let frame = computed.unwrap_or_else(|| frame_of(painting, view, options, None));
+            let picture = if options.is_exact {
+                renderer.render_unless(&frame, &mut || (options.give_up)())
             } else {
                 renderer.render(&frame).map(Some)
             };
@@ -422,7 +374,7 @@ fn render(
     (frame, picture.map(|picture| picture.map(image)))
 }
 
-/// Pictures of the window have a ground: they are opaque.
+/// A picture as egui takes it. Those of the window are opaque.
 fn image(picture: impasto_gl_render::Picture) -> ColorImage {
     ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
 }

@@ -1,0 +1,53 @@
+//! Saving: what was written, and what the scene will not find from there, is said.
+
+use std::path::Path;
+
+use super::Editor;
+use crate::document::SaveError;
+
+impl Editor {
+    /// Saves; see [`crate::Document::save`] and [`crate::Document::save_as`].
+    ///
+    /// # Errors
+    /// As those.
+    pub fn save(&mut self, target: Option<&Path>) -> Result<(), SaveError> {
+        let missing = match target {
+            Some(target) => self.document.save_as(target)?,
+            None => self.document.save().map(|_| Vec::new())?,
+        };
+        self.losses = self.document.loss_count();
+        self.say(format!("Saved {}{}", self.document.name(), without_files(&missing)));
+        Ok(())
+    }
+
+    /// Saves a copy; see [`crate::Document::save_copy`].
+    ///
+    /// # Errors
+    /// As that.
+    pub fn save_copy(&mut self, target: &Path) -> Result<(), SaveError> {
+        let missing = self.document.save_copy(target)?;
+        self.say(format!("Saved a copy as {}{}", target.display(), without_files(&missing)));
+        Ok(())
+    }
+
+    /// Saves in the place of what somebody else wrote.
+    ///
+    /// # Errors
+    /// See [`crate::Document::save_over`].
+    pub fn save_over(&mut self) -> Result<(), SaveError> {
+        self.document.save_over()?;
+        self.say(format!("Saved {}", self.document.name()));
+        Ok(())
+    }
+}
+
+/// What is said after *Saved s.ron* where files that the scene names could not be found.
+fn without_files(missing: &[String]) -> String {
+    match missing {
+        [] => String::new(),
+        [one] => format!(" without {one}, which was not found"),
+        [first, rest @ ..] => {
+            format!(" without {} files that were not found: {first}, {}", missing.len(), rest.join(", "))
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! The text of a scene that could not be read whole, with what was lost of it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use impasto_scene::document::Scene;
+use impasto_scene::load::salvage::{Loss, Salvaged};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::MeshFile;
+
+/// The text that a scene was read from, not all of which could be read.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The text.
+    pub text: String,
+    /// What could not be read, in the order of the text.
+    pub losses: Vec<Loss>,
+    /// The scene as far as it was read.
+    pub(crate) scene: Scene,
+    /// What stands in for meshes that cannot be used.
+    stand_ins: BTreeMap<String, Arc<MeshFile>>,
+}
+
+impl Source {
+    /// None where nothing was lost.
+    pub(crate) fn of(salvaged: &Salvaged) -> Option<Self> {
+        let Salvaged { loaded, losses, text } = salvaged;
+        let names = losses.iter().filter_map(|loss| loss.mesh.as_ref());
+        let stand_in = |name: &String| Some((name.clone(), Arc::clone(loaded.meshes.get(name)?)));
+        let stand_ins = names.filter_map(stand_in).collect();
+        (!losses.is_empty()).then(|| Self {
+            text: text.clone(),
+            losses: losses.clone(),
+            scene: loaded.scene.clone(),
+            stand_ins,
+        })
+    }
+
+    /// A scene that holds what stands in, too, so that an edit can come back to it.
+    pub(crate) fn held(&self, loaded: &LoadedScene) -> LoadedScene {
+        let mut held = loaded.clone();
+        for (name, stand_in) in &self.stand_ins {
+            held.meshes.entry(name.clone()).or_insert_with(|| Arc::clone(stand_in));
+        }
+        held
+    }
+
+    /// Whether a box stands in for a mesh that cannot be used.
+    pub(crate) fn has_stand_in(&self, mesh: &str) -> bool {
+        self.stand_ins.contains_key(mesh)
+    }
+}

@@ -1,0 +1,51 @@
+//! The stroke settings that a part of the inspector edits: those of a region or of the whole scene.
+
+use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
+use impasto_scene::document::{Scene, StrokeSettings};
+use impasto_scene::presets::{self, ResolvedStrokes};
+
+use super::Asker;
+
+/// The stroke settings of one place, as they are shown and as they are stored.
+pub(super) struct EditedStrokes<'a> {
+    pub(super) of: StrokesOf,
+    pub(super) own: [&'a StrokeSettings; 2],
+    pub(super) resolved: [ResolvedStrokes; 2],
+    /// The region's place in the scene as it is shown; none for the scene's own settings.
+    pub(super) index: Option<usize>,
+}
+
+impl<'a> EditedStrokes<'a> {
+    pub(super) fn new(asker: &Asker<'a, '_>, region: Option<&str>) -> Option<Self> {
+        let scenes = [asker.scene(), asker.stored()];
+        let index_in =
+            |scene: &Scene| scene.regions.iter().position(|other| Some(other.name.as_str()) == region);
+        let indices = scenes.map(index_in);
+        if region.is_some() && indices.contains(&None) {
+            return None;
+        }
+        let own = |which: usize| {
+            let scene = scenes[which];
+            indices[which].map_or(&scene.strokes, |index| &scene.regions[index].strokes)
+        };
+        Some(Self {
+            of: region.map_or(StrokesOf::Scene, |name| StrokesOf::Region(name.to_owned())),
+            own: [own(0), own(1)],
+            resolved: [0, 1].map(|which| presets::resolve(scenes[which], indices[which])),
+            index: indices[0],
+        })
+    }
+
+    /// What would hold with other settings here.
+    pub(super) fn resolve(&self, scene: &Scene, own: &StrokeSettings) -> ResolvedStrokes {
+        match self.index {
+            Some(_) => presets::resolve_with(scene, &scene.strokes, Some(own)),
+            None => presets::resolve_with(scene, own, None),
+        }
+    }
+
+    /// Changes one setting here.
+    pub(super) fn set(&self, change: StrokeChange) -> Command {
+        Command::Regions(Regions::SetStroke(self.of.clone(), change))
+    }
+}
