@@ -83,7 +83,7 @@ pub fn transport_rad(from: DVec3, to: DVec3) -> f64 {
 }
 
 /// The direction from a point on the surface towards `target`, along the surface; unit, or zero where it is straight off it.
-pub fn toward(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
+pub fn towards_point(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
     along_surface((target - position).normalize_or_zero(), normal)
 }
 

@@ -4,8 +4,8 @@ mod block;
 mod candidates;
 mod dart_grid;
 mod face_cones;
+mod packed;
 mod paper;
-mod place;
 mod progressive;
 
 use glam::{Vec2, Vec3};
@@ -16,8 +16,8 @@ use crate::shells::{Side, sides};
 use dart_grid::Dart;
 
 pub use candidates::scattered;
+pub use packed::PackedParticle;
 pub use paper::{PolygonParticle, per_polygon};
-pub use place::Place;
 pub use progressive::{ProgressiveState, progressive};
 
 /// Where a particle sits: a triangle and a place in it, so that it rides any deformation of the mesh.

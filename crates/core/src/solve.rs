@@ -40,7 +40,7 @@ pub struct BakedChunk<'a> {
 impl BakedChunk<'_> {
     /// Sets a particle of the chunk: position and unit normal in model space, and its lift.
     #[inline]
-    pub fn set(&mut self, index: usize, (position, normal): (DVec3, DVec3), lift: Lift) {
+    pub fn set(&mut self, index: usize, position: DVec3, normal: DVec3, lift: Lift) {
         let Lift { along, across } = lift;
         let numbers = [
             [position.x, position.y, position.z, normal.x, normal.y, normal.z],

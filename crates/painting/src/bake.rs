@@ -130,7 +130,7 @@ impl BakeInputs {
                 let index = first + number * CHUNK + offset;
                 let point = ground.point(index, ground.seats.region(index));
                 let (lift, base_rad) = self.lift(index, point, &stated);
-                baked.set(offset, (ground.lifted(point), point.normal), lift);
+                baked.set(offset, ground.lifted(point), point.normal, lift);
                 if let Some(base_angle_rad) = base_angles_rad.get_mut(offset) {
                     *base_angle_rad = base_rad as f32;
                 }

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use impasto_core::direction::carry::Stencils;
 use impasto_core::hash;
 use impasto_core::neighbours::{Neighbours, full_list_radius};
-use impasto_core::sampling::{self, Place, ProgressiveState, Surface};
+use impasto_core::sampling::{self, PackedParticle, ProgressiveState, Surface};
 use impasto_scene::document::Solver;
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
@@ -384,7 +384,8 @@ impl KeptCoat {
         let sampled = if inputs.per_polygon.is_some() {
             let entries = sampling::per_polygon(surface, count, inputs.name_hash);
             let polygons = PolygonCounts::new(surface, &body.mesh, &entries);
-            let places: Vec<Place> = entries.iter().map(|entry| Place::of(&entry.particle)).collect();
+            let places: Vec<PackedParticle> =
+                entries.iter().map(|entry| PackedParticle::of(&entry.particle)).collect();
             let particles = Particles::new(body, Arc::new(places), usize::MAX);
             let albedo = Arc::new(body.albedo(particles.par_range(0..particles.len())));
             Sampled { particles, albedo, area: surface.area(), polygons: Some(Arc::new(polygons)) }
@@ -396,7 +397,7 @@ impl KeptCoat {
                 before = Some(sampled.particles.clone());
             }
             state.grow(surface, inputs.name_hash, &mut all, count);
-            let places: Arc<Vec<Place>> = Arc::new(all.iter().map(Place::of).collect());
+            let places: Arc<Vec<PackedParticle>> = Arc::new(all.iter().map(PackedParticle::of).collect());
             let albedo = Arc::new(body.albedo(all.par_iter().copied()));
             let particles = match before {
                 Some(before) => before.continued(places, count),

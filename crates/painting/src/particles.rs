@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::Vec3;
-use impasto_core::sampling::{Particle, Place};
+use impasto_core::sampling::{PackedParticle, Particle};
 use rayon::prelude::*;
 
 use crate::frame::BodySurface;
@@ -15,7 +15,7 @@ use crate::surface::Vertices;
 pub struct Particles {
     /// Stands for the order, whatever of it is there, and for how the surface stands.
     order: Arc<()>,
-    all: Arc<Vec<Place>>,
+    all: Arc<Vec<PackedParticle>>,
     surface: Arc<BodySurface>,
     /// Where the vertices have gone; none on a surface at rest.
     moved: Option<Arc<Vertices>>,
@@ -24,7 +24,7 @@ pub struct Particles {
 
 impl Particles {
     /// The first `count` of a new order on a surface at rest.
-    pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<Place>>, count: usize) -> Self {
+    pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
         let count = count.min(all.len());
         Self { order: Arc::new(()), all, surface: Arc::clone(surface), moved: None, count }
     }
@@ -35,7 +35,7 @@ impl Particles {
     }
 
     /// The same order with more particles.
-    pub(crate) fn continued(&self, all: Arc<Vec<Place>>, count: usize) -> Self {
+    pub(crate) fn continued(&self, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
         Self { count: count.min(all.len()), all, ..self.clone() }
     }
 
@@ -55,7 +55,7 @@ impl Particles {
     }
 
     /// The places of all that is there of the order.
-    pub(crate) fn places(&self) -> &Arc<Vec<Place>> {
+    pub(crate) fn places(&self) -> &Arc<Vec<PackedParticle>> {
         &self.all
     }
 
@@ -106,7 +106,7 @@ impl Particles {
     }
 
     #[inline]
-    fn place_on_surface(&self, place: Place) -> Particle {
+    fn place_on_surface(&self, place: PackedParticle) -> Particle {
         let mesh = &self.surface.mesh;
         match &self.moved {
             Some(vertices) => place.on_moved(mesh, &vertices.0, &vertices.1),

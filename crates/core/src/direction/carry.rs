@@ -21,7 +21,7 @@ pub struct Stencils {
 
 /// A sample's solved direction beside the one that it was stated to have, unit numbers in the axes of its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Carried {
+pub struct SolvedSample {
     /// Position, model space.
     pub position: Vec3,
     /// Unit normal, model space.
@@ -48,15 +48,22 @@ impl Stencils {
     pub fn carry(
         &self,
         particle: usize,
-        (position, normal, stated): (Vec3, DVec3, DVec2),
+        position: Vec3,
+        normal: DVec3,
+        stated: DVec2,
         symmetry: Symmetry,
-        sample: impl Fn(usize) -> Option<Carried>,
+        sample: impl Fn(usize) -> Option<SolvedSample>,
     ) -> Option<(DVec2, f64)> {
         let deviation_sq = (DEVIATION_SPACINGS * self.spacing).powi(2);
         let (mut turned, mut transported, mut anchor, mut weights) = (DVec2::ZERO, DVec2::ZERO, 0.0, 0.0);
         let near = self.lists.of(particle).iter().filter_map(|&index| sample(index as usize)).take(MOST);
-        for Carried { position: at, normal: there, solved, stated: stated_there, anchor: anchor_there } in
-            near
+        for SolvedSample {
+            position: at,
+            normal: there,
+            solved,
+            stated: stated_there,
+            anchor: anchor_there,
+        } in near
         {
             let distance_sq = f64::from(position.distance_squared(at));
             let weight = normal.dot(there).max(0.0) * (-0.5 * distance_sq / deviation_sq).exp();
@@ -97,11 +104,11 @@ mod tests {
         let mut worst = 0.0f64;
         for (index, &particle) in particles.iter().enumerate() {
             let normal = particle.as_dvec3();
-            let found = stencils.carry(index, (particle, normal, up(normal)), symmetry, |sample| {
+            let found = stencils.carry(index, particle, normal, up(normal), symmetry, |sample| {
                 let there = samples[sample].as_dvec3();
                 let stated = up(there);
                 let solved = turn.rotate(stated);
-                Some(Carried { position: samples[sample], normal: there, solved, stated, anchor: 0.5 })
+                Some(SolvedSample { position: samples[sample], normal: there, solved, stated, anchor: 0.5 })
             });
             let (u, anchor) = found.unwrap();
             assert!((anchor - 0.5).abs() < 1e-9);
@@ -112,7 +119,7 @@ mod tests {
             }
         }
         assert!(worst < 1e-5, "{worst}");
-        let nothing = stencils.carry(0, (particles[0], DVec3::Y, DVec2::X), symmetry, |_| None);
+        let nothing = stencils.carry(0, particles[0], DVec3::Y, DVec2::X, symmetry, |_| None);
         assert_eq!(nothing, None);
     }
 }

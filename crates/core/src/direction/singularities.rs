@@ -21,7 +21,8 @@ pub struct Singularity {
 /// The singular points of a field of unit numbers over samples.
 pub fn find(
     graph: &FieldGraph,
-    (positions, normals): (&[Vec3], &[Vec3]),
+    positions: &[Vec3],
+    normals: &[Vec3],
     field: &[DVec2],
     symmetry: Symmetry,
 ) -> Vec<Singularity> {
@@ -140,7 +141,7 @@ mod tests {
                     symmetry.encode(towards(DVec3::Y, normal), tangent_axes(normal))
                 })
                 .collect();
-            let found = find(&graph, (&positions, &positions), &up, symmetry);
+            let found = find(&graph, &positions, &positions, &up, symmetry);
             assert_eq!(found.len(), 2, "{found:?}");
             for pole in &found {
                 assert_eq!(pole.index, 1.0);
@@ -154,7 +155,7 @@ mod tests {
                 .collect();
             let solved = graph.solve(symmetry, &constraints);
             let sum: f64 =
-                find(&graph, (&positions, &positions), &solved, symmetry).iter().map(|s| s.index).sum();
+                find(&graph, &positions, &positions, &solved, symmetry).iter().map(|s| s.index).sum();
             assert_eq!(sum, 2.0);
         }
     }

@@ -5,19 +5,19 @@ use glam::Vec3;
 use super::Particle;
 use crate::TriangleMesh;
 
-/// The bit of [`Place`] that says on which side of its triangle it is.
+/// The bit of [`PackedParticle`] that says on which side of its triangle it is.
 const FLIPPED: u32 = 1 << 31;
 
 /// What of a [`Particle`] cannot be computed from its mesh, in 12 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct PackedParticle {
     /// Index of the triangle, with [`FLIPPED`].
     triangle_and_side: u32,
     /// Weights of the triangle's second and third corner.
     barycentric: [f32; 2],
 }
 
-impl Place {
+impl PackedParticle {
     /// Of a particle of a mesh with fewer than 2³¹ triangles.
     #[inline]
     pub fn of(particle: &Particle) -> Self {
@@ -82,9 +82,9 @@ mod tests {
                 normal: Vec3::Y,
             };
             let particle = place.on(&mesh, &mesh.positions, &mesh.normals);
-            assert_eq!(Place::of(&particle).on(&mesh), particle);
+            assert_eq!(PackedParticle::of(&particle).on(&mesh), particle);
             for (positions, normals) in [&shrunk, &bent] {
-                let moved = Place::of(&particle).on_moved(&mesh, positions, normals);
+                let moved = PackedParticle::of(&particle).on_moved(&mesh, positions, normals);
                 assert_eq!(moved, particle.on(&mesh, positions, normals));
             }
         }
