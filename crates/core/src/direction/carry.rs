@@ -1,50 +1,52 @@
-//! From the field's samples to any particle of the surface.
+//! Interpolates the direction field from its samples to the particles.
 
 use glam::{DVec2, DVec3, Vec3};
 
 use super::{Symmetry, transport_rad};
 use crate::neighbours::{Neighbours, Points};
 
-/// How many samples a particle listens to.
+/// How many samples a particle is interpolated from, at most.
 const MOST: usize = 6;
 
-/// They lie within this many spacings, and count by a Gaussian of this deviation in spacings.
+/// They lie within this many sample spacings, and are weighted by a Gaussian of this deviation in spacings.
 const REACH_SPACINGS: f64 = 1.6;
 const DEVIATION_SPACINGS: f64 = 0.55;
 
-/// Particles with the samples that each listens to; depends on where both are, not on any direction.
+/// For each particle, the samples near it. Depends on positions and normals, not on directions.
 #[derive(Clone, Debug)]
 pub struct Stencils {
     lists: Neighbours,
     spacing: f64,
 }
 
-/// A sample's solved direction beside the one that it was stated to have, unit numbers in the axes of its normal.
+/// A sample with its direction before and after the solve, as unit complex numbers in the tangent axes of its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolvedSample {
     /// Position, model space.
     pub position: Vec3,
     /// Unit normal, model space.
     pub normal: DVec3,
-    /// As solved.
+    /// The direction that the solve found.
     pub solved: DVec2,
-    /// As stated.
+    /// The direction that was stated.
     pub stated: DVec2,
-    /// A share that is carried along, 0..=1.
+    /// A weight, 0..=1, that is interpolated like the direction.
     pub anchor: f64,
 }
 
 impl Stencils {
-    /// The samples (about `spacing` apart) that each of `particles` listens to.
+    /// Finds the samples (about `spacing` apart) near each of `particles`.
     pub fn new(particles: Points<'_>, samples: Points<'_>, spacing: f64) -> Self {
         let reach = (REACH_SPACINGS * spacing) as f32;
-        // Some more than are used, since not all of them count for every particle.
+        // More than are used: some are left out for some particles.
         Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MOST), spacing }
     }
 
-    /// The direction of a particle and its anchor, from the samples that `counts`: `stated` turned by what the solve has
-    /// turned its samples, or, where that does not hang together (stated directions whirl), what the samples have been solved
-    /// to, transported. `None` where no sample counts.
+    /// The direction and the anchor of a particle, from the samples near it for which `sample` gives something.
+    ///
+    /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned by the
+    /// mean of these turns. Where they disagree (stated directions whirl), the mean of the samples' solved directions,
+    /// transported to the particle, takes over. `None` where no sample counts.
     pub fn carry(
         &self,
         particle: usize,
@@ -77,7 +79,7 @@ impl Stencils {
             return None;
         }
         let (coherent_turn, coherent) = (turned.length() / weights, transported.length() / weights);
-        // 1 where the turns agree at least as well as the directions do, give or take.
+        // 1 where the turns agree about as well as the directions do, or better.
         let trust = ((coherent_turn - coherent + 0.06) / 0.05).clamp(0.0, 1.0);
         let by_turn = turned.normalize_or_zero().rotate(stated);
         let mixed = by_turn * trust + transported.normalize_or_zero() * (1.0 - trust);
@@ -92,7 +94,7 @@ mod tests {
     use crate::direction::{angle_between, tangent_axes, towards};
 
     #[test]
-    fn what_is_stated_and_solved_alike_is_carried_exactly() {
+    fn a_turn_that_all_samples_share_reaches_every_particle_exactly() {
         let (samples, spacing) = spiral_sphere(2000);
         let (particles, _) = spiral_sphere(3001);
         let symmetry = Symmetry::Lines;

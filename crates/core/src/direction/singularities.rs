@@ -1,7 +1,7 @@
 //! Where a direction field has no direction: the points that lines run round or out of.
 //!
-//! The index of a loop is how often the field turns along it, with what transport turns by itself taken off. On a closed
-//! surface without holes the indices add up to 2, whatever the field (Poincaré and Hopf).
+//! The index of a loop is how often the field turns along it, minus the turn that parallel transport alone makes. On a closed
+//! surface without handles the indices add up to 2, whatever the field (Poincaré and Hopf).
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -18,7 +18,7 @@ pub struct Singularity {
     pub index: f64,
 }
 
-/// The singular points of a field of unit numbers over samples.
+/// The singular points of a field of unit numbers over samples (positions and unit normals, model space).
 pub fn find(
     graph: &FieldGraph,
     positions: &[Vec3],
@@ -29,7 +29,7 @@ pub fn find(
     let index_of = |ring: &[usize]| index_of_loop(ring, normals, field, symmetry);
     let indices: Vec<f64> =
         (0..graph.len()).map(|sample| index_of(&ring(graph, sample, positions, normals))).collect();
-    // Loops overlap: neighbours that see something are one, and the loop round them all says what.
+    // The loops of neighbours overlap. Neighbours with an index make one cluster; the loop round it gives its index.
     let mut seen = vec![false; indices.len()];
     let mut found = Vec::new();
     for start in 0..indices.len() {
@@ -72,8 +72,8 @@ fn index_of_loop(ring: &[usize], normals: &[Vec3], field: &[DVec2], symmetry: Sy
     ((turned + wrap_pi(transport)) / std::f64::consts::TAU * n).round() / n
 }
 
-/// The samples round a cluster, counter-clockwise as seen from outside: in each of many directions the nearest that is not of
-/// it.
+/// The samples round a cluster, counter-clockwise as seen from outside: in each of many directions the nearest that is not in the
+/// cluster.
 fn ring_of_cluster(
     graph: &FieldGraph,
     cluster: &[usize],
@@ -116,7 +116,7 @@ fn ring(graph: &FieldGraph, sample: usize, positions: &[Vec3], normals: &[Vec3])
         }
     }
     let filled = nearest.iter().filter(|(_, other)| *other != usize::MAX).count();
-    // At a border the ring does not close.
+    // The ring does not close at a border.
     if filled + 2 < SECTORS {
         return Vec::new();
     }
