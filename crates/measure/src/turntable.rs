@@ -1,14 +1,14 @@
-//! A whole turn about a scene in place of its shot.
+//! Replaces a scene's shot by a whole turn of the camera.
 
 use impasto_scene::document::{CameraKey, Ease, ObjectKey, Reference};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
 use crate::cameras;
-use crate::looks::{leave_out, orbit_blockers};
+use crate::versions::{leave_out, orbit_blockers};
 
-/// The scene with its shot replaced by a whole turn of the camera about what it looks at in the reference frame, a degree a
-/// frame; objects stand as they do there, and what would hide them from the camera is left out.
+/// The scene with its shot replaced by a whole turn of the camera about its target in the reference frame, one degree per frame.
+/// Objects keep their reference pose, and objects that would hide the target are left out.
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();
     let scene = &mut version.scene;
@@ -51,7 +51,7 @@ fn euler_deg(rotation: glam::DMat3) -> [f64; 3] {
     let (about_x, about_z) = if x.z.abs() < 1.0 - 1e-12 {
         (y.z.atan2(z.z), x.y.atan2(x.x))
     } else {
-        // Straight up: one of the two is free.
+        // At ±90 degrees about Y only a combination of the other two is determined.
         (0.0, (-y.x).atan2(y.y))
     };
     [about_x, about_y, about_z].map(f64::to_degrees)
