@@ -51,8 +51,8 @@ fn ball() -> Arc<LoadedScene> {
     shapes::speckled(&shapes::loaded(scene, [shapes::sphere(32, 16)]))
 }
 
-fn look(loaded: &LoadedScene, look: SceneVersion) -> Painting {
-    prepare(Arc::new(look.of(loaded, &[]))).unwrap()
+fn prepared(loaded: &LoadedScene, version: SceneVersion) -> Painting {
+    prepare(Arc::new(version.of(loaded, &[]))).unwrap()
 }
 
 fn drawn(renderer: &mut Renderer, frame: &Frame) -> (Picture, StrokesByKey) {
@@ -63,7 +63,7 @@ fn drawn(renderer: &mut Renderer, frame: &Frame) -> (Picture, StrokesByKey) {
 
 #[test]
 fn m1_sees_strokes_that_do_not_turn_with_the_picture() {
-    let painting = look(&ball(), SceneVersion::Bare);
+    let painting = prepared(&ball(), SceneVersion::Bare);
     let mut renderer = renderer(Driver::Egl);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let side = 256;
@@ -90,7 +90,7 @@ fn m1_sees_strokes_that_do_not_turn_with_the_picture() {
 
 #[test]
 fn m2_sees_angles_solved_in_clip_space() {
-    let painting = look(&ball(), SceneVersion::Body);
+    let painting = prepared(&ball(), SceneVersion::Body);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let at = |roll_rad: f64, rotation: Rotation| {
         strokes_by_key(&painting.seen_by(&cameras::rolled(&camera, roll_rad), 0.0, &options(rotation)), &[])
@@ -120,7 +120,7 @@ fn turns(painting: &Painting, frame: f64, rotation: Rotation) -> BTreeMap<Stroke
 
 #[test]
 fn m3_m7_m10_see_wrong_and_trembling_angles() {
-    let painting = look(&ball(), SceneVersion::NoContour(TurnSolver::Own));
+    let painting = prepared(&ball(), SceneVersion::NoContour(TurnSolver::Own));
     let now = turns(&painting, 25.0, Rotation::On);
     let errors =
         |turns: &BTreeMap<StrokeKey, Turn>| Spread::of(turns.values().map(Turn::error_deg).collect());
@@ -154,7 +154,7 @@ fn m3_m7_m10_see_wrong_and_trembling_angles() {
 
 #[test]
 fn m4_sees_per_polygon_counts() {
-    let (ours, paper) = (look(&ball(), SceneVersion::Board), look(&ball(), SceneVersion::Paper));
+    let (ours, paper) = (prepared(&ball(), SceneVersion::Board), prepared(&ball(), SceneVersion::Paper));
     let mut renderer = renderer(Driver::Egl);
     let mut share = |painting: &Painting| {
         let [before, after] =
@@ -171,7 +171,7 @@ fn m4_sees_per_polygon_counts() {
 
 #[test]
 fn m5_and_m7_see_random_angles_and_a_shower_door() {
-    let painting = look(&ball(), SceneVersion::Unlit);
+    let painting = prepared(&ball(), SceneVersion::Unlit);
     let mut renderer = renderer(Driver::Egl);
     let mut luma = |frame: f64, rotation: Rotation| {
         Plane::luma(&drawn(&mut renderer, &painting.at(frame, &options(rotation))).0)
@@ -212,7 +212,7 @@ fn m5_and_m7_see_random_angles_and_a_shower_door() {
 
 #[test]
 fn motion_is_where_the_strokes_go() {
-    let painting = look(&ball(), SceneVersion::Body);
+    let painting = prepared(&ball(), SceneVersion::Body);
     let mut renderer = renderer(Driver::Egl);
     let frames = [20.0, 24.0].map(|frame| painting.at(frame, &options(Rotation::On)));
     let motion = renderer.motion(&frames[0], &frames[1]).unwrap();
@@ -235,7 +235,7 @@ fn motion_is_where_the_strokes_go() {
 #[test]
 fn m6_sees_the_papers_rule_on_what_the_first_frame_missed() {
     let spread = |version: SceneVersion| {
-        let painting = look(&ball(), version);
+        let painting = prepared(&ball(), version);
         let camera = cameras::orbited(&motion::camera_at(painting.scene(), 0.0), 90.0);
         let strokes = strokes_by_key(&painting.seen_by(&camera, 0.0, &options(Rotation::On)), &[]);
         let differences = revealed(&painting, &strokes, SMALL);
@@ -250,7 +250,7 @@ fn m6_sees_the_papers_rule_on_what_the_first_frame_missed() {
 
 #[test]
 fn m8_sees_strokes_that_shrink_with_distance() {
-    let painting = look(&ball(), SceneVersion::Body);
+    let painting = prepared(&ball(), SceneVersion::Body);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let frames = [0.0, 0.3, -0.5].map(|share| {
         let eye = camera.eye + (camera.target - camera.eye) * share;
@@ -296,7 +296,7 @@ fn two_balls(edit: impl FnOnce(&mut Scene)) -> LoadedScene {
 fn m9_sees_a_bare_region_and_foreign_colours() {
     let mut renderer = renderer(Driver::Egl);
     let mut holes = |loaded: &LoadedScene| {
-        drawn(&mut renderer, &look(loaded, SceneVersion::Board).at(0.0, &options(Rotation::On)));
+        drawn(&mut renderer, &prepared(loaded, SceneVersion::Board).at(0.0, &options(Rotation::On)));
         let alpha: Vec<f32> = renderer.read_paint().iter().map(|paint| paint[3]).collect();
         let found = Holes::of(&alpha, &renderer.read_reference().body_id);
         assert!(found.pixels > 3000);
@@ -321,7 +321,7 @@ fn m9_sees_a_bare_region_and_foreign_colours() {
     }));
     assert!(bare > 0.3, "half of the surface is bare: {bare}");
 
-    let flat = look(&two_balls(|_| ()), SceneVersion::Flat);
+    let flat = prepared(&two_balls(|_| ()), SceneVersion::Flat);
     renderer.render(&flat.at(0.0, &options(Rotation::On))).unwrap();
     let (ids, paint) = (renderer.read_reference().body_id, renderer.read_paint());
     let size_px = SMALL.map(|side| side as usize);

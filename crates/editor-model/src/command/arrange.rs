@@ -230,7 +230,7 @@ fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) 
     if scene.objects.is_empty() && scene.camera == new_scene::empty().camera {
         scene.camera = new_scene::for_mesh(Path::new(mesh), file).camera;
     }
-    let name = new_scene::add_mesh(scene, (mesh, file), &before.meshes);
+    let name = new_scene::add_mesh(scene, mesh, file, &before.meshes);
     let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
     Ok(Done::new(format!("Import {file_name}")).selecting(Selection::only(Item::Object(name))))
 }
