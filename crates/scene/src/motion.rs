@@ -194,7 +194,8 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
 
 /// An object's pose at a frame as a key, in its parent's space.
 pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
-    let Some(span) = Span::at(&object.keys, held_frame(scene, object, frame), |key| (key.frame, key.ease)) else {
+    let Some(span) = Span::at(&object.keys, held_frame(scene, object, frame), |key| (key.frame, key.ease))
+    else {
         return ObjectKey::at(frame);
     };
     let (left, right) = (&object.keys[span.left], &object.keys[span.right]);

@@ -56,8 +56,8 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     if is_svg {
         return Err(broken("the picture is SVG or XML text, which is not read".to_owned()));
     }
-    let format = format_of(path, bytes)
-        .ok_or_else(|| broken("the format of the picture is unknown".to_owned()))?;
+    let format =
+        format_of(path, bytes).ok_or_else(|| broken("the format of the picture is unknown".to_owned()))?;
     let decoder_error = |error: image::ImageError| match error {
         image::ImageError::Limits(_) => over_limit(path, None),
         other => broken(format!("the picture can not be decoded: {}", one_line(&other.to_string()))),

@@ -1,3 +1,5 @@
+//! Tests of brush marks: they differ, fit their rectangles, and their paint is equalised.
+
 use super::*;
 
 #[test]

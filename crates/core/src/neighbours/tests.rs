@@ -1,3 +1,5 @@
+//! Tests of neighbour lists against brute force, for every build of the search.
+
 use super::*;
 use crate::hash;
 

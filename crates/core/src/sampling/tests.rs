@@ -1,3 +1,5 @@
+//! Tests of sampling: the order never changes by a bit, and degenerate meshes do no harm.
+
 use glam::Vec3;
 
 use super::candidates::Candidates;

@@ -1,3 +1,5 @@
+//! Tests of the free camera: what orbit, pan, zoom and framing keep in place.
+
 use super::*;
 
 const SIZE_PX: DVec2 = DVec2::new(1280.0, 720.0);

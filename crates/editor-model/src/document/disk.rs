@@ -1,4 +1,4 @@
-//! A document and its files on the disk: saving, reading again, copies of unsaved work.
+//! A document and its files on disk: saving, reading again, and the copy of unsaved work.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ pub enum SaveError {
     /// It has no file yet.
     #[error("this scene has no file yet: choose a name")]
     Unnamed,
-    /// What the scene names would not be found from there.
+    /// Files that the scene names would not be found from there.
     #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
     FilesElsewhere {
         /// The file that was chosen.
@@ -37,7 +37,7 @@ pub enum SaveError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// Somebody else wrote the file since it was read.
+    /// The file was changed by another program since it was read.
     #[error("{} was changed by another program since it was read", target.display())]
     ChangedOutside {
         /// The file.
@@ -59,7 +59,7 @@ impl Document {
     /// Writes the scene to its file; at any moment the file is the old one or the new one, whole.
     ///
     /// # Errors
-    /// As [`Document::save_as`], where there is no file yet, and where somebody else wrote the file since.
+    /// As [`Document::save_as`]; and where there is no file yet, or another program has changed it.
     pub fn save(&mut self) -> Result<PathBuf, SaveError> {
         let file = self.file.clone().ok_or(SaveError::Unnamed)?;
         self.may_save_over(&file)?;
@@ -70,7 +70,7 @@ impl Document {
         Ok(file)
     }
 
-    /// As [`Document::save`], in the place of what somebody else wrote since.
+    /// As [`Document::save`], but overwrites what another program has written since.
     ///
     /// # Errors
     /// As [`Document::save_as`], and where there is no file yet.
@@ -80,14 +80,14 @@ impl Document {
         Ok(file)
     }
 
-    /// Whether the document's file holds other bytes than were read or written last. One that is gone is nothing that could
+    /// Whether the document's file holds other bytes than were last read or written. A deleted file does not count: nothing could
     /// be lost.
     pub fn is_changed_outside(&self) -> bool {
         let is_other = |file: &PathBuf| Stamp::is_other(self.stamp.as_ref(), file) && file.exists();
         self.file.as_ref().is_some_and(is_other)
     }
 
-    /// Writes the scene to a file, which is its own from then on. The history stays.
+    /// Writes the scene to a file, which becomes the document's own. The history stays.
     ///
     /// # Errors
     /// When what the scene names would not be found from there, the file system refuses, or it is the document's own file and
@@ -95,7 +95,7 @@ impl Document {
     pub fn save_as(&mut self, target: &Path) -> Result<(), SaveError> {
         self.may_save_over(target)?;
         self.save_copy(target)?;
-        // What was written, should somebody else have written since.
+        // Hashed from the text, not the file, in case another program writes it now.
         let text = save::to_ron(self.scene());
         let written = |stamp| Stamp { bytes: text.len() as u64, hash: stamp::hash(text.as_bytes()), ..stamp };
         self.stamp = Stamp::of(target).map(written);
@@ -116,7 +116,7 @@ impl Document {
         }
     }
 
-    /// Writes the scene to another file, and stays with its own.
+    /// Writes the scene to another file; the document keeps its own.
     ///
     /// # Errors
     /// As [`Document::save_as`].
@@ -136,15 +136,15 @@ impl Document {
         write.map_err(|source| SaveError::Unwritable { target: target.to_owned(), source })
     }
 
-    /// The files that the scene names, but for those of the house.
+    /// The files that the scene names, without built-in meshes.
     pub fn files_named(&self) -> impl Iterator<Item = &str> {
         let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
         let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
         names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))
     }
 
-    /// Reads the scene's own file again, all of it, meshes and pictures too: one entry of the history, so that edits can be
-    /// brought back. Where the file has errors, everything stays as it was.
+    /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought back. If the
+    /// file has errors, nothing changes.
     ///
     /// # Errors
     /// What is wrong with the file.
@@ -154,7 +154,7 @@ impl Document {
         Ok(self.go_on_with(read))
     }
 
-    /// As [`Document::reload`], with as much of a file with errors as can be read.
+    /// As [`Document::reload`], but reads as much as possible of a file with errors.
     ///
     /// # Errors
     /// Where there is nothing to read.
@@ -210,7 +210,7 @@ impl Document {
         files
     }
 
-    /// The unsaved work, to be kept.
+    /// The unsaved work, for the recovery copy.
     pub fn work(&self, at_unix_secs: u64) -> Work {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let copy = Copy {

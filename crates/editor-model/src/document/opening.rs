@@ -1,4 +1,4 @@
-//! Opening what has errors: a scene as far as it can be read, with the text that it was read from.
+//! Opening scenes with errors: as much as can be read, with the text for repairs.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,7 +16,7 @@ use crate::history::History;
 use crate::recovery::Copy;
 use crate::stamp::Stamp;
 
-/// The text that a scene was read from, not all of which could be read.
+/// The text of a scene that could not be read completely.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The text.
@@ -44,7 +44,7 @@ impl Source {
         })
     }
 
-    /// A scene that holds what stands in, too, so that an edit can come back to it.
+    /// The scene with all stand-ins added, so that an edit can use them again.
     pub(super) fn held(&self, loaded: &LoadedScene) -> LoadedScene {
         let mut held = loaded.clone();
         for (name, stand_in) in &self.stand_ins {
@@ -74,14 +74,14 @@ impl Document {
         Ok(Self { stamp, source, ..document })
     }
 
-    /// Goes on with a copy of unsaved work: edited, and not saved. Its files are named from where the scene was.
+    /// Opens a copy of unsaved work, as an edited document. Files are found from the scene's original folder.
     ///
     /// # Errors
     /// Where nothing of the copy can be read.
     pub fn recovered(copy: &Copy, options: &LoadOptions) -> Result<Self, Report> {
         let salvaged = salvage::salvage_text(&copy.path, &copy.text, options)?;
         let source = Source::of(&salvaged).map(Arc::new);
-        // A scene that was read with losses must not take the place of its file, whose problems are known no more.
+        // A scene that was read with losses must not overwrite its file, whose losses are not known any more.
         let file = copy.file.clone().filter(|_| !copy.lossy);
         let stamp = copy.stamp.filter(|_| file.is_some());
         let document = Self::of(salvaged.loaded, file, options.clone());

@@ -1,3 +1,5 @@
+//! Tests of documents with errors, and of files that other programs change.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -24,8 +24,8 @@ impl Editor {
         self.document.hold_mesh(mesh, file);
     }
 
-    /// Begins a transform of what is selected; false where nothing is, or it is locked. `from` says where the pointer is, and
-    /// whether its button is held.
+    /// Begins a transform of the selected things; false where nothing is selected, or it is locked. `held` says whether a button
+    /// is down at `at_px`.
     pub(super) fn begin_transform(
         &mut self,
         (operation, constraint): (Operation, Option<Constraint>),
@@ -90,7 +90,7 @@ impl Editor {
             Tool::Scale => Operation::Scale,
             _ => return None,
         };
-        // A comparison shows the reference, where nothing stands as it does now.
+        // A comparison shows the reference, whose poses differ from the current ones.
         let poses = self.session.mode != Mode::Paint && !self.session.compare;
         let is_shown = poses && !self.is_navigating() && !self.time.playback.is_playing();
         if !is_shown {
@@ -130,7 +130,7 @@ impl Editor {
         self.transform(TransformEvent::Typed(character), view);
     }
 
-    /// The command that a transform comes to: in Arrange the whole motion moves, in Animate the pose at this frame.
+    /// The command of a transform: in Arrange it moves the whole motion, in Animate the pose at this frame.
     fn transform_command(&self, delta: TransformDelta) -> Option<Command> {
         let Busy::Transforming(drag) = &self.busy else { return None };
         if let Some(light) = &drag.light {

@@ -1,3 +1,5 @@
+//! Tests of the gizmo: size, hits and visible halves of its handles.
+
 use glam::DQuat;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;

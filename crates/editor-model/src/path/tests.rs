@@ -1,3 +1,5 @@
+//! Tests of gestures on surfaces: independent of the event rate, cut at gaps, mirrored.
+
 use glam::DQuat;
 use impasto_scene::document::{GuideMode, GuideView, Lens};
 use impasto_scene::motion::CameraPose;

@@ -1,3 +1,5 @@
+//! Tests of moving, turning and scaling by pointer and keys.
+
 use impasto_scene::motion::CameraPose;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of keyframes: camera, eases, parents, held poses.
+
 use glam::{DVec3, DVec4};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of new scenes: framing, backdrop, light, names and regions.
+
 use glam::{DMat4, DVec4, Vec3};
 use impasto_core::TriangleMesh;
 

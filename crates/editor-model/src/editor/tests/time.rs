@@ -1,3 +1,5 @@
+//! Tests of time in the editor: keys, loose poses, playback and scrubbing.
+
 use impasto_scene::document::{Ease, ObjectKey, Scene};
 
 use super::*;

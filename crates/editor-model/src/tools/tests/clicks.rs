@@ -1,3 +1,5 @@
+//! Tests of tools by clicks: fill, turn, pick, regions, resizing.
+
 use impasto_scene::document::{Bend, Direction, Patch, Selector};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of the guide curve tool.
+
 use super::*;
 
 const TOOL: Tool = Tool::GuideCurve;
