@@ -11,7 +11,7 @@ use impasto_scene::loaded::LoadedScene;
 use crate::command::Command;
 use crate::playback::Playback;
 
-pub use keys::{DRAG_PX, Dragged, KeysEvent, KeysHand, Place};
+pub use keys::{DRAG_PX, Dragged, KeysEvent, KeysHand, LanePosition};
 pub use lanes::{KeyAt, Lane, LaneKey, ease_name, keyed_frames, lanes, next_ease};
 pub use typed::typed_frame;
 

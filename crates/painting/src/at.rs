@@ -9,8 +9,8 @@ use glam::{DAffine3, DVec3};
 use impasto_core::horn_exact::{self, ClipView};
 use impasto_core::solve::{BakedParticles, ParticleView, SolvedParticle, SolvedParticles, solve};
 use impasto_core::{ScreenMap, hash};
+use impasto_scene::built_in_mesh;
 use impasto_scene::document::{InkDrawing, InkRule, Solver, Style};
-use impasto_scene::house_mesh;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::coat::Coat;
@@ -150,7 +150,7 @@ impl Painting {
                 .zip(poses.iter().zip(shapes))
                 .zip(&scene.objects)
                 .map(|((body, (&pose, shape)), object)| FrameBody {
-                    is_backdrop: object.mesh == house_mesh::BACKDROP,
+                    is_backdrop: object.mesh == built_in_mesh::BACKDROP,
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: shape.morph as f32,

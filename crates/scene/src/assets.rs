@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
-use crate::problem::{Place, Problem, Severity};
+use crate::problem::{Problem, Severity, TextPosition};
 
 /// The longest file name that is accepted, in bytes; no system opens longer ones.
 pub const MAX_NAME_BYTES: usize = 4096;
@@ -93,7 +93,7 @@ impl AssetError {
     }
 
     /// The problem to report for the file `path`, which names this one. A file that is too large is always a limit.
-    pub fn to_problem(&self, severity: Severity, path: &Path, place: Option<Place>) -> Problem {
+    pub fn to_problem(&self, severity: Severity, path: &Path, place: Option<TextPosition>) -> Problem {
         let severity = if matches!(self, Self::TooLarge { .. }) { Severity::Limit } else { severity };
         Problem {
             severity,

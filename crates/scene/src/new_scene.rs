@@ -6,11 +6,11 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use crate::built_in_mesh;
 use crate::document::{
     Camera, CameraKey, Color, Direction, Ease, Lens, Light, LightKind, Object, ObjectKey, Region, Scale,
     Scene, Selector, StrokeSettings, Timeline,
 };
-use crate::house_mesh;
 use crate::mesh_file::MeshFile;
 
 pub use add::{REGION_COLORS, add_mesh, regions_of};
@@ -209,7 +209,7 @@ impl View {
                 rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
                 ..ObjectKey::at(0.0)
             }],
-            ..Object::new(name, house_mesh::BACKDROP)
+            ..Object::new(name, built_in_mesh::BACKDROP)
         }
     }
 }

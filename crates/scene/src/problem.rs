@@ -11,7 +11,7 @@ pub struct Problem {
     /// The file that it is in.
     pub path: PathBuf,
     /// Line and column, where they are known.
-    pub place: Option<Place>,
+    pub place: Option<TextPosition>,
     /// The field of the scene that it concerns, as in `objects[2].keys[1].frame`; empty where it concerns none.
     pub field_path: Box<str>,
     /// What is wrong, as one sentence without a full stop.
@@ -22,7 +22,7 @@ pub struct Problem {
 
 /// A position in a text file, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct TextPosition {
     /// Line.
     pub line: usize,
     /// Column, in characters.

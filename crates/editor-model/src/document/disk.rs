@@ -140,7 +140,7 @@ impl Document {
     pub fn files_named(&self) -> impl Iterator<Item = &str> {
         let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
         let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
-        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))
+        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }
 
     /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought back. If the

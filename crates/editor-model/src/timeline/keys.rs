@@ -14,7 +14,7 @@ pub const DRAG_PX: f64 = 3.0;
 
 /// A position on the lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct LanePosition {
     /// Points from the left.
     pub x_px: f64,
     /// Points from the top of the first lane.
@@ -31,14 +31,14 @@ pub enum KeysEvent {
     /// The button goes down, on a key or beside all.
     Press {
         /// Where.
-        at: Place,
+        at: LanePosition,
         /// The key there.
         key: Option<KeyAt>,
         /// Keys are added to those selected (Shift, Ctrl).
         adds: bool,
     },
     /// The pointer is elsewhere, or near another frame.
-    Move(Place),
+    Move(LanePosition),
     /// The button goes up.
     Release,
     /// Selects one key alone.
@@ -70,19 +70,19 @@ enum Busy {
     Idle,
     Held {
         key: KeyAt,
-        from: Place,
+        from: LanePosition,
         adds: bool,
     },
     Dragging {
         /// The frame of the key that was grabbed; it snaps to whole frames.
         grabbed: f64,
         /// Where the pointer was; none before it is known.
-        from: Option<Place>,
+        from: Option<LanePosition>,
         dragged: Dragged,
     },
     Boxing {
-        from: Place,
-        to: Place,
+        from: LanePosition,
+        to: LanePosition,
         before: Vec<KeyAt>,
         adds: bool,
     },
@@ -200,7 +200,7 @@ impl KeysHand {
         self.selected.retain(|(of, frame)| lanes.iter().any(|lane| lane.of == *of && lane.has(*frame)));
     }
 
-    fn press(&mut self, at: Place, key: Option<KeyAt>, adds: bool) {
+    fn press(&mut self, at: LanePosition, key: Option<KeyAt>, adds: bool) {
         self.focused = true;
         let Some(key) = key else {
             let before = self.selected.clone();
@@ -221,7 +221,7 @@ impl KeysHand {
         self.busy = Busy::Held { key, from: at, adds };
     }
 
-    fn moved(&mut self, at: Place, lanes: &[Lane]) {
+    fn moved(&mut self, at: LanePosition, lanes: &[Lane]) {
         match &mut self.busy {
             Busy::Idle => {}
             Busy::Held { key, from, .. } => {
@@ -298,6 +298,6 @@ impl KeysHand {
     }
 }
 
-fn is_far(from: &Place, to: &Place) -> bool {
+fn is_far(from: &LanePosition, to: &LanePosition) -> bool {
     (from.x_px - to.x_px).hypot(from.y_px - to.y_px) >= DRAG_PX
 }

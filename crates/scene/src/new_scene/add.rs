@@ -7,8 +7,8 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::{object_name, round_to};
+use crate::built_in_mesh;
 use crate::document::{Color, Object, ObjectKey, Region, Scene, Selector};
-use crate::house_mesh;
 use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::motion;
@@ -133,7 +133,7 @@ fn unique(name: &str, taken: &HashSet<&str>) -> String {
 fn bounds_of_all(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option<[DVec3; 2]> {
     let poses = motion::poses_at(scene, motion::referred_to(scene, &scene.reference).1);
     let of_objects = scene.objects.iter().zip(poses).filter_map(|(object, pose)| {
-        let is_file = !object.mesh.starts_with(house_mesh::PREFIX);
+        let is_file = !object.mesh.starts_with(built_in_mesh::PREFIX);
         bounds(object, meshes.get(&object.mesh).filter(|_| is_file)?, pose)
     });
     of_objects.reduce(|[low, high], [other_low, other_high]| [low.min(other_low), high.max(other_high)])

@@ -95,7 +95,7 @@ fn names_come_from_the_file() {
         (scene.objects[0].name.as_str(), scene.objects[0].mesh.as_str()),
         ("red apple", "red apple.obj")
     );
-    assert_eq!(scene.objects[1].mesh, house_mesh::BACKDROP);
+    assert_eq!(scene.objects[1].mesh, built_in_mesh::BACKDROP);
     assert_eq!(scene.regions[0].on, Selector::Object("backdrop".to_owned()));
     let text = crate::save::to_ron(&scene);
     assert_eq!(crate::load::parse(Path::new("s.ron"), &text).unwrap(), scene);

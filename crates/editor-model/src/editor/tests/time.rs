@@ -5,7 +5,7 @@ use impasto_scene::document::{Ease, ObjectKey, Scene};
 use super::*;
 use crate::command::{KeyOf, Pose, Time};
 use crate::playback::Pacing;
-use crate::timeline::{KeyAt, KeysEvent, Place, TimelineEvent};
+use crate::timeline::{KeyAt, KeysEvent, LanePosition, TimelineEvent};
 
 /// The apple's editor in Animate, with the apple selected, at a frame.
 fn animating(frame: f64) -> (Editor, String) {
@@ -188,13 +188,13 @@ fn a_scrub_pauses_and_what_played_plays_on_from_there() {
 }
 
 fn press(editor: &mut Editor, key: KeyAt) {
-    let at = Place { x_px: key.1 * 4.0, y_px: 48.0, frame: key.1, lane: 1 };
+    let at = LanePosition { x_px: key.1 * 4.0, y_px: 48.0, frame: key.1, lane: 1 };
     editor.timeline(TimelineEvent::Keys(KeysEvent::Press { at, key: Some(key), adds: false }));
 }
 
 fn drag_key(editor: &mut Editor, key: KeyAt, to: f64) {
     press(editor, key);
-    let at = Place { x_px: to * 4.0, y_px: 48.0, frame: to, lane: 1 };
+    let at = LanePosition { x_px: to * 4.0, y_px: 48.0, frame: to, lane: 1 };
     editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));
     editor.timeline(TimelineEvent::Keys(KeysEvent::Release));
 }
@@ -213,7 +213,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     let view = view(&editor);
     assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, (false, &view)));
     for frame in [73.0, 83.0] {
-        let at = Place { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
+        let at = LanePosition { x_px: frame * 4.0, y_px: 48.0, frame, lane: 1 };
         editor.timeline(TimelineEvent::Keys(KeysEvent::Move(at)));
     }
     assert!(editor.status().starts_with("Copy 1 key by +10"), "{}", editor.status());

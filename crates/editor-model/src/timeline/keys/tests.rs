@@ -23,11 +23,11 @@ fn apple(frame: f64) -> KeyAt {
 }
 
 /// Four points a frame, lanes of 32 points.
-fn at(frame: f64, lane: usize) -> Place {
-    Place { x_px: frame * 4.0, y_px: lane as f64 * 32.0 + 16.0, frame, lane }
+fn at(frame: f64, lane: usize) -> LanePosition {
+    LanePosition { x_px: frame * 4.0, y_px: lane as f64 * 32.0 + 16.0, frame, lane }
 }
 
-fn press(key: Option<KeyAt>, at: Place) -> KeysEvent {
+fn press(key: Option<KeyAt>, at: LanePosition) -> KeysEvent {
     KeysEvent::Press { at, key, adds: false }
 }
 

@@ -2,7 +2,7 @@
 
 use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
 use impasto_editor_model::command::{Command, Time};
-use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, Place, TimelineEvent, ease_name};
+use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, LanePosition, TimelineEvent, ease_name};
 use impasto_scene::document::Ease;
 
 use super::across::Across;
@@ -26,11 +26,11 @@ pub(super) struct Lying<'a> {
 }
 
 impl Lying<'_> {
-    fn place(&self, at: Pos2) -> Place {
+    fn place(&self, at: Pos2) -> LanePosition {
         let y = at.y - self.top;
         // Above the first lane there is the first.
         let lane = (y / self.lane).floor().max(0.0) as usize;
-        Place { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
+        LanePosition { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
     }
 
     /// The key under the pointer: the nearest of its lane.
