@@ -106,7 +106,7 @@ impl Picker {
             let farthest = nearest.map_or(f64::INFINITY, |hit| hit.distance);
             if let Some((point, distance, front)) = tree.first_hit(origin, direction, farthest) {
                 let at = pose.transform_point3(point.position);
-                nearest = Some(Hit::new(object, &point, (at, distance), front));
+                nearest = Some(Hit::new(object, &point, at, distance, front));
             }
         }
         nearest
@@ -140,7 +140,7 @@ impl Picker {
         let mut bounds: Option<[DVec3; 2]> = None;
         for triangle in 0..tree.surface().mesh.triangles.len() as u32 {
             let middle = tree.middle(triangle);
-            let hit = Hit::new(object, &middle, (middle.position, 0.0), true);
+            let hit = Hit::new(object, &middle, middle.position, 0.0, true);
             if within(&hit) {
                 for corner in tree.corners(triangle) {
                     let [low, high] = bounds.unwrap_or([corner, corner]);
@@ -178,7 +178,7 @@ pub fn world_units_per_model_unit(world_from_model: DAffine3) -> f64 {
 }
 
 impl Hit {
-    fn new(object: usize, point: &SurfacePoint, (at, distance): (DVec3, f64), front: bool) -> Self {
+    fn new(object: usize, point: &SurfacePoint, at: DVec3, distance: f64, front: bool) -> Self {
         Self {
             object,
             triangle: point.triangle,

@@ -145,7 +145,7 @@ impl Arrange {
                 Ok(Done::new(format!("Scale {object}")))
             }
             Self::SetPoseField { object, frame, field, value } => {
-                set_pose_field(scene, object, *frame, (*field, finite(*value)?))
+                set_pose_field(scene, object, *frame, *field, finite(*value)?)
             }
             Self::TurnUpright(name) => {
                 let object = unlocked_object(scene, name)?;
@@ -352,7 +352,8 @@ fn set_pose_field(
     scene: &mut Scene,
     name: &str,
     frame: f64,
-    (field, value): (PoseField, f64),
+    field: PoseField,
+    value: f64,
 ) -> Result<Done, Refusal> {
     let now = motion::key_at(scene, object_mut(&mut scene.clone(), name)?, frame);
     let object: &mut Object = unlocked_object(scene, name)?;

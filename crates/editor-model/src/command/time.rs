@@ -73,7 +73,7 @@ impl Time {
                 finite(*by)?;
                 let before = scene.clone();
                 for (of, frame) in keys {
-                    copy_key(scene, &before, (of, *frame), frame + by)?;
+                    copy_key(scene, &before, of, *frame, frame + by)?;
                 }
                 Ok(Done::new(format!("Copy {}", counted(keys))))
             }
@@ -212,7 +212,7 @@ fn move_key(scene: &mut Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Ref
 }
 
 /// Copies a key of the scene as it was before.
-fn copy_key(scene: &mut Scene, before: &Scene, (of, from): (&KeyOf, f64), to: f64) -> Result<(), Refusal> {
+fn copy_key(scene: &mut Scene, before: &Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Refusal> {
     match of {
         KeyOf::Camera => {
             let Some(key) = before.camera.keys.iter().find(|key| key.frame == from) else { return Ok(()) };

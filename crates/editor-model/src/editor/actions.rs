@@ -154,7 +154,7 @@ impl Editor {
                 // Over the viewport the key takes hold at once, as in Blender; elsewhere it takes the tool up.
                 match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
                     Some(at_px) if matches!(self.busy, Busy::Idle) => {
-                        self.begin_transform((operation, None), (at_px, false), view);
+                        self.begin_transform(operation, None, at_px, false, view);
                     }
                     _ => self.session.set_tool(tool),
                 }

@@ -28,8 +28,10 @@ impl Editor {
     /// is down at `at_px`.
     pub(super) fn begin_transform(
         &mut self,
-        (operation, constraint): (Operation, Option<Constraint>),
-        (at_px, held): (DVec2, bool),
+        operation: Operation,
+        constraint: Option<Constraint>,
+        at_px: DVec2,
+        held: bool,
         view: &View,
     ) -> bool {
         if let Some((light, position)) = self.active_light() {
@@ -39,7 +41,7 @@ impl Editor {
                 return false;
             }
             let pose = DAffine3::from_translation(position);
-            let machine = self.machine((operation, constraint), (name.clone(), pose), at_px, view);
+            let machine = self.machine(operation, constraint, name.clone(), pose, at_px, view);
             let light = Some(name);
             self.busy =
                 Busy::Transforming(Box::new(TransformDrag { machine, objects: Vec::new(), light, held }));
@@ -62,15 +64,17 @@ impl Editor {
             several => format!("{} objects", several.len()),
         };
         let pose = self.poses()[object];
-        let machine = self.machine((operation, constraint), (name, pose), at_px, view);
+        let machine = self.machine(operation, constraint, name, pose, at_px, view);
         self.busy = Busy::Transforming(Box::new(TransformDrag { machine, objects, light: None, held }));
         true
     }
 
     fn machine(
         &self,
-        (operation, constraint): (Operation, Option<Constraint>),
-        (name, world_from_model): (String, DAffine3),
+        operation: Operation,
+        constraint: Option<Constraint>,
+        name: String,
+        world_from_model: DAffine3,
         at_px: DVec2,
         view: &View,
     ) -> Transforming {

@@ -96,12 +96,12 @@ impl Editor {
             Busy::Navigating(way, about) => {
                 let (way, about) = (*way, *about);
                 let shot = self.shot();
-                navigate(self.looking.free(&shot), (way, about), delta_px, view);
+                navigate(self.looking.free(&shot), way, about, delta_px, view);
             }
             Busy::ShotView(..) if delta_px == DVec2::ZERO => {}
             Busy::ShotView(way, about, pose) => {
                 let mut free = FreeView::new(pose.clone());
-                navigate(&mut free, (*way, *about), delta_px, view);
+                navigate(&mut free, *way, *about, delta_px, view);
                 *pose = free.pose().clone();
             }
             Busy::Shot(pose) => {
@@ -123,7 +123,7 @@ impl Editor {
                         Tool::Scale => Operation::Scale,
                         _ => Operation::Move,
                     };
-                    if self.begin_transform((operation, None), (from_px, true), view) {
+                    if self.begin_transform(operation, None, from_px, true, view) {
                         self.moved(event, DVec2::ZERO, view);
                     }
                 }
@@ -176,8 +176,7 @@ impl Editor {
     fn press_on_object(&mut self, event: &PointerEvent, view: &View) {
         let handle = self.gizmo(view).and_then(|gizmo| gizmo.hit(event.at_px).cloned());
         if let Some(handle) = handle {
-            let begun = (handle.operation, Some(handle.constraint));
-            self.begin_transform(begun, (event.at_px, true), view);
+            self.begin_transform(handle.operation, Some(handle.constraint), event.at_px, true, view);
             return;
         }
         let object = || {
@@ -332,7 +331,7 @@ impl Editor {
     }
 }
 
-fn navigate(free: &mut FreeView, (way, about): (Navigation, glam::DVec3), delta_px: DVec2, view: &View) {
+fn navigate(free: &mut FreeView, way: Navigation, about: glam::DVec3, delta_px: DVec2, view: &View) {
     match way {
         Navigation::Orbit => free.orbit(delta_px, about),
         Navigation::Pan => free.pan(delta_px, about, view.size_px),

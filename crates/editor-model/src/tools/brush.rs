@@ -55,7 +55,7 @@ impl Brush {
 
     pub(super) fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         match *event {
-            ToolEvent::Hover { at_px, at_secs } => self.aim(tool, (at_px, at_secs), around),
+            ToolEvent::Hover { at_px, at_secs } => self.aim(tool, at_px, at_secs, around),
             ToolEvent::Press { at_px, at_secs, held } => {
                 self.heading.forget();
                 self.foresees = false;
@@ -64,7 +64,7 @@ impl Brush {
             }
             ToolEvent::Move { at_px, at_secs, .. } => {
                 self.heading.follow(at_px, at_secs);
-                let Some(stroke) = &mut self.stroke else { return self.aim(tool, (at_px, at_secs), around) };
+                let Some(stroke) = &mut self.stroke else { return self.aim(tool, at_px, at_secs, around) };
                 stroke.at_px = at_px;
                 let on = stroke.on.clone();
                 stroke.path.move_to(at_px, &mut stroke.does.picks(&on, around));
@@ -92,7 +92,7 @@ impl Brush {
     }
 
     /// The ring and the needle before a press.
-    fn aim(&mut self, tool: Tool, (at_px, at_secs): (DVec2, f64), around: &Surroundings) -> ToolOutput {
+    fn aim(&mut self, tool: Tool, at_px: DVec2, at_secs: f64, around: &Surroundings) -> ToolOutput {
         self.heading.follow(at_px, at_secs);
         let radius_px = around.options.radius_px;
         let hit = around.hit(at_px);

@@ -96,7 +96,7 @@ impl Curve {
             }
             ToolEvent::Press { at_px, at_secs, held } => {
                 self.at_px = Some(at_px);
-                self.press((at_px, at_secs), held, around)
+                self.press(at_px, at_secs, held, around)
             }
             ToolEvent::Move { at_px, .. } => {
                 self.at_px = Some(at_px);
@@ -147,12 +147,7 @@ impl Curve {
         }
     }
 
-    fn press(
-        &mut self,
-        (at_px, at_secs): (DVec2, f64),
-        held: Modifiers,
-        around: &Surroundings,
-    ) -> ToolOutput {
+    fn press(&mut self, at_px: DVec2, at_secs: f64, held: Modifiers, around: &Surroundings) -> ToolOutput {
         match &mut self.state {
             State::Drawing(drawing) => {
                 let last_px = drawing.points.last().map_or(at_px, |point| point.at_px);
