@@ -1,4 +1,4 @@
-//! What stands on the command line.
+//! The command line of the benchmark.
 
 use std::path::PathBuf;
 
@@ -6,16 +6,16 @@ use anyhow::bail;
 
 use crate::parts::{PARTS, Part};
 
-/// What is to be done.
+/// What the command line asks for.
 #[derive(Debug, Default)]
 pub struct Arguments {
-    /// Names of parts; none for all.
+    /// Names of parts; empty for all.
     named: Vec<String>,
-    /// Under two minutes.
+    /// Smaller inputs and fewer rounds: under two minutes.
     pub quick: bool,
     /// JSON in place of text.
     pub json: bool,
-    /// Kept results to compare with.
+    /// A file of results to compare with.
     pub against: Option<PathBuf>,
     /// Whether to keep the results of this machine.
     pub keep: bool,
@@ -28,10 +28,10 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads the words; `None` where the words ask what there is.
+    /// Reads the words; `None` where they ask for help.
     ///
     /// # Errors
-    /// At a word that means nothing.
+    /// At an unknown word.
     pub fn parse(words: &[String]) -> anyhow::Result<Option<Self>> {
         let mut arguments = Self { may_fetch: true, ..Self::default() };
         let mut words = words.iter();
@@ -64,7 +64,7 @@ impl Arguments {
     }
 }
 
-/// What can be asked for.
+/// The help text.
 pub fn usage() -> String {
     let parts: String = PARTS.iter().map(|part| format!("  {:<16}{}\n", part.name, part.about)).collect();
     format!(
@@ -74,10 +74,10 @@ parts, all unless some are named:
 {parts}options:
   --quick         smaller inputs and fewer rounds: under two minutes
   --json          JSON on stdout in place of text
-  --against FILE  what moved beyond the noise since FILE of bench/results/
-  --keep          keep the results in bench/results/, one file a machine
+  --against FILE  what changed beyond the noise since FILE of bench/results/
+  --keep          save the results in bench/results/, one file per machine
   --write-docs    write the table into docs/performance.md
   --install       install Debian's packages for the peers first
-  --no-fetch      fetch no Python packages: peers that need them are named as missing"
+  --no-fetch      fetch no Python packages: peers that need them are listed as missing"
     )
 }

@@ -1,4 +1,4 @@
-//! What every part of the benchmark is handed: inputs, peers, the pace, and the table that it adds rows to.
+//! The context of every part of the benchmark: inputs, peers, the pace, and the table that it adds rows to.
 
 use std::path::Path;
 
@@ -18,13 +18,13 @@ pub enum Mode {
     Quick,
 }
 
-/// What a part works with.
+/// The context of a part.
 pub struct Bench {
     /// The inputs.
     pub inputs: Inputs,
-    /// Programs of others.
+    /// Peers that are programs of their own.
     pub peers: Peers,
-    /// What was measured so far.
+    /// The rows measured so far.
     pub table: Table,
     /// Costs against counts, to be plotted.
     pub curves: Vec<Curve>,
@@ -32,7 +32,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// Nothing measured yet.
+    /// A benchmark with nothing measured yet.
     pub fn new(root: &Path, mode: Mode, may_fetch: bool) -> Self {
         Self {
             inputs: Inputs::new(root),
@@ -43,12 +43,12 @@ impl Bench {
         }
     }
 
-    /// Whether all of it is to take less than two minutes.
+    /// Whether the whole benchmark should take less than two minutes.
     pub fn quick(&self) -> bool {
         self.mode == Mode::Quick
     }
 
-    /// How long a race takes; of what is `slow`, a round or two have to do.
+    /// How long a race takes; `slow` tasks get only a round or a few.
     pub fn pace(&self, slow: bool) -> Pace {
         match (self.mode, slow) {
             (Mode::Quick, false) => Pace { rounds: 5, least_secs: 0.05, most_secs: 2.0 },
@@ -58,7 +58,7 @@ impl Bench {
         }
     }
 
-    /// Adds a row, and says so to whoever waits.
+    /// Adds a row and reports it on stderr.
     pub fn push(&mut self, row: Row) {
         let value = row
             .ours
@@ -68,7 +68,7 @@ impl Bench {
         self.table.rows.push(row);
     }
 
-    /// Whether so much memory is free; otherwise a row says that the largest input was left out.
+    /// Whether this many bytes of memory are free; if not, adds a row that says that the largest input was left out.
     pub fn has_memory(&mut self, what: &str, bytes: u64) -> bool {
         let enough = machine::free_bytes().is_none_or(|free| free >= bytes);
         if !enough {

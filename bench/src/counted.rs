@@ -1,4 +1,4 @@
-//! The allocator of this program: the system's, with a count of the bytes that are held and of their peak.
+//! The allocator of this program: the system's, with a count of allocated bytes and of their peak.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering::Relaxed};
@@ -19,7 +19,7 @@ fn add(bytes: isize) {
     }
 }
 
-// SAFETY: every call goes to the system's allocator as it came; the counting beside it allocates nothing.
+// SAFETY: every call goes unchanged to the system's allocator; the counting allocates nothing.
 unsafe impl GlobalAlloc for Counted {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         add(layout.size() as isize);
@@ -40,7 +40,7 @@ unsafe impl GlobalAlloc for Counted {
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // While the contents move, both blocks are held.
+        // While the contents move, both blocks are allocated.
         add(size as isize);
         // SAFETY: the caller's promise, passed on.
         let moved = unsafe { System.realloc(pointer, layout, size) };
@@ -49,16 +49,16 @@ unsafe impl GlobalAlloc for Counted {
     }
 }
 
-/// What some work did with memory.
+/// How much memory some work took.
 #[derive(Clone, Copy, Debug)]
 pub struct Memory {
-    /// Bytes held after it that were not before.
+    /// Bytes that it left allocated.
     pub left: usize,
-    /// The most that was held at a time, above what was before.
+    /// The most bytes that it had allocated at a time.
     pub peak: usize,
 }
 
-/// Does the work and counts its bytes. All other work of this program waits.
+/// Does the work and counts its bytes. No other thread of this program may allocate meanwhile.
 pub fn counted<T>(work: impl FnOnce() -> T) -> (T, Memory) {
     HELD.store(0, Relaxed);
     PEAK.store(0, Relaxed);

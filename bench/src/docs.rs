@@ -1,4 +1,4 @@
-//! The table in the docs, between two marks.
+//! Writes the table into a page of the docs, between two marks.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stands_between_the_marks_is_replaced_and_nothing_else() {
+    fn only_the_text_between_the_marks_is_replaced() {
         let page = format!("above\n{BEGIN}\nold\n{END}\nbelow\n");
         let written = replaced(&page, "new\n").unwrap();
         assert_eq!(written, format!("above\n{BEGIN}\nnew\n{END}\nbelow\n"));

@@ -1,26 +1,26 @@
-//! The floor that memory sets: the same bytes, read and written by the same threads with nothing to be thought about them.
+//! The floor that memory sets: the time to read and write as many bytes as a task does, with almost no arithmetic.
 
 use rayon::prelude::*;
 
 use crate::race::Contender;
 
-/// Floats in a stretch that one thread handles at a time.
+/// Floats that one thread handles at a time.
 const CHUNK: usize = 1 << 15;
 
-/// As many streams in and out as a task has. Each output is the sum of its share of the inputs.
+/// As many input and output streams as a task has. Each output is the sum of its share of the inputs.
 pub struct Streams {
     inputs: Vec<Vec<f32>>,
     outputs: Vec<Vec<f32>>,
 }
 
 impl Streams {
-    /// So many streams of `count` floats each.
+    /// Streams of `count` floats each.
     pub fn new(count: usize, inputs: usize, outputs: usize) -> Self {
         let streams = |number: usize| -> Vec<Vec<f32>> { (0..number).map(|_| vec![1.0; count]).collect() };
         Self { inputs: streams(inputs), outputs: streams(outputs) }
     }
 
-    /// About so many bytes, in streams of one length.
+    /// Streams of one length that hold about this many bytes.
     pub fn of_bytes(read: usize, written: usize) -> Self {
         let count = (read.max(written) / 4).div_ceil(8).max(1);
         Self::new(count, (read / 4).div_ceil(count), (written / 4).div_ceil(count).max(1))
@@ -48,7 +48,7 @@ impl Streams {
         self.inputs.iter().chain(&self.outputs).map(|stream| stream.len() * 4).sum()
     }
 
-    /// As a contender.
+    /// The pass as a contender in a race.
     pub fn contender(mut self) -> Contender<'static> {
         let note = format!(
             "{} read and written in {} streams",
@@ -63,7 +63,7 @@ impl Streams {
     }
 }
 
-/// Bytes a second of a triad (two streams in, one out) over 192 MB, the best of several passes.
+/// Memory bandwidth, bytes per second: the best of several passes of a triad (two streams in, one out) over 192 MB.
 pub fn triad_bytes_per_sec() -> f64 {
     let mut streams = Streams::new(16 << 20, 2, 1);
     let bytes = streams.bytes() as f64;
@@ -76,7 +76,7 @@ pub fn triad_bytes_per_sec() -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The sum of streams, for the widest vectors that the processor has: the floor must not be held up by narrow ones.
+/// The sum of streams in the widest vectors that the processor has: the floor must not be slowed down by narrow ones.
 mod wide {
     pub(super) fn sum(to: &mut [f32], from: &[&[f32]]) {
         #[cfg(target_arch = "x86_64")]

@@ -1,5 +1,5 @@
-//! Cost against the number of particles: from a thousand to ten millions, each step by itself. Preparing and frames are those of
-//! the paper's largest scene without its wall; N is its body particles, and the other layers of paint have theirs beside them.
+//! Cost against the number of particles, from a thousand to ten million, step by step. Preparing and frames are those of the
+//! paper's largest scene without its wall. N counts the particles of its body layer; the other layers have some in addition.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -14,10 +14,10 @@ use crate::plots::{Curve, Plot};
 use crate::table::{Figure, Goal, Row, Spread, Unit, shown, shown_count};
 use crate::{neighbours, sampling, solving};
 
-/// Counts, two a decade.
+/// The counts, two per decade.
 const COUNTS: [usize; 9] = [1000, 3000, 10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000];
 
-/// What is measured at each count, with the pictures that it stands in.
+/// The steps measured at each count, and the plot of each.
 const STEPS: [(&str, Plot); 7] = [
     ("sampling, by chance", Plot::Sampling),
     ("sampling, blue noise", Plot::Sampling),
@@ -28,7 +28,7 @@ const STEPS: [(&str, Plot); 7] = [
     ("frame as data", Plot::Growth),
 ];
 
-/// The best of a few runs: quick ones are done more often.
+/// The best time of some runs; quick work is run more often.
 fn best_secs<T>(mut work: impl FnMut() -> T) -> f64 {
     let (mut best, mut spent) = (f64::INFINITY, 0.0);
     for run in 0..200 {
@@ -44,7 +44,7 @@ fn best_secs<T>(mut work: impl FnMut() -> T) -> f64 {
     best
 }
 
-/// Measures all counts that there is time and memory for.
+/// Measures all counts for which there are time and memory.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let most = if bench.quick() {
         100_000
@@ -61,16 +61,16 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
         }
     }
     for curve in curves.iter().filter(|curve| !curve.name.ends_with("kiddo")) {
-        let at = |count: usize| curve.secs_a_particle(count as f64);
+        let at = |count: usize| curve.secs_per_particle(count as f64);
         let Some((small, large)) = at(most / 10).zip(at(most)) else { continue };
-        // As a share of the cost a particle before: 1 is linear.
+        // Cost per particle at the end over that at the beginning: 1 is linear growth.
         let what = format!("growth, {}", curve.name);
         let input = format!("{} to {}", shown_count(most / 10), shown_count(most));
         let figure = Figure::new("Impasto", Unit::Ratio, Spread::exact(large / small)).noted(format!(
-            "{} a particle at the end, {} at the beginning; {} at most with fewer particles",
+            "{} per particle at the end, {} at the beginning; {} at most with fewer particles",
             shown(large, Unit::Seconds),
             shown(small, Unit::Seconds),
-            shown(curve.dearest_below((most / 10) as f64), Unit::Seconds),
+            shown(curve.most_secs_below((most / 10) as f64), Unit::Seconds),
         ));
         let row = Row::of_ours(&what, &input, figure);
         bench.push(if most == 10_000_000 { row.meant(Goal::AtMost(1.2)) } else { row });
@@ -79,7 +79,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Seconds of each step at a count; `None` of those that are left out there.
+/// Seconds of each step at a count; `None` for steps that are left out there.
 fn at(bench: &mut Bench, count: usize) -> anyhow::Result<[Option<f64>; 7]> {
     let mesh = bench.inputs.mesh()?;
     let (mut by_chance, mut blue) = (f64::INFINITY, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! What is measured: the source paper's three scenes, and as many particles as one likes on the largest one's mesh.
+//! The inputs: the source paper's three scenes, and any number of particles on the mesh of the largest one.
 
 use std::borrow::Borrow;
 use std::collections::HashMap;
@@ -16,22 +16,22 @@ use impasto_scene::loaded::LoadedScene;
 
 use crate::table::shown_count;
 
-/// A scene of the source paper, with what its table 2 says of it.
+/// A scene of the source paper, with its figures from table 2 there.
 #[derive(Clone, Copy, Debug)]
 pub struct PaperScene {
     /// Name of the scene file.
     pub file: &'static str,
-    /// Place of the model among the objects.
+    /// Index of the model among the objects.
     pub object: usize,
-    /// Particles; ours has as many.
+    /// Particles; our scene has as many.
     pub particles: usize,
-    /// Strokes that show.
+    /// Visible strokes.
     pub visible: usize,
     /// Seconds of preparing.
     pub prepare_secs: f64,
-    /// Seconds of the turns of one frame.
+    /// Seconds of turning the strokes of one frame.
     pub solve_secs: f64,
-    /// Frames a second.
+    /// Frames per second.
     pub frames_per_sec: f64,
 }
 
@@ -69,11 +69,11 @@ pub const PAPER_SCENES: [PaperScene; 3] = [
 /// Particles of the paper's largest scene.
 pub const LARGEST: usize = PAPER_SCENES[2].particles;
 
-/// Points of one body, in the order in which Impasto has them.
+/// Points of one body, in Impasto's order.
 pub struct Cloud {
-    /// What it is.
+    /// Name and number of points, for the table.
     pub name: String,
-    /// Model space.
+    /// Positions, model space.
     pub positions: Vec<Vec3>,
     /// As many unit normals.
     pub normals: Vec<Vec3>,
@@ -83,13 +83,13 @@ pub struct Cloud {
 
 impl Cloud {
     fn new(name: &str, particles: impl Iterator<Item = impl Borrow<Particle>>, area: f64) -> Self {
-        let place = |particle: &Particle| (particle.position, particle.normal);
+        let point = |particle: &Particle| (particle.position, particle.normal);
         let (positions, normals): (Vec<Vec3>, Vec<Vec3>) =
-            particles.map(|particle| place(particle.borrow())).unzip();
+            particles.map(|particle| point(particle.borrow())).unzip();
         Self { name: format!("{name}, {}", shown_count(positions.len())), positions, normals, area }
     }
 
-    /// A radius that holds so many of the points on a flat piece of the surface.
+    /// The radius that holds `others` of the points on a flat piece of the surface.
     pub fn radius_for(&self, others: f64) -> f32 {
         (others * self.area / (std::f64::consts::PI * self.positions.len() as f64)).sqrt() as f32
     }
@@ -104,7 +104,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// From the scenes of a repository.
+    /// The inputs of the repository at this folder.
     pub fn new(root: &Path) -> Self {
         Self {
             root: root.to_path_buf(),
@@ -143,7 +143,7 @@ impl Inputs {
         Ok(scene.meshes.get(mesh).context("the scene has its mesh")?.mesh.clone())
     }
 
-    /// The particles of the body coat of a paper's scene.
+    /// The particles of the body layer of one of the paper's scenes.
     pub fn paper_cloud(&mut self, scene: &PaperScene) -> anyhow::Result<Rc<Cloud>> {
         if let Some(cloud) = self.clouds.get(scene.file) {
             return Ok(Rc::clone(cloud));
@@ -163,7 +163,7 @@ impl Inputs {
         Ok(cloud)
     }
 
-    /// So many particles on the mesh of the paper's largest scene.
+    /// `count` particles on the mesh of the paper's largest scene.
     pub fn cloud(&mut self, count: usize) -> anyhow::Result<Rc<Cloud>> {
         if count == LARGEST {
             return self.paper_cloud(&PAPER_SCENES[2]);

@@ -1,4 +1,4 @@
-//! What an editor waits for: a painting prepared anew after one edit, and a picture of a moving view.
+//! What an editor waits for: preparing a painting again after an edit, and pictures of a moving view.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,10 +16,10 @@ use impasto_tests::{gestures, shapes};
 use crate::bench::Bench;
 use crate::table::{Figure, Row, Spread, Unit, one_line, shown, shown_count};
 
-/// Particles of all layers of the combed body.
+/// Particles of the combed body.
 const PARTICLES: u64 = 50_000;
 
-/// Pictures of a moving view.
+/// Number of pictures of a moving view.
 const TURNS: u32 = 12;
 
 fn shipped(name: &str) -> LoadedScene {
@@ -35,7 +35,7 @@ fn cpu_secs() -> f64 {
     fields.get(11).zip(fields.get(12)).map_or(0.0, |(user, system)| (user + system) / 100.0)
 }
 
-/// Prepares versions of a scene one after the other; a row of those after the first.
+/// Prepares versions of a scene one after the other; adds a row with the times of all but the first.
 fn edits_of(
     bench: &mut Bench,
     what: &str,
@@ -77,7 +77,7 @@ fn edits_of(
     Ok(())
 }
 
-/// A body that is combed, one more point a version.
+/// Versions of a scene in which an apple is combed: each has one more point of the gesture.
 fn combed(particles: u64) -> impl Iterator<Item = Arc<LoadedScene>> {
     let mesh = shapes::apple_skin();
     let view = gestures::camera([0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);
@@ -100,7 +100,7 @@ fn combed(particles: u64) -> impl Iterator<Item = Arc<LoadedScene>> {
     }))
 }
 
-/// Versions of a scene, each changed by a number that grows.
+/// Versions of a scene, each changed a little further.
 fn changed(
     scene: &str,
     change: impl Fn(&mut Scene, f64) + 'static,
@@ -113,10 +113,10 @@ fn changed(
     })
 }
 
-/// What is edited, and how for each version.
+/// The name of an edit, and the edit of version number n.
 type Edit = (&'static str, fn(&mut Scene, f64));
 
-/// Preparing anew after one edit of each kind.
+/// Measures preparing after one edit of each kind.
 pub fn edits(bench: &mut Bench) -> anyhow::Result<()> {
     for count in [PARTICLES / 2, PARTICLES] {
         edits_of(bench, "a comb gesture on an apple", combed(count))?;
@@ -143,7 +143,7 @@ pub fn edits(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Pictures of `still_life` while its camera moves, at the sizes of a viewport.
+/// Measures pictures of `still_life` while its camera moves, in sizes of a viewport.
 pub fn pictures(bench: &mut Bench) -> anyhow::Result<()> {
     let painting: Painting = Preparer::default().prepare(Arc::new(shipped("still_life")))?;
     let camera = motion::camera_at(painting.scene(), 0.0);

@@ -1,4 +1,4 @@
-//! A mesh file of a million triangles: our reader, which checks and locates every line, beside tobj alone.
+//! Reading a mesh file of a million triangles: our reader, which checks and locates every line, beside tobj alone.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ const CELLS: [u32; 2] = [1000, 500];
 /// Triangles of the file.
 const TRIANGLES: usize = 2 * (CELLS[0] * CELLS[1]) as usize;
 
-/// Writes a wavy sheet with normals and texture coordinates, unless it is there.
+/// The file of a wavy sheet with normals and texture coordinates; written if it does not exist.
 fn file(folder: &Path) -> anyhow::Result<PathBuf> {
     let path = folder.join("million.obj");
     if path.is_file() {
@@ -86,13 +86,13 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
                     .mesh
                     .indices
                     .chunks_exact(3)
-                    .map(|corner| [0, 1, 2].map(|place| vertex(model, corner[place]))),
+                    .map(|corners| [0, 1, 2].map(|corner| vertex(model, corners[corner]))),
             )
         })
         .sum();
     ensure!((our_area / their_area - 1.0).abs() < 1e-5, "areas {our_area} and {their_area}");
     let file_bytes = std::fs::metadata(&path)?.len() as usize;
-    // Place, normal and texture coordinate of a vertex; corners, polygon, group and material of a triangle.
+    // Position, normal and texture coordinate of a vertex; corners, polygon, group and material of a triangle.
     let mesh_bytes = 32 * mesh.positions.len() + 24 * TRIANGLES;
     drop((mesh, models));
     let contenders = vec![

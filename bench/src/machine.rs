@@ -1,4 +1,4 @@
-//! What the table was measured on.
+//! The machine that the table was measured on.
 
 use std::process::Command;
 
@@ -18,7 +18,7 @@ pub fn processor() -> String {
     name.unwrap_or_else(|| format!("an unnamed {}", std::env::consts::ARCH))
 }
 
-/// The widest vectors of the processor that the product asks for.
+/// The widest vectors of the processor that Impasto uses.
 fn vectors() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
@@ -32,14 +32,14 @@ fn vectors() -> &'static str {
     "128 bits"
 }
 
-/// Bytes of memory that are free for a task.
+/// Bytes of free memory; `None` where the system does not say.
 pub fn free_bytes() -> Option<u64> {
     let info = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = info.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     Some(line.trim().trim_end_matches("kB").trim().parse::<u64>().ok()? * 1024)
 }
 
-/// The average number of programs that waited for a processor in the last minute.
+/// The load average of the last minute.
 fn load() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split(' ').next()?.parse().ok()
 }
@@ -61,7 +61,7 @@ pub fn head(mode: &str) -> Vec<(String, String)> {
         ("processor", format!("{}, {cores} cores, {}", processor(), vectors())),
         (
             "threads",
-            format!("{}, the peers' as many unless a row says otherwise", rayon::current_num_threads()),
+            format!("{}, and as many for peers unless a row says otherwise", rayon::current_num_threads()),
         ),
         ("memory", format!("triad {:.1} GB/s over 192 MB", floor::triad_bytes_per_sec() * 1e-9)),
         ("compiler", words_of("rustc", &["--version"]).unwrap_or_else(unknown)),

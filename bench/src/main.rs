@@ -3,7 +3,7 @@
 //! ```text
 //! arguments ─▶ parts ─▶ each: inputs ─▶ equal answers? ─▶ race: rounds in which all take turns ─▶ rows
 //!                                                            │ peers that are programs wait for their rounds
-//! rows ─▶ table on stdout (text or JSON), plots under out/bench/, kept results, docs/performance.md
+//! rows ─▶ table on stdout (text or JSON), plots under out/bench/, results of this machine, docs/performance.md
 //! ```
 
 mod arguments;
@@ -13,7 +13,6 @@ mod docs;
 mod floor;
 mod growth;
 mod inputs;
-mod kept;
 mod live;
 mod loading;
 mod machine;
@@ -26,6 +25,7 @@ mod parts;
 mod peers;
 mod plots;
 mod race;
+mod results;
 mod sampling;
 mod sequence;
 mod solving;
@@ -61,8 +61,8 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository's folder")?;
-    // Read first: what is wrong with it should be known before minutes of measuring.
-    let before = arguments.against.as_deref().map(kept::read).transpose()?;
+    // Read first: an error in it should show before minutes of measuring.
+    let before = arguments.against.as_deref().map(results::read).transpose()?;
     if arguments.install {
         peers::toolchain::install()?;
     }
@@ -85,12 +85,12 @@ fn run(arguments: &Arguments) -> anyhow::Result<()> {
         eprintln!("plotted: {}", file.display());
     }
     if let Some(before) = before {
-        print!("\n{}", before.moved(&kept::Kept::of(table)));
+        print!("\n{}", before.moved(&results::Results::of(table)));
     }
     if arguments.keep {
         let file = root.join(format!("bench/results/{}.txt", machine::slug()));
-        kept::Kept::of(table).write(&file)?;
-        eprintln!("kept: {}", file.display());
+        results::Results::of(table).write(&file)?;
+        eprintln!("saved: {}", file.display());
     }
     if arguments.write_docs {
         let page = root.join("docs/performance.md");

@@ -1,5 +1,5 @@
-//! Bytes a particle: what a painting holds while it plays, and the most that preparing it holds. The scene's files, which are
-//! there before, do not count; the library's own copy of their meshes does.
+//! Bytes per particle: what a painting takes during playback, and the peak while it is prepared. The scene's files, loaded before,
+//! do not count; the painting's own copies of their meshes do.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::counted::counted;
 use crate::inputs::PAPER_SCENES;
 use crate::table::{Figure, Goal, Row, Spread, Unit, shown_count};
 
-/// Particles of the model; the wall behind it has some more.
+/// Particles of the model; the wall behind it has some in addition.
 const TEN_MILLIONS: u64 = 10_000_000;
 
 /// A scene with another number of particles on its model.
@@ -21,16 +21,16 @@ fn with_particles(scene: &LoadedScene, object: usize, count: u64) -> Arc<LoadedS
     Arc::new(scene)
 }
 
-/// The same without the scene's other objects.
+/// A scene with only the model, and another number of particles on it.
 pub fn alone_with_particles(scene: &LoadedScene, object: usize, count: u64) -> Arc<LoadedScene> {
     let mut scene = scene.clone();
     scene.scene.objects = vec![scene.scene.objects[object].clone()];
     with_particles(&scene, 0, count)
 }
 
-/// Counts the bytes.
+/// Measures all scenes.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
-    // What is made once for all paintings is no scene's own.
+    // First, so that what is made once for all paintings does not count.
     bench.inputs.painting("fish")?.at(0.0, &FrameOptions::new([1280, 720]));
     let scenes = if bench.quick() { &PAPER_SCENES[2..] } else { &PAPER_SCENES[..] };
     for scene in scenes {

@@ -1,9 +1,9 @@
-//! Points along Morton's curve: the order in which trees and gathers find their data in the cache. Peers get it too.
+//! Points in Morton order, in which trees and gathers find their data in the cache. Peers get it too.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Spreads the low ten bits to every third.
+/// Spreads the low ten bits to every third bit.
 fn spread(bits: u32) -> u32 {
     let mut bits = bits & 0x3ff;
     bits = (bits | (bits << 16)) & 0x0300_00ff;
@@ -21,7 +21,7 @@ pub fn order(points: &[Vec3]) -> Vec<u32> {
         .par_iter()
         .enumerate()
         .map(|(index, &point)| {
-            let [x, y, z] = ((point - low) * scale).to_array().map(|place| spread(place as u32));
+            let [x, y, z] = ((point - low) * scale).to_array().map(|cell| spread(cell as u32));
             u64::from(x | (y << 1) | (z << 2)) << 32 | index as u64
         })
         .collect();

@@ -1,4 +1,4 @@
-//! Lists of the at most 50 nearest within a radius that holds about 64: ours beside trees, in this program and out of it.
+//! Neighbour lists, at most 50 within a radius that holds about 64: ours beside trees of Rust crates, C++ and Python.
 
 mod answer;
 mod trees;
@@ -18,19 +18,19 @@ use crate::race::{Contender, race};
 use crate::table::{Goal, Row};
 use answer::Answer;
 
-/// How many others the radius holds on a flat piece of the surface, so that the farthest have to be left out.
+/// How many others the radius holds on a flat piece of the surface: more than a list, so that the farthest must be left out.
 const WITHIN: f64 = 64.0;
 
-/// From here on only the fastest peers take part, and their time is all that is spent.
+/// From this number of points on, only the fastest peers take part, for few rounds.
 const HUGE: usize = 4_000_000;
 
-/// Our search, once. All normals are equal, so that every particle is on the same side and the answer is that of a tree.
+/// Our search. All normals are equal, so that all particles are on the same side and the answer equals that of a tree.
 pub fn find(positions: &[Vec3], radius: f32) -> Neighbours {
     let normals = vec![Vec3::Y; positions.len()];
     Neighbours::find(positions, &normals, radius)
 }
 
-/// A search with the radius that this part uses.
+/// Our search with the radius that this part uses.
 pub fn find_in(cloud: &Cloud) -> Neighbours {
     find(&cloud.positions, cloud.radius_for(WITHIN))
 }
@@ -126,7 +126,7 @@ fn one(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The same by kiddo.
+/// kiddo's search with the same radius.
 pub fn kiddo_in(cloud: &Cloud) -> trees::Lists {
     trees::kiddo(&cloud.positions, cloud.radius_for(WITHIN))
 }

@@ -1,5 +1,5 @@
-//! The source's table 9: spheres with and without the noise-displaced material, in the plain render at 1024 × 1024. Here
-//! everything is drawn by the processor, so what counts is the ratio.
+//! Table 9 of Hong and Park: spheres with and without the noise-displaced material, in the plain render at 1024 × 1024. Here the
+//! processor draws everything, so only the ratio can be compared.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,15 +16,15 @@ use crate::table::{Figure, Row, Spread, Unit, one_line, shown};
 /// Side of the picture, pixels.
 const SIDE_PX: u32 = 1024;
 
-/// As the source: five frames after a warm-up.
+/// Frames measured after a warm-up, as in the source.
 const FRAMES: u32 = 5;
 
-/// So many spheres on a square, all of them in the picture.
+/// `count` spheres in a square, all of them in the picture.
 fn spheres(count: usize, noise: Option<&NoiseDisplace>) -> Painting {
     let columns = (count as f64).sqrt().ceil() as usize;
     let spacing = 2.2 / columns as f64;
     let object = |index: usize| {
-        let at = |place: usize| (place as f64 - 0.5 * (columns - 1) as f64) * spacing;
+        let at = |cell: usize| (cell as f64 - 0.5 * (columns - 1) as f64) * spacing;
         let mut object = shapes::object(&format!("ball {index}"), 1);
         object.mesh = "ball.obj".to_owned();
         object.material = Some(MaterialOverride {
@@ -45,7 +45,7 @@ fn spheres(count: usize, noise: Option<&NoiseDisplace>) -> Painting {
     prepare(Arc::clone(&loaded)).expect("the meshes are there")
 }
 
-/// Seconds of describing each frame, and of drawing it.
+/// Seconds of computing each frame's data, and of drawing it.
 fn frame_secs(renderer: &mut Renderer, painting: &Painting) -> [Vec<f64>; 2] {
     let options = FrameOptions::new([SIDE_PX; 2]);
     let mut secs = [Vec::new(), Vec::new()];

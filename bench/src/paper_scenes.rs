@@ -1,4 +1,4 @@
-//! Table 2 of the source paper, redone: its three scenes with as many particles, beside its own figures.
+//! Table 2 of the source paper, measured again: its three scenes with as many particles, beside its own figures.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -19,10 +19,10 @@ use crate::table::{Figure, Goal, Row, Spread, Unit, one_line};
 /// Size of the picture, pixels.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
-/// Whose figures stand beside ours.
+/// The name of the paper's figures in the table.
 const PAPER: &str = "the paper, on its machine";
 
-/// What preparing is meant to take at most, seconds.
+/// The goal for preparing, seconds.
 fn most_secs(scene: &PaperScene) -> Option<f64> {
     match scene.file {
         "apple" => Some(0.06),
@@ -63,7 +63,7 @@ fn one(bench: &mut Bench, scene: &PaperScene, renderer: &mut Result<Renderer, St
     row.goals.extend(most_secs(scene).map(Goal::AtMost));
     bench.push(row);
 
-    // As the paper has it: nothing round the model.
+    // As in the paper, which has nothing round the model.
     let model = alone_with_particles(&loaded, scene.object, scene.particles as u64);
     let total = prepare(Arc::clone(&model))?.particle_total();
     let contenders = vec![Contender::here("Impasto", "", || prepare(Arc::clone(&model)))];

@@ -1,8 +1,8 @@
 //! The parts of the benchmark, by name.
 //!
-//! A part is a function that adds rows to [`Bench::table`]. It first checks that all who take part give equal answers, and
-//! fails if they do not; then it hands them to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor
-//! last, and makes a [`crate::table::Row`] of the figures. To add one: a module with `pub fn run(&mut Bench)`, and a line here.
+//! A part is a function that adds rows to [`Bench::table`]. It checks that all contenders give equal answers, and fails if they do
+//! not; hands them to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor last; and makes a
+//! [`crate::table::Row`] of the figures. To add one: a module with `pub fn run(&mut Bench)`, and a line here.
 
 use crate::bench::Bench;
 use crate::{
@@ -12,11 +12,11 @@ use crate::{
 
 /// A part of the benchmark.
 pub struct Part {
-    /// What it is called on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
     /// What it measures.
     pub about: &'static str,
-    /// Whether the quick run has it without its being named.
+    /// Whether it is in the quick run even if it is not named.
     pub quick: bool,
     /// Measures it.
     pub run: fn(&mut Bench) -> anyhow::Result<()>,
@@ -26,7 +26,7 @@ const fn part(name: &'static str, about: &'static str, run: fn(&mut Bench) -> an
     Part { name, about, quick: true, run }
 }
 
-/// In the order in which they run.
+/// All parts, in the order in which they run.
 pub const PARTS: &[Part] = &[
     part("neighbours", "lists of the nearest, beside kiddo, rstar, nanoflann and scipy", neighbours::run),
     part("sampling", "particles on a surface, beside trimesh and Open3D", sampling::run),
@@ -36,12 +36,12 @@ pub const PARTS: &[Part] = &[
         solving::run,
     ),
     part("loading", "a mesh file of a million triangles, beside tobj", loading::run),
-    part("paper_scenes", "table 2 of the source paper, redone", paper_scenes::run),
-    part("memory", "bytes a particle, in playback and while preparing", memory::run),
+    part("paper_scenes", "table 2 of the source paper, measured again", paper_scenes::run),
+    part("memory", "bytes per particle, in playback and while preparing", memory::run),
     part("stroke_pass", "laying strokes, beside a bare draw of the same", stroke_pass::run),
     Part { quick: false, ..part("sequence", "120 frames, beside one thread", sequence::run) },
     part("growth", "cost against the number of particles", growth::run),
-    Part { quick: false, ..part("edits", "preparing anew after one edit", live::edits) },
+    Part { quick: false, ..part("edits", "preparing again after one edit", live::edits) },
     Part { quick: false, ..part("pictures", "pictures of a moving view", live::pictures) },
     Part {
         quick: false,

@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! start: arguments name files of little-endian f32 and u32; the peer does its task once and writes its answer to a file
-//!        peer ─▶ {"ready": true}, and the seconds of this first run if they are of use
+//!        peer ─▶ {"ready": true}, with the seconds of this first run if they are useful
 //! round: "go 3" ─▶ peer does the task three times ─▶ {"secs": 1.25}, the seconds of all three
-//! end:   its input is closed
+//! end:   the peer's input is closed
 //! ```
 
 pub mod files;
@@ -19,17 +19,17 @@ use anyhow::{Context as _, bail};
 
 use toolchain::{build_cpp, make_python};
 
-/// What runs peers on this machine.
+/// Builds and starts peers.
 pub struct Peers {
     /// The repository.
     root: PathBuf,
-    /// `None` until it is asked for.
+    /// The Python interpreter, or why there is none; `None` until it is first needed.
     python: Option<Result<PathBuf, String>>,
-    /// Whether anything may be fetched from outside.
+    /// Whether packages may be fetched from the network.
     may_fetch: bool,
 }
 
-/// A peer that runs and waits for rounds.
+/// A running peer that waits for rounds.
 pub struct Peer {
     name: String,
     child: Child,
@@ -40,12 +40,12 @@ pub struct Peer {
 }
 
 impl Peers {
-    /// Of a repository; `may_fetch` lets Python's packages be fetched.
+    /// The peers of the repository at this folder; `may_fetch` allows to fetch Python packages.
     pub fn new(root: &Path, may_fetch: bool) -> Self {
         Self { root: root.to_path_buf(), python: None, may_fetch }
     }
 
-    /// Folder of what is handed to and fro.
+    /// The folder for files exchanged with peers.
     pub fn folder(&self) -> anyhow::Result<PathBuf> {
         let folder = self.root.join("out/bench/tmp");
         std::fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
@@ -55,7 +55,7 @@ impl Peers {
     /// Builds and starts `bench/peers/NAME.cpp`.
     ///
     /// # Errors
-    /// Why it cannot be had on this machine.
+    /// When it cannot be built or started on this machine.
     pub fn cpp(&self, name: &str, arguments: &[String]) -> anyhow::Result<Peer> {
         let program = build_cpp(&self.root.join("bench/peers"), name)?;
         Peer::start(&self.folder()?, name, Command::new(program), arguments)
@@ -64,7 +64,7 @@ impl Peers {
     /// Starts `bench/peers/SCRIPT.py WAY`.
     ///
     /// # Errors
-    /// Why it cannot be had on this machine.
+    /// When Python or a package is missing, or the peer does not start.
     pub fn python(&mut self, script: &str, way: &str, arguments: &[String]) -> anyhow::Result<Peer> {
         let (root, may_fetch) = (&self.root, self.may_fetch);
         let python =
@@ -84,7 +84,7 @@ impl Peer {
         for name in ["OMP_NUM_THREADS", "NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "BENCH_THREADS"] {
             command.env(name, &threads);
         }
-        // A peer that waits for its round must not burn the processor.
+        // A peer that waits for its round must not keep the processor busy.
         command.env("OMP_WAIT_POLICY", "PASSIVE");
         let errors = folder.join(format!("{name}.err"));
         command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(File::create(&errors)?);
@@ -94,31 +94,31 @@ impl Peer {
         let mut peer = Self { name: name.to_owned(), child, input, output, first_secs: 0.0, errors };
         let ready = peer.reply()?;
         if ready["ready"] != true {
-            bail!("{} did not say that it is ready", peer.name);
+            bail!("{} did not report that it is ready", peer.name);
         }
         peer.first_secs = ready["secs"].as_f64().unwrap_or(0.0);
         Ok(peer)
     }
 
-    /// Seconds of the run before it was ready; 0 where the peer does not tell.
+    /// Seconds of the first run, before it was ready; 0 where the peer does not report them.
     pub fn first_secs(&self) -> f64 {
         self.first_secs
     }
 
-    /// Does the task so many times; the seconds of all of them.
+    /// Runs the task `times` times; the seconds of all runs together.
     ///
     /// # Errors
-    /// When the peer has died.
+    /// When the peer has ended.
     pub fn go(&mut self, times: usize) -> anyhow::Result<f64> {
         let input = self.input.as_mut().context("a peer without input")?;
         writeln!(input, "go {times}")
             .and_then(|()| input.flush())
-            .with_context(|| format!("{} is gone", self.name))?;
+            .with_context(|| format!("{} has ended", self.name))?;
         let reply = self.reply()?;
-        reply["secs"].as_f64().with_context(|| format!("{} named no seconds", self.name))
+        reply["secs"].as_f64().with_context(|| format!("{} reported no seconds", self.name))
     }
 
-    /// The next line of the peer that is JSON.
+    /// The next line of the peer's output that is JSON.
     fn reply(&mut self) -> anyhow::Result<serde_json::Value> {
         let mut line = String::new();
         loop {
@@ -126,7 +126,7 @@ impl Peer {
             if self.output.read_line(&mut line)? == 0 {
                 let said = std::fs::read_to_string(&self.errors).unwrap_or_default();
                 let last = said.lines().rev().find(|line| !line.trim().is_empty());
-                let last = last.unwrap_or("without a word").trim();
+                let last = last.unwrap_or("without a message").trim();
                 if last.contains("cannot open shared object file") {
                     bail!("{last}: {}", toolchain::advice());
                 }
@@ -134,12 +134,12 @@ impl Peer {
             }
             if line.starts_with('{') {
                 return serde_json::from_str(&line)
-                    .with_context(|| format!("{} spoke in riddles", self.name));
+                    .with_context(|| format!("{} wrote invalid JSON", self.name));
             }
         }
     }
 
-    /// As what a [`crate::race::Contender`] runs.
+    /// The rounds of this peer, for a [`crate::race::Contender`].
     pub fn rounds(mut self) -> impl FnMut(usize) -> anyhow::Result<f64> {
         move |times| self.go(times)
     }
@@ -147,7 +147,7 @@ impl Peer {
 
 impl Drop for Peer {
     fn drop(&mut self) {
-        // It ends when nothing more can come; nobody waits for one that does not.
+        // It ends when its input is closed; one that does not end within two seconds is killed.
         drop(self.input.take());
         for _ in 0..40 {
             if matches!(self.child.try_wait(), Ok(Some(_)) | Err(_)) {

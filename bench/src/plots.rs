@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use plotters::prelude::*;
 
-/// One for each curve; told apart by those who see colours otherwise, too (Okabe and Ito 2008).
+/// The colours of the curves, distinguishable with colour blindness too (Okabe and Ito 2008).
 const COLORS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
 
-/// Which plot a curve stands in.
+/// The plot that a curve belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plot {
     /// Sampling.
@@ -25,9 +25,9 @@ impl Plot {
 
     fn file_and_title(self) -> (&'static str, &'static str) {
         match self {
-            Self::Sampling => ("sampling.svg", "sampling: nanoseconds a particle"),
-            Self::Neighbours => ("neighbours.svg", "lists of neighbours: nanoseconds a particle"),
-            Self::Growth => ("growth.svg", "preparing and frames: nanoseconds a particle"),
+            Self::Sampling => ("sampling.svg", "sampling: nanoseconds per particle"),
+            Self::Neighbours => ("neighbours.svg", "lists of neighbours: nanoseconds per particle"),
+            Self::Growth => ("growth.svg", "preparing and frames: nanoseconds per particle"),
         }
     }
 }
@@ -37,26 +37,26 @@ impl Plot {
 pub struct Curve {
     /// The step.
     pub name: &'static str,
-    /// Where it is drawn.
+    /// The plot that it is drawn in.
     pub plot: Plot,
-    /// Count and seconds, counts rising.
+    /// Counts, rising, with seconds.
     pub points: Vec<(f64, f64)>,
 }
 
 impl Curve {
-    /// Seconds a particle at a count that was measured.
-    pub fn secs_a_particle(&self, count: f64) -> Option<f64> {
+    /// Seconds per particle at a measured count.
+    pub fn secs_per_particle(&self, count: f64) -> Option<f64> {
         self.points.iter().find(|point| point.0 == count).map(|(count, secs)| secs / count)
     }
 
-    /// The greatest seconds a particle below a count.
-    pub fn dearest_below(&self, count: f64) -> f64 {
+    /// The most seconds per particle at any count below this one.
+    pub fn most_secs_below(&self, count: f64) -> f64 {
         let below = self.points.iter().filter(|point| point.0 < count);
         below.map(|(count, secs)| secs / count).fold(0.0, f64::max)
     }
 }
 
-/// Draws the plots that have curves; gives back their files.
+/// Draws the plots that have curves; returns their files.
 ///
 /// # Errors
 /// Where a file cannot be written.
@@ -99,7 +99,7 @@ fn draw_one(file: &Path, title: &str, curves: &[&Curve]) -> Result<(), Box<dyn s
         .bold_line_style(BLACK.mix(0.2))
         .light_line_style(BLACK.mix(0.06))
         .x_desc("particles")
-        .y_desc("ns a particle")
+        .y_desc("ns per particle")
         .x_label_formatter(&|count| format!("{count:.0e}"))
         .y_label_formatter(&|cost| format!("{cost}"))
         .draw()?;

@@ -1,14 +1,14 @@
-//! Contenders for one task, timed in turn: each round runs all of them, so that what slows the machine slows them alike.
+//! Times contenders for one task in turn: each round runs all of them, so that a slow moment of the machine slows all alike.
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use crate::table::{Figure, Spread, Unit};
 
-/// Runs the task so many times and gives back the seconds that all of them took.
+/// Runs the task this many times and returns the seconds of all runs together.
 type Run<'a> = Box<dyn FnMut(usize) -> anyhow::Result<f64> + 'a>;
 
-/// Someone who does the task, or why it cannot be had on this machine.
+/// Something that does the task, or why it is missing on this machine.
 pub struct Contender<'a> {
     who: String,
     note: String,
@@ -16,7 +16,7 @@ pub struct Contender<'a> {
 }
 
 impl<'a> Contender<'a> {
-    /// A function of this process.
+    /// A function of this program.
     pub fn here<T>(who: &str, note: &str, mut work: impl FnMut() -> T + 'a) -> Self {
         Self::timed(who, note, move |times| {
             let start = Instant::now();
@@ -27,17 +27,17 @@ impl<'a> Contender<'a> {
         })
     }
 
-    /// Something that takes its own time: `run` does the task so many times and gives back the seconds of all of them.
+    /// Something that measures its own time: `run` does the task this many times and returns the seconds of all runs together.
     pub fn timed(who: &str, note: &str, run: impl FnMut(usize) -> anyhow::Result<f64> + 'a) -> Self {
         Self { who: who.to_owned(), note: note.to_owned(), run: Ok(Box::new(run)) }
     }
 
-    /// One that cannot be had here.
+    /// One that is missing on this machine.
     pub fn missing(who: &str, why: &str) -> Self {
         Self { who: who.to_owned(), note: String::new(), run: Err(why.to_owned()) }
     }
 
-    /// One who starts, or does not.
+    /// One that may have failed to start.
     pub fn started(
         who: &str,
         note: &str,
@@ -50,7 +50,7 @@ impl<'a> Contender<'a> {
     }
 }
 
-/// Rounds of those who are slow, but not too slow for more than one.
+/// Least rounds of a contender that is slow, but not too slow for more than one.
 const LEAST_ROUNDS: usize = 3;
 
 /// How long a race takes.
@@ -60,15 +60,15 @@ pub struct Pace {
     pub rounds: usize,
     /// Shortest measurement, seconds: quicker tasks are done several times in a row.
     pub least_secs: f64,
-    /// A contender that has had three rounds has no more once it has taken this long, seconds; where the warm-up alone took as
-    /// long, that is its only round.
+    /// After three rounds, a contender that has taken this many seconds has no more. If its warm-up alone took as long, that is
+    /// its only round.
     pub most_secs: f64,
 }
 
-/// Runs the contenders; gives back one figure for each, in their order.
+/// Runs the contenders; returns one figure for each, in their order.
 ///
 /// # Errors
-/// When a contender that had started gives up.
+/// When a contender that had started fails.
 pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<Figure>> {
     struct Lane<'a> {
         contender: Contender<'a>,
@@ -83,7 +83,7 @@ pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<F
         let (mut times, mut once) = (1, false);
         let (mut spent_secs, mut secs) = (0.0, Vec::new());
         if let Ok(run) = &mut contender.run {
-            // Twice: the first also pays for memory, tables and compilers that work as the program runs.
+            // Twice: the first run also pays for memory, tables and just-in-time compilers.
             spent_secs = run(1)?;
             let mut warm_secs = spent_secs;
             if warm_secs < pace.most_secs / 4.0 {
@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_take_turns_and_whoever_is_missing_keeps_the_place() {
+    fn contenders_take_turns_and_a_missing_one_keeps_its_place() {
         let order = std::cell::RefCell::new(Vec::new());
         let contender = |who: &'static str, secs: f64| {
             let order = &order;
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_gives_up_ends_the_race() {
+    fn a_contender_that_fails_ends_the_race() {
         let mut runs = 0;
         let dying = Contender::timed("dying", "", |_| {
             runs += 1;

@@ -1,4 +1,4 @@
-//! Particles on the mesh of the paper's largest scene: by chance, and as blue noise, with the spacing that each reaches.
+//! Sampling the mesh of the paper's largest scene, by chance and as blue noise, with the spacing that each method reaches.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -16,10 +16,10 @@ use crate::peers::{Peer, files};
 use crate::race::{Contender, race};
 use crate::table::{Figure, Goal, Row, Spread, Unit, shown_count};
 
-/// Spacings that count as equal: what two seeds of one method differ by.
+/// Spacings that differ by less count as equal: two seeds of one method differ by as much.
 const EQUAL_SPACING: f64 = 0.02;
 
-/// Places by chance, evenly over the area.
+/// Particles by chance, uniform over the area.
 pub fn by_chance(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     scattered(surface, count, seed)
 }
@@ -44,7 +44,7 @@ struct Sample {
     normals: Vec<Vec3>,
 }
 
-/// A peer in Python that samples, with what its first run gave.
+/// A Python peer that samples, with the answer of its first run.
 struct Sampler {
     peer: Peer,
     sample: Sample,
@@ -60,13 +60,13 @@ fn sampler(bench: &mut Bench, way: &str, mesh: &TriangleMesh, count: usize) -> a
         [&vertices, &triangles, &found].map(|file| file.to_string_lossy().into_owned()).to_vec();
     arguments.push(count.to_string());
     let peer = bench.peers.python("sampling", way, &arguments)?;
-    // Point and normal by turns.
+    // Points and normals alternate.
     let found = files::read_points(&found)?;
     let of_each = |first: usize| found.iter().skip(first).step_by(2).copied().collect();
     Ok(Sampler { peer, sample: Sample { points: of_each(0), normals: of_each(1) } })
 }
 
-/// That as many points as were asked for lie in the box of the mesh, whose whole extent they cover.
+/// Checks the number of points, and that they fill the box of the mesh.
 fn check(who: &str, mesh: &TriangleMesh, points: &[Vec3], least: usize, most: usize) -> anyhow::Result<()> {
     ensure!(
         (least..=most).contains(&points.len()),
@@ -78,7 +78,10 @@ fn check(who: &str, mesh: &TriangleMesh, points: &[Vec3], least: usize, most: us
         points.iter().fold((points[0], points[0]), |(low, high), &point| (low.min(point), high.max(point)));
     let slack = 0.02 * (high - low).max_element();
     let covered = (least - low).abs().max((greatest - high).abs());
-    ensure!(covered.max_element() < slack, "{who} left out a part of the mesh, or left the mesh");
+    ensure!(
+        covered.max_element() < slack,
+        "{who} gave points that do not fill the box of the mesh, or leave it"
+    );
     Ok(())
 }
 
@@ -132,9 +135,9 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     contenders.push(Contender::started("trimesh even", "1 thread", even.map(|even| even.peer.rounds())));
     let figures = race(&bench.pace(false), contenders)?;
     let mut row = Row::of_race("sampling, blue noise", &input, figures, false);
-    // So slow that its first run has to do.
+    // So slow that its first run is its only one.
     let poisson = sampler(bench, "open3d_poisson", mesh, count);
-    let (mut figure, place) = match poisson {
+    let (mut figure, reached) = match poisson {
         Ok(poisson) => {
             check("Open3D Poisson", mesh, &poisson.sample.points, count, count)?;
             let secs = Spread::exact(poisson.peer.first_secs());
@@ -147,21 +150,21 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     };
     figure.note = "disks, init_factor 5; 1 thread".to_owned();
     row.peers.push(figure);
-    spacings.push(("Open3D Poisson", place));
+    spacings.push(("Open3D Poisson", reached));
     row = row.meant(Goal::Faster { than: "Open3D Poisson", times: 50.0 });
     if count == LARGEST {
         row = row.meant(Goal::AtMost(0.4));
     }
     bench.push(row);
-    for (place, what) in ["spacing, mean", "spacing, closest 0.1 %"].into_iter().enumerate() {
+    for (index, what) in ["spacing, mean", "spacing, closest 0.1 %"].into_iter().enumerate() {
         let mut figures: Vec<Figure> = spacings
             .iter()
             .map(|(who, reached)| {
                 let figure = match reached {
-                    Ok(reached) => Figure::new(who, Unit::Ratio, Spread::exact(reached[place])),
+                    Ok(reached) => Figure::new(who, Unit::Ratio, Spread::exact(reached[index])),
                     Err(why) => Figure::missing(who, Unit::Ratio, why),
                 };
-                let across = reached.as_ref().map_or(0.0, |reached| reached[place + 2]);
+                let across = reached.as_ref().map_or(0.0, |reached| reached[index + 2]);
                 figure.noted(format!("of the hexagonal spacing; {across:.3} across edges too"))
             })
             .collect();
@@ -175,8 +178,8 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     Ok(())
 }
 
-/// Distance to the nearest other over the hexagonal spacing of as many points: the mean, and what one in a thousand is below.
-/// First among the others on the same side of the surface (n·n' > 0), which is what a stroke crowds; then among all.
+/// Distance to the nearest other point over the hexagonal spacing of as many points: the mean, and the value that one in a thousand
+/// is below. First among points on the same side of the surface (n·n' > 0), which strokes crowd; then among all.
 fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     let points = &sample.points;
     let hexagonal = hexagonal_spacing(area, points.len());
@@ -195,7 +198,7 @@ fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     [mean, closest, mean_of_all, closest_of_all]
 }
 
-/// Seconds of both ways for a count, for the curves.
+/// Seconds of both methods at a count, for the plots.
 pub fn secs(mesh: &TriangleMesh, count: usize) -> [f64; 2] {
     let surface = Surface::new(mesh, |_| true);
     let timed = |work: &dyn Fn() -> usize| {

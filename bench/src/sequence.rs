@@ -1,4 +1,4 @@
-//! Frames of the still life as files: `impasto render` as it is, and on one thread with one thread of the driver.
+//! Rendering frames of the still life to files: `impasto render` as it is, beside a single thread (ours and the driver's).
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -9,14 +9,14 @@ use anyhow::{Context as _, ensure};
 use crate::bench::Bench;
 use crate::table::{Figure, Goal, Row, Spread, Unit};
 
-/// Frames in a row.
+/// Frames of the sequence.
 const FRAMES: usize = 120;
 const QUICK_FRAMES: usize = 16;
 
-/// What makes everything take its turn.
+/// The environment that leaves one thread to Impasto and none to llvmpipe.
 const ALONE: [(&str, &str); 2] = [("LP_NUM_THREADS", "0"), ("RAYON_NUM_THREADS", "1")];
 
-/// Builds the command and tells where it is.
+/// Builds the `impasto` command; returns its path.
 fn command(root: &Path) -> anyhow::Result<PathBuf> {
     let built = Command::new(env!("CARGO"))
         .args(["build", "--release", "--locked", "-p", "impasto-cli", "--message-format=json"])
@@ -29,13 +29,14 @@ fn command(root: &Path) -> anyhow::Result<PathBuf> {
         let (_, rest) = line.split_once("\"executable\":\"")?;
         Some(PathBuf::from(rest.split_once('"')?.0))
     });
-    file.context("cargo does not tell where the command is")
+    file.context("cargo did not report the path of the command")
 }
 
-/// Renders the first frames into a folder; seconds of the whole command.
+/// Renders the first frames into a folder; returns the seconds of the whole command.
 fn render_secs(
     command: &Path,
-    (root, folder): (&Path, &Path),
+    root: &Path,
+    folder: &Path,
     frames: usize,
     alone: bool,
 ) -> anyhow::Result<f64> {
@@ -51,32 +52,33 @@ fn render_secs(
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// That both write the same bytes.
+/// Checks that both wrote the same bytes.
 fn check_same(folders: [&Path; 2], frames: usize) -> anyhow::Result<()> {
     for frame in 0..frames {
         let [ours, alone] = folders.map(|folder| std::fs::read(folder.join(format!("frame_{frame:04}.png"))));
-        ensure!(ours? == alone?, "frame {frame} of one thread is another");
+        ensure!(ours? == alone?, "frame {frame} differs with one thread");
     }
     Ok(())
 }
 
-/// Renders in turn.
+/// Measures both, one after the other.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let frames = if bench.quick() { QUICK_FRAMES } else { FRAMES };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let command = command(&root)?;
     let scratch = std::env::temp_dir().join(format!("impasto-sequence-{}", std::process::id()));
     let (ours, alone) = (scratch.join("ours"), scratch.join("alone"));
-    // Long enough for one run each.
-    let ours_secs = render_secs(&command, (&root, &ours), frames, false)?;
-    let alone_secs = render_secs(&command, (&root, &alone), frames, true)?;
+    // One run each: they are long enough.
+    let ours_secs = render_secs(&command, &root, &ours, frames, false)?;
+    let alone_secs = render_secs(&command, &root, &alone, frames, true)?;
     check_same([&ours, &alone], frames)?;
-    // What is left behind by a run that failed is to be looked at.
+    // Removed only after success: the files of a failed run may tell why.
     let _ = std::fs::remove_dir_all(&scratch);
     let figures = vec![
         Figure::new("Impasto", Unit::Seconds, Spread::exact(ours_secs))
             .noted("the whole command, preparing too"),
-        Figure::new("one thread", Unit::Seconds, Spread::exact(alone_secs)).noted("of ours, and of the driver"),
+        Figure::new("one thread", Unit::Seconds, Spread::exact(alone_secs))
+            .noted("of ours, and of the driver"),
     ];
     let row = Row::of_race("sequence", &format!("still_life, {frames} frames"), figures, false);
     bench.push(row.meant(Goal::Faster { than: "one thread", times: 1.7 }));

@@ -1,10 +1,10 @@
-//! Projection and turn of all particles of a body: ours from six baked numbers, beside the source paper's sum over 48
-//! neighbours as others would write it.
+//! Projection and turn of all particles of a body: ours from six baked numbers, beside direct sums over 48 neighbours as in the
+//! source paper.
 //!
-//! What is equal to what: the gathers (Rust, numpy, numba) all are `arg Σ p̄ c`, p and c the neighbours' offsets in the reference
-//! and in this picture. Ours is exactly the same sum with each neighbour weighted by w = z_neighbour / z_stroke, so it is
-//! checked against that sum, and how far the weights move it is said beside it. Umeyama's method moves the origin to the mean
-//! of the neighbours first, so it is checked against that sum.
+//! Which answers must agree: the gathers (Rust, numpy, numba) all compute `arg Σ p̄ c`, p and c the neighbours' offsets in the
+//! reference and in this picture. Ours equals the same sum with each neighbour weighted by w = z_neighbour / z_stroke; it is
+//! checked against that sum, and the row states how much the weights change the angle. Umeyama's method first moves the origin
+//! to the mean of the neighbours; it is checked against that sum.
 
 mod gather;
 mod scene;
@@ -24,10 +24,10 @@ use crate::table::{Goal, Row};
 use gather::Gathered;
 use scene::SolveScene;
 
-/// Floats that the solve reads for a particle: place, normal, and the two columns of its lift.
+/// Floats that the solve reads per particle: position, normal, and the two columns of its lift.
 pub const READ: usize = 12;
 
-/// Floats that it writes: place, depth, angle, area.
+/// Floats that it writes per particle: position (2), depth, angle, area.
 pub const WRITTEN: usize = 5;
 
 /// Measures all counts.
@@ -44,7 +44,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Ours over the floor, without lists.
+/// Ours beside the floor alone: there are no neighbour lists for so many particles.
 fn alone(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
     let (reference, now) = scene::views(&mut bench.inputs)?;
     let baked = scene::facing(cloud, &reference);
@@ -59,7 +59,8 @@ fn alone(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
 }
 
 fn beside_gathers(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
-    let scene = SolveScene::new(cloud, scene::views(&mut bench.inputs)?)?;
+    let (reference, now) = scene::views(&mut bench.inputs)?;
+    let scene = SolveScene::new(cloud, reference, now)?;
     let count = scene.positions.len();
     let mut solved = SolvedParticles::default();
     solve(&scene.baked, &scene.now, &mut solved);
@@ -69,7 +70,7 @@ fn beside_gathers(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
     scene.check_by_matrices(&plain.angles_rad).context("the gather and the paper's formula differ")?;
     close("Impasto and the weighted sum", &solved.angle_rad, &scene.weighted(), [0.02, 0.2])?;
     let [p50, p99] = apart_deg(&solved.angle_rad, &plain.angles_rad);
-    ensure!(p99 < 1.0, "the weights move the angle by {p99}° (1 in 100), where at most 1° is explained");
+    ensure!(p99 < 1.0, "the weights move the angle by {p99}° (1 in 100), where at most 1° is expected");
 
     let (numpy, numba) = (python(bench, &scene, "numpy"), python(bench, &scene, "numba"));
     for (who, peer) in [("numpy", &numpy), ("numba", &numba)] {
@@ -115,7 +116,7 @@ fn python(bench: &mut Bench, scene: &SolveScene, way: &str) -> anyhow::Result<(P
     Ok((peer, files::read_floats(&scene::answer(&folder))?))
 }
 
-/// Differences of angles, degrees: the median, and what one in a hundred is above.
+/// Differences of angles, degrees: the median and the 99th percentile.
 fn apart_deg(one: &[f32], other: &[f32]) -> [f64; 2] {
     let sorted = sorted_deg(one, other);
     [sorted[sorted.len() / 2], sorted[sorted.len() - 1 - sorted.len() / 100]]
@@ -131,7 +132,7 @@ fn sorted_deg(one: &[f32], other: &[f32]) -> Vec<f64> {
     sorted
 }
 
-/// That two answers are equal but for rounding: 99 of 100, and 999 of 1000, within so many degrees.
+/// Checks that two answers agree up to rounding: 99 of 100 within `most_deg[0]`, 999 of 1000 within `most_deg[1]`.
 fn close(what: &str, one: &[f32], other: &[f32], most_deg: [f64; 2]) -> anyhow::Result<()> {
     ensure!(one.len() == other.len(), "{what}: {} and {} angles", one.len(), other.len());
     let sorted = sorted_deg(one, other);
@@ -139,13 +140,13 @@ fn close(what: &str, one: &[f32], other: &[f32], most_deg: [f64; 2]) -> anyhow::
         let reached = sorted[sorted.len() - 1 - sorted.len() / share];
         ensure!(
             reached <= most_deg,
-            "{what}: one in {share} differs by {reached}°, not by {most_deg}° at most"
+            "{what}: one in {share} differs by {reached}°, where {most_deg}° are allowed"
         );
     }
     Ok(())
 }
 
-/// The solve's input and output for a count, for the curves.
+/// The solve's input for a cloud, for the plots.
 pub fn input(bench: &mut Bench, cloud: &Cloud) -> anyhow::Result<scene::Facing> {
     let (reference, now) = scene::views(&mut bench.inputs)?;
     Ok((scene::facing(cloud, &reference), now))

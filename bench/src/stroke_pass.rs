@@ -1,6 +1,6 @@
-//! The pass that lays strokes beside a bare instanced draw of the same strokes: same process, targets, blend, brush texture,
-//! instances and quads. The bare renderer has two shaders in place of the program's own: a quad, and one brush sample times
-//! the stroke's colour.
+//! The stroke pass beside a bare instanced draw of the same strokes, with the same process, targets, blending, brush texture,
+//! instances and quads. The bare renderer has two shaders in place of ours: they draw a quad, and one brush sample times the
+//! stroke's colour.
 
 use std::sync::Arc;
 
@@ -14,24 +14,24 @@ use impasto_scene::load::{LoadOptions, load};
 use crate::bench::Bench;
 use crate::table::{Figure, Goal, Row, Spread, Unit, one_line, shown, shown_count};
 
-/// What the shaders of a bare draw stand in for.
+/// The shaders of the bare draw, by the names of those that they replace.
 const BARE: [(&str, &str); 2] = [
     ("rotating_strokes/paint.vert", include_str!("stroke_pass/bare.vert")),
     ("rotating_strokes/paint.frag", include_str!("stroke_pass/bare.frag")),
 ];
 
-/// The copy that wet paint is picked up from: part of laying strokes, but of no bare draw.
+/// The pass that copies what wet paint is picked up from: part of our stroke pass, but not of a bare draw.
 const BELOW: &str = "below";
 
-/// Seconds of each round.
+/// Seconds of all rounds.
 struct StrokePass {
     /// Ours: all layers, and the copy of what lies below them.
     ours_secs: Vec<f64>,
-    /// The same strokes, bare.
+    /// The bare draw of the same strokes.
     bare_secs: Vec<f64>,
-    /// Every pass of ours.
+    /// Every pass of our renderer.
     passes: Vec<(&'static str, Vec<f64>)>,
-    /// How many strokes lie on a pixel: ours, and bare.
+    /// Strokes per pixel: ours, and bare.
     overdraw: [f64; 2],
 }
 
@@ -40,14 +40,14 @@ fn layers_secs(cost: &Cost, also: &str) -> f64 {
     cost.passes.iter().filter(|pass| is_layer(pass.name)).map(|pass| pass.seconds).sum()
 }
 
-/// Draws a frame in turn with the program's own shaders and bare.
+/// Draws a frame in turn with our shaders and with the bare ones.
 fn measure([ours, bare]: [&mut Renderer; 2], frame: &Frame, rounds: usize) -> anyhow::Result<StrokePass> {
     let mut pass =
         StrokePass { ours_secs: Vec::new(), bare_secs: Vec::new(), passes: Vec::new(), overdraw: [0.0; 2] };
     for round in 0..=rounds {
         let (_, own) = ours.render_timed(frame)?;
         let (_, other) = bare.render_timed(frame)?;
-        // The first picture compiles shaders for their state.
+        // The first picture is a warm-up: drivers compile shaders when they are first used.
         if round == 0 {
             ensure!(ours.resolved_strokes() == bare.resolved_strokes(), "the bare draw lays other strokes");
             continue;
@@ -57,7 +57,7 @@ fn measure([ours, bare]: [&mut Renderer; 2], frame: &Frame, rounds: usize) -> an
         pass.overdraw = [own.overdraw, other.overdraw];
         for PassTime { name, seconds } in own.passes {
             match pass.passes.iter_mut().find(|(known, _)| *known == name) {
-                // Of several laps of one pass in a picture, their sum.
+                // A pass that runs several times in a picture counts as their sum.
                 Some((_, all)) if all.len() > pass.ours_secs.len() - 1 => {
                     if let Some(last) = all.last_mut() {
                         *last += seconds;
@@ -71,7 +71,7 @@ fn measure([ours, bare]: [&mut Renderer; 2], frame: &Frame, rounds: usize) -> an
     Ok(pass)
 }
 
-/// The still life at its own size.
+/// Measures the still life at its own size.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let input = "still_life, 1280 × 720";
     let open_renderer =
@@ -94,7 +94,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let frame = painting.at(0.0, &FrameOptions::new([1280, 720]));
     let pass = measure([&mut ours, &mut bare], &frame, if bench.quick() { 7 } else { 31 })?;
     let mut note = format!(
-        "{} strokes in question, {}; overdraw {:.1}, bare {:.1}; all passes:",
+        "{} candidate strokes, {}; overdraw {:.1}, bare {:.1}; all passes:",
         shown_count(frame.strokes.len()),
         ours.report().renderer,
         pass.overdraw[0],

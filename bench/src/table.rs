@@ -1,10 +1,10 @@
-//! The table: what was measured, of whom, beside what, and what it should reach.
+//! The table of results: rows with our figure, the peers', the floor, and the goals.
 
 mod shown;
 
 pub use shown::{json, markdown, text};
 
-/// What a number counts.
+/// The unit of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Wall clock.
@@ -26,34 +26,34 @@ pub struct Spread {
     pub low: f64,
     /// A quarter of the runs are above.
     pub high: f64,
-    /// How many runs; none of what was not measured here.
+    /// How many runs; 0 for a number that was not measured here.
     pub runs: usize,
 }
 
 impl Spread {
-    /// Of the numbers of some runs, at least one.
+    /// Summarises the numbers of at least one run.
     pub fn of(mut numbers: Vec<f64>) -> Self {
         numbers.sort_by(f64::total_cmp);
         let runs = numbers.len();
         let at = |share: f64| {
-            let place = share * (runs - 1) as f64;
-            let (below, above) = (numbers[place.floor() as usize], numbers[place.ceil() as usize]);
-            below + (above - below) * place.fract()
+            let index = share * (runs - 1) as f64;
+            let (below, above) = (numbers[index.floor() as usize], numbers[index.ceil() as usize]);
+            below + (above - below) * index.fract()
         };
         Self { median: at(0.5), low: at(0.25), high: at(0.75), runs }
     }
 
-    /// Something that is the same in every run.
+    /// A number that is the same in every run.
     pub fn exact(number: f64) -> Self {
         Self::of(vec![number])
     }
 
-    /// What others have printed.
+    /// A number from a publication.
     pub fn stated(number: f64) -> Self {
         Self { runs: 0, ..Self::exact(number) }
     }
 
-    /// Half of what lies between the quartiles, over the median.
+    /// Half of the distance between the quartiles, over the median.
     pub fn noise(&self) -> f64 {
         if self.median > 0.0 { (self.high - self.low) / 2.0 / self.median } else { 0.0 }
     }
@@ -62,23 +62,23 @@ impl Spread {
 /// One number of one contender, or why there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Whose it is.
+    /// The contender.
     pub who: String,
-    /// What it counts.
+    /// The unit.
     pub unit: Unit,
     /// The number, or why there is none on this machine.
     pub value: Result<Spread, String>,
-    /// What else is to be said.
+    /// A remark.
     pub note: String,
 }
 
 impl Figure {
-    /// A number that needs no more words.
+    /// A number without a remark.
     pub fn new(who: &str, unit: Unit, value: Spread) -> Self {
         Self { who: who.to_owned(), unit, value: Ok(value), note: String::new() }
     }
 
-    /// None to be had on this machine.
+    /// No number, because the contender is missing on this machine.
     pub fn missing(who: &str, unit: Unit, why: &str) -> Self {
         Self { who: who.to_owned(), unit, value: Err(why.to_owned()), note: String::new() }
     }
@@ -94,19 +94,19 @@ impl Figure {
     }
 }
 
-/// What a row is meant to reach.
+/// A goal of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Goal {
-    /// So many times faster than those whose name begins so.
+    /// Ours is at least `times` times faster than peers whose name begins with `than`.
     Faster {
-        /// Beginning of the name.
+        /// Beginning of the peers' names.
         than: &'static str,
-        /// At least so many times.
+        /// How many times.
         times: f64,
     },
-    /// At most so many times the floor.
+    /// Ours is at most this many times the floor.
     OverFloor(f64),
-    /// Our figure at most, in its unit.
+    /// Ours is at most this, in its unit.
     AtMost(f64),
 }
 
@@ -119,11 +119,11 @@ pub struct Row {
     pub input: String,
     /// Ours.
     pub ours: Figure,
-    /// What a user would otherwise take.
+    /// Others that do the same.
     pub peers: Vec<Figure>,
-    /// What memory or arithmetic allows at best.
+    /// The best that memory allows.
     pub floor: Option<Figure>,
-    /// What it is meant to reach.
+    /// The goals.
     pub goals: Vec<Goal>,
 }
 
@@ -147,13 +147,13 @@ impl Row {
         Self { peers: figures, floor, ..Self::of_ours(what, input, ours) }
     }
 
-    /// With what it is meant to reach.
+    /// Adds a goal.
     pub fn meant(mut self, goal: Goal) -> Self {
         self.goals.push(goal);
         self
     }
 
-    /// How many times ours a peer's figure is.
+    /// A peer's figure over ours.
     pub fn ratio(&self, peer: &Figure) -> Option<f64> {
         (peer.unit == self.ours.unit).then_some(())?;
         Some(peer.median()? / self.ours.median()?)
@@ -164,7 +164,7 @@ impl Row {
         Some(self.ours.median()? / self.floor.as_ref()?.median()?)
     }
 
-    /// A goal in words, and whether it is held; `None` where it cannot be told on this machine.
+    /// A goal in words, and whether it is reached; `None` where a figure for it is missing on this machine.
     fn judged(&self, goal: &Goal) -> (String, Option<bool>) {
         match goal {
             Goal::Faster { than, times } => {
@@ -183,7 +183,7 @@ impl Row {
     }
 }
 
-/// All rows, with what they were measured on.
+/// All rows, with a head that describes the machine.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     /// Name and value of each line of the head.
@@ -202,7 +202,7 @@ pub fn shown_count(count: usize) -> String {
     shown::thousands(count as f64)
 }
 
-/// Words of several lines in one.
+/// Joins several lines into one.
 pub fn one_line(words: &str) -> String {
     words.lines().map(str::trim).collect::<Vec<_>>().join(" ")
 }
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn quartiles_lie_between_the_runs_and_one_bad_run_moves_them_little() {
+    fn quartiles_are_interpolated_and_robust_to_one_bad_run() {
         let spread = Spread::of(vec![5.0, 1.0, 2.0, 4.0, 3.0]);
         assert_eq!((spread.low, spread.median, spread.high), (2.0, 3.0, 4.0));
         assert_eq!(
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn goals_are_held_missed_or_cannot_be_told() {
+    fn goals_are_held_missed_or_undecided() {
         let row = row(2.0, 7.0, 1.0);
         let held = |goal: Goal| row.judged(&goal).1;
         assert_eq!(held(Goal::Faster { than: "tree", times: 3.0 }), Some(true));
@@ -240,11 +240,11 @@ mod tests {
     }
 
     #[test]
-    fn whoever_is_missing_has_a_line_that_says_why() {
+    fn a_missing_contender_has_a_line_that_says_why() {
         let mut row = row(2.0, 7.0, 1.0);
         row.peers.push(Figure::missing("grid", Unit::Seconds, "no compiler"));
         let text = text(&Table { head: Vec::new(), rows: vec![row] });
-        assert!(text.contains("not to be had here: no compiler"), "{text}");
+        assert!(text.contains("missing here: no compiler"), "{text}");
         assert!(text.contains("3.50") && text.contains("2.00 s"), "{text}");
     }
 }

@@ -8,20 +8,20 @@ use std::sync::Arc;
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{Picture, Renderer};
 use impasto_measure::coverage::{Bodies, Holes, bleed};
-use impasto_measure::density::{Placed, shown_over_wanted, spacing_over_ideal};
+use impasto_measure::density::{PlacedStroke, shown_over_wanted, spacing_over_ideal};
 use impasto_measure::figures::Spread;
 use impasto_measure::flatness::flatness;
 use impasto_measure::jitter::Jitter;
-use impasto_measure::looks::{Look, TurnSolver, flat_color};
 use impasto_measure::orientation::{Tensors, error_rad};
 use impasto_measure::plane::Plane;
 use impasto_measure::popping::{by_presence, popping};
 use impasto_measure::reveal::revealed;
 use impasto_measure::roll::{quarter_difference, roll_errors_deg};
 use impasto_measure::shower_door::{Pair, lag, shower_door};
-use impasto_measure::strokes::{SeenStrokes, StrokeKey, of_layer, seen};
+use impasto_measure::strokes::{StrokeKey, StrokesByKey, of_layer, strokes_by_key};
 use impasto_measure::turns::{Reference, Turn};
-use impasto_measure::warp::{places_then, warp_error};
+use impasto_measure::versions::{SceneVersion, TurnSolver, flat_color};
+use impasto_measure::warp::{correspondences, warp_error};
 use impasto_measure::{MeasureOptions, Metric, Verdict, cameras, measure, sheet, turning};
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, Painting, Rotation, prepare};
@@ -51,19 +51,19 @@ fn ball() -> Arc<LoadedScene> {
     shapes::speckled(&shapes::loaded(scene, [shapes::sphere(32, 16)]))
 }
 
-fn look(loaded: &LoadedScene, look: Look) -> Painting {
-    prepare(Arc::new(look.of(loaded, &[]))).unwrap()
+fn prepared(loaded: &LoadedScene, version: SceneVersion) -> Painting {
+    prepare(Arc::new(version.of(loaded, &[]))).unwrap()
 }
 
-fn drawn(renderer: &mut Renderer, frame: &Frame) -> (Picture, SeenStrokes) {
+fn drawn(renderer: &mut Renderer, frame: &Frame) -> (Picture, StrokesByKey) {
     let picture = renderer.render(frame).unwrap();
-    let strokes = seen(frame, &renderer.resolved_strokes());
+    let strokes = strokes_by_key(frame, &renderer.resolved_strokes());
     (picture, strokes)
 }
 
 #[test]
 fn m1_sees_strokes_that_do_not_turn_with_the_picture() {
-    let painting = look(&ball(), Look::Bare);
+    let painting = prepared(&ball(), SceneVersion::Bare);
     let mut renderer = renderer(Driver::Egl);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let side = 256;
@@ -90,13 +90,13 @@ fn m1_sees_strokes_that_do_not_turn_with_the_picture() {
 
 #[test]
 fn m2_sees_angles_solved_in_clip_space() {
-    let painting = look(&ball(), Look::Body);
+    let painting = prepared(&ball(), SceneVersion::Body);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let at = |roll_rad: f64, rotation: Rotation| {
-        seen(&painting.seen_by(&cameras::rolled(&camera, roll_rad), 0.0, &options(rotation)), &[])
+        strokes_by_key(&painting.seen_by(&cameras::rolled(&camera, roll_rad), 0.0, &options(rotation)), &[])
     };
     let straight = at(0.0, Rotation::On);
-    let largest = |rolled: &SeenStrokes| {
+    let largest = |rolled: &StrokesByKey| {
         let errors = roll_errors_deg(&straight, rolled, 30.0);
         assert!(errors.len() > 500);
         Spread::of(errors).max
@@ -113,14 +113,14 @@ fn m2_sees_angles_solved_in_clip_space() {
 
 /// Turns of the ball's strokes at a frame.
 fn turns(painting: &Painting, frame: f64, rotation: Rotation) -> BTreeMap<StrokeKey, Turn> {
-    let strokes = seen(&painting.at(frame, &options(rotation)), &[]);
+    let strokes = strokes_by_key(&painting.at(frame, &options(rotation)), &[]);
     let camera = motion::camera_at(painting.scene(), frame);
-    Reference::of(painting, SMALL).turns(painting, &strokes, (&camera, frame), SMALL)
+    Reference::of(painting, SMALL).turns(painting, &strokes, &camera, frame, SMALL)
 }
 
 #[test]
 fn m3_m7_m10_see_wrong_and_trembling_angles() {
-    let painting = look(&ball(), Look::Truth(TurnSolver::Own));
+    let painting = prepared(&ball(), SceneVersion::NoContour(TurnSolver::Own));
     let now = turns(&painting, 25.0, Rotation::On);
     let errors =
         |turns: &BTreeMap<StrokeKey, Turn>| Spread::of(turns.values().map(Turn::error_deg).collect());
@@ -154,7 +154,7 @@ fn m3_m7_m10_see_wrong_and_trembling_angles() {
 
 #[test]
 fn m4_sees_per_polygon_counts() {
-    let (ours, paper) = (look(&ball(), Look::Board), look(&ball(), Look::Paper));
+    let (ours, paper) = (prepared(&ball(), SceneVersion::Board), prepared(&ball(), SceneVersion::Paper));
     let mut renderer = renderer(Driver::Egl);
     let mut share = |painting: &Painting| {
         let [before, after] =
@@ -171,14 +171,14 @@ fn m4_sees_per_polygon_counts() {
 
 #[test]
 fn m5_and_m7_see_random_angles_and_a_shower_door() {
-    let painting = look(&ball(), Look::Unlit);
+    let painting = prepared(&ball(), SceneVersion::Unlit);
     let mut renderer = renderer(Driver::Egl);
     let mut luma = |frame: f64, rotation: Rotation| {
         Plane::luma(&drawn(&mut renderer, &painting.at(frame, &options(rotation))).0)
     };
     let (now, then, later) = (luma(30.0, Rotation::On), luma(31.0, Rotation::On), luma(42.0, Rotation::On));
     let (random_now, random_then) = (luma(30.0, Rotation::Random), luma(31.0, Rotation::Random));
-    let mut places = |first: f64, second: f64| {
+    let mut correspondences = |first: f64, second: f64| {
         let [first, second] = [first, second].map(|frame| painting.at(frame, &options(Rotation::On)));
         renderer.render(&first).unwrap();
         let ids = renderer.read_reference().body_id;
@@ -186,18 +186,22 @@ fn m5_and_m7_see_random_angles_and_a_shower_door() {
         assert_eq!(motion.body_id, ids, "the motion pass sees what the reference pass sees");
         renderer.render(&second).unwrap();
         let then = renderer.read_reference();
-        (places_then(&motion, &then), ids, then.body_id)
+        (correspondences(&motion, &then), ids, then.body_id)
     };
-    let (next, ..) = places(30.0, 31.0);
+    let (next, ..) = correspondences(30.0, 31.0);
     let ours = warp_error(&now, &then, &next);
     let random = warp_error(&random_now, &random_then, &next);
     assert!(ours.pixels > 5000 && ours.error <= 0.25 * random.error, "{ours:?} {random:?}");
-    assert!(ours.error < warp_error(&now, &then, &places(30.0, 30.0).0).error, "motion must matter");
+    assert!(ours.error < warp_error(&now, &then, &correspondences(30.0, 30.0).0).error, "motion must matter");
 
-    let (places, ids, ids_later) = places(30.0, 42.0);
+    let (correspondences, ids, ids_later) = correspondences(30.0, 42.0);
     let door = |then: &Plane| {
-        let pair =
-            Pair { pictures: [&now, then], body_ids: [&ids, &ids_later], places: &places, stroke_px: 10.0 };
+        let pair = Pair {
+            pictures: [&now, then],
+            body_ids: [&ids, &ids_later],
+            correspondences: &correspondences,
+            stroke_px: 10.0,
+        };
         shower_door(&pair)
     };
     let ours = door(&later);
@@ -208,11 +212,11 @@ fn m5_and_m7_see_random_angles_and_a_shower_door() {
 
 #[test]
 fn motion_is_where_the_strokes_go() {
-    let painting = look(&ball(), Look::Body);
+    let painting = prepared(&ball(), SceneVersion::Body);
     let mut renderer = renderer(Driver::Egl);
     let frames = [20.0, 24.0].map(|frame| painting.at(frame, &options(Rotation::On)));
     let motion = renderer.motion(&frames[0], &frames[1]).unwrap();
-    let [before, after] = frames.each_ref().map(|frame| seen(frame, &[]));
+    let [before, after] = frames.each_ref().map(|frame| strokes_by_key(frame, &[]));
     let mut compared = 0;
     for (key, stroke) in before.iter().filter(|(_, stroke)| stroke.facing > 0.6) {
         let Some(now) = after.get(key) else { continue };
@@ -230,30 +234,30 @@ fn motion_is_where_the_strokes_go() {
 
 #[test]
 fn m6_sees_the_papers_rule_on_what_the_first_frame_missed() {
-    let spread = |version: Look| {
-        let painting = look(&ball(), version);
+    let spread = |version: SceneVersion| {
+        let painting = prepared(&ball(), version);
         let camera = cameras::orbited(&motion::camera_at(painting.scene(), 0.0), 90.0);
-        let strokes = seen(&painting.seen_by(&camera, 0.0, &options(Rotation::On)), &[]);
+        let strokes = strokes_by_key(&painting.seen_by(&camera, 0.0, &options(Rotation::On)), &[]);
         let differences = revealed(&painting, &strokes, SMALL);
         assert!(differences.len() > 1000, "{}", differences.len());
         Spread::of(differences.iter().map(|found| found.apart_deg).collect())
     };
-    let ours = spread(Look::Calm(TurnSolver::Own));
+    let ours = spread(SceneVersion::NoChance(TurnSolver::Own));
     assert!(ours.median <= 3.0 && ours.p95 <= 12.0, "{ours:?}");
-    let paper = spread(Look::CalmPaper);
+    let paper = spread(SceneVersion::NoChancePaper);
     assert!(paper.median > 3.0 && paper.p95 > 12.0, "{paper:?}");
 }
 
 #[test]
 fn m8_sees_strokes_that_shrink_with_distance() {
-    let painting = look(&ball(), Look::Body);
+    let painting = prepared(&ball(), SceneVersion::Body);
     let camera = motion::camera_at(painting.scene(), 0.0);
     let frames = [0.0, 0.3, -0.5].map(|share| {
         let eye = camera.eye + (camera.target - camera.eye) * share;
         painting.seen_by(&motion::CameraPose { eye, ..camera.clone() }, 0.0, &options(Rotation::On))
     });
     let largest = |frames: &[Frame]| {
-        let strokes: Vec<SeenStrokes> = frames.iter().map(|frame| seen(frame, &[])).collect();
+        let strokes: Vec<StrokesByKey> = frames.iter().map(|frame| strokes_by_key(frame, &[])).collect();
         let found = flatness(strokes.iter());
         assert!(found.variation.len() > 500);
         Spread::of(found.variation).max
@@ -292,7 +296,7 @@ fn two_balls(edit: impl FnOnce(&mut Scene)) -> LoadedScene {
 fn m9_sees_a_bare_region_and_foreign_colours() {
     let mut renderer = renderer(Driver::Egl);
     let mut holes = |loaded: &LoadedScene| {
-        drawn(&mut renderer, &look(loaded, Look::Board).at(0.0, &options(Rotation::On)));
+        drawn(&mut renderer, &prepared(loaded, SceneVersion::Board).at(0.0, &options(Rotation::On)));
         let alpha: Vec<f32> = renderer.read_paint().iter().map(|paint| paint[3]).collect();
         let found = Holes::of(&alpha, &renderer.read_reference().body_id);
         assert!(found.pixels > 3000);
@@ -317,7 +321,7 @@ fn m9_sees_a_bare_region_and_foreign_colours() {
     }));
     assert!(bare > 0.3, "half of the surface is bare: {bare}");
 
-    let flat = look(&two_balls(|_| ()), Look::Flat);
+    let flat = prepared(&two_balls(|_| ()), SceneVersion::Flat);
     renderer.render(&flat.at(0.0, &options(Rotation::On))).unwrap();
     let (ids, paint) = (renderer.read_reference().body_id, renderer.read_paint());
     let size_px = SMALL.map(|side| side as usize);
@@ -340,25 +344,25 @@ fn m14_sees_too_many_strokes_and_a_random_order() {
         0.0,
         &FrameOptions::new([side, side]),
     );
-    let strokes = seen(&strokes, &[]);
+    let strokes = strokes_by_key(&strokes, &[]);
     let wanted_area_px = 20.0 * 7.0 / 3.1;
-    let placed: Vec<Placed> = of_layer(&strokes, LayerKind::Body)
+    let placed: Vec<PlacedStroke> = of_layer(&strokes, LayerKind::Body)
         .filter(|(_, stroke)| stroke.center_px.iter().all(|at| (*at - 512.0).abs() < 400.0))
-        .map(|(_, stroke)| Placed { center_px: stroke.center_px, alpha: stroke.alpha, wanted_area_px })
+        .map(|(_, stroke)| PlacedStroke { center_px: stroke.center_px, alpha: stroke.alpha, wanted_area_px })
         .collect();
     let pixels = 800 * 800;
     let density = shown_over_wanted(&placed, pixels);
     let (spacing, shown) = spacing_over_ideal(&placed, pixels);
     assert!(shown > 3000 && (0.9..=1.1).contains(&density) && spacing >= 0.6, "{density} {spacing} {shown}");
-    let doubled: Vec<Placed> =
-        placed.iter().map(|place| Placed { wanted_area_px: 2.0 * wanted_area_px, ..*place }).collect();
+    let doubled: Vec<PlacedStroke> =
+        placed.iter().map(|place| PlacedStroke { wanted_area_px: 2.0 * wanted_area_px, ..*place }).collect();
     assert!(shown_over_wanted(&doubled, pixels) > 1.1);
     // As many, but whichever.
     let unit = |at: [f64; 2]| impasto_core::hash::unit(impasto_core::hash::scramble((at[0] * 64.0) as u32));
-    let scattered: Vec<Placed> = (0..shown)
+    let scattered: Vec<PlacedStroke> = (0..shown)
         .map(|index| {
             let [x, y] = [2 * index, 2 * index + 1].map(|which| f64::from(unit([which as f64, 0.0])) * 800.0);
-            Placed { center_px: [x, y], alpha: 1.0, wanted_area_px }
+            PlacedStroke { center_px: [x, y], alpha: 1.0, wanted_area_px }
         })
         .collect();
     let (spacing, _) = spacing_over_ideal(&scattered, pixels);

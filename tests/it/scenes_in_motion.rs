@@ -10,7 +10,7 @@ use impasto_core::screen_map::{PixelLens, ScreenMap, facing};
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
 use impasto_measure::popping::of_moving_bodies;
-use impasto_measure::strokes::seen;
+use impasto_measure::strokes::strokes_by_key;
 use impasto_painting::{FrameOptions, Painting, prepare};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
@@ -105,7 +105,7 @@ fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
     let [before, after] = [frame, frame + 1.0].map(|frame| {
         let frame = painting.at(frame, &OPTIONS);
         renderer.render(&frame).unwrap();
-        seen(&frame, &renderer.resolved_strokes())
+        strokes_by_key(&frame, &renderer.resolved_strokes())
     });
     let [before, after] = of_moving_bodies(&before, &after);
     let found = impasto_measure::popping::popping(&before, &after, OPTIONS.size_px);

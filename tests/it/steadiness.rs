@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use impasto_measure::popping as measure;
-use impasto_measure::strokes::seen;
+use impasto_measure::strokes::strokes_by_key;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, prepare};
 use impasto_scene::document::{ObjectKey, Scene, StrokeSettings};
@@ -13,7 +13,7 @@ const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
 /// M4 without what occlusion and the picture decide: the popping share, and the largest step of presence.
 fn popping(before: &Frame, after: &Frame) -> (f64, f64) {
-    let found = measure::popping(&seen(before, &[]), &seen(after, &[]), OPTIONS.size_px);
+    let found = measure::popping(&strokes_by_key(before, &[]), &strokes_by_key(after, &[]), OPTIONS.size_px);
     (found.share, found.largest_step)
 }
 
@@ -131,13 +131,13 @@ fn twice_the_particles_keep_the_first_and_their_looks() {
         prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap().at(0.0, &OPTIONS)
     };
     let (few, many) = (frame(4000), frame(8000));
-    let looks = |frame: &Frame| -> BTreeMap<(LayerKind, u32), _> {
+    let versions = |frame: &Frame| -> BTreeMap<(LayerKind, u32), _> {
         let strokes = frame.layers.iter().flat_map(|run| {
             (run.first as usize..(run.first + run.count) as usize).map(move |index| (run.kind, index))
         });
         strokes.map(|(kind, index)| ((kind, frame.sources[index].particle), frame.strokes[index])).collect()
     };
-    let (few, many) = (looks(&few), looks(&many));
+    let (few, many) = (versions(&few), versions(&many));
     assert!(few.len() > 500);
     for (key, stroke) in few {
         assert_eq!(many.get(&key), Some(&stroke));

@@ -1,4 +1,4 @@
-//! The answer of a search for neighbours in a form that can be compared: equal sets but for ties, and equal sums of distances.
+//! Compares the answers of neighbour searches: equal sets except for ties, and equal sums of distances.
 
 use std::path::Path;
 
@@ -10,24 +10,24 @@ use impasto_core::neighbours::MAX_NEIGHBOURS;
 use super::trees::Lists;
 use crate::peers::files;
 
-/// Searches may differ on so many of a million particles: where rounding decides who is within, or the fiftieth.
+/// Searches may differ for this many of a million particles, where rounding decides who is within the radius or the fiftieth.
 const TIES_PER_MILLION: usize = 50;
 
-/// How many particles are looked at by brute force.
+/// How many particles are checked by brute force.
 const SAMPLES: u32 = 60;
 
-/// For each particle how many it found, and the sum of their indices.
+/// For each particle, the number of its neighbours and the sum of their indices.
 pub struct Answer {
     counts: Vec<u32>,
     sums: Vec<u32>,
-    /// Lists of the particles that brute force looks at.
+    /// Lists of the particles that are checked by brute force.
     lists: Vec<(usize, Vec<u32>)>,
-    /// Of all pairs; `None` of a peer that does not tell.
+    /// Sum of the distances of all pairs; `None` for a peer that does not give it.
     distance_sum: Option<f64>,
 }
 
 impl Answer {
-    /// Of one list for each particle.
+    /// From a function that gives the list of each particle.
     pub fn of<'a>(positions: &[Vec3], list: impl Fn(usize) -> &'a [u32]) -> Self {
         let sampled: Vec<usize> =
             (0..SAMPLES).map(|sample| hash::scramble(sample) as usize % positions.len()).collect();
@@ -47,19 +47,19 @@ impl Answer {
         answer
     }
 
-    /// Of a tree's lists, which are in an order of their own.
+    /// From a tree's lists, which are in an order of their own.
     pub fn of_lists(positions: &[Vec3], lists: &Lists) -> Self {
-        let mut place = vec![0; positions.len()];
-        for (at, &particle) in lists.order.iter().enumerate() {
-            place[particle as usize] = at;
+        let mut list_of = vec![0; positions.len()];
+        for (list, &particle) in lists.order.iter().enumerate() {
+            list_of[particle as usize] = list;
         }
         Self::of(positions, |particle| {
-            let at = place[particle];
-            &lists.indices[lists.starts[at] as usize..lists.starts[at + 1] as usize]
+            let list = list_of[particle];
+            &lists.indices[lists.starts[list] as usize..lists.starts[list + 1] as usize]
         })
     }
 
-    /// Of a peer's file: a count and a sum for each particle.
+    /// From a peer's file: the counts of all particles, then the sums.
     pub fn read(path: &Path) -> anyhow::Result<Self> {
         let words = files::read_words(path)?;
         let (counts, sums) = words.split_at(words.len() / 2);
@@ -71,7 +71,7 @@ impl Answer {
         self.counts.iter().map(|&count| count as usize).sum()
     }
 
-    /// That the lists of some particles are the nearest of all within the radius, by looking at everyone.
+    /// Checks for some particles, by brute force, that their lists hold the nearest within the radius.
     pub fn check_by_brute_force(&self, positions: &[Vec3], radius: f32) -> anyhow::Result<()> {
         for (particle, list) in &self.lists {
             let near = |other: usize| positions[*particle].distance_squared(positions[other]);
@@ -88,9 +88,14 @@ impl Answer {
         Ok(())
     }
 
-    /// That another search found the same.
+    /// Checks that another search found the same.
     pub fn check(&self, other: &Self) -> anyhow::Result<()> {
-        ensure!(self.counts.len() == other.counts.len(), "not as many lists");
+        ensure!(
+            self.counts.len() == other.counts.len(),
+            "{} lists and {} lists",
+            self.counts.len(),
+            other.counts.len()
+        );
         let pairs = self.counts.iter().zip(&self.sums).zip(other.counts.iter().zip(&other.sums));
         let different = pairs.filter(|(mine, theirs)| mine != theirs).count();
         let ties = self.counts.len() * TIES_PER_MILLION / 1_000_000 + 2;

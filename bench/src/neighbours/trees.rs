@@ -1,4 +1,4 @@
-//! Trees of other crates, asked in the way that is fastest for each: all within the radius, then a selection.
+//! Trees of other crates, queried in the way that is fastest for each: all within the radius, then a selection.
 
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -13,17 +13,18 @@ use crate::morton;
 /// Queries that one thread handles at a time.
 const CHUNK: usize = 2048;
 
-/// Lists one after the other, in the order of `order`.
+/// Neighbour lists one after the other.
 pub struct Lists {
-    /// Which particle each list belongs to.
+    /// The particle of each list.
     pub order: Vec<u32>,
-    /// Where each list begins; one more at the end.
+    /// Where each list begins in `indices`, and the end of the last.
     pub starts: Vec<u32>,
-    /// Particles.
+    /// The particles in the lists.
     pub indices: Vec<u32>,
 }
 
-/// Asks for all particles; `within` names those within the radius with their squared distances, the particle itself too.
+/// Makes the lists of all particles. `within` gives the particles within the radius of a point with their squared distances,
+/// including the query itself.
 fn ask(positions: &[Vec3], within: impl Fn([f32; 3], &mut Vec<(f32, u32)>) + Sync) -> Lists {
     let order = morton::order(positions);
     let parts: Vec<(Vec<u32>, Vec<u32>)> = order

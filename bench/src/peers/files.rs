@@ -1,4 +1,4 @@
-//! Arrays in files, little-endian, without a head.
+//! Arrays as files: little-endian numbers of four bytes, without a header.
 
 use std::path::Path;
 

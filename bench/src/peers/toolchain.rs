@@ -1,20 +1,20 @@
-//! What peers need: a C++ compiler with two libraries of headers, and Python with five packages.
+//! Installs and finds what peers need: a C++ compiler with two header libraries, and Python with five packages.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context as _, bail};
 
-/// Debian's packages for all peers.
+/// The Debian packages for all peers.
 const PACKAGES: [&str; 6] =
     ["g++", "libeigen3-dev", "libnanoflann-dev", "libusb-1.0-0", "python3", "python3-venv"];
 
-/// What to type for the peers that need Debian's packages.
+/// How to install the Debian packages.
 pub fn advice() -> String {
     format!("`cargo xtask bench -- --install`, or apt-get install {}", PACKAGES.join(" "))
 }
 
-/// Installs Debian's packages; asks sudo where we are not root.
+/// Installs the Debian packages, with sudo unless we are root.
 pub fn install() -> anyhow::Result<()> {
     let root = Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout.trim_ascii() == b"0");
     let update = vec!["update"];
@@ -35,7 +35,7 @@ pub fn install() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The folder of the program that runs: cargo's target folder, where built things belong.
+/// The folder for built peers, in cargo's target folder.
 fn built_folder() -> anyhow::Result<PathBuf> {
     let program = std::env::current_exe()?;
     let folder = program.parent().context("a program without a folder")?.join("peers");
@@ -43,7 +43,7 @@ fn built_folder() -> anyhow::Result<PathBuf> {
     Ok(folder)
 }
 
-/// Builds one source with the flags of [`super`]; gives back the program. A program newer than its sources is kept.
+/// Builds a C++ peer, unless its program is newer than its sources; returns the program.
 pub fn build_cpp(sources: &Path, name: &str) -> anyhow::Result<PathBuf> {
     let source = sources.join(format!("{name}.cpp"));
     let program = built_folder()?.join(name);
@@ -68,7 +68,8 @@ pub fn build_cpp(sources: &Path, name: &str) -> anyhow::Result<PathBuf> {
     Ok(program)
 }
 
-/// A Python with the pinned packages, under `out/bench/venv`; kept until the list of packages changes.
+/// The Python interpreter of an environment with the pinned packages, `out/bench/venv`; made again when the list of packages
+/// changes.
 pub fn make_python(root: &Path, may_fetch: bool) -> anyhow::Result<PathBuf> {
     let list = root.join("bench/peers/requirements.txt");
     let wanted = std::fs::read_to_string(&list)?;
@@ -78,7 +79,7 @@ pub fn make_python(root: &Path, may_fetch: bool) -> anyhow::Result<PathBuf> {
         return Ok(python);
     }
     if !may_fetch {
-        bail!("its packages are not there, and nothing may be fetched");
+        bail!("its packages are not installed, and nothing may be fetched");
     }
     eprintln!("fetching Python's packages into {} (once)", folder.display());
     let log = root.join("out/bench/venv.log");
@@ -93,10 +94,10 @@ pub fn make_python(root: &Path, may_fetch: bool) -> anyhow::Result<PathBuf> {
         }
     };
     step(Path::new("python3"), &["-m", "venv", &folder.to_string_lossy()])
-        .context("no environment for Python")?;
+        .context("the Python environment cannot be made")?;
     let quiet = ["-m", "pip", "install", "--disable-pip-version-check", "--requirement"];
     let list = list.to_string_lossy();
-    step(&python, &[&quiet[..], &[&list]].concat()).context("Python's packages cannot be had")?;
+    step(&python, &[&quiet[..], &[&list]].concat()).context("the Python packages cannot be installed")?;
     std::fs::write(&stamp, wanted)?;
     Ok(python)
 }

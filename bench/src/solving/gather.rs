@@ -1,4 +1,4 @@
-//! The source paper's sum (eq. 1–2) as one writes it down: all particles projected, then for each its neighbours gathered.
+//! The source paper's sum (eq. 1–2), written directly: all particles are projected, then each gathers its neighbours.
 
 use rayon::prelude::*;
 
@@ -15,7 +15,7 @@ pub struct Gathered {
 }
 
 impl Gathered {
-    /// For so many particles.
+    /// Room for `count` particles.
     pub fn new(count: usize) -> Self {
         Self { now_px: vec![[0.0; 2]; count], angles_rad: vec![0.0; count] }
     }
@@ -36,8 +36,8 @@ impl Gathered {
         self.now_px.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, now)| project(now, chunk * CHUNK));
         let (now, reference) = (self.now_px.as_slice(), scene.reference_px.as_slice());
         self.angles_rad.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, angles_rad)| {
-            for (place, angle_rad) in angles_rad.iter_mut().enumerate() {
-                let particle = chunk * CHUNK + place;
+            for (offset, angle_rad) in angles_rad.iter_mut().enumerate() {
+                let particle = chunk * CHUNK + offset;
                 let ([px, py], [cx, cy]) = (reference[particle], now[particle]);
                 let (mut dot, mut cross) = (0.0, 0.0);
                 for &other in &scene.lists[K * particle..][..K] {

@@ -1,4 +1,4 @@
-//! A body before two views: what every way of solving reads, and the sums that the answers are checked against.
+//! A body in two views: the input of every contender, and the sums that the answers are checked against.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ use crate::morton;
 use crate::neighbours;
 use crate::peers::files;
 
-/// Neighbours of each particle.
+/// Number of neighbours of each particle.
 pub const K: usize = 48;
 
 /// Baked particles, and the view of a frame.
@@ -27,17 +27,17 @@ pub type Facing = (BakedParticles, ScreenMap);
 
 /// A body in Morton order.
 pub struct SolveScene {
-    /// Model space.
+    /// Positions, model space.
     pub positions: Vec<Vec3>,
-    /// Pixels in the reference picture.
+    /// Positions in the reference picture, pixels.
     pub reference_px: Vec<[f32; 2]>,
     /// [`K`] neighbours of each particle; the particle itself where it has fewer, which adds nothing to any sum.
     pub lists: Vec<u32>,
-    /// What ours reads.
+    /// The input of our solve.
     pub baked: BakedParticles,
-    /// The reference's view.
+    /// The reference view.
     reference: ScreenMap,
-    /// This frame's view.
+    /// The view of this frame.
     pub now: ScreenMap,
 }
 
@@ -54,7 +54,7 @@ pub fn views(inputs: &mut Inputs) -> anyhow::Result<(ScreenMap, ScreenMap)> {
     view(scene.timeline.first).zip(view(scene.timeline.last)).context("the scene has a perspective lens")
 }
 
-/// Particles with lifts that need no neighbours.
+/// Particles with the lift of a camera that looks straight at each: it needs no neighbours.
 pub fn facing(cloud: &Cloud, reference: &ScreenMap) -> BakedParticles {
     let mut baked = BakedParticles::default();
     for (position, normal) in cloud.positions.iter().zip(&cloud.normals) {
@@ -65,14 +65,14 @@ pub fn facing(cloud: &Cloud, reference: &ScreenMap) -> BakedParticles {
     baked
 }
 
-/// Where the peers' answers come.
+/// The file of a peer's answer.
 pub fn answer(folder: &Path) -> PathBuf {
     folder.join("solve.angles")
 }
 
 impl SolveScene {
-    /// Of a body, with its lists and lifts.
-    pub fn new(cloud: &Cloud, (reference, now): (ScreenMap, ScreenMap)) -> anyhow::Result<Self> {
+    /// A body in two views, with its lists and lifts.
+    pub fn new(cloud: &Cloud, reference: ScreenMap, now: ScreenMap) -> anyhow::Result<Self> {
         let order = morton::order(&cloud.positions);
         let positions: Vec<Vec3> = order.iter().map(|&index| cloud.positions[index as usize]).collect();
         let normals: Vec<Vec3> = order.iter().map(|&index| cloud.normals[index as usize]).collect();
@@ -80,7 +80,7 @@ impl SolveScene {
         let lists: Vec<u32> = (0..positions.len())
             .flat_map(|particle| {
                 let list = found.of(particle);
-                (0..K).map(move |place| list.get(place).copied().unwrap_or(particle as u32))
+                (0..K).map(move |index| list.get(index).copied().unwrap_or(particle as u32))
             })
             .collect();
         drop(found);
@@ -107,7 +107,7 @@ impl SolveScene {
         Ok(Self { positions, reference_px, lists, baked, reference, now })
     }
 
-    /// Writes the peers' inputs; gives back their arguments.
+    /// Writes the peers' inputs; returns their arguments.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
         let [positions, reference, lists, rows] =
             ["positions", "reference", "lists", "rows"].map(|name| folder.join(format!("solve.{name}")));
@@ -119,21 +119,22 @@ impl SolveScene {
         Ok(files.map(|file| file.to_string_lossy().into_owned()).to_vec())
     }
 
-    /// Numerators of x and y and the denominator of both, in this frame.
+    /// The rows of this frame's screen map: numerators of x and y, and the denominator of both.
     pub fn rows(&self) -> [[f32; 4]; 3] {
         [self.now.row_x, self.now.row_y, self.now.row_w].map(|row| row.as_vec4().to_array())
     }
 
-    /// The sum with a weight for each neighbour, and p and c taken from origins of one's own.
+    /// The angle of each particle as a function of its neighbours: their offsets p and c in the reference and in this picture, and
+    /// their weights w.
     fn angles(&self, angle: impl Fn(usize, &[(DVec2, DVec2, f64)]) -> f64 + Sync) -> Vec<f32> {
         let one = |particle: usize| {
-            let place = |index: usize| self.positions[index].as_dvec3();
-            let (then, now) = (px(self.reference_px[particle]), self.now.project(place(particle)));
-            let depth = self.now.depth(place(particle));
+            let position = |index: usize| self.positions[index].as_dvec3();
+            let (then, now) = (px(self.reference_px[particle]), self.now.project(position(particle)));
+            let depth = self.now.depth(position(particle));
             let pair = |&other: &u32| {
                 let other = other as usize;
                 let p = px(self.reference_px[other]) - then;
-                (p, self.now.project(place(other)) - now, self.now.depth(place(other)) / depth)
+                (p, self.now.project(position(other)) - now, self.now.depth(position(other)) / depth)
             };
             let pairs: Vec<(DVec2, DVec2, f64)> = self.lists[K * particle..][..K].iter().map(pair).collect();
             angle(particle, &pairs) as f32
@@ -141,12 +142,12 @@ impl SolveScene {
         (0..self.positions.len()).into_par_iter().map(one).collect()
     }
 
-    /// The sum with w = z_neighbour / z_stroke: what ours is in closed form.
+    /// The sum with the weights w = z_neighbour / z_stroke, which ours equals in closed form.
     pub fn weighted(&self) -> Vec<f32> {
         self.angles(|_, pairs| turn_of(pairs.iter().map(|&(p, c, weight)| (p, c * weight))))
     }
 
-    /// The sum about the neighbours' means.
+    /// The sum with p and c taken from their means over the neighbours.
     pub fn centred(&self) -> Vec<f32> {
         self.angles(|_, pairs| {
             let count = pairs.len() as f64;
@@ -156,7 +157,7 @@ impl SolveScene {
         })
     }
 
-    /// That the gather gives what the paper's formula does with matrices and in double precision, for some particles.
+    /// Checks for some particles that the gather equals the paper's formula with matrices in double precision.
     pub fn check_by_matrices(&self, angles_rad: &[f32]) -> anyhow::Result<()> {
         let clip = |map: &ScreenMap| ClipView {
             // Rows in pixels from the centre, for a picture of 2 × 2 pixels.
@@ -167,9 +168,9 @@ impl SolveScene {
         let mut far = 0;
         for sample in 0..1000 {
             let particle = hash::scramble(sample) as usize % self.positions.len();
-            let place = |index: usize| self.positions[index].as_dvec3();
-            let others = self.lists[K * particle..][..K].iter().map(|&other| place(other as usize));
-            let expected = horn_exact::turn_rad(place(particle), others, &reference, &now);
+            let position = |index: usize| self.positions[index].as_dvec3();
+            let others = self.lists[K * particle..][..K].iter().map(|&other| position(other as usize));
+            let expected = horn_exact::turn_rad(position(particle), others, &reference, &now);
             let apart = impasto_core::angle::wrap_pi(expected - f64::from(angles_rad[particle]));
             far += usize::from(apart.abs() > 0.02f64.to_radians());
         }

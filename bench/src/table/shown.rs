@@ -1,4 +1,4 @@
-//! A table as text for a terminal, as Markdown, and as JSON.
+//! Writes a table as text for a terminal, as Markdown, and as JSON.
 
 use serde_json::{Value, json};
 
@@ -51,7 +51,7 @@ fn cells(figure: &Figure) -> [String; 3] {
     [figure.who.clone(), shown, spread]
 }
 
-/// What a figure has to say beside its number.
+/// The remark on a figure.
 fn remark(figure: &Figure) -> String {
     match &figure.value {
         Ok(value) if value.runs == 1 && figure.unit == Unit::Seconds => [figure.note.as_str(), "one run"]
@@ -60,7 +60,7 @@ fn remark(figure: &Figure) -> String {
             .collect::<Vec<_>>()
             .join("; "),
         Ok(_) => figure.note.clone(),
-        Err(why) => format!("not to be had here: {why}"),
+        Err(why) => format!("missing here: {why}"),
     }
 }
 
@@ -77,7 +77,7 @@ fn lines(table: &Table) -> Vec<[String; 8]> {
             let verdict = match held {
                 Some(true) => "held",
                 Some(false) => "MISSED",
-                None => "cannot be told here",
+                None => "undecided here",
             };
             remarks.push(format!("goal {goal}: {verdict}"));
         }
@@ -111,7 +111,7 @@ fn lines(table: &Table) -> Vec<[String; 8]> {
     lines
 }
 
-/// For a terminal: columns in line.
+/// As text for a terminal, in aligned columns.
 pub fn text(table: &Table) -> String {
     let lines = lines(table);
     let mut widths = COLUMNS.map(|name| name.chars().count());
@@ -129,7 +129,7 @@ pub fn text(table: &Table) -> String {
         let mut shown = String::new();
         for (column, (cell, width)) in line.iter().zip(widths).enumerate() {
             let room = width - cell.chars().count();
-            // Numbers stand at the right of their columns.
+            // Numbers are aligned right.
             let (before, after) = if (3..=6).contains(&column) { (room, 0) } else { (0, room) };
             shown += &format!("{}{cell}{}  ", " ".repeat(before), " ".repeat(after));
         }
@@ -143,7 +143,7 @@ pub fn text(table: &Table) -> String {
     text
 }
 
-/// For a page of documentation.
+/// As Markdown for the docs.
 pub fn markdown(table: &Table) -> String {
     let mut page = String::new();
     for (name, value) in &table.head {
@@ -156,7 +156,7 @@ pub fn markdown(table: &Table) -> String {
     page
 }
 
-/// For programs.
+/// As JSON.
 pub fn json(table: &Table) -> Value {
     let figure = |figure: &Figure| match &figure.value {
         Ok(value) => json!({

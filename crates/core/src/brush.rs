@@ -2,8 +2,8 @@
 //!
 //! A mark is three fields over a rectangle, `u` along the stroke from its loaded start, `v` across it:
 //!
-//! * **paint**: not a mask but a height that is cut off at a level. Cut low it is a wet stroke, higher a dry one, and at
-//!   last a few hairs. Its values are spread evenly, so that cutting at `1 − s` leaves the share `s` of the mark.
+//! * **paint**: a height field to be cut off at a threshold, not a mask. A low threshold gives a wet stroke, a higher one a dry
+//!   stroke, the highest a few hairs. Values are equalised: cutting at `1 − s` leaves the share `s` of the mark.
 //! * **height** of the paint's body: furrows, paint pushed aside along the edges, a ridge where the brush lifts.
 //! * **tint**: half-mixed paint across the hairs, around the middle value.
 
@@ -25,7 +25,7 @@ pub const VARIANTS: u32 = 12;
 /// A mark fills this share of its rectangle each way; the rest is room for ragged ends.
 pub const FILL: f32 = 0.84;
 
-/// What a texel's height byte is multiplied by, over 255, to give the height of the paint in brush thicknesses.
+/// Height of the paint, in brush thicknesses, where a texel's height byte is 255.
 pub const HEIGHT_SCALE: f32 = 1.5;
 
 /// One mark: paint, height and tint of every texel, row by row.
@@ -57,25 +57,25 @@ struct Texel {
 }
 
 impl Mark {
-    /// Where a texel lies: u in the mark's 0..1, v in half widths −1..1, both a little beyond at the border.
-    fn place(index: usize) -> [f32; 2] {
+    /// Where a texel lies: u in 0..1 along the mark, v in half widths −1..1; texels at the border lie a little outside.
+    fn uv(index: usize) -> [f32; 2] {
         let (column, row) = (index % SIZE[0], index / SIZE[0]);
         let u = ((column as f32 + 0.5) / SIZE[0] as f32 - 0.5) / FILL + 0.5;
         let v = ((row as f32 + 0.5) / SIZE[1] as f32 * 2.0 - 1.0) / FILL;
         [u, v]
     }
 
-    /// Stores texels, their paint replaced by its place among all paint of the mark.
+    /// Packs texels into bytes. Paint is equalised: each value becomes its rank among all paint of the mark, 0..1.
     fn store(texels: &[Texel]) -> Self {
-        // A positive number's bits are in its order; equal paint by index.
+        // The bits of positive floats sort like their values; equal paint by index.
         let key = |(index, texel): (usize, &Texel)| u64::from(texel.paint.to_bits()) << 32 | index as u64;
         let mut inked: Vec<u64> =
             texels.iter().enumerate().filter(|(_, texel)| texel.paint > 0.02).map(key).collect();
         inked.sort_unstable();
         let mut paint = vec![0.0f32; texels.len()];
         let count = inked.len() as f32;
-        for (place, key) in inked.into_iter().enumerate() {
-            paint[key as u32 as usize] = (place as f32 + 0.5) / count;
+        for (rank, key) in inked.into_iter().enumerate() {
+            paint[key as u32 as usize] = (rank as f32 + 0.5) / count;
         }
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let stored = texels

@@ -13,12 +13,12 @@ pub mod guide;
 mod relax;
 pub mod singularities;
 
-/// When two directions count as the same.
+/// Which directions count as equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symmetry {
-    /// Never, but when they are: n = 1.
+    /// Only a direction and itself: n = 1.
     Arrows,
-    /// When one is the other turned by half a turn: n = 2.
+    /// A direction and its opposite too: n = 2.
     Lines,
 }
 
@@ -40,8 +40,8 @@ impl Symmetry {
         }
     }
 
-    /// The unit tangent of a complex number in these axes; of a line, the end within a quarter turn of the first axis. Zero
-    /// for zero.
+    /// The unit tangent of a complex number in these axes; of a line's two ends, the one within a quarter turn of the first
+    /// axis. Zero for zero.
     pub fn decode(self, z: DVec2, [right, above]: [DVec3; 2]) -> DVec3 {
         if z.length_squared() < 1e-24 {
             return DVec3::ZERO;
@@ -82,8 +82,9 @@ pub fn transport_rad(from: DVec3, to: DVec3) -> f64 {
     carried.dot(above_to).atan2(carried.dot(right_to))
 }
 
-/// The direction from a point on the surface towards `target`, along the surface; unit, or zero where it is straight off it.
-pub fn toward(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
+/// The direction from a point on the surface towards the point `target`, along the surface; unit, or zero where the target lies
+/// straight above or below.
+pub fn towards_point(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
     along_surface((target - position).normalize_or_zero(), normal)
 }
 
@@ -99,8 +100,8 @@ fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
 
 /// The direction round an axis, along the surface; unit, or zero where it is undefined.
 ///
-/// `axis × n` follows bent and off-centre parts. Where the surface faces along the axis (the cap of a log) that
-/// vanishes, and the circle round the axis through `center` stands in.
+/// `axis × n` follows bent and off-centre parts. Where the surface faces along the axis (the cap of a log) it vanishes; there the
+/// circle round the part's centre takes over. `from_center` is the point minus that centre, `size` the size of the part.
 pub fn around(axis: DVec3, normal: DVec3, from_center: DVec3, size: f64) -> DVec3 {
     let axis = axis.normalize_or_zero();
     let round_part = axis.cross(normal);
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_are_right_handed_and_numbers_stand_for_lines() {
+    fn tangent_axes_are_right_handed_and_a_direction_survives_encoding() {
         for normal in [DVec3::Z, DVec3::NEG_Z, DVec3::new(0.3, -0.5, -0.2), DVec3::new(-1.0, 2.0, 0.7)] {
             let normal = normal.normalize();
             let axes = tangent_axes(normal);

@@ -1,4 +1,4 @@
-//! What of a mesh is reached from one face without going round a sharp edge.
+//! Flood fill over a mesh: the faces that are reached from one face without crossing a sharp edge.
 
 use std::collections::HashSet;
 
@@ -8,23 +8,23 @@ use crate::TriangleMesh;
 use crate::nearest::nearest_point;
 use crate::shells;
 
-/// Faces that face away from the seed count as this many times farther away than they are.
+/// A face with the opposite of the seed's normal counts as this many times farther away than it is.
 const TURNED_AWAY: f64 = 4.0;
 
-/// More triangles round an edge than this are a crowd.
-const CROWD: usize = 64;
+/// An edge whose less crowded end has more triangles than this is looked at only once.
+const CROWDED: usize = 64;
 
-/// For each triangle, whether it is reached from the one nearest to a seed (a point of model space; of triangles about as
-/// near, one that faces as its normal says) over edges whose two triangles face less than `sharp_rad` apart.
+/// For each triangle, whether it is reached from a seed over edges whose two triangles face less than `sharp_rad` apart.
 ///
-/// Edges are compared by position, so split vertices do not stop it; the triangles of one polygon are one face. Triangles
-/// without area are passed over as if they faced as what they were reached from.
+/// The seed is a point with a normal, model space: the flood begins at the nearest triangle; of triangles about as near, at one
+/// that faces the same way. Edges are compared by position, so split vertices do not stop it. The triangles of one polygon
+/// count as one face, and a triangle without area takes the normal of the face that it was reached from.
 pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) -> Vec<bool> {
     let mut is_reached = vec![false; mesh.triangles.len()];
     let Some(first) = nearest_triangle(mesh, at, normal.normalize_or_zero()) else { return is_reached };
     let points = Points::of(mesh);
     let least_cos = sharp_rad.cos();
-    // Edges that very many triangles share are looked at once.
+    // Otherwise a fan of n triangles would take n² steps.
     let mut crowded = HashSet::new();
     is_reached[first] = true;
     let mut open = vec![(first, face_normal(mesh, first))];
@@ -33,7 +33,7 @@ pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) ->
         for corner in 0..3 {
             let (from, to) = (corners[corner], corners[(corner + 1) % 3]);
             let near = points.triangles_at_fewer(from, to);
-            let is_done = near.len() > CROWD && !crowded.insert((from.min(to), from.max(to)));
+            let is_done = near.len() > CROWDED && !crowded.insert((from.min(to), from.max(to)));
             if from == to || is_done {
                 continue;
             }
@@ -86,7 +86,7 @@ fn nearest_triangle(mesh: &TriangleMesh, at: DVec3, normal: DVec3) -> Option<usi
     best.map(|(_, triangle)| triangle)
 }
 
-/// Places of a mesh, whichever vertices lie there, with the triangles round each.
+/// The distinct positions of a mesh's vertices, with the triangles at each.
 struct Points {
     of_triangle: Vec<[u32; 3]>,
     starts: Vec<u32>,
@@ -118,7 +118,7 @@ impl Points {
         Self { of_triangle, starts, triangles }
     }
 
-    /// The triangles at one end of an edge, where there are fewer.
+    /// The triangles at the end of an edge that has fewer.
     fn triangles_at_fewer(&self, from: u32, to: u32) -> &[u32] {
         let (from, to) = (self.triangles_at(from), self.triangles_at(to));
         if from.len() <= to.len() { from } else { to }
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_sides_of_a_plate_it_takes_the_one_that_faces_likewise() {
+    fn the_normal_of_the_seed_picks_a_side_of_a_thin_plate() {
         let mut mesh = strip(&[0.0, 0.0]);
         let back: Vec<Vec3> = mesh.positions.iter().map(|at| *at - Vec3::Z * 1e-3).collect();
         mesh.positions.extend(back);

@@ -9,13 +9,13 @@
 //! ```
 //!
 //! s is the sign of the quad's area, on a convex quad that of b₁∧b₂. This form of the root holds where A is 0 (rectangles,
-//! parallelograms, trapezoids) and for either winding; where its denominator is a difference of like numbers, the same root
-//! is taken as (−B − s√) / 2A. u is found from the component whose denominator is larger. `shaders/shared/inverse_bilinear.glsl`
-//! computes the same in 32 bits.
+//! parallelograms, trapezoids) and for either winding; where its denominator would cancel, the same root is taken as
+//! (−B − s√) / 2A. u is found from the component whose denominator is larger. `shaders/shared/inverse_bilinear.glsl` computes
+//! the same in 32 bits.
 
 use glam::DVec2;
 
-/// Neither coordinate of [`inverse_bilinear`] is farther from 0.
+/// The coordinates that [`inverse_bilinear`] gives are clamped to ± this.
 pub const FARTHEST: f64 = 1e4;
 
 /// The point at (u, v) of a quad whose corners are at (0, 0), (1, 0), (0, 1) and (1, 1), in this order.
@@ -26,9 +26,9 @@ pub fn bilinear(at: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
 /// (u, v) of a point in a quad whose corners are at (0, 0), (1, 0), (0, 1) and (1, 1), in this order, wound either way; within
 /// 0..=1 inside of it.
 ///
-/// A concave quad lies in a fold over itself: a point inside has the (u, v) of the side that is wound as the whole is. Points
-/// that no (u, v) reaches, points far outside, and quads of no area give numbers of no meaning, at most [`FARTHEST`] from 0 and
-/// never NaN, for coordinates up to 1e30.
+/// The bilinear map of a concave quad folds over itself; a point inside gets the (u, v) of the sheet with the quad's own winding.
+/// Points that no (u, v) reaches, points far outside, and quads without area give numbers without meaning, at most [`FARTHEST`]
+/// from 0 and never NaN, for coordinates up to 1e30.
 pub fn inverse_bilinear(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
     let (q, b1, b2, b3) = (point - p0, p1 - p0, p2 - p0, p0 - p1 - p2 + p3);
     let a = b2.perp_dot(b3);

@@ -1,4 +1,4 @@
-//! The maths of Impasto. No files, no GL, no clock, and no randomness that it was not handed.
+//! The maths of Impasto, from particles on a mesh to strokes in a view. No files, no GL, no clock, and no randomness of its own.
 //!
 //! ```text
 //! mesh ─▶ shells ─▶ sampling ─▶ particles (progressive blue-noise order)

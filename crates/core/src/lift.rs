@@ -62,14 +62,14 @@ impl Lift {
         (count >= 3 && sum > 0.25 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
     }
 
-    /// `N R(θ)`: what was measured along the reference's x is now measured along a line at this angle to it.
+    /// `N R(θ)`: the first column, along the reference picture's x until now, is along a line at this angle to it.
     #[inline]
     pub fn turned(self, angle_rad: f64) -> Self {
         let (sin, cos) = angle_rad.sin_cos();
         Self { along: self.along * cos + self.across * sin, across: self.across * cos - self.along * sin }
     }
 
-    /// `(1 − t)·self + t·other`, `other` taken as the undirected line that is nearer as seen through `jacobian`.
+    /// `(1 − t)·self + t·other`, with `other` flipped if its opposite is nearer to `self` as seen through `jacobian`.
     pub fn blended(self, other: Self, t: f64, jacobian: [DVec3; 2]) -> Self {
         let (here, there) = (self.map(jacobian).turn(), other.map(jacobian).turn());
         let t_signed = if here.dot(there) < 0.0 { -t } else { t };
@@ -111,7 +111,7 @@ impl PixelMap2 {
         (self.turn().normalize_or_zero() * flatness + wrapped * (1.0 - flatness)).to_angle()
     }
 
-    /// κ in 0..=1: how much of the map is turning and scaling; at least 1/√2 for any map that does not
+    /// κ, the trust, in 0..=1: how much of the map is rotation and uniform scaling; at least 1/√2 for any map that does not
     /// mirror, 0 for a zero map.
     #[inline]
     pub fn kappa(self) -> f64 {
@@ -120,8 +120,8 @@ impl PixelMap2 {
     }
 }
 
-/// Right and up axes of a camera that looks straight at a surface: `up` projected on the tangent plane. Where the
-/// surface faces straight up or down, a fixed direction stands in.
+/// Right and up axes of a camera that looks straight at a surface, its up the projection of `up` on the tangent plane. Where
+/// the surface faces straight up or down, a fixed direction takes its place.
 pub fn turntable_axes(normal: DVec3, up: DVec3) -> [DVec3; 2] {
     let projected = up - normal * normal.dot(up);
     let above = if projected.length_squared() > 1e-12 {

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// The point of a triangle that is nearest to `at` (Ericson, Real-Time Collision Detection, 5.1.5); of one without area,
-/// of its edges.
+/// The point of a triangle that is nearest to `at` (Ericson, Real-Time Collision Detection, 5.1.5); a triangle without area is
+/// treated as its edges.
 pub fn nearest_point(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);

@@ -5,7 +5,7 @@ mod crowd;
 mod wide;
 
 use cells::{CellSpace, RowCursor, SortedPoints};
-use crowd::{Crowd, Keep, Query};
+use crowd::{Crowd, PackNear, Query};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -24,11 +24,11 @@ pub struct Points<'a> {
 /// For each particle the indices of its neighbours, nearest first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Neighbours {
-    /// Which of the lists is whose: lists stand in the order of the particles' cells.
-    places: Vec<u32>,
-    /// How long each is.
+    /// The slot of each particle's list; lists are stored in the order of the particles' cells.
+    slots: Vec<u32>,
+    /// Length of each list, by slot.
     lengths: Vec<u8>,
-    /// So many places for each list.
+    /// Room for each list: the indices of slot `s` begin at `s * most`.
     most: usize,
     indices: Vec<u32>,
 }
@@ -39,7 +39,7 @@ const CHUNK: usize = 1024;
 impl Neighbours {
     /// How many particles have a list.
     pub fn len(&self) -> usize {
-        self.places.len()
+        self.slots.len()
     }
 
     /// Whether none has.
@@ -50,30 +50,31 @@ impl Neighbours {
     /// The neighbours of one particle, nearest first; equal distances by index. Never itself.
     #[inline]
     pub fn of(&self, particle: usize) -> &[u32] {
-        let place = self.places[particle] as usize;
-        &self.indices[place * self.most..][..usize::from(self.lengths[place])]
+        let slot = self.slots[particle] as usize;
+        &self.indices[slot * self.most..][..usize::from(self.lengths[slot])]
     }
 
     /// Finds, for each particle, the [`MAX_NEIGHBOURS`] nearest others of the same body within `radius` (model units,
     /// inclusive) whose normals lie in the same half space (n·n' > 0). The lists are exact, and the same on every machine.
     pub fn find(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Self {
-        Self::found(Points { positions, normals }, None, (radius, MAX_NEIGHBOURS), wide::run)
+        Self::found(Points { positions, normals }, None, radius, MAX_NEIGHBOURS, wide::run)
     }
 
     /// Finds, for each of `queries`, the `most` (at most [`MAX_NEIGHBOURS`]) nearest of `points` within `radius` on the same
     /// side of the surface.
     pub fn find_among(queries: Points<'_>, points: Points<'_>, radius: f32, most: usize) -> Self {
-        Self::found(queries, Some(points), (radius, most.min(MAX_NEIGHBOURS)), wide::run)
+        Self::found(queries, Some(points), radius, most.min(MAX_NEIGHBOURS), wide::run)
     }
 
-    /// Of each other, or of `points`.
+    /// Finds lists with one build of the search; `points` of `None` are the queries themselves.
     fn found(
         queries: Points<'_>,
         points: Option<Points<'_>>,
-        (radius, most): (f32, usize),
+        radius: f32,
+        most: usize,
         run: impl Fn(&Search<'_>, Part<'_>) + Sync,
     ) -> Self {
-        // Nothing is within less than nothing.
+        // With a radius of NaN no distance passes.
         let radius = if radius >= 0.0 { radius } else { f32::NAN };
         let space =
             CellSpace::new([queries.positions, points.map_or(&[], |points| points.positions)], radius);
@@ -81,7 +82,7 @@ impl Neighbours {
         let queries = SortedPoints::new(queries, &space);
         let count = queries.numbers.len();
         let mut lengths = vec![0; count];
-        // A part of this that no list fills is never touched, so it takes no memory.
+        // Zeroed pages that no list fills are never touched, so they take no memory.
         let mut indices = vec![0; count * most];
         let search = Search { queries: &queries, others: others.as_ref(), space: &space, radius, most };
         let parts =
@@ -89,18 +90,18 @@ impl Neighbours {
         parts.for_each(|(chunk, (lengths, indices))| {
             run(&search, Part { first: chunk * CHUNK, lengths, indices })
         });
-        let mut places = vec![0; count];
-        for (&number, place) in queries.numbers.iter().zip(0..) {
-            places[number as usize] = place;
+        let mut slots = vec![0; count];
+        for (&number, slot) in queries.numbers.iter().zip(0..) {
+            slots[number as usize] = slot;
         }
-        Self { places, lengths, most, indices }
+        Self { slots, lengths, most, indices }
     }
 }
 
 /// What all parts of a search share.
 struct Search<'a> {
     queries: &'a SortedPoints,
-    /// Where neighbours are looked for; `None` among the queries themselves.
+    /// The points among which neighbours are searched; `None` for the queries themselves.
     others: Option<&'a SortedPoints>,
     space: &'a CellSpace,
     radius: f32,
@@ -116,7 +117,7 @@ struct Part<'a> {
 
 impl Search<'_> {
     #[inline(always)]
-    fn run<K: Keep>(&self, part: Part<'_>) {
+    fn run<P: PackNear>(&self, part: Part<'_>) {
         if self.most == 0 {
             return;
         }
@@ -135,7 +136,7 @@ impl Search<'_> {
                     most: self.most,
                 };
                 let list = &mut indices[(query - first) * self.most..][..self.most];
-                lengths[query - first] = crowd.nearest::<K>(&asked, list) as u8;
+                lengths[query - first] = crowd.nearest::<P>(&asked, list) as u8;
             }
         }
     }

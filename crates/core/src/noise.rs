@@ -1,13 +1,12 @@
-//! Smooth noise in space, fixed for ever: what makes strokes swing, colours drift and edges get lost, slowly over a
-//! surface.
+//! Slow value noise in space: it makes strokes swing, colours drift and edges get lost gradually over a surface.
 
 use glam::{DVec3, Vec3};
 
 use crate::hash;
 use crate::wide::{Wide, widest};
 
-/// Two octaves of value noise at each place, mean 0 and standard deviation about 1, one cycle a unit. `noise` is as long as
-/// `at`.
+/// Two octaves of value noise at each point, of mean 0, a standard deviation of about 1 and one cycle per unit. `noise` is as
+/// long as `at`.
 pub fn slow(seed: u32, at: &[DVec3], noise: &mut [f32]) {
     widest(Slow { seed, at, noise });
 }
@@ -25,7 +24,7 @@ impl Wide for Slow<'_> {
     fn run(self) {
         let second_seed = hash::scramble(self.seed);
         for (noise, &at) in self.noise.iter_mut().zip(self.at) {
-            // A point between lattice points in every octave.
+            // Shifted, so that no point is a lattice point in both octaves.
             let second = at * 2.03 + DVec3::splat(17.3);
             *noise = (value(self.seed, at) + 0.5 * value(second_seed, second)) * 4.9;
         }

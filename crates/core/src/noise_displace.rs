@@ -1,23 +1,23 @@
-//! Vertices that a noise texture moves (Hong and Park 2021), and the textures that the house has for it.
+//! Vertices that a noise texture moves (Hong and Park 2021), and the built-in noise textures.
 //!
 //! ```text
 //! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
 //! ```
 
-mod house;
+mod built_in;
 mod tile;
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 
-pub use house::{gaussian, perlin};
+pub use built_in::{gaussian, perlin};
 pub use tile::Tile;
 
-/// Seconds in which the noise travels once over its texture: Unity's `_Time.x` is seconds / 20.
+/// Seconds in which the noise travels by one length of its texture: Unity's `_Time.x` is seconds / 20.
 pub const SECONDS_PER_TILE: f64 = 20.0;
 
-/// What a vertex is moved along.
+/// The directions along which a vertex is moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Along {
     /// Each axis by a channel of the noise.
@@ -32,11 +32,11 @@ pub enum Along {
 pub struct VertexNoise {
     /// The noise, N.
     pub tile: Arc<Tile>,
-    /// NS: from the lowest noise to the highest, model units.
+    /// NS: displacement from the lowest noise to the highest, model units.
     pub scale: f64,
-    /// What they are moved along.
+    /// The directions along which they are moved.
     pub along: Along,
-    /// Light falls on the surface as it is moved, not as it is at rest.
+    /// Normals are those of the moved surface, so that light falls on it as it is moved.
     pub moves_normals: bool,
 }
 
@@ -47,8 +47,7 @@ impl PartialEq for VertexNoise {
     }
 }
 
-/// Where in the texture a point of a body looks, at one time: two affine functions of its place in model space, in
-/// lengths of the texture.
+/// Coordinates in the noise texture at one time: two affine functions of a position in model space, in lengths of the texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lookup {
     /// Rows of a 2×4 matrix.
@@ -56,8 +55,8 @@ pub struct Lookup {
 }
 
 impl Lookup {
-    /// `S·v·NV` and a shift; S is `world_from_model`, or nothing where the noise goes with the body. Whole textures are
-    /// left out of the shift, so that far away is as exact as near.
+    /// `S·v·NV` plus a shift. S is `world_from_model`, or the identity where the noise moves with the body. Whole textures are
+    /// taken off the shift, so that bodies far away are as exact as near ones.
     pub fn new(value: [f64; 2], world_from_model: Option<DAffine3>, shift: DVec2) -> Self {
         let space = world_from_model.unwrap_or(DAffine3::IDENTITY);
         let row = |axis: usize| {
@@ -67,15 +66,15 @@ impl Lookup {
         Self { rows: [row(0), row(1)] }
     }
 
-    /// Where a point looks.
+    /// The texture coordinates of a point.
     pub fn at(&self, position: DVec3) -> DVec2 {
         let position = position.extend(1.0);
         DVec2::new(self.rows[0].dot(position), self.rows[1].dot(position))
     }
 }
 
-/// How far time has gone in lengths of the texture: along X, Unity's `_Time.x`. With a period it goes round a circle as
-/// fast, so that it is back after so many seconds, to the bit, whatever the period; at first it goes along X too.
+/// How far the noise has travelled, in lengths of the texture: along X by Unity's `_Time.x`. With a period it travels round a
+/// circle at the same speed, at first along X, and is back after that many seconds, to the bit.
 pub fn travelled(seconds: f64, period_secs: Option<f64>) -> DVec2 {
     let Some(period_secs) = period_secs else { return DVec2::new(seconds / SECONDS_PER_TILE, 0.0) };
     let radius = period_secs / SECONDS_PER_TILE / std::f64::consts::TAU;
@@ -83,13 +82,13 @@ pub fn travelled(seconds: f64, period_secs: Option<f64>) -> DVec2 {
     DVec2::new(sin, 1.0 - cos) * radius
 }
 
-/// The shift of the vertices' lookup: `(t, t)`, and round the same circle with a period.
+/// The shift of the vertices' lookup: `(t, t)`; with a period, the circle of [`travelled`] turned and scaled likewise.
 pub fn vertex_shift(travelled: DVec2) -> DVec2 {
     DVec2::new(travelled.x - travelled.y, travelled.x + travelled.y)
 }
 
 impl VertexNoise {
-    /// Where a point of the surface goes.
+    /// Where a point of the surface is moved to.
     pub fn displaced(&self, position: DVec3, normal: DVec3, lookup: &Lookup) -> DVec3 {
         let noise = self.centred(lookup.at(position));
         position
@@ -99,8 +98,8 @@ impl VertexNoise {
             }
     }
 
-    /// The unit normal where the surface has gone: `cof(F) n`, F the derivative of [`VertexNoise::displaced`] over two texels;
-    /// along the normal, without the bend that the surface has at rest.
+    /// The unit normal of the moved surface: `cof(F) n`, F the derivative of [`VertexNoise::displaced`] over two texels. With
+    /// [`Along::Normal`], the curvature that the surface has at rest is neglected.
     pub fn displaced_normal(&self, position: DVec3, normal: DVec3, lookup: &Lookup) -> DVec3 {
         let normal = normal.normalize_or_zero();
         let at = lookup.at(position);
@@ -142,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_period_closes_and_begins_as_time_does() {
+    fn a_period_closes_and_begins_at_the_usual_speed() {
         for period_secs in [0.5, 3.0, 40.0] {
             let at = |seconds: f64| travelled(seconds, Some(period_secs));
             assert_eq!(at(0.0), at(period_secs));
@@ -156,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn far_away_is_as_exact_as_near() {
+    fn the_lookup_is_as_exact_far_away_as_near() {
         let near = Lookup::new([0.5, 0.5], Some(DAffine3::from_translation(DVec3::X)), DVec2::ZERO);
         let far = DAffine3::from_translation(DVec3::new(2e6 + 1.0, 0.0, 0.0));
         let far = Lookup::new([0.5, 0.5], Some(far), DVec2::ZERO);
@@ -165,7 +164,7 @@ mod tests {
 
     #[test]
     fn displaced_normals_are_those_of_the_displaced_surface() {
-        // A plane, so that it has no bend of its own.
+        // A plane, which has no curvature of its own.
         let lookup = Lookup::new([0.31, 0.27], None, DVec2::new(0.13, 0.4));
         for along in [Along::Channels, Along::Normal] {
             let noise = noise(along);

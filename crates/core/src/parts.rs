@@ -9,7 +9,7 @@ use crate::{TriangleMesh, shells};
 /// One shell of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// Mean of its surface, model space.
+    /// Centroid of its surface, model space.
     pub center: DVec3,
     /// Unit principal axes, the longest first; each points to the side on which its largest component is positive.
     pub axes: [DVec3; 3],
@@ -17,15 +17,15 @@ pub struct Part {
     pub extents: [f64; 3],
 }
 
-/// Shells of fewer triangles than this are not looked at one by one.
+/// A shell of fewer triangles than this is no part of its own.
 const LEAST_TRIANGLES: usize = 8;
 
-/// A mesh of more shells than this is a heap: only shells of at least `LEAST_SHARE` of its surface are looked at one by one.
-const HEAP: usize = 48;
+/// In a mesh of more shells than this, a shell with less than `LEAST_SHARE` of the surface is no part of its own.
+const MANY_SHELLS: usize = 48;
 const LEAST_SHARE: f64 = 0.02;
 
-/// The parts of a mesh, and the part that each triangle belongs to. A part is a shell; those of a few triangles, and the
-/// leaves of a tree, count as one part together, so that what is torn into bits is still one thing.
+/// The parts of a mesh, and the part that each triangle belongs to. A part is a shell; shells that are too small, as the leaves of
+/// a tree or single triangles, make one part together.
 pub fn parts(mesh: &TriangleMesh) -> (Vec<Part>, Vec<u32>) {
     let of_triangle = numbers(mesh);
     let count = of_triangle.iter().max().map_or(0, |&last| last as usize + 1);
@@ -64,7 +64,7 @@ fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
         triangles[shell as usize] += 1;
         areas[shell as usize] += (b - a).cross(c - a).length();
     }
-    let least_area = if count > HEAP { LEAST_SHARE * areas.iter().sum::<f64>() } else { 0.0 };
+    let least_area = if count > MANY_SHELLS { LEAST_SHARE * areas.iter().sum::<f64>() } else { 0.0 };
     let stands_alone =
         |shell: &u32| triangles[*shell as usize] >= LEAST_TRIANGLES && areas[*shell as usize] >= least_area;
     let mut number: HashMap<Option<u32>, u32> = HashMap::new();
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_brick_knows_its_axes_and_lengths() {
+    fn a_turned_brick_has_its_axes_and_lengths() {
         let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -0.7, 1.1);
         let mut mesh = brick(DVec3::new(0.2, 1.0, 0.5), turn, DVec3::new(3.0, -2.0, 1.0));
         let second = brick(DVec3::splat(0.1), DQuat::IDENTITY, DVec3::ZERO);
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn torn_triangles_are_one_part() {
+    fn separate_triangles_are_one_part_together() {
         let mut mesh = brick(DVec3::new(0.2, 1.0, 0.5), DQuat::IDENTITY, DVec3::ZERO);
         let torn: Vec<Vec3> = (0..mesh.triangles.len())
             .flat_map(|triangle| {

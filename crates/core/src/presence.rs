@@ -1,7 +1,7 @@
-//! How much of a stroke is there, so that density follows the picture without a stroke ever popping.
+//! Presence: how far a stroke is there, 0..=1, so that density follows the view without a stroke ever popping.
 
-/// How much of a stroke is there for its supply, 0..=1: `(S(m + x/1.4) − 0.1)/0.9`, S = smoothstep, so that the last tenth,
-/// a few hairs spread wide, is never painted; m makes it one half at x = 0.
+/// Presence by supply, 0..=1: `(S(m + x/1.4) − 0.1)/0.9`, at least 0, with S = smoothstep. The last tenth, a few hairs spread
+/// wide, is never painted. m makes the presence one half at x = 0.
 ///
 /// `supply_ln`: x = ln(D/u), D the strokes wanted per pixel over the particles per projected pixel (uncapped), u the
 /// particle's rank in (0, 1).
@@ -10,24 +10,23 @@ pub fn of_supply(supply_ln: f32) -> f32 {
     ((smoothstep(MIDDLE + supply_ln * (1.0 / FADE)) - LEAST) * (1.0 / (1.0 - LEAST))).max(0.0)
 }
 
-/// How much of a stroke is there as its surface turns away: S(facing/0.2), facing the cosine between the surface normal and
-/// the direction to the eye.
+/// Presence as the surface turns away: S(facing/0.2), facing the cosine between the surface normal and the direction to the eye.
 #[inline]
 pub fn of_facing(facing: f32) -> f32 {
     smoothstep(facing * 5.0)
 }
 
-/// Width of the fade in ln(D/u). At 1.2, the least that the first measurements found, strokes near the limb of a turning body in
-/// perspective change by up to 0.21 a degree; at 1.4 they stay under 0.2, and the density within 5 % of what is wanted.
+/// Width of the fade in ln(D/u). At 1.2 the presence of strokes near the limb of a body that turns in perspective changes by up
+/// to 0.21 per degree; at 1.4 it stays under 0.2, and the density within 5 % of what is wanted.
 const FADE: f32 = 1.4;
 
-/// What is left of a stroke that is left out.
+/// The value of S below which a stroke is left out.
 const LEAST: f32 = 0.1;
 
 /// Where S is 0.55, half-way between `LEAST` and 1.
 const MIDDLE: f32 = 0.533_382_94;
 
-/// At or below this supply nothing of a stroke is there: S(0.195_8) is 0.1.
+/// At or below this supply the presence is 0: S(0.195_8) is 0.1.
 pub const ABSENT_LN: f32 = -0.472_616;
 
 /// 3t² − 2t³ on 0..=1, clamped outside.
@@ -56,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sum_over_ranks_is_what_was_wanted() {
+    fn the_sum_of_presences_is_the_number_of_strokes_wanted() {
         // E[presence] over u in (0, 1) is D while D is small: strokes shown = strokes wanted.
         for wanted in [0.02f32, 0.1, 0.3] {
             let count = 100_000;
@@ -69,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn a_degree_of_turn_or_a_percent_of_zoom_is_a_small_step() {
+    fn a_degree_of_turn_or_a_percent_of_zoom_changes_presence_little() {
         for tenth in 0..900 {
             let tilt = f64::from(tenth) * 0.1f64.to_radians();
             for rank in [0.01, 0.1, 0.5, 0.99] {

@@ -4,8 +4,8 @@ mod block;
 mod candidates;
 mod dart_grid;
 mod face_cones;
+mod packed;
 mod paper;
-mod place;
 mod progressive;
 mod throw;
 
@@ -17,11 +17,11 @@ use crate::shells::{Side, sides};
 use dart_grid::Dart;
 
 pub use candidates::scattered;
+pub use packed::PackedParticle;
 pub use paper::{PolygonParticle, per_polygon};
-pub use place::Place;
 pub use progressive::{ProgressiveState, progressive};
 
-/// Where a particle sits: a triangle and a place in it, so that it rides any deformation of the mesh.
+/// A particle: a point of a triangle, so that it follows any deformation of the mesh, with its position and normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
     /// Index of the triangle.
@@ -37,7 +37,7 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// The same place on the same triangles after their vertices have moved.
+    /// The same point of the same triangle after the vertices have moved.
     #[inline]
     pub fn on(&self, mesh: &TriangleMesh, positions: &[Vec3], normals: &[Vec3]) -> Self {
         let corners = mesh.triangles[self.triangle as usize];
@@ -64,7 +64,7 @@ impl Particle {
     }
 }
 
-/// The sides of a mesh that can be seen, with a running sum of their areas.
+/// The visible sides of a mesh's triangles (its faces), with a running sum of their areas.
 #[derive(Clone, Debug)]
 pub struct Surface<'mesh> {
     mesh: &'mesh TriangleMesh,
@@ -126,7 +126,7 @@ impl<'mesh> Surface<'mesh> {
         })
     }
 
-    /// Where a place of a face lies: what [`Surface::particle`] says, at a third of its cost.
+    /// Position of a point of a face: as [`Surface::particle`] gives it, at a third of the cost.
     #[inline]
     fn position(&self, face: usize, [v, w]: [f32; 2]) -> Vec3 {
         let [a, b, c] = self.mesh.corners(self.faces[face].triangle as usize);
@@ -144,11 +144,11 @@ impl<'mesh> Surface<'mesh> {
         particles.iter().zip(0..).map(dart).collect()
     }
 
-    /// The particle at a place of a face.
+    /// The particle at a point of a face.
     fn particle(&self, face: usize, barycentric: [f32; 2]) -> Particle {
         let Face { triangle, flipped } = self.faces[face];
-        let place = Particle { triangle, barycentric, flipped, position: Vec3::ZERO, normal: Vec3::Y };
-        place.on(self.mesh, &self.mesh.positions, &self.mesh.normals)
+        let unplaced = Particle { triangle, barycentric, flipped, position: Vec3::ZERO, normal: Vec3::Y };
+        unplaced.on(self.mesh, &self.mesh.positions, &self.mesh.normals)
     }
 }
 
@@ -163,7 +163,7 @@ fn barycentric(first: f32, second: f32) -> [f32; 2] {
     [root * (1.0 - second), root * second]
 }
 
-/// Greatest spacing that `count` points can have on an area: the hexagonal lattice's, √(2A / (√3 N)).
+/// The greatest spacing that `count` points can have on an area: that of the hexagonal lattice, √(2A / (√3 N)).
 pub fn hexagonal_spacing(area: f64, count: usize) -> f64 {
     (2.0 * area / (3f64.sqrt() * count as f64)).sqrt()
 }

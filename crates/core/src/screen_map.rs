@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 /// Projects points of one body into one picture: pixels, origin in the picture's centre, Y up.
 ///
 /// With homogeneous `p = (x, y, z, 1)`: `x_px = (row_x·p)/(row_w·p)`, likewise y. A perspective lens has
-/// `row_w = depth`, an orthographic one `row_w = (0, 0, 0, 1)`; all else is the same for both.
+/// `row_w = depth`, an orthographic one `row_w = (0, 0, 0, 1)`; everything else is the same for both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenMap {
     /// Numerator of the x coordinate.
@@ -120,7 +120,7 @@ mod tests {
     fn facing_is_the_cosine_to_the_eye() {
         let map = tilted_map(PixelLens::Perspective { focal_px: 900.0 });
         let at = DVec3::new(0.4, -0.3, 0.5);
-        // The eye is where numerator and denominator vanish together.
+        // The eye is where numerators and denominator vanish together.
         let eye = glam::DMat3::from_cols(map.row_x.truncate(), map.row_y.truncate(), map.row_w.truncate())
             .transpose()
             .inverse()

@@ -1,5 +1,5 @@
-//! Shells: parts of a mesh that hang together, and which side of them can be seen (of closed ones the outside only, of
-//! open sheets both).
+//! Shells, the connected pieces of a mesh, and which side of them can be seen: of closed ones the outside only, of open sheets
+//! both.
 
 use std::collections::HashMap;
 
@@ -21,8 +21,8 @@ pub enum Side {
 /// For each triangle, the side that can be seen.
 ///
 /// Triangles that share an edge belong to one shell (edges are compared by position, so split normals and texture
-/// seams do not open a shell). A shell is closed when every edge is run as often forwards as backwards; it is inside
-/// out when its signed volume is negative.
+/// seams do not open a shell). A shell is closed when every edge is run as often forwards as backwards by its triangles; it is
+/// inside out when its signed volume is negative.
 pub fn sides(mesh: &TriangleMesh) -> Vec<Side> {
     let (mut shells, open) = find(mesh);
     let mut volume = vec![0.0f64; mesh.triangles.len()];
@@ -81,7 +81,7 @@ fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
 
 /// Gives vertices at the same position the same number, counted from 0 in the order in which positions begin.
 pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
-    // A table of first vertices, at most half full; a place that is taken sends on to the next.
+    // A hash table of first vertices, at most half full, with linear probing.
     const FREE: u32 = u32::MAX;
     let mask = (2 * positions.len()).next_power_of_two() - 1;
     let mut first_at = vec![FREE; mask + 1];

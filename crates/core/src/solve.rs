@@ -30,7 +30,7 @@ pub struct BakedParticles {
     pub flatness: Vec<f32>,
 }
 
-/// Some particles one after the other, one array per number.
+/// A run of neighbouring particles to be written, one array per number.
 #[derive(Debug, Default)]
 pub struct BakedChunk<'a> {
     /// Position, normal, and both columns of N', by component.
@@ -40,7 +40,7 @@ pub struct BakedChunk<'a> {
 impl BakedChunk<'_> {
     /// Sets a particle of the chunk: position and unit normal in model space, and its lift.
     #[inline]
-    pub fn set(&mut self, index: usize, (position, normal): (DVec3, DVec3), lift: Lift) {
+    pub fn set(&mut self, index: usize, position: DVec3, normal: DVec3, lift: Lift) {
         let Lift { along, across } = lift;
         let numbers = [
             [position.x, position.y, position.z, normal.x, normal.y, normal.z],
@@ -52,7 +52,7 @@ impl BakedChunk<'_> {
     }
 }
 
-/// What a view makes of them, one array per number, in the same order.
+/// The particles of [`BakedParticles`] in one view, one array per number, in the same order.
 #[derive(Clone, Debug, Default)]
 pub struct SolvedParticles {
     /// Pixels from the picture's centre.
@@ -82,12 +82,12 @@ impl BakedParticles {
         }
     }
 
-    /// Room for exactly so many particles: those beyond are cut off, new ones are zero. Flatness goes.
+    /// Makes room for exactly `count` particles: those beyond are cut off, new ones are zero. Flatness is cleared.
     pub fn resize(&mut self, count: usize) {
         self.flatness.clear();
         for array in self.vectors_mut().into_iter().flatten() {
             if array.is_empty() {
-                // Memory that nobody has touched yet, so that all threads share the first touch.
+                // Fresh zeroed memory: its pages are first touched by the threads that fill them.
                 *array = vec![0.0; count];
             } else {
                 array.truncate(count);
@@ -97,14 +97,14 @@ impl BakedParticles {
         }
     }
 
-    /// The particles from `first` on, so many at a time, to be set one by one.
+    /// The particles from `first` on in chunks of `size`, to be written one by one.
     pub fn chunks_mut(&mut self, first: usize, size: usize) -> Vec<BakedChunk<'_>> {
         let count = self.len();
         let mut chunks: Vec<BakedChunk<'_>> =
             (first..count).step_by(size).map(|_| BakedChunk::default()).collect();
-        for (place, array) in self.vectors_mut().into_iter().flatten().enumerate() {
+        for (component, array) in self.vectors_mut().into_iter().flatten().enumerate() {
             for (chunk, slice) in chunks.iter_mut().zip(array[first..].chunks_mut(size)) {
-                chunk.arrays[place] = slice;
+                chunk.arrays[component] = slice;
             }
         }
         chunks
@@ -225,7 +225,7 @@ impl<const WRAPPED: bool> Wide for Chunk<'_, WRAPPED> {
 fn solve_chunk<const WRAPPED: bool>(chunk: Chunk<'_, WRAPPED>) {
     let Chunk { particles, first, rows, output } = chunk;
     let count = output.x_px.len();
-    // Slices of one known length, so that the compiler drops the bounds checks and runs lanes side by side.
+    // Slices of one known length, so that the compiler drops the bounds checks and vectorises.
     let [px, py, pz] = slices(&particles.position, first, count);
     let [nx, ny, nz] = slices(&particles.normal, first, count);
     let [ax, ay, az] = slices(&particles.along, first, count);

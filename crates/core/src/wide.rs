@@ -1,20 +1,19 @@
-//! Work compiled for the widest vectors that the processor has: the fence round code that only some processors run, but for what
+//! Runs a loop compiled for the widest vectors that the processor has. All `unsafe` that this takes is here, except for code that
 //! names an instruction itself (`neighbours::wide`).
 //!
-//! Every build of it rounds alike (the compiler fuses no multiplication with an addition), so the bits do not depend on the
-//! machine.
+//! Every build rounds alike (the compiler fuses no multiplication with an addition), so the bits do not depend on the machine.
 
-/// A loop over plain arrays. `run` is marked `#[inline(always)]`, and so is all that its loops call: what is not inlined is
-/// compiled for any processor.
+/// A loop over plain arrays. `run` and all functions that it calls are marked `#[inline(always)]`: what is not inlined is compiled
+/// for the oldest processor.
 pub(crate) trait Wide {
-    /// What comes of it.
+    /// The result.
     type Output;
 
-    /// Does it.
+    /// Runs the loop.
     fn run(self) -> Self::Output;
 }
 
-/// Runs the work.
+/// Runs the loop in the widest build.
 #[inline]
 #[expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 pub(crate) fn widest<W: Wide>(work: W) -> W::Output {
@@ -49,7 +48,7 @@ fn with_avx2<W: Wide>(work: W) -> W::Output {
 mod tests {
     use super::*;
 
-    /// Products and sums that would round otherwise if they were fused.
+    /// Products and sums that would round differently if they were fused.
     #[derive(Clone, Copy)]
     struct Sums<'a>(&'a [[f32; 3]]);
 

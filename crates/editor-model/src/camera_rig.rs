@@ -1,5 +1,5 @@
-//! The free camera: orbit, pan, zoom, frame. It keeps the pose that it began with, roll and all, so that leaving the shot
-//! camera moves nothing.
+//! The free camera: orbit, pan, zoom, frame. It starts with the shot camera's pose, roll included, so that leaving the shot camera
+//! does not move the picture.
 
 use glam::{DQuat, DVec2, DVec3};
 use impasto_scene::document::Lens;
@@ -10,20 +10,20 @@ use crate::picking::View;
 #[cfg(test)]
 mod tests;
 
-/// Drag of one pixel, radians of orbit.
+/// Orbit per pixel of drag, radians.
 const ORBIT_RAD_PER_PX: f64 = 0.5 * std::f64::consts::PI / 300.0;
-/// How much nearer one step of the wheel goes.
+/// Factor on the distance per step of the wheel.
 const ZOOM_PER_STEP: f64 = 0.85;
-/// The gaze stops so far short of straight up and down; the look-at camera has no up there.
+/// The gaze stays this far from straight up and down, where a look-at camera has no up direction.
 const POLE_GAP_RAD: f64 = 0.0087;
-/// A view from above or below is off the axis by this.
+/// Views from above and below are off the axis by this, radians.
 const AXIS_GAP_RAD: f64 = 1e-3;
-/// What is framed leaves this share of the picture free.
+/// Framing leaves this share of the picture free.
 const FRAME_MARGIN: f64 = 0.1;
 /// Distances that zooming stays within, world units.
 const DISTANCES: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 
-/// A camera that the hand moves.
+/// A camera that the user moves freely.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeView {
     pose: CameraPose,
@@ -93,8 +93,8 @@ impl FreeView {
         self.move_by(step);
     }
 
-    /// Goes nearer (positive steps) or farther, so that a point stays where it shows. Without a point under the cursor, hand
-    /// in the one at the target's depth ([`View::at_depth_of`]).
+    /// Moves nearer (positive steps) or farther, so that a point stays where it shows. Without a point under the cursor, pass the
+    /// one at the target's depth ([`View::at_depth_of`]).
     pub fn zoom(&mut self, steps: f64, toward: DVec3) {
         let wanted = ZOOM_PER_STEP.powf(steps.clamp(-100.0, 100.0));
         match &mut self.pose.lens {
@@ -180,7 +180,7 @@ impl FreeView {
         }
     }
 
-    /// It before a viewport.
+    /// This camera in a viewport.
     pub fn view(&self, size_px: DVec2) -> View {
         View { camera: self.pose.clone(), size_px }
     }
@@ -190,7 +190,7 @@ impl FreeView {
         self.pose.target += step;
     }
 
-    /// Opens the lens to what lies this far away.
+    /// Extends near and far so that points this far away show.
     fn reach(&mut self, distance: f64) {
         match &mut self.pose.lens {
             Lens::Perspective { near, far, .. } | Lens::Orthographic { near, far, .. } => {
@@ -214,7 +214,7 @@ pub enum Looking {
     /// The shot camera.
     #[default]
     Shot,
-    /// A camera of the hand's own.
+    /// A free camera.
     Free(FreeView),
 }
 
@@ -227,7 +227,7 @@ impl Looking {
         }
     }
 
-    /// The free camera; through the shot camera, it is left, and the free one begins where it stands.
+    /// The free camera. While looking through the shot camera, this switches to a free one with the same pose.
     pub fn free(&mut self, shot: &CameraPose) -> &mut FreeView {
         if matches!(self, Self::Shot) {
             *self = Self::Free(FreeView::new(shot.clone()));

@@ -1,4 +1,4 @@
-//! What differs between two versions of a scene: enough to go either way, and not much more.
+//! The difference between two versions of a scene, compact and applicable in both directions: an entry of the history.
 
 use impasto_scene::document::{Guide, Object, Region, Scene};
 
@@ -18,7 +18,7 @@ enum Part {
     Guides(usize, Splice<Guide>),
 }
 
-/// A run of a list that another one takes the place of.
+/// A run of a list and the run that replaces it.
 #[derive(Clone, Debug, PartialEq)]
 struct Splice<T> {
     at: usize,
@@ -82,7 +82,7 @@ impl SceneChange {
         }
     }
 
-    /// About how many bytes it keeps.
+    /// About how many bytes it takes.
     pub(crate) fn bytes(&self) -> usize {
         let of_guides =
             |guides: &[Guide]| guides.iter().map(|guide| 96 + guide.points.len() * 56).sum::<usize>();

@@ -1,4 +1,4 @@
-//! Commands: everything that changes a document, each with the words that the history shows for it.
+//! Commands: every change of a document, each with the text that the history shows for it.
 
 mod arrange;
 mod direction;
@@ -25,7 +25,7 @@ use crate::selection::Selection;
 pub enum Command {
     /// Names, parents, order, deletion.
     Edit(Edit),
-    /// Things and their places.
+    /// Objects, lights and cameras, and their poses.
     Arrange(Arrange),
     /// Directions and guides.
     Directions(Directions),
@@ -35,18 +35,18 @@ pub enum Command {
     Time(Time),
     /// Size, style and backdrop.
     Scene(SceneEdit),
-    /// Several as one entry, under one text; the first that is refused refuses all.
+    /// Several as one entry with one text; if one is refused, all are.
     Several(String, Vec<Command>),
 }
 
-/// What an edit did.
+/// The result of an edit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Done {
-    /// The words of the history.
+    /// The text of the history.
     pub(crate) text: String,
-    /// What is selected from then on; none leaves it.
+    /// The new selection; `None` keeps the old one.
     pub(crate) selection: Option<Selection>,
-    /// More that should be said.
+    /// An additional message to the user.
     pub(crate) note: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! The whole editor without its window: a document, a session, and a hand that works on them by plain events.
+//! The whole editor without its window: a document and a session, driven by plain events.
 //!
 //! ```text
 //! keys ─▶ Editor::key ─▶ Action ─┐
@@ -41,7 +41,7 @@ pub use lights::LightPlace;
 pub use mending::{Mend, Mended, Took};
 pub use pointer::{PointerEvent, PointerKind};
 
-/// What only the window can do.
+/// A request that only the window can fulfil.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
     /// A new, empty scene; asks about unsaved work first.
@@ -82,23 +82,23 @@ pub enum Request {
     Recapture(i64),
 }
 
-/// A line to be shown for a while.
+/// A message to show for a while.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Said {
     /// The words.
     pub words: String,
-    /// What a click on it does.
+    /// The action that a click on it triggers.
     pub offers: Option<Offer>,
-    /// Whether it tells of something that was not done.
+    /// Whether it reports something that was refused.
     pub is_refusal: bool,
 }
 
-/// What a line offers.
+/// An action that a message offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Offer {
     /// Takes the last entry back.
     Undo,
-    /// Takes up the pose that was left without a key.
+    /// Restores the pose that was left without a key.
     PoseAgain,
 }
 
@@ -107,13 +107,13 @@ pub enum Offer {
 struct TransformDrag {
     machine: Transforming,
     objects: Vec<String>,
-    /// A light in their place.
+    /// The light that is transformed, if it is a light.
     light: Option<String>,
     /// Begun by a press: ends with its release.
     held: bool,
 }
 
-/// What the hand is at.
+/// The interaction under way.
 #[derive(Debug, Default)]
 enum Busy {
     /// Nothing.
@@ -127,7 +127,7 @@ enum Busy {
     ShotView(Navigation, DVec3, CameraPose),
     /// A tool of Paint has the pointer.
     Painting,
-    /// It pressed on an object; farther than a few pixels it drags it.
+    /// The button is down on an object; after a few pixels this becomes a drag.
     Pressed(DVec2),
     /// It moves, turns or scales objects.
     Transforming(Box<TransformDrag>),
@@ -140,7 +140,7 @@ pub struct Editor {
     pub session: Session,
     /// What the viewport looks through.
     pub looking: Looking,
-    /// Whose habits the keys follow.
+    /// The keymap.
     pub keymap: Keymap,
     painting: Option<Painting>,
     picker: Picker,
@@ -159,7 +159,7 @@ pub struct Editor {
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
-    /// What could not be read of the document, when that was told last.
+    /// The number of losses of the document that was last reported.
     losses: usize,
 }
 
@@ -197,7 +197,7 @@ impl Editor {
         &self.document
     }
 
-    /// Goes on with another document: what was under the hand and in the view goes.
+    /// Switches to another document; interactions and the view start over.
     pub fn open(&mut self, document: Document) {
         let session = Session {
             frame: reference_frame(document.scene()),
@@ -217,7 +217,7 @@ impl Editor {
     pub fn prepared(&mut self, painting: Painting) {
         self.picker.follow(&painting, self.session.frame);
         self.painting = Some(painting);
-        // What lies under a resting pointer is another.
+        // What lies under a resting pointer may have changed.
         self.has_rested = false;
     }
 
@@ -269,17 +269,17 @@ impl Editor {
         self.document.shown().scene.objects.iter().position(|object| object.name == *name)
     }
 
-    /// Whether a hand is on something: pictures may be drafts.
+    /// Whether an interaction is under way, so that pictures may be drafts.
     pub fn is_moving(&self) -> bool {
         !matches!(self.busy, Busy::Idle | Busy::Pressed(_))
     }
 
-    /// Whether the view is under the hand.
+    /// Whether the view is being moved.
     pub fn is_navigating(&self) -> bool {
         matches!(self.busy, Busy::Navigating(..) | Busy::Shot(_) | Busy::ShotView(..))
     }
 
-    /// Takes all lines that are to be shown.
+    /// Takes all messages to show.
     pub fn take_said(&mut self) -> Vec<Said> {
         let losses = self.document.loss_count();
         if std::mem::replace(&mut self.losses, losses) > 0 && losses == 0 {
@@ -288,12 +288,12 @@ impl Editor {
         std::mem::take(&mut self.said)
     }
 
-    /// Takes what only the window can do.
+    /// Takes all requests to the window.
     pub fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
     }
 
-    /// Carries a command out and says what is to be said.
+    /// Applies a command and adds its messages; whether it was done.
     pub fn run(&mut self, command: &Command) -> bool {
         if let Some(posed) = self.take_loose(command) {
             return self.keep(&posed);
@@ -317,7 +317,7 @@ impl Editor {
         self.told(result)
     }
 
-    /// The document may be another one: nothing plays on, and what is gone is not selected.
+    /// After the document may have changed: stops playback and deselects what is gone.
     fn edited(&mut self) {
         self.version += 1;
         self.time.playback.stop();
@@ -328,7 +328,7 @@ impl Editor {
         }
     }
 
-    /// As [`Editor::run`]; steps of one key within a second are one entry.
+    /// As [`Editor::run`]; commands with the same key within a second become one entry.
     pub fn run_merged(&mut self, command: &Command, key: &str, at_secs: f64) -> bool {
         if let Some(posed) = self.pose_loosely(command) {
             return posed;
@@ -338,7 +338,7 @@ impl Editor {
         self.told(result)
     }
 
-    /// The document goes on in another folder, if nothing ties it to its own; see [`Document::live_in`].
+    /// Moves the document to another folder, if it names no files; see [`Document::live_in`].
     pub fn live_in(&mut self, folder: &std::path::Path) -> bool {
         self.document.live_in(folder)
     }
@@ -435,7 +435,7 @@ impl Editor {
         }
     }
 
-    /// The window lost its focus: what the hand was at is as if never begun.
+    /// The window lost its focus: cancels the interaction under way.
     pub fn focus_lost(&mut self, view: &View) {
         self.cancel(view);
         self.pointer_px = None;

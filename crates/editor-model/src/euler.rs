@@ -1,4 +1,4 @@
-//! Rotations as a scene file writes them: degrees about X first, then Y, then Z.
+//! Euler angles as a scene file writes them: degrees about X first, then Y, then Z.
 
 use glam::{DMat3, DVec3};
 use impasto_scene::motion;
@@ -20,7 +20,7 @@ pub(crate) fn degrees(rotation: DMat3, near: [f64; 3]) -> [f64; 3] {
     nearer.map(tidy).to_array()
 }
 
-/// Rounds off what only the arithmetic put there: 30.000000000000004 is 30.
+/// Rounds away the last digits that come from arithmetic alone: 30.000000000000004 becomes 30.
 pub(crate) fn tidy(value: f64) -> f64 {
     let rounded = (value * 1e9).round() / 1e9;
     if rounded == 0.0 { 0.0 } else { rounded }

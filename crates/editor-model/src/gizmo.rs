@@ -1,5 +1,5 @@
-//! The handles of an object in a view: where they are drawn, which one a pointer is on, and what dragging it means. Their
-//! size on the screen is always the same.
+//! The gizmo: the handles of an object in a view, where they are drawn and which one the pointer is on. Their size on the screen is
+//! constant.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
@@ -14,20 +14,20 @@ mod tests;
 const ARM_PX: f64 = 90.0;
 /// Radius of the ring that turns about the gaze.
 const SCREEN_RING_PX: f64 = 1.5 * ARM_PX;
-/// Where a plane's square lies on its two axes, and how wide it is, as shares of the arm.
+/// Offset of a plane's square along its two axes, and its width, as shares of the arm.
 const SQUARE: [f64; 2] = [0.3, 0.16];
-/// A pointer so near is on a handle.
+/// Distance within which the pointer is on a handle, pixels.
 const REACH_PX: f64 = 12.0;
 /// The dot in the middle.
 const CENTRE_PX: f64 = 10.0;
-/// An arm that shows shorter than this share points at the eye: it can neither be seen nor dragged.
+/// An arm that is foreshortened to less than this share points at the eye: it is left out.
 const LEAST_SHOWN: f64 = 0.15;
 const RING_PIECES: usize = 64;
 
 /// One handle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handle {
-    /// What dragging it is held to.
+    /// The constraint of dragging it.
     pub constraint: Constraint,
     /// What it does.
     pub operation: Operation,
@@ -99,7 +99,7 @@ impl Gizmo {
         &self.handles
     }
 
-    /// The handle under a pointer: the nearest of those within reach; small ones before large ones.
+    /// The handle under the pointer: the nearest within reach, small ones before large ones.
     pub fn hit(&self, at_px: DVec2) -> Option<&Handle> {
         let rank = |handle: &Handle| match handle.shape {
             HandleShape::Centre { .. } => 0,
@@ -154,8 +154,8 @@ struct Stand<'a> {
 }
 
 impl Stand<'_> {
-    /// Where a place shows that is given in arms along the axes. Without perspective: handles keep their shape wherever they
-    /// are in the picture.
+    /// Where a point, given in arm lengths along the axes, shows. Without perspective, so that handles keep their shape everywhere in
+    /// the picture.
     fn px(&self, arms: DVec3) -> DVec2 {
         let [right, up, _] = self.view.axes();
         let at = self.axes * arms * ARM_PX;

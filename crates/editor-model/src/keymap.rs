@@ -1,5 +1,5 @@
-//! Which key does what: two presets as one table, looked up by scope. A modal tool comes before a text field, that before the
-//! mode, that before what holds everywhere.
+//! The keymap: two presets in one table, looked up by scope. A modal tool takes a key before a text field, then come the mode and
+//! the bindings that hold everywhere.
 
 mod table;
 #[cfg(test)]
@@ -9,7 +9,7 @@ use crate::transform::Axis;
 
 use table::{BINDINGS, DIGITS_AS_NUMPAD};
 
-/// Everything that has a key, or could have one.
+/// An action that has a key, or could have one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
     /// An empty scene.
@@ -221,7 +221,7 @@ pub struct Chord {
     pub held: Modifiers,
 }
 
-/// Whose habits the keys follow.
+/// The program whose keys are followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
     /// Blender's.
@@ -250,7 +250,7 @@ pub struct Keymap {
     pub digits: Digits,
 }
 
-/// Who gets a key first.
+/// The scopes of bindings, in the order in which they get a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scope {
     /// A modal move, turn or scale.
@@ -269,7 +269,7 @@ pub enum Scope {
     Animate,
 }
 
-/// Where a binding holds.
+/// The scope of a binding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Where {
     Everywhere,
@@ -297,7 +297,7 @@ impl Keymap {
             Scope::Transform | Scope::Drawing => bound(Where::In(scope)),
             Scope::Typing => bound(Where::In(scope)).or_else(|| {
                 let not_text = matches!(key, Key::Function(_)) || held.ctrl;
-                // Fields have these themselves.
+                // Text fields handle these themselves.
                 let own =
                     matches!(key, Key::Letter('A' | 'C' | 'V' | 'X' | 'Y' | 'Z') | Key::Left | Key::Right);
                 (not_text && !own).then(|| bound(Where::Everywhere)).flatten()

@@ -1,4 +1,4 @@
-//! Names of things: unique, and followed wherever they are used.
+//! Names of things: making them unique, and renaming a thing wherever the document refers to it.
 
 use impasto_scene::document::{Scene, Selector};
 

@@ -1,4 +1,4 @@
-//! A gesture on a surface: from a drag over the picture to guides, the same ones however often the pointer reports.
+//! Gestures on a surface: turns a drag over the picture into guides that do not depend on how often the pointer reports.
 //!
 //! ```text
 //! events ─▶ curve through them ─▶ steps of one pixel ─▶ pulled string ─▶ a ray per step ─▶ pieces on the surface
@@ -25,11 +25,11 @@ pub use view::ObjectView;
 const STEP_PX: f64 = 1.0;
 /// Stamps lie this share of the radius apart on the surface.
 const STAMP_SHARE: f64 = 0.25;
-/// What is dropped from a path deviates from it by at most this.
+/// Points that deviate from a path by at most this are dropped.
 const TOLERANCE_PX: f64 = 0.5;
-/// Between two steps the surface may recede by this many pixels' worth; beyond, it is asked whether it hangs together.
+/// If the depth changes by more than this many pixels' worth between two steps, it is checked whether the surface is connected there.
 const LEAP_PX: f64 = 4.0;
-/// The string at full steadiness.
+/// Length of the string at full steadiness.
 const LONGEST_STRING_PX: f64 = 120.0;
 
 /// How a drag becomes a path.
@@ -171,7 +171,7 @@ impl SurfacePath {
         path
     }
 
-    /// Places a quarter of the radius apart along the pieces, on the surface, whatever the speed: where a brush touches.
+    /// The points where a brush touches: on the surface along the pieces, a quarter of the radius apart.
     pub fn stamps(&self) -> Vec<PathPoint> {
         let spacing = self.radius * STAMP_SHARE;
         let mut stamps = Vec::new();
@@ -235,7 +235,7 @@ impl SurfacePath {
         guides
     }
 
-    /// A gesture ends where the hand let go, not a string's length before.
+    /// Draws on to where the pointer was released, across the length of the string.
     fn catch_up(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
@@ -254,7 +254,7 @@ impl SurfacePath {
                 continue;
             }
             self.tip += pull * ((length - self.string_px) / length);
-            // A hair less than a step, since rounding must not skip one.
+            // A little less than a step, so that rounding does not skip one.
             if self.tip.distance(self.sampled_px) > STEP_PX * 0.999 {
                 self.sampled_px = self.tip;
                 self.sample(pick);
@@ -282,8 +282,8 @@ impl SurfacePath {
         takes_part.then(|| PathPoint::new(at_px, &hit))
     }
 
-    /// Whether the surface between two steps is one: a fold in front of another part of the same object is not. Halves the
-    /// step where it leaps; across a gap, the leap stays.
+    /// Whether the surface is connected between two steps; a fold in front of another part of the same object is not. Bisects the step:
+    /// on a connected surface the jump in depth shrinks, across a gap it stays.
     fn hang_together(
         &self,
         mut from: PathPoint,

@@ -1,4 +1,4 @@
-//! What lies under the cursor: rays through pixels, and the surfaces that they meet.
+//! Picking: rays through pixels, and the surfaces that they hit.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use surface::SurfaceTree;
 pub use surface::SurfacePoint;
 pub use view::{Ray, View};
 
-/// Finds surfaces under rays. Keeps a tree per object and builds those anew whose surface changed.
+/// Finds surfaces under rays. Has a tree per object, rebuilt when its surface changes.
 #[derive(Clone, Default)]
 pub struct Picker {
     /// One per object, in the order of the scene.
@@ -66,7 +66,7 @@ impl Picker {
             .enumerate()
             .map(|(index, (surface, shape))| {
                 let shape = shape.clone().into();
-                // The usual place first: an object added or removed moves the others.
+                // The same index first; an added or removed object shifts the others.
                 let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
                 let known = all.into_iter().find(|tree| tree.is_of(surface, &shape));
                 known.map_or_else(
@@ -88,13 +88,12 @@ impl Picker {
         self.update(&surfaces.zip(shapes).collect::<Vec<_>>())
     }
 
-    /// Takes the trees of another picker, so that the next update need not build them: a large surface takes its time, and
-    /// another thread may have it.
+    /// Takes the trees of another picker, so that the next update need not build them: large surfaces can be built on another thread.
     pub fn learn(&mut self, other: Self) {
         self.offered = other.trees;
     }
 
-    /// The nearest visible surface on a ray, whichever of its sides is met. `poses` are the objects' `world_from_model`.
+    /// The nearest visible surface on a ray, from either side. `poses` are the objects' `world_from_model`.
     pub fn pick(&self, ray: &Ray, poses: &[DAffine3], visible: impl Fn(usize) -> bool) -> Option<Hit> {
         let mut nearest: Option<Hit> = None;
         for (object, (tree, pose)) in self.trees.iter().zip(poses).enumerate() {
@@ -107,7 +106,7 @@ impl Picker {
             let farthest = nearest.map_or(f64::INFINITY, |hit| hit.distance);
             if let Some((point, distance, front)) = tree.first_hit(origin, direction, farthest) {
                 let at = pose.transform_point3(point.position);
-                nearest = Some(Hit::new(object, &point, (at, distance), front));
+                nearest = Some(Hit::new(object, &point, at, distance, front));
             }
         }
         nearest
@@ -141,7 +140,7 @@ impl Picker {
         let mut bounds: Option<[DVec3; 2]> = None;
         for triangle in 0..tree.surface().mesh.triangles.len() as u32 {
             let middle = tree.middle(triangle);
-            let hit = Hit::new(object, &middle, (middle.position, 0.0), true);
+            let hit = Hit::new(object, &middle, middle.position, 0.0, true);
             if within(&hit) {
                 for corner in tree.corners(triangle) {
                     let [low, high] = bounds.unwrap_or([corner, corner]);
@@ -179,7 +178,7 @@ pub fn world_units_per_model_unit(world_from_model: DAffine3) -> f64 {
 }
 
 impl Hit {
-    fn new(object: usize, point: &SurfacePoint, (at, distance): (DVec3, f64), front: bool) -> Self {
+    fn new(object: usize, point: &SurfacePoint, at: DVec3, distance: f64, front: bool) -> Self {
         Self {
             object,
             triangle: point.triangle,
@@ -194,7 +193,7 @@ impl Hit {
         }
     }
 
-    /// The place as a painting knows it.
+    /// The hit as a particle.
     pub fn particle(&self) -> Particle {
         Particle {
             triangle: self.triangle,

@@ -4,25 +4,25 @@
 //! play ─▶ tick(now) ─▶ frame asked for ─▶ a picture ─▶ shown(frame, now) ─▶ dropped, lead
 //! ```
 //!
-//! What takes time to draw is asked for so much earlier (the lead) that it is shown when its frame is due.
+//! Pictures that take time to draw are asked for earlier (by the lead), so that they are shown when their frame is due.
 
 use std::collections::BTreeSet;
 
 #[cfg(test)]
 mod tests;
 
-/// A clock that jumps by more than this, seconds, stood still between (a suspended machine): the film goes on where it was.
+/// If the clock jumps by more than this, seconds, the machine was suspended: playback goes on from the frame that is shown.
 const SLEPT_SECS: f64 = 5.0;
 /// No picture is asked for earlier than this, seconds.
 const MOST_LEAD_SECS: f64 = 0.4;
-/// How much of a picture's lateness the next ones make up for.
+/// The share of a picture's lateness that is added to the lead.
 const LEAD_GAIN: f64 = 0.2;
 /// How much the newest interval counts in the mean.
 const RATE_GAIN: f64 = 0.2;
-/// Frames that the rounding of times must not lose.
+/// Tolerance against rounding of times, in frames.
 const ROUNDING: f64 = 1e-6;
 
-/// What is kept, the clock or the frames.
+/// Whether playback follows the clock or shows every frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pacing {
     /// The frame that the clock asks for; what cannot be drawn in time is dropped.
@@ -32,7 +32,7 @@ pub enum Pacing {
     EveryFrame,
 }
 
-/// What is played, and how.
+/// The range of frames that is played, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Course {
     /// First frame.
@@ -41,9 +41,9 @@ pub struct Course {
     pub last: i64,
     /// Frames per second, > 0.
     pub fps: f64,
-    /// Begins again at the end.
+    /// Whether it begins again at the end.
     pub looped: bool,
-    /// What is kept.
+    /// Whether it follows the clock or shows every frame.
     pub pacing: Pacing,
 }
 
@@ -78,8 +78,8 @@ impl Course {
         self.last.saturating_sub(self.first).saturating_add(1).max(1)
     }
 
-    /// The frame that a playhead plays from: its own, or the first where it stands outside, or at the end of what does not
-    /// begin again.
+    /// The frame at which playing begins: the playhead's, or the first if the playhead is outside the range or at the end of one
+    /// that is not looped.
     fn start(&self, frame: f64) -> i64 {
         let is_inside = frame >= self.first as f64 && frame < self.last as f64 + 1.0;
         let start = if is_inside { frame.floor() as i64 } else { self.first };
@@ -102,7 +102,7 @@ impl Playing {
         (!self.course.looped).then_some(self.course.last - self.start_frame)
     }
 
-    /// Which of the frames asked for a picture is of: the latest that looks like it.
+    /// Index of the frame asked for that a picture belongs to: the latest one with this frame number.
     fn index_of(&self, frame: i64) -> i64 {
         let behind = self.frame_of(self.asked) - frame;
         let behind = if self.course.looped { behind.rem_euclid(self.course.count()) } else { behind };
@@ -135,7 +135,7 @@ impl Playing {
 }
 
 impl Playback {
-    /// Plays from a frame; what was dropped before is forgotten.
+    /// Plays from a frame; the count of dropped frames starts over.
     pub fn play(&mut self, frame: f64, course: Course, now_secs: f64) {
         self.dropped = 0;
         self.missed.clear();
@@ -147,7 +147,7 @@ impl Playback {
         self.playing = Some(Playing::new(course, course.start(frame), now_secs + self.lead_secs));
     }
 
-    /// Stops. What was dropped can still be asked.
+    /// Stops. The count of dropped frames stays.
     pub fn stop(&mut self) {
         self.playing = None;
     }
@@ -157,7 +157,7 @@ impl Playback {
         self.playing.is_some()
     }
 
-    /// What the clock asks for now: the frame that should be drawn next. None once it has stopped.
+    /// The frame that should be drawn next; `None` once it has stopped.
     pub fn tick(&mut self, course: Course, now_secs: f64) -> Option<f64> {
         let lead_secs = self.lead_secs;
         let playing = self.playing.as_mut()?;
@@ -177,7 +177,7 @@ impl Playback {
         };
         playing.asked = asked.max(playing.asked).min(playing.end().unwrap_or(i64::MAX));
         if is_still {
-            // The one frame stands there all the time.
+            // A range of one frame shows it all the time.
             (playing.shown, playing.due_secs) = (playing.asked, now_secs);
         }
         let frame = playing.frame_of(playing.asked);
@@ -214,7 +214,7 @@ impl Playback {
                 let late = (now_secs - playing.start_secs) - (index as f64 + 0.5) / fps;
                 self.lead_secs = (self.lead_secs + late * LEAD_GAIN).clamp(0.0, MOST_LEAD_SECS);
             }
-            // What came late is not made up for: frames never run faster than they should.
+            // Lateness is not made up for: frames never run faster than the rate.
             Pacing::EveryFrame => playing.due_secs = (playing.due_secs + 1.0 / fps).max(now_secs - 1.0 / fps),
         }
         true

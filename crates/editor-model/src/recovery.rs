@@ -5,8 +5,8 @@
 //! next start: Recovery::offers ─▶ Offer ─▶ Document::recovered, edited and not saved
 //! ```
 //!
-//! A session holds the lock of `NAME.lock` while it lives, so another one knows its copy from one that was left behind: the
-//! system lets a lock go with its process, however that ends.
+//! A session holds a lock on `NAME.lock` while it lives, so that other sessions can tell its copy from one that was left behind: the
+//! system releases the lock when the process ends, however that happens.
 
 mod cadence;
 mod copy;
@@ -24,17 +24,17 @@ pub use cadence::Cadence;
 pub use copy::{Copy, Work};
 pub use keeper::{Keeper, Kept};
 
-/// Copies that are kept at most; of more, the oldest go.
+/// The most copies that are kept; the oldest are deleted first.
 pub const MAX_COPIES: usize = 20;
 
-/// Entries of the folder that are looked at.
+/// The most entries of the folder that are read.
 const MAX_ENTRIES: usize = 1000;
 
 const COPY: &str = "ron";
 const LOCK: &str = "lock";
 const PART: &str = "part";
 
-/// Where one session keeps its copy.
+/// The place of one session's copy.
 #[derive(Debug)]
 pub struct Recovery {
     folder: PathBuf,
@@ -77,7 +77,7 @@ impl Recovery {
         file.finish()
     }
 
-    /// Removes the copy of this session: what it held is saved, or was given up.
+    /// Removes the copy of this session, after its work was saved or discarded.
     ///
     /// # Errors
     /// What the system said.
@@ -94,13 +94,13 @@ impl Recovery {
     /// What the system said; the copy then stays what it was.
     pub fn take_over(&self, offer: Offer) -> io::Result<()> {
         fs::rename(&offer.file, self.file())?;
-        // Without its copy the lock means nothing; the next look takes it away where this fails.
+        // A lock without a copy means nothing; if it cannot be removed, the next call of `offers` does it.
         let _ = fs::remove_file(&offer.lock_file);
         // The new name is on the disk only with its folder.
         if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 
-    /// The copies that sessions left behind, the newest first. Takes away what they left besides, and all but the newest
+    /// The copies that ended sessions left behind, the newest first. Deletes their other files, and all copies but the newest
     /// [`MAX_COPIES`].
     pub fn offers(folder: &Path) -> Vec<Offer> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
@@ -140,7 +140,7 @@ impl Recovery {
 }
 
 impl Drop for Recovery {
-    /// A copy that is still there stays, and then so does its lock.
+    /// Removes the lock file, unless there is still a copy.
     fn drop(&mut self) {
         if !self.file().exists() {
             let _ = fs::remove_file(self.folder.join(&self.name).with_extension(LOCK));
@@ -159,13 +159,13 @@ impl Offer {
     }
 }
 
-/// The lock of a session that is gone; none where it lives.
+/// The lock of a session that has ended; `None` if it lives.
 fn lock_of(lock_file: &Path) -> Option<File> {
     let lock = File::options().create(true).truncate(false).write(true).open(lock_file).ok()?;
     match lock.try_lock() {
         Ok(()) => Some(lock),
         Err(TryLockError::WouldBlock) => None,
-        // A file system without locks: better offered than lost.
+        // A file system without locks: better offer a copy too often than lose it.
         Err(TryLockError::Error(_)) => Some(lock),
     }
 }

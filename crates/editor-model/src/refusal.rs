@@ -1,4 +1,4 @@
-//! Why something is not done, in the words that are shown.
+//! Refusals: why a command or a gesture was not carried out, in the words to show.
 
 use impasto_scene::problem::Report;
 

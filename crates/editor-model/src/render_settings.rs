@@ -1,8 +1,8 @@
-//! What the render sheet decides: which frames, how large, where to, and what that comes to.
+//! The render sheet: which frames, what size, which files; and the plan that follows from them.
 //!
 //! ```text
 //! RenderSettings ─▶ plan(document, frame) ─▶ RenderPlan: the document as it is now, each frame and its file
-//!                                        └─▶ command: what `impasto render` would be told
+//!                                        └─▶ command: the same as an `impasto render` command line
 //! ```
 
 mod command;
@@ -55,14 +55,14 @@ pub enum RenderDriver {
 /// What happens to files that are there already.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
-    /// They are rendered anew.
+    /// They are rendered again.
     #[default]
     Replace,
     /// They stay, and their frames are left out.
     Keep,
 }
 
-/// What is to be rendered, as it stands in the sheet.
+/// The settings in the sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RenderSettings {
     /// Which frames.
@@ -75,7 +75,7 @@ pub struct RenderSettings {
     pub output: String,
     /// What draws.
     pub driver: RenderDriver,
-    /// No ground under the paint.
+    /// Without the tone under the paint and the background.
     pub transparent: bool,
 }
 
@@ -90,7 +90,7 @@ pub enum Field {
     Output,
 }
 
-/// Why nothing can be rendered as the sheet stands, in the words under the field.
+/// A setting with which nothing can be rendered, with the words to show under its field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The field.
@@ -110,7 +110,7 @@ pub struct RenderPlan {
     pub size_px: [u32; 2],
     /// What draws.
     pub driver: RenderDriver,
-    /// No ground under the paint.
+    /// Without the tone under the paint and the background.
     pub transparent: bool,
     /// What happens to files that are there.
     pub existing: Existing,
@@ -132,7 +132,7 @@ impl RenderSettings {
         }
     }
 
-    /// The list that the choice of frames stands for.
+    /// The chosen frames as a list.
     pub fn frames(&self, scene: &Scene, shown: f64) -> String {
         match self.which {
             Which::All => whole(scene),
@@ -203,7 +203,7 @@ impl RenderPlan {
         self.frames.iter().filter(is_there).count()
     }
 
-    /// Makes the folder, and looks whether files can be written there and are not those that the scene is read from.
+    /// Makes the folder; checks that files can be written there, and that none is a file that the scene is read from.
     ///
     /// # Errors
     /// [`PlaceError`].

@@ -1,4 +1,4 @@
-//! What is selected: things of the document, by name.
+//! The selection: things of the document, by name.
 
 use impasto_scene::document::Scene;
 
@@ -18,7 +18,7 @@ pub enum Item {
 }
 
 impl Item {
-    /// What people call it.
+    /// Its name.
     pub fn name(&self) -> &str {
         match self {
             Self::Camera => "shot",
@@ -65,7 +65,7 @@ impl Selection {
         self.0.contains(item)
     }
 
-    /// Adds a thing and makes it the active one; takes it out where it was already active.
+    /// Adds a thing and makes it the active one; removes it if it was already active.
     pub fn toggle(&mut self, item: Item) {
         let was_active = self.active() == Some(&item);
         self.0.retain(|other| *other != item);
@@ -82,7 +82,7 @@ impl Selection {
         })
     }
 
-    /// Keeps what `exists` says is there.
+    /// Removes things for which `exists` is false.
     pub fn retain(&mut self, exists: impl FnMut(&Item) -> bool) {
         self.0.retain(exists);
     }

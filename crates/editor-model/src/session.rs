@@ -1,13 +1,13 @@
-//! What the window shows and how, which is no part of the document: mode, tool, view, overlays.
+//! The state of the editor that is not part of the document: mode, tools and their settings, shading, overlays, frame.
 
 use impasto_scene::document::LightKind;
 
 use crate::playback::Pacing;
 
-/// What the left drag means.
+/// The mode: what a drag with the left button does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// It moves things, their whole motion.
+    /// It moves things with their whole motion.
     #[default]
     Arrange,
     /// It paints directions.
@@ -73,7 +73,7 @@ pub enum Hairs {
     ByRegion,
 }
 
-/// What is drawn over the picture.
+/// The overlays over the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overlays {
     /// Hairs along the strokes, in Paint.
@@ -98,7 +98,7 @@ pub enum Axes {
     View,
 }
 
-/// What a fill states.
+/// The direction that a fill states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FillKind {
     /// As a painter would begin.
@@ -130,7 +130,7 @@ pub enum RegionBy {
     Material,
 }
 
-/// What the region tool does with what it chose.
+/// What the region tool does with the faces that it chose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RegionDoes {
     /// Makes a region of it.
@@ -183,10 +183,10 @@ pub struct ToolOptions {
     pub foresee: bool,
 }
 
-/// Everything about the window that outlives a frame of it and is no part of the document.
+/// The state of the editor that is not part of the document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Session {
-    /// What the left drag means.
+    /// What a drag with the left button does.
     pub mode: Mode,
     /// The mode that Tab goes back to.
     pub mode_before: Mode,
@@ -208,7 +208,7 @@ pub struct Session {
     pub frame_before_paint: Option<f64>,
     /// Playing begins again at the end of the range.
     pub looped: bool,
-    /// What playing keeps: the clock, or every frame.
+    /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
     /// In Animate a pose is keyed as it is made.
     pub auto_key: bool,

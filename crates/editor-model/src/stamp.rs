@@ -1,30 +1,30 @@
-//! Whether a file is still the one that was read: its size and time first, its bytes where those differ.
+//! Stamps of files, to see whether a file is still the one that was read: compares size and time, then a hash of the bytes.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 use std::time::SystemTime;
 
-/// What a file was when it was looked at.
+/// Size, time and hash of a file at one moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     /// Its size, bytes.
     pub bytes: u64,
     /// When it was written last; none where the system does not say.
     pub modified: Option<SystemTime>,
-    /// A number made of all its bytes.
+    /// Hash of all its bytes.
     pub hash: u64,
 }
 
 impl Stamp {
-    /// Looks at a file, all of it. None where there is no regular file that can be read.
+    /// The stamp of a file, which is read completely. `None` where there is no regular file that can be read.
     pub fn of(path: &Path) -> Option<Self> {
         let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
         let hash = hash_of(path).ok()?;
         Some(Self { bytes: metadata.len(), modified: metadata.modified().ok(), hash })
     }
 
-    /// Whether a file shows another size or time. Touches none of its bytes.
+    /// Whether a file has another size or time. Does not read it.
     pub fn looks_other(before: Option<&Self>, path: &Path) -> bool {
         let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
         match (before, metadata) {
@@ -34,8 +34,7 @@ impl Stamp {
         }
     }
 
-    /// Whether a file holds other bytes than it did; reads it only where size or time differ. A file that is gone is
-    /// another one.
+    /// Whether a file has other bytes than before; reads it only if size or time differ. A deleted file counts as different.
     pub fn is_other(before: Option<&Self>, path: &Path) -> bool {
         if !Self::looks_other(before, path) {
             return false;
@@ -45,7 +44,7 @@ impl Stamp {
     }
 }
 
-/// A number made of bytes: 64-bit FNV-1a.
+/// The 64-bit FNV-1a hash of bytes.
 pub fn hash(bytes: &[u8]) -> u64 {
     fold(START, bytes)
 }

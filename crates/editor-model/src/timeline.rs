@@ -1,4 +1,4 @@
-//! The timeline: lanes of keys, which keys are selected, and what the hand does to them and to the playhead.
+//! The timeline: lanes of keys, the selected keys, playback, scrubbing, and loose poses.
 
 mod keys;
 mod lanes;
@@ -15,12 +15,12 @@ pub use keys::{DRAG_PX, Dragged, KeysEvent, KeysHand, LanePosition};
 pub use lanes::{KeyAt, Lane, LaneKey, keyed_frames, lanes, next_ease};
 pub use typed::typed_frame;
 
-/// What is done on the timeline.
+/// An event of the timeline.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TimelineEvent {
-    /// The playhead follows a hand; what plays waits.
+    /// The playhead is dragged to a frame; playback pauses.
     Scrub(f64),
-    /// The hand lets go; what played plays on.
+    /// The drag of the playhead ends; playback goes on if it was running.
     EndScrub,
     /// The playhead goes to a frame.
     GoTo(f64),
@@ -28,34 +28,34 @@ pub enum TimelineEvent {
     Keys(KeysEvent),
 }
 
-/// Everything about time that is no part of the document: playback, selected keys, poses that are not keyed.
+/// The state of the timeline that is not part of the document: playback, selected keys, loose poses.
 #[derive(Debug, Default)]
 pub struct TimeHand {
     /// Playback.
     pub playback: Playback,
     /// Selected keys, and what is done to them.
     pub keys: KeysHand,
-    /// Whether a hand scrubs, and whether playing goes on after it.
+    /// While scrubbing, whether playing goes on afterwards.
     pub(crate) scrubbing: Option<bool>,
     pub(crate) loose: Option<LoosePoses>,
-    /// What was last put back to its keys, until something else is done.
+    /// The loose poses that were dropped last, until something else is done.
     pub(crate) put_back: Option<LoosePoses>,
-    /// The frame that playing showed last: another one is the hand's.
+    /// The frame that playing showed last; any other was set by the user.
     pub(crate) played: Option<f64>,
 }
 
-/// Poses that were made with Auto key off: they show at their frame, and nowhere else, until they are keyed.
+/// Loose poses: made with Auto key off, they show at their frame only, until they are keyed.
 #[derive(Clone, Debug)]
 pub(crate) struct LoosePoses {
     pub(crate) frame: f64,
-    /// What would key each, by what is posed.
+    /// For each posed thing, its name and the command that keys it.
     pub(crate) poses: Vec<(String, Command)>,
     /// The scene with them.
     pub(crate) loaded: Arc<LoadedScene>,
 }
 
 impl LoosePoses {
-    /// What keys them all.
+    /// The command that keys them all.
     pub(crate) fn command(&self) -> Command {
         match &self.poses[..] {
             [(_, command)] => command.clone(),
@@ -76,12 +76,12 @@ impl LoosePoses {
 }
 
 impl TimeHand {
-    /// Whether a thing stands in a pose that is not keyed.
+    /// Whether a thing has a loose pose.
     pub fn is_loose(&self, name: &str) -> bool {
         self.loose.as_ref().is_some_and(|loose| loose.poses.iter().any(|(other, _)| other == name))
     }
 
-    /// The scene with the poses that are not keyed, where there are any.
+    /// The scene with the loose poses, if there are any.
     pub fn loose_scene(&self) -> Option<&Arc<LoadedScene>> {
         self.loose.as_ref().map(|loose| &loose.loaded)
     }

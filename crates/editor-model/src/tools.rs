@@ -1,4 +1,4 @@
-//! The tools of Paint: small machines from plain events to commands.
+//! The tools of Paint: state machines from plain events to commands.
 //!
 //! ```text
 //! Idle ─Hover─▶ Aiming ─Press─▶ a gesture ─Move─▶ preview ─Release─▶ one command
@@ -36,14 +36,14 @@ pub use hand::Hand;
 pub(crate) use heading::REST_SECS;
 pub use ring::{Foreseen, Needle, Ring};
 
-/// What tools look at, handed in with every event. `scene` is the one of the history, without any preview.
+/// What tools read, passed with every event. `loaded` is the scene of the history, without any preview.
 #[derive(Clone, Copy)]
 pub struct Surroundings<'a> {
     /// The scene and its files.
     pub loaded: &'a LoadedScene,
-    /// What is seen.
+    /// The view.
     pub view: &'a View,
-    /// The objects' `world_from_model`, as they are seen.
+    /// The objects' `world_from_model` at the frame that is shown.
     pub poses: &'a [DAffine3],
     /// Their surfaces.
     pub picker: &'a Picker,
@@ -51,11 +51,11 @@ pub struct Surroundings<'a> {
     pub options: &'a ToolOptions,
     /// What is selected.
     pub selection: &'a Selection,
-    /// What only the painting knows.
+    /// Questions to the painting.
     pub painted: &'a dyn Painted,
 }
 
-/// What only the painting knows.
+/// Questions that only the painting can answer.
 pub trait Painted {
     /// Index of the region at a hit; `None` where none lies.
     fn region_at(&self, hit: &Hit) -> Option<usize>;
@@ -64,16 +64,16 @@ pub trait Painted {
     fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection>;
 }
 
-/// How strokes show at a place.
+/// How strokes show at a point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaintedDirection {
     /// Counter-clockwise from the picture's +X in the view that is looked at, radians.
     pub angle_rad: f64,
-    /// How well a turn describes what the picture of the surface has done, 0..=1.
+    /// The trust: how well a rotation describes the change of the picture since the reference, 0..=1.
     pub trust: f64,
 }
 
-/// What a hand does. Places in pixels of the viewport, times in seconds of any clock.
+/// An event for a tool. Positions in pixels of the viewport, times in seconds of any clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolEvent {
     /// The pointer moved, no button held.
@@ -105,55 +105,55 @@ pub enum ToolEvent {
     Release,
     /// A key that the keymap knows.
     Key(Action),
-    /// Esc, a right press, or another tool: as if never begun.
+    /// Esc, a right press, or another tool: cancels.
     Cancel,
-    /// The same.
+    /// The window lost its focus: cancels.
     FocusLost,
 }
 
-/// What becomes of an event.
+/// The result of an event.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ToolOutput {
-    /// What the document shows now; nothing ends a preview.
+    /// The command to preview; `None` ends a preview.
     pub preview: Option<Command>,
-    /// What is done, as one entry of the history.
+    /// The command to apply, as one entry of the history.
     pub commit: Option<Command>,
-    /// Why nothing is done.
+    /// Why nothing was done.
     pub refusal: Option<Refusal>,
     /// The status line.
     pub status: String,
-    /// What is selected from now on.
+    /// The new selection.
     pub select: Option<Item>,
-    /// Settings that the hand changed.
+    /// Settings that the gesture changed.
     pub options: Option<ToolOptions>,
     /// The ring at the pointer, and its mirror images.
     pub rings: Vec<Ring>,
     /// The direction at the pointer.
     pub needle: Option<Needle>,
-    /// What strokes are to be foreseen of, while the hand moves before a press.
+    /// The comb whose strokes are previewed while the pointer moves before a press.
     pub foreseen: Option<Foreseen>,
     /// The line of a curve that is being drawn, or that the pointer is on.
     pub line_px: Vec<DVec2>,
     /// Handles of that line.
     pub handles_px: Vec<DVec2>,
-    /// What stands beside the ring once the hand rests: *10°  trust 0.97*.
+    /// The label beside the ring once the pointer rests: *10°  trust 0.97*.
     pub label: Option<String>,
 }
 
-/// What a press may paint on.
+/// What a press would paint on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Paintable {
     pub(crate) object: usize,
     /// Index of the region; none where a new one is made.
     pub(crate) region: Option<usize>,
     pub(crate) target: RegionTarget,
-    /// What people call it.
+    /// Name of the region, or of the object for a new one.
     pub(crate) name: String,
     /// The object's name, where the region covers more than one.
     pub(crate) object_name: Option<String>,
 }
 
-/// The words where there is nothing under the ring.
+/// The message where nothing is under the ring.
 pub(crate) const NOTHING_HERE: &str = "Nothing to paint here: the ring must lie on an object";
 
 impl<'a> Surroundings<'a> {
@@ -165,7 +165,7 @@ impl<'a> Surroundings<'a> {
         self.scene().objects.get(index)
     }
 
-    /// What lies under a pixel, but for what is hidden.
+    /// The visible surface under a pixel.
     pub(crate) fn hit(&self, at_px: DVec2) -> Option<Hit> {
         let visible = |object: usize| self.object(object).is_some_and(|object| !object.hidden);
         at_px.is_finite().then(|| self.picker.pick(&self.view.ray(at_px), self.poses, visible))?
@@ -239,7 +239,7 @@ impl ToolOutput {
     }
 }
 
-/// What a tool says while it waits.
+/// The status line of a tool that waits for a press.
 pub(crate) fn waiting_words(tool: Tool, options: &ToolOptions, region: &str) -> String {
     match tool {
         Tool::Comb => "[Drag] comb  [Shift] smooth  [Ctrl] against  [F] radius  [Middle] orbit".to_owned(),

@@ -1,4 +1,4 @@
-//! Moving, turning and scaling by hand: the modal machine behind G, R, S and the gizmo.
+//! Moving, turning and scaling: the modal state machine behind G, R, S and the gizmo.
 //!
 //! `Idle ─G R S─▶ Modal ─X Y Z, digits, movement─▶ preview ─Enter, press─▶ kept`, or `─Esc, right press─▶ back`.
 
@@ -14,7 +14,7 @@ mod typed;
 
 use typed::Typed;
 
-/// What is done to an object.
+/// The kind of a transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// G.
@@ -36,7 +36,7 @@ pub enum Axis {
     Z,
 }
 
-/// What a transform is held to.
+/// The constraint of a transform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Constraint {
     /// Moves across the gaze, turns about it, scales evenly.
@@ -48,7 +48,7 @@ pub enum Constraint {
     Plane(Axis),
 }
 
-/// What a transform does. Axes and factors count in `Transforming::space`.
+/// The result of a transform, with axes and factors in [`Transforming::space`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformDelta {
     /// By this much, world units, along the axes of its space.
@@ -64,7 +64,7 @@ pub enum TransformDelta {
     Scale(DVec3),
 }
 
-/// What becomes of a pointer or a key.
+/// An event from pointer or keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformEvent {
     /// The pointer moved; what it snaps to.
@@ -98,14 +98,14 @@ pub enum Snap {
     Steps,
 }
 
-/// What an event led to.
+/// The result of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformStep {
     /// Goes on; this is what it would do.
     Preview(TransformDelta),
-    /// Done; to be kept as one undo entry. Nothing where it changes nothing.
+    /// Done; to be applied as one undo entry. `None` if it changes nothing.
     Kept(Option<TransformDelta>),
-    /// As if never begun.
+    /// Cancelled.
     Back,
 }
 
@@ -116,7 +116,7 @@ pub struct Transforming {
     operation: Operation,
     constraint: Constraint,
     space: Axes,
-    /// The space that axes mean when they are first named.
+    /// The space of an axis key when it is pressed for the first time.
     first_space: Axes,
     typed: Typed,
     view: View,
@@ -126,7 +126,7 @@ pub struct Transforming {
     /// The last movement of the pointer.
     at_px: DVec2,
     snap: Snap,
-    /// Angle that the pointer has gone round the pivot, radians, without wrapping.
+    /// Angle by which the pointer has gone round the pivot, radians, not wrapped.
     gone_round_rad: f64,
 }
 
@@ -137,18 +137,18 @@ const STEP_DEG: f64 = 5.0;
 /// Factors that scaling stays within.
 const FACTORS: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
-/// What a transform begins with.
+/// The initial state of a transform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransformStart {
     /// Name of the object, for the status line.
     pub name: String,
     /// Its pose.
     pub world_from_model: DAffine3,
-    /// What it is looked at in.
+    /// The view.
     pub view: View,
     /// The pointer, pixels.
     pub at_px: DVec2,
-    /// Whose axes the options name.
+    /// The space of the axes that the options name.
     pub space: Axes,
 }
 
@@ -176,17 +176,17 @@ impl Transforming {
         Self { constraint, ..Self::new(operation, start) }
     }
 
-    /// Which.
+    /// The kind of the transform.
     pub fn operation(&self) -> Operation {
         self.operation
     }
 
-    /// What it is held to.
+    /// Its constraint.
     pub fn constraint(&self) -> Constraint {
         self.constraint
     }
 
-    /// Whose axes its delta counts in.
+    /// The space of its delta's axes.
     pub fn space(&self) -> Axes {
         self.space
     }
@@ -212,7 +212,7 @@ impl Transforming {
         TransformStep::Preview(self.delta())
     }
 
-    /// What it would do now.
+    /// Its result so far.
     pub fn delta(&self) -> TransformDelta {
         match self.operation {
             Operation::Move => TransformDelta::Move(self.moved()),
@@ -291,7 +291,7 @@ impl Transforming {
         }
     }
 
-    /// The same axis again means the object's own, a third time none.
+    /// Sets a constraint. The same axis a second time means the object's own axis, a third time none.
     fn hold(&mut self, constraint: Constraint) {
         let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
         if self.constraint != constraint {
@@ -324,7 +324,7 @@ impl Transforming {
         if let Some(value) = self.typed.value() {
             return match self.constraint {
                 Constraint::Axis(axis) => axis.unit() * value,
-                // One number is one axis: the first that is free.
+                // A typed number moves along one axis: the first free one.
                 Constraint::None => DVec3::X * value,
                 Constraint::Plane(axis) => axis.others()[0].unit() * value,
             };
@@ -359,7 +359,7 @@ impl Transforming {
         if self.snap == Snap::Steps { (by / STEP).round() * STEP } else { by }
     }
 
-    /// How far along an axis through the pivot a pixel points, world units: where the axis shows nearest to it.
+    /// Position along an axis through the pivot, world units, of the point that shows nearest to a pixel.
     fn along_axis(&self, at_px: DVec2, along: DVec3) -> f64 {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));
@@ -420,8 +420,8 @@ impl TransformDelta {
         }
     }
 
-    /// Where each point of the world goes, turned and scaled about a pivot. `world_from_space` are the axes that the delta
-    /// counts in. Uneven factors make an uneven map: poses cannot hold it, see `Arrange::Stretch`.
+    /// The map of world space, turned and scaled about a pivot; `world_from_space` are the axes of the delta. Poses cannot hold
+    /// non-uniform factors, see `Arrange::Stretch`.
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {

@@ -1,4 +1,4 @@
-//! Whether files of the document change under it: by their size and time, looked at now and then.
+//! Notices when files of the document change on disk, by polling their size and time.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -23,24 +23,24 @@ struct Watched {
     seen: Option<SizeAndTime>,
 }
 
-/// What changed.
+/// What changed on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum News {
     /// Meshes or pictures of the scene.
     Files,
-    /// The scene file itself, by another hand.
+    /// The scene file itself, changed by another program.
     Scene,
 }
 
 impl Watch {
-    /// Looks at the document's files once. What changed since it was asked last, and has come to rest since: a file that looks
-    /// the same twice. Files that it has not seen before only become known.
+    /// Polls the document's files once. Reports a change once the file has been the same in two polls, so that it is not still being
+    /// written. Files that are new to the document are not reported.
     pub fn look(&mut self, document: &Document) -> Option<News> {
         let paths = document.files_on_disk();
         self.files.retain(|path, _| paths.contains(path));
         let mut news = None;
         for path in paths {
-            let now = look_of(&path);
+            let now = size_and_time(&path);
             let Some(watched) = self.files.get_mut(&path) else {
                 self.files.insert(path, Watched { known: now, seen: None });
                 continue;
@@ -63,7 +63,7 @@ impl Watch {
     }
 }
 
-fn look_of(path: &Path) -> SizeAndTime {
+fn size_and_time(path: &Path) -> SizeAndTime {
     let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
     Some((metadata.len(), metadata.modified().ok()))
 }
@@ -80,7 +80,7 @@ mod tests {
     const QUAD: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
 
     #[test]
-    fn files_are_news_once_they_have_come_to_rest_and_are_by_another_hand() {
+    fn changes_by_other_programs_are_reported_once_the_file_is_complete() {
         let folder = tempfile::tempdir().expect("a folder");
         let [scene, mesh] = ["s.ron", "leaf.obj"].map(|name| folder.path().join(name));
         fs::write(&scene, SCENE).expect("written");

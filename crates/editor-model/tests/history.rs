@@ -1,4 +1,4 @@
-//! Every command can be taken back: after any thousand of them and as many undos, the document is the first one.
+//! Every command can be undone: after a thousand random ones and as many undos, the document is the first one again.
 
 use std::path::Path;
 

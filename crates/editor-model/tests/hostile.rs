@@ -1,5 +1,5 @@
-//! Files that nobody should write, where `IMPASTO_CORPUS` names a folder of them: each is opened by a process of its own,
-//! with little memory and little time. It ends with a document or with words, and leaves the file as it was.
+//! Opens hostile files of the folder that `IMPASTO_CORPUS` names, each in a process of its own with little memory and time. It must
+//! end with a document or with an error message, and leave the file as it was.
 
 #![cfg(unix)]
 

@@ -1,5 +1,5 @@
-//! A process that paints, copies and saves is killed at any moment, a hundred times: nothing that it was told is kept is
-//! ever lost, and the scene file is always whole.
+//! Kills a process that paints, copies and saves at random moments, a hundred times: no copy that was reported as written is lost,
+//! and the scene file is always whole.
 
 #![cfg(unix)]
 

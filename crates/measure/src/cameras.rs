@@ -1,15 +1,15 @@
-//! Fixed motions of a camera.
+//! Camera motions that the protocols use: roll, orbit, zoom and sideways moves.
 
 use glam::{DMat3, DVec3};
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
-/// Turned about its gaze, counter-clockwise as its user sees it.
+/// The camera rolled about its gaze, counter-clockwise as seen from behind it.
 pub fn rolled(camera: &CameraPose, roll_rad: f64) -> CameraPose {
     CameraPose { roll_rad: camera.roll_rad + roll_rad, ..camera.clone() }
 }
 
-/// Moved round what it looks at, about the vertical. A whole number of turns is exactly none.
+/// The camera moved round its target, about the vertical. Whole turns give exactly the same camera.
 pub fn orbited(camera: &CameraPose, angle_deg: f64) -> CameraPose {
     let turn = DMat3::from_rotation_y(angle_deg.rem_euclid(360.0).to_radians());
     let offset = camera.eye - camera.target;
@@ -17,7 +17,7 @@ pub fn orbited(camera: &CameraPose, angle_deg: f64) -> CameraPose {
     CameraPose { eye, ..camera.clone() }
 }
 
-/// Zoomed in by this factor, by its lens: no wall is run through.
+/// The camera zoomed in by this factor through its lens, so that it meets no wall.
 pub fn zoomed(camera: &CameraPose, factor: f64) -> CameraPose {
     let lens = match camera.lens {
         Lens::Perspective { fov_y_deg, near, far } => {
@@ -29,7 +29,7 @@ pub fn zoomed(camera: &CameraPose, factor: f64) -> CameraPose {
     CameraPose { lens, ..camera.clone() }
 }
 
-/// Eye and target moved together, in shares of the distance between them, to the right and up.
+/// The camera with eye and target moved together to the right and up, in shares of the distance between them.
 pub fn moved_sideways(camera: &CameraPose, [right, up]: [f64; 2]) -> CameraPose {
     let offset = camera.target - camera.eye;
     let to_right = offset.cross(DVec3::Y).normalize_or(DVec3::X);
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zoom_by_one_is_none_and_by_two_halves_the_field() {
+    fn a_zoom_by_two_halves_the_field_of_view() {
         let Lens::Perspective { fov_y_deg, .. } = zoomed(&camera(), 2.0).lens else {
             panic!("a perspective lens")
         };

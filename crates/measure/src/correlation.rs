@@ -1,4 +1,4 @@
-//! Do two patterns agree?
+//! Normalised cross-correlation: do two patterns agree?
 
 /// Normalised cross-correlation of pairs of numbers, −1..=1, and how many pairs there were; 0 where one side is constant.
 pub fn normalized(pairs: impl Iterator<Item = (f32, f32)>) -> (f64, usize) {
@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_same_pattern_its_negative_and_another() {
+    fn equal_opposite_and_unrelated_patterns_give_1_minus_1_and_0() {
         let wave =
             |shift: f32| (0..400).map(move |step| (step as f32 * 0.1 * std::f32::consts::PI + shift).sin());
         assert!((normalized(wave(0.0).zip(wave(0.0).map(|v| 3.0 * v + 7.0))).0 - 1.0).abs() < 1e-6);

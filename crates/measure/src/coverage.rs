@@ -1,18 +1,18 @@
-//! M9: is the surface painted, and with its own colour?
+//! M9, coverage and bleed: is the surface painted, and with its own colour?
 
 use std::collections::BTreeMap;
 
-/// How many of the pixels of a mask have less than half of paint on them.
+/// How many pixels of a mask are less than half covered by paint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Holes {
-    /// Pixels of the mask that show what lies below.
+    /// Pixels of the mask with an alpha below a half.
     pub holes: usize,
     /// Pixels of the mask.
     pub pixels: usize,
 }
 
 impl Holes {
-    /// Of the alpha of the paint and the bodies of the picture (0 where none is).
+    /// Counts them by the alpha of the paint and the body ids of the picture (0 where no body is).
     pub fn of(alpha: &[f32], body_ids: &[u32]) -> Self {
         Self::by_body(alpha, body_ids).into_values().fold(Self::default(), Self::and)
     }
@@ -28,18 +28,18 @@ impl Holes {
         found
     }
 
-    /// Adds those of another picture.
+    /// The sum with those of another picture.
     pub fn and(self, other: Self) -> Self {
         Self { holes: self.holes + other.holes, pixels: self.pixels + other.pixels }
     }
 
-    /// The share of the mask.
+    /// Holes as a share of the mask.
     pub fn share(&self) -> f64 {
         self.holes as f64 / self.pixels.max(1) as f64
     }
 }
 
-/// Bodies of one picture and where they end.
+/// The bodies of one picture, pixel by pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Bodies<'a> {
     /// Width and height in pixels.
@@ -62,11 +62,11 @@ impl Bodies<'_> {
     }
 }
 
-/// How far from a border paint may run, pixels.
+/// How far paint may run over the border of its body, pixels.
 const BORDER_PX: usize = 2;
 
-/// Of the painted pixels of bodies, away from their borders, how many show another body's colour more than their own:
-/// pixels that bleed, pixels looked at. `paint` is premultiplied; `colors[id - 1]` is a body's own.
+/// Counts painted pixels of bodies, away from their borders: those whose colour is nearer to another body's than to their own,
+/// and all. `paint` is premultiplied; `colors[id - 1]` is a body's own colour.
 pub fn bleed(bodies: &Bodies<'_>, paint: &[[f32; 4]], colors: &[[f32; 3]]) -> (usize, usize) {
     let (mut bled, mut pixels) = (0, 0);
     for (index, &[r, g, b, alpha]) in paint.iter().enumerate() {

@@ -1,42 +1,42 @@
-//! M14: are there as many strokes as wanted, evenly spread?
+//! M14, density: are there as many strokes as wanted, evenly spread?
 
 use impasto_core::sampling::hexagonal_spacing;
 
-/// One stroke of a layer, where it shows.
+/// One stroke of a layer in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placed {
-    /// Pixels.
+pub struct PlacedStroke {
+    /// Its centre, pixels.
     pub center_px: [f64; 2],
-    /// How much of it is there.
+    /// Its presence, 0..=1.
     pub alpha: f64,
-    /// Pixels of picture that one whole stroke is wanted for.
+    /// Pixels of the picture per stroke wanted.
     pub wanted_area_px: f64,
 }
 
-/// Σ α times the pixels that each is wanted for, over the pixels that they lie on: 1 where there are as many as wanted.
-pub fn shown_over_wanted(strokes: &[Placed], pixels: usize) -> f64 {
+/// Σ α · (pixels per stroke wanted) over the pixels that the strokes lie on: 1 where there are as many strokes as wanted.
+pub fn shown_over_wanted(strokes: &[PlacedStroke], pixels: usize) -> f64 {
     strokes.iter().map(|stroke| stroke.alpha * stroke.wanted_area_px).sum::<f64>() / pixels.max(1) as f64
 }
 
-/// Mean distance to the nearest neighbour of the strokes that are more than half there, over that of the hexagonal lattice
-/// with as many points on as many pixels; and how many there are.
-pub fn spacing_over_ideal(strokes: &[Placed], pixels: usize) -> (f64, usize) {
+/// For the strokes that are more than half there: the mean distance to the nearest neighbour, over that of the hexagonal lattice
+/// with as many points on as many pixels; and how many strokes these are.
+pub fn spacing_over_ideal(strokes: &[PlacedStroke], pixels: usize) -> (f64, usize) {
     let mut shown: Vec<[f64; 2]> =
         strokes.iter().filter(|stroke| stroke.alpha > 0.5).map(|stroke| stroke.center_px).collect();
     if shown.len() < 2 {
         return (0.0, shown.len());
     }
     shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    // Outwards to either side, until all that is left is farther away in x alone.
+    // Outwards to either side, until all further strokes are too far away in x alone.
     let nearest = |index: usize| {
         let [x, y] = shown[index];
         let mut least = f64::INFINITY;
-        let mut look = |[other_x, other_y]: [f64; 2]| {
+        let mut version = |[other_x, other_y]: [f64; 2]| {
             least = least.min((other_x - x).hypot(other_y - y));
             (other_x - x).abs() <= least
         };
-        let _ = shown[..index].iter().rev().all(|&other| look(other));
-        let _ = shown[index + 1..].iter().all(|&other| look(other));
+        let _ = shown[..index].iter().rev().all(|&other| version(other));
+        let _ = shown[index + 1..].iter().all(|&other| version(other));
         least
     };
     let mean = (0..shown.len()).map(nearest).sum::<f64>() / shown.len() as f64;
@@ -48,10 +48,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hexagonal_lattice_is_ideal_and_chance_is_not() {
-        let place =
-            |x: f64, y: f64| Placed { center_px: [x, y], alpha: 1.0, wanted_area_px: 3f64.sqrt() * 50.0 };
-        let lattice: Vec<Placed> = (0..40)
+    fn a_hexagonal_lattice_has_ideal_spacing_and_random_points_do_not() {
+        let place = |x: f64, y: f64| PlacedStroke {
+            center_px: [x, y],
+            alpha: 1.0,
+            wanted_area_px: 3f64.sqrt() * 50.0,
+        };
+        let lattice: Vec<PlacedStroke> = (0..40)
             .flat_map(|row| (0..40).map(move |column| (row, column)))
             .map(|(row, column)| {
                 place(10.0 * f64::from(column) + 5.0 * f64::from(row % 2), f64::from(row) * 5.0 * 3f64.sqrt())
@@ -62,7 +65,7 @@ mod tests {
         assert!((spacing - 1.0).abs() < 1e-3 && count == 1600, "{spacing}");
         assert!((shown_over_wanted(&lattice, pixels) - 1.0).abs() < 1e-3);
         let unit = |which: u32| f64::from(impasto_core::hash::unit(impasto_core::hash::scramble(which)));
-        let chance: Vec<Placed> =
+        let chance: Vec<PlacedStroke> =
             (0..1600).map(|i| place(unit(2 * i) * 400.0, unit(2 * i + 1) * 346.0)).collect();
         let (spacing, _) = spacing_over_ideal(&chance, pixels);
         assert!(spacing < 0.55, "{spacing}");

@@ -1,13 +1,13 @@
-//! Mean, median, 95th percentile and largest of many numbers, without hiding how many they are.
+//! Summaries of many numbers: count, mean, median, 95th percentile and largest.
 
 use serde::Serialize;
 
-/// What is said of many numbers.
+/// A summary of many numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// How many there were.
     pub count: usize,
-    /// Their mean; 0 of none.
+    /// Their mean; 0 where there are none.
     pub mean: f64,
     /// Half of them are at most this.
     pub median: f64,
@@ -18,7 +18,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of these numbers, in any order. One that is not a number counts as the largest.
+    /// Summarises these numbers, in any order. NaN counts as the largest.
     pub fn of(mut values: Vec<f64>) -> Self {
         if values.is_empty() {
             return Self::default();
@@ -31,7 +31,7 @@ impl Spread {
     }
 }
 
-/// Deviation over mean of these numbers; 0 of fewer than two.
+/// Standard deviation over mean; 0 for fewer than two numbers.
 pub fn coefficient_of_variation(values: &[f64]) -> f64 {
     if values.len() < 2 {
         return 0.0;

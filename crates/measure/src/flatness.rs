@@ -1,19 +1,19 @@
-//! M8: does a stroke keep its size and shape on the picture?
+//! M8, flatness: does a stroke keep its size and shape on the picture?
 
 use std::collections::BTreeMap;
 
 use crate::figures::coefficient_of_variation;
-use crate::strokes::{SeenStrokes, StrokeKey};
+use crate::strokes::{StrokeKey, StrokesByKey};
 
-/// How sizes vary over the frames.
+/// How the sizes of strokes vary over the frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Flatness {
     /// Per stroke, the larger of the coefficients of variation of its length and its width.
     pub variation: Vec<f64>,
 }
 
-/// M8 over frames of one picture size; strokes that are seen in two frames at least.
-pub fn flatness<'a>(frames: impl Iterator<Item = &'a SeenStrokes>) -> Flatness {
+/// M8 over frames of one picture size, for the strokes of at least two frames.
+pub fn flatness<'a>(frames: impl Iterator<Item = &'a StrokesByKey>) -> Flatness {
     let mut sizes: BTreeMap<StrokeKey, [Vec<f64>; 2]> = BTreeMap::new();
     for strokes in frames {
         for (key, stroke) in strokes {

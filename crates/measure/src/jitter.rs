@@ -1,4 +1,4 @@
-//! M10: do strokes tremble?
+//! M10, angular jitter: do strokes tremble?
 
 use impasto_core::angle::wrap_pi;
 
@@ -7,22 +7,22 @@ pub fn acceleration_deg([before, now, after]: [f64; 3]) -> f64 {
     wrap_pi(wrap_pi(after - now) - wrap_pi(now - before)).abs().to_degrees()
 }
 
-/// Trembling over many strokes.
+/// The angular acceleration of many strokes, drawn and expected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Jitter {
-    /// Mean acceleration of the strokes, degrees per frame squared.
+    /// Mean acceleration of the strokes as drawn, degrees per frame squared.
     pub drawn_deg: f64,
-    /// That of the angles that they should have.
+    /// Mean acceleration of the angles that they should have, degrees per frame squared.
     pub analytic_deg: f64,
-    /// How many triples of angles that rests on.
+    /// How many triples of angles the means are taken over.
     pub triples: usize,
 }
 
-/// Below this, degrees per frame squared, single precision is what is seen: a motion without acceleration has no more.
+/// What rounding to single precision alone gives, degrees per frame squared, in a motion without acceleration.
 const FLOOR_DEG: f64 = 2e-3;
 
 impl Jitter {
-    /// Of triples of angles with the triples that they should be.
+    /// From triples of angles in neighbouring frames, each with the triple expected.
     pub fn of(triples: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Self {
         let (mut drawn, mut analytic, mut count) = (0.0, 0.0, 0usize);
         for (found, expected) in triples {
@@ -34,7 +34,8 @@ impl Jitter {
         Self { drawn_deg: mean(drawn), analytic_deg: mean(analytic), triples: count }
     }
 
-    /// What the strokes tremble more than they should, as a share of what they should or of what single precision does.
+    /// How much more the strokes accelerate than expected, as a share of the expected acceleration or, if larger, of what rounding
+    /// gives.
     pub fn excess(&self) -> f64 {
         let expected = self.analytic_deg.max(FLOOR_DEG);
         (self.drawn_deg - expected).max(0.0) / expected
@@ -47,7 +48,7 @@ mod tests {
 
     #[test]
     fn steady_turning_does_not_tremble_and_noise_does() {
-        // Over the seam at half a turn.
+        // Across the wrap at half a turn.
         assert!(acceleration_deg([3.0, 3.1, 3.2 - std::f64::consts::TAU]) < 1e-9);
         assert!(acceleration_deg([0.1, 0.2, 0.3]) < 1e-9);
         assert!((acceleration_deg([0.0, 0.0, 0.1]) - 0.1f64.to_degrees()).abs() < 1e-9);

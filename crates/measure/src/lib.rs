@@ -2,18 +2,18 @@
 //!
 //! ```text
 //! pictures, strokes ─▶ formulas on plain data     plane, strokes, popping, warp, shower_door, coverage, ...
-//! scene ─▶ versions of it (looks), fixed motions (cameras) ─▶ a studio that prepares and draws
+//! scene ─▶ altered versions of it, fixed camera motions ─▶ a context that prepares and draws them
 //!       ─▶ protocols: one row per metric ─▶ report
 //! ```
 
 pub mod cameras;
+pub mod context;
 pub mod correlation;
 pub mod coverage;
 pub mod density;
 pub mod figures;
 pub mod flatness;
 pub mod jitter;
-pub mod looks;
 mod metric;
 mod options;
 pub mod orientation;
@@ -27,11 +27,11 @@ pub mod roll;
 pub mod sheet;
 pub mod shower_door;
 pub mod strokes;
-pub mod studio;
 pub mod truth;
 pub mod turning;
 pub mod turns;
 mod turntable;
+pub mod versions;
 pub mod warp;
 
 use std::sync::Arc;
@@ -44,19 +44,19 @@ pub use options::{MeasureError, MeasureOptions, Progress};
 pub use report::{MeasureReport, Row, Verdict};
 pub use turntable::turntable;
 
-use studio::Studio;
+use context::MeasureContext;
 
 /// Measures a scene. Rows come in the order of the metrics.
 ///
 /// # Errors
-/// Where there is no driver, or a version of the scene cannot be prepared or drawn.
+/// When no driver can be opened, or a version of the scene cannot be prepared or drawn.
 pub fn measure(
     loaded: &Arc<LoadedScene>,
     options: &MeasureOptions,
     progress: &mut dyn FnMut(&Progress),
 ) -> Result<MeasureReport, MeasureError> {
     let start = Instant::now();
-    let mut studio = Studio::open(loaded, options)?;
+    let mut context = MeasureContext::open(loaded, options)?;
     let mut metrics = options.metrics.clone();
     metrics.sort_unstable();
     metrics.dedup();
@@ -64,18 +64,18 @@ pub fn measure(
     for (done, &metric) in metrics.iter().enumerate() {
         progress(&Progress { metric, done, of: metrics.len() });
         let since = Instant::now();
-        let mut row = protocols::row(metric, &mut studio, &mut series)?;
+        let mut row = protocols::row(metric, &mut context, &mut series)?;
         row.seconds = since.elapsed().as_secs_f64();
         rows.push(row);
-        studio.forget();
+        context.forget();
     }
     Ok(MeasureReport {
         scene: loaded.path.display().to_string(),
-        driver: studio.renderer.report().to_string(),
-        size_px: studio.size_px,
+        driver: context.renderer.report().to_string(),
+        size_px: context.size_px,
         seconds: start.elapsed().as_secs_f64(),
         rows,
         series,
-        warnings: studio.warnings,
+        warnings: context.warnings,
     })
 }

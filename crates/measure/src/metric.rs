@@ -8,31 +8,31 @@ use serde::{Serialize, Serializer};
 /// One metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Metric {
-    /// The picture under a roll of the camera.
+    /// How the picture turns as the camera rolls.
     M1,
-    /// Angles under a roll of the camera.
+    /// How the angles of strokes turn as the camera rolls.
     M2,
-    /// Angles against the analytic screen map.
+    /// Angles of strokes against the analytic screen map.
     M3,
     /// Popping.
     M4,
     /// Warp error.
     M5,
-    /// Coherence of what the first frame did not see.
+    /// Coherence of strokes that the reference view did not see.
     M6,
-    /// Shower door.
+    /// Shower door: brushwork that stands still on the picture.
     M7,
-    /// Flatness.
+    /// Flatness: strokes keep their size on the picture.
     M8,
     /// Coverage and bleed.
     M9,
     /// Angular jitter.
     M10,
-    /// Authoring.
+    /// Authoring: saving, scrubbing and density change nothing that was stated.
     M11,
     /// Speed.
     M12,
-    /// Loop and replay.
+    /// Loop and replay: the same frame is the same picture.
     M13,
     /// Density.
     M14,

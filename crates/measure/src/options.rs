@@ -9,11 +9,11 @@ use crate::metric::Metric;
 pub struct MeasureOptions {
     /// Width and height of the pictures; half the scene's own where it is `None`.
     pub size_px: Option<[u32; 2]>,
-    /// How many pairs of neighbouring frames of the shot are looked at.
+    /// How many pairs of neighbouring frames of the shot are measured.
     pub pairs: usize,
     /// Which metrics.
     pub metrics: Vec<Metric>,
-    /// Which library draws.
+    /// The driver that draws.
     pub driver: Driver,
 }
 
@@ -23,27 +23,27 @@ impl Default for MeasureOptions {
     }
 }
 
-/// How far a run has come.
+/// How far a measurement has come.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// The metric at hand.
+    /// The metric being measured.
     pub metric: Metric,
-    /// How many are done.
+    /// How many metrics are done.
     pub done: usize,
-    /// How many there are.
+    /// How many metrics there are.
     pub of: usize,
 }
 
 /// Why nothing was measured.
 #[derive(Debug, thiserror::Error)]
 pub enum MeasureError {
-    /// No driver.
+    /// No driver could be opened.
     #[error(transparent)]
     Context(#[from] impasto_gl_render::context::ContextError),
-    /// A frame was not drawn.
+    /// A frame could not be drawn.
     #[error(transparent)]
     Render(#[from] impasto_gl_render::RenderError),
-    /// The scene, or a version of it, was not prepared.
+    /// The scene, or a version of it, could not be prepared.
     #[error(transparent)]
     Prepare(#[from] impasto_painting::PrepareError),
 }

@@ -1,4 +1,4 @@
-//! The direction of streaks in pixels: structure tensors.
+//! The direction of streaks in a picture, by structure tensors.
 
 use crate::plane::Plane;
 use crate::turning::place_before;
@@ -13,7 +13,7 @@ pub struct Tensors {
 }
 
 impl Tensors {
-    /// Of every pixel (0 along the border), by Scharr's derivative, averaged over a Gaussian of this deviation.
+    /// The tensors of every pixel (0 along the border), by Scharr's derivative, averaged over a Gaussian of this deviation.
     pub fn of(plane: &Plane, sigma_px: f64) -> Self {
         let [width, height] = plane.size_px;
         let gradient = |x: usize, y: usize| {
@@ -31,8 +31,8 @@ impl Tensors {
     }
 }
 
-/// By how much the streaks of `turned` lie off those of `straight` turned counter-clockwise by `angle_rad`, radians in
-/// (−π/2, π/2], and how many pixels of the mask say so: `½ arg Σ conj(T₀ e^{2iφ}) T_φ`.
+/// The mean angle, radians in (−π/2, π/2], from the streaks of `straight` turned counter-clockwise by `angle_rad` to those of
+/// `turned`, `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, and how many pixels of the mask it is taken over.
 pub fn error_rad(straight: &Tensors, turned: &Tensors, angle_rad: f64, mask: &[bool]) -> (f64, usize) {
     let size_px = turned.real.size_px;
     let (sin, cos) = (2.0 * angle_rad).sin_cos();
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_is_what_the_stripes_are_off() {
+    fn the_error_is_the_angle_between_the_stripes() {
         let mask = disk([96, 96], 0.8);
         let straight = Tensors::of(&stripes(0.3), 1.5);
         for (turn, off) in [(0.0, 0.0), (0.5, 0.0), (0.5, 0.1), (2.4, -0.2)] {

@@ -1,4 +1,4 @@
-//! One number per pixel, top row first.
+//! Pictures of one channel, top row first: bilinear sampling, blurs and high passes.
 
 use impasto_gl_render::Picture;
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ impl Plane {
         Self { size_px, values: vec![value; size_px[0] * size_px[1]] }
     }
 
-    /// A value for every column and row.
+    /// A picture from a function of column and row.
     pub fn of(size_px: [usize; 2], value: impl Fn(usize, usize) -> f32) -> Self {
         let values = (0..size_px[0] * size_px[1]).map(|at| value(at % size_px[0], at / size_px[0]));
         Self { size_px, values: values.collect() }
@@ -46,8 +46,8 @@ impl Plane {
         Some(taps.mix(|index| self.values[index]))
     }
 
-    /// Convolved with a Gaussian of this deviation within a mask: each value is the weighted mean of the masked pixels about
-    /// it, and 0 outside the mask.
+    /// Blurred by a Gaussian of this deviation within a mask: each value is the weighted mean of the masked pixels around it; 0
+    /// outside the mask.
     pub fn blurred_in(&self, mask: &[bool], sigma_px: f64) -> Self {
         let weights: Vec<f32> = mask.iter().map(|&known| f32::from(u8::from(known))).collect();
         let weighted = Self {
@@ -65,7 +65,7 @@ impl Plane {
         }
     }
 
-    /// Convolved with a Gaussian of this deviation; 0 beyond the border.
+    /// Blurred by a Gaussian of this deviation; pixels beyond the border count as 0.
     pub fn blurred(&self, sigma_px: f64) -> Self {
         let weights = gaussian(sigma_px);
         self.pass(&weights, [1, 0]).pass(&weights, [0, 1])
@@ -90,7 +90,7 @@ impl Plane {
         Self { size_px: self.size_px, values }
     }
 
-    /// What is finer than a Gaussian of this deviation, within a mask; 0 outside it.
+    /// The picture minus its blur within a mask; 0 outside it.
     pub fn high_pass_in(&self, mask: &[bool], sigma_px: f64) -> Self {
         let coarse = self.blurred_in(mask, sigma_px);
         let fine = self.values.iter().zip(&coarse.values).zip(mask);
@@ -108,7 +108,7 @@ fn gaussian(sigma_px: f64) -> Vec<f32> {
     weights.iter().map(|weight| (weight / sum) as f32).collect()
 }
 
-/// The four pixels about a place, with their weights.
+/// The four pixels round a point, with their bilinear weights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Taps {
     indices: [usize; 4],
@@ -116,16 +116,16 @@ pub(crate) struct Taps {
 }
 
 impl Taps {
-    /// `None` where one of them is off the picture.
+    /// The pixels round a point; `None` where one of them is off the picture.
     pub(crate) fn new([width, height]: [usize; 2], x: f64, y: f64) -> Option<Self> {
-        // What rounding alone carries over the border lies on it.
+        // A point that rounding alone has carried over the border lies on it.
         let snapped = |at: f64, side: usize| {
             let last = side as f64 - 1.0;
             if at > -1e-6 && at < last + 1e-6 { at.clamp(0.0, last) } else { at }
         };
         let (x, y) = (snapped(x, width), snapped(y, height));
         let (left, top) = (x.floor(), y.floor());
-        // A place in the last row or column has the pixel before it beside it.
+        // In the last row or column, the pixel before is the second one.
         let (left, top) = (left.min(width as f64 - 2.0), top.min(height as f64 - 2.0));
         let (s, t) = (x - left, y - top);
         let inside = left >= 0.0 && top >= 0.0 && s <= 1.0 && t <= 1.0;
@@ -145,7 +145,7 @@ impl Taps {
         self.indices.iter().zip(self.weights).map(|(&index, weight)| value(index) * weight).sum()
     }
 
-    /// Whether all pixels that count satisfy this.
+    /// Whether this holds for all pixels with a weight.
     pub(crate) fn all(&self, holds: impl Fn(usize) -> bool) -> bool {
         self.indices.iter().zip(self.weights).all(|(&index, weight)| weight <= 0.0 || holds(index))
     }

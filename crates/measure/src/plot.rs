@@ -1,4 +1,4 @@
-//! Values over the frames of a shot, as small line charts.
+//! Line charts of values over the frames of a shot, as SVG.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,7 @@ const RIGHT: f64 = 696.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 146.0;
 
-/// How many labels an axis has, about.
+/// About how many labels an axis has.
 const TICKS: f64 = 4.0;
 
 /// The series of a report, one chart under the other, as SVG.
@@ -121,7 +121,7 @@ fn round_step(length: f64) -> f64 {
     factor * power
 }
 
-/// A number with the digits that its axis needs.
+/// A number with as many digits as the step of its axis needs.
 fn label(value: f64, step: f64) -> String {
     let digits = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.digits$}")

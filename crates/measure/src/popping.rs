@@ -1,14 +1,14 @@
-//! M4: does paint pop in and out?
+//! M4, popping: do strokes appear or vanish suddenly?
 
-use crate::strokes::{SeenStroke, SeenStrokes, StrokeKey};
+use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 
-/// A step of alpha that is seen as a pop.
+/// A larger step of alpha from one frame to the next is a pop.
 const STEP: f64 = 0.2;
 
-/// A stroke that moves by less stands still.
+/// A stroke that moves by less than this, in pixels, stands still.
 const STILL_PX: f64 = 1e-3;
 
-/// The reach of a stroke's quad over its length and width: quads are larger than strokes, and fitted ones slide.
+/// Size of a stroke's quad over the stroke's length and width: the quad has room for ragged ends.
 const QUAD: f64 = 1.0 / impasto_core::brush::FILL as f64;
 
 /// What popped from one frame to the next.
@@ -28,7 +28,7 @@ pub struct Popping {
 
 /// M4 between two frames of one size. A stroke that is absent has an alpha of 0. One that touches the picture's border in
 /// either frame is left out: it enters or leaves, which is no pop.
-pub fn popping(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> Popping {
+pub fn popping(before: &StrokesByKey, after: &StrokesByKey, size_px: [u32; 2]) -> Popping {
     let carried_px = displacement_px(before, after);
     let mut found = Popping::default();
     let (mut popped, mut shown) = (0.0, 0.0);
@@ -36,13 +36,13 @@ pub fn popping(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> 
         after.iter().filter(|(key, _)| !before.contains_key(*key)).map(|(key, now)| (key, None, Some(now)));
     let others = before.iter().map(|(key, then)| (key, Some(then), after.get(key)));
     for (key, then, now) in others.chain(only_after) {
-        // Where a stroke is in one frame only, it was or will be at most this far away.
+        // A stroke that is in one frame only is at most this far away in the other.
         let margin_px = if then.is_some() && now.is_some() { 0.0 } else { carried_px };
         if [then, now].into_iter().flatten().any(|stroke| touches_border(stroke, margin_px, size_px)) {
             continue;
         }
-        let alpha = |stroke: Option<&SeenStroke>| stroke.map_or(0.0, |stroke| stroke.alpha);
-        let area = |stroke: Option<&SeenStroke>| stroke.map_or(0.0, SeenStroke::area_px);
+        let alpha = |stroke: Option<&MeasuredStroke>| stroke.map_or(0.0, |stroke| stroke.alpha);
+        let area = |stroke: Option<&MeasuredStroke>| stroke.map_or(0.0, MeasuredStroke::area_px);
         let step = (alpha(then) - alpha(now)).abs();
         if step > found.largest_step {
             (found.largest_step, found.worst) = (step, Some(*key));
@@ -58,7 +58,7 @@ pub fn popping(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> 
     found
 }
 
-fn touches_border(stroke: &SeenStroke, margin_px: f64, size_px: [u32; 2]) -> bool {
+fn touches_border(stroke: &MeasuredStroke, margin_px: f64, size_px: [u32; 2]) -> bool {
     let (sin, cos) = stroke.angle_rad.sin_cos();
     let half = |along: f64, across: f64| {
         0.5 * QUAD * (along.abs() * stroke.length_px + across.abs() * stroke.width_px) + margin_px + 1.0
@@ -70,8 +70,8 @@ fn touches_border(stroke: &SeenStroke, margin_px: f64, size_px: [u32; 2]) -> boo
     })
 }
 
-/// How far strokes that are in both frames have moved, at most.
-fn displacement_px(before: &SeenStrokes, after: &SeenStrokes) -> f64 {
+/// The farthest that any stroke of both frames has moved.
+fn displacement_px(before: &StrokesByKey, after: &StrokesByKey) -> f64 {
     let moved = before.iter().filter_map(|(key, then)| {
         let now = after.get(key)?;
         Some(displacement(then, now))
@@ -79,18 +79,18 @@ fn displacement_px(before: &SeenStrokes, after: &SeenStrokes) -> f64 {
     moved.fold(0.0, f64::max)
 }
 
-fn displacement(then: &SeenStroke, now: &SeenStroke) -> f64 {
+fn displacement(then: &MeasuredStroke, now: &MeasuredStroke) -> f64 {
     let [dx, dy] = [0, 1].map(|axis| now.particle_px[axis] - then.particle_px[axis]);
     dx.hypot(dy)
 }
 
-/// The same strokes as if nothing hid them and every layer were wanted in full: what the number of strokes alone decides.
-pub fn by_presence(strokes: &SeenStrokes) -> SeenStrokes {
-    strokes.iter().map(|(key, stroke)| (*key, SeenStroke { alpha: stroke.presence, ..*stroke })).collect()
+/// The same strokes with their presence as alpha: as if nothing hid them and every layer were wanted in full.
+pub fn by_presence(strokes: &StrokesByKey) -> StrokesByKey {
+    strokes.iter().map(|(key, stroke)| (*key, MeasuredStroke { alpha: stroke.presence, ..*stroke })).collect()
 }
 
-/// The strokes of the bodies that move from one frame to the other: those of still ones would water popping down.
-pub fn of_moving_bodies(before: &SeenStrokes, after: &SeenStrokes) -> [SeenStrokes; 2] {
+/// The strokes of the bodies that move between the two frames: strokes of still bodies would dilute the share that pops.
+pub fn of_moving_bodies(before: &StrokesByKey, after: &StrokesByKey) -> [StrokesByKey; 2] {
     let mut moving: Vec<u32> = before
         .iter()
         .filter(|(key, then)| after.get(*key).is_some_and(|now| displacement(then, now) > STILL_PX))
@@ -109,10 +109,10 @@ mod tests {
     use super::*;
     use impasto_painting::frame::LayerKind;
 
-    fn strokes(alphas: &[(u32, f64, [f64; 2])]) -> SeenStrokes {
+    fn strokes(alphas: &[(u32, f64, [f64; 2])]) -> StrokesByKey {
         let stroke = |&(particle, alpha, center_px): &(u32, f64, [f64; 2])| {
             let key = StrokeKey { body_id: 1, kind: LayerKind::Body, particle };
-            let seen = SeenStroke {
+            let seen = MeasuredStroke {
                 center_px,
                 particle_px: center_px,
                 angle_rad: 0.0,
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_a_birth_and_a_death_are_pops_and_the_border_is_not() {
+    fn steps_appearing_and_vanishing_are_pops_except_at_the_border() {
         let middle = [50.0, 50.0];
         let before = strokes(&[(0, 1.0, middle), (1, 1.0, middle), (2, 0.5, middle), (3, 1.0, [2.0, 50.0])]);
         let after = strokes(&[(0, 0.9, middle), (2, 0.1, middle), (4, 0.8, middle), (5, 1.0, [50.0, 99.0])]);

@@ -1,4 +1,4 @@
-//! What was measured: rows with values, targets, verdicts, and what they rest on.
+//! The report: a row per metric with values, target, verdict and the counts behind them; as text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -7,10 +7,10 @@ use serde::Serialize;
 use crate::figures::Spread;
 use crate::metric::Metric;
 
-/// Fewer strokes than this say nothing.
+/// A row with fewer strokes (or pixels) than this is no evidence.
 pub const LEAST_STROKES: usize = 500;
 
-/// All that was measured of a scene.
+/// Everything that was measured on a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeasureReport {
     /// The scene or mesh file.
@@ -25,54 +25,54 @@ pub struct MeasureReport {
     pub rows: Vec<Row>,
     /// Values over the frames of the shot.
     pub series: Vec<Series>,
-    /// What a person should know about the scene.
+    /// Warnings about the scene.
     pub warnings: Vec<String>,
 }
 
-/// One metric.
+/// The row of one metric.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Which.
+    /// The metric.
     pub id: Metric,
     /// What it measures.
     pub title: &'static str,
-    /// The shot or the protocol, and the version of the scene.
+    /// The frames and views measured, and the version of the scene.
     pub taken_on: String,
-    /// What was found.
+    /// The values found.
     pub values: Vec<Reading>,
-    /// The same of other rules.
+    /// The values of other ways of painting, to compare with.
     pub baselines: Vec<Reading>,
-    /// What should be.
+    /// What the values should be.
     pub target: String,
-    /// Whether it is.
+    /// Whether they are.
     pub verdict: Verdict,
-    /// What it rests on.
+    /// How much was measured.
     pub counts: Counts,
-    /// What else is to be known.
+    /// Remarks.
     pub notes: Vec<String>,
     /// Wall clock seconds that it took.
     pub seconds: f64,
 }
 
-/// Whether a metric holds.
+/// Whether a metric meets its target.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum Verdict {
-    /// It does.
+    /// It meets its target.
     Holds,
-    /// It does not.
+    /// It misses its target.
     Misses,
-    /// This scene has nothing to measure it on.
+    /// The scene has nothing to measure it on, for this reason.
     NotApplicable(String),
-    /// It rests on too little to be believed; counts as a failure.
+    /// Too little was measured to be evidence; counts as a failure.
     TooFew(String),
 }
 
-/// What a row rests on.
+/// How much was measured for a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
-    /// Strokes, each counted in every view.
+    /// Strokes, each counted once per view.
     pub strokes: usize,
-    /// Pixels, likewise.
+    /// Pixels, each counted once per view.
     pub pixels: usize,
     /// Frames or views.
     pub frames: usize,
@@ -90,27 +90,27 @@ pub struct Reading {
     pub figures: Figures,
 }
 
-/// One number, or what is said of many.
+/// One number, or the summary of many.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Figures {
-    /// One.
+    /// One number.
     One {
-        /// It.
+        /// The number.
         value: f64,
     },
-    /// Many.
+    /// A summary of many numbers.
     Many(Spread),
 }
 
 /// Values over frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Series {
-    /// Which metric they belong to.
+    /// The metric that they belong to.
     pub metric: Metric,
     /// What the values are.
     pub title: &'static str,
-    /// They should be at most this.
+    /// The largest value allowed.
     pub target: f64,
     /// Their unit.
     pub unit: &'static str,
@@ -124,7 +124,7 @@ impl Reading {
         Self { what: what.into(), unit, figures: Figures::One { value } }
     }
 
-    /// Mean, median, 95th percentile and largest of many.
+    /// A summary of many numbers.
     pub fn many(what: impl Into<String>, unit: &'static str, spread: Spread) -> Self {
         Self { what: what.into(), unit, figures: Figures::Many(spread) }
     }
@@ -147,7 +147,7 @@ impl Reading {
     }
 }
 
-/// A number with three digits that count.
+/// A number with three significant digits.
 fn short(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
@@ -161,7 +161,7 @@ fn short(value: f64) -> String {
 }
 
 impl Verdict {
-    /// Holds where this is so, else misses; too few where the row rests on less strokes than say anything.
+    /// `Holds` or `Misses`; `TooFew` where fewer than [`LEAST_STROKES`] strokes were measured.
     pub fn of(holds: bool, counts: Counts) -> Self {
         if counts.strokes < LEAST_STROKES {
             return Self::TooFew(format!("{} strokes; {LEAST_STROKES} are needed", counts.strokes));
@@ -169,7 +169,7 @@ impl Verdict {
         if holds { Self::Holds } else { Self::Misses }
     }
 
-    /// The same of pixels.
+    /// The same with at least [`LEAST_STROKES`] pixels.
     pub fn of_pixels(holds: bool, counts: Counts) -> Self {
         if counts.pixels < LEAST_STROKES {
             return Self::TooFew(format!("{} pixels; {LEAST_STROKES} are needed", counts.pixels));
@@ -177,7 +177,7 @@ impl Verdict {
         if holds { Self::Holds } else { Self::Misses }
     }
 
-    /// Whether nothing is wrong.
+    /// Whether the metric holds or does not apply.
     pub fn is_fine(&self) -> bool {
         matches!(self, Self::Holds | Self::NotApplicable(_))
     }
@@ -193,7 +193,7 @@ impl Verdict {
 }
 
 impl Row {
-    /// A row without values, holding.
+    /// A row without values that holds.
     pub fn new(id: Metric, taken_on: impl Into<String>, target: impl Into<String>) -> Self {
         Self {
             id,
@@ -209,7 +209,7 @@ impl Row {
         }
     }
 
-    /// The row of a metric that this scene has nothing for.
+    /// The row of a metric that does not apply to this scene.
     #[must_use]
     pub fn not_applicable(mut self, reason: impl Into<String>) -> Self {
         self.verdict = Verdict::NotApplicable(reason.into());
@@ -223,7 +223,7 @@ impl MeasureReport {
         self.rows.iter().all(|row| row.verdict.is_fine())
     }
 
-    /// As text for people.
+    /// The report as text.
     pub fn table(&self) -> String {
         let mut text = String::new();
         let [width, height] = self.size_px;

@@ -1,4 +1,4 @@
-//! M6: do strokes that the reference view did not see lie as their neighbours do?
+//! M6, reveal coherence: do strokes that the reference view did not see have the directions of their neighbours?
 
 use std::collections::BTreeMap;
 
@@ -9,40 +9,40 @@ use impasto_painting::Painting;
 use impasto_painting::frame::LayerKind;
 use impasto_scene::motion;
 
-use crate::strokes::{SeenStrokes, of_layer};
+use crate::strokes::{StrokesByKey, of_layer};
 use crate::truth::{BodyView, SurfacePoint, TrueView};
 
-/// A stroke is seen when its surface faces the eye by this cosine, and this much of it was drawn.
+/// A stroke counts as visible when its surface faces the eye by this cosine and this much of it was drawn.
 const FACED: f64 = 0.2;
 const DRAWN: f64 = 0.1;
 
-/// Neighbours face the same way by this cosine (37 degrees): those across a crease, round a limb or on the other side of a
-/// sheet are none.
+/// The normals of neighbours differ by at most this cosine (37 degrees): strokes across a crease, round a limb or on the other side
+/// of a sheet do not count.
 const SAME_SIDE: f64 = 0.8;
 
 /// How many neighbours a stroke is compared with.
 pub const NEIGHBOURS: usize = 10;
 
-/// Neighbours lie within this many of a stroke's lengths on the picture: strokes farther apart do not touch.
+/// Neighbours lie within this many stroke lengths on the picture: strokes farther apart do not touch.
 const TOUCHING: f64 = 1.5;
 
-/// A stroke with a singular point within this many times the distance of its farthest neighbour has no one direction round it.
+/// A stroke is near a singular point if one lies within this many times the distance of its farthest neighbour.
 const ROUND_A_POINT: f64 = 1.5;
 
-/// How far a stroke lies from a neighbour.
+/// The difference between the angles of a stroke and a neighbour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// |wrap_π(θᵢ − θⱼ)|, degrees.
     pub apart_deg: f64,
     /// Index of the object plus 1.
     pub body_id: u32,
-    /// Whether directions have a singular point there.
+    /// Whether the stroke is near a singular point of the directions.
     pub near_pole: bool,
 }
 
-/// For each stroke that is seen now and that the reference view saw from behind, how far it lies from its nearest
-/// neighbours of the same region that face the same way.
-pub fn revealed(painting: &Painting, strokes: &SeenStrokes, size_px: [u32; 2]) -> Vec<Difference> {
+/// For each visible stroke that the reference view saw from behind, its differences to its nearest visible neighbours of the same
+/// region that face the same way.
+pub fn revealed(painting: &Painting, strokes: &StrokesByKey, size_px: [u32; 2]) -> Vec<Difference> {
     let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
     let reference = TrueView::new(&camera, size_px);
     let poses = motion::poses_at(painting.scene(), frame);
@@ -76,7 +76,7 @@ pub fn revealed(painting: &Painting, strokes: &SeenStrokes, size_px: [u32; 2]) -
         .collect()
 }
 
-/// A stroke that is seen.
+/// A visible stroke.
 struct Visible {
     position: DVec3,
     normal: DVec3,
@@ -87,7 +87,7 @@ struct Visible {
     was_unseen: bool,
 }
 
-/// Each stroke that was unseen against its nearest neighbours on the surface.
+/// The differences of each stroke that was unseen to its nearest neighbours on the surface.
 fn differences(body_id: u32, group: &[Visible], singular: &[Singularity]) -> Vec<Difference> {
     let mut found = Vec::new();
     for (index, stroke) in group.iter().enumerate().filter(|(_, stroke)| stroke.was_unseen) {

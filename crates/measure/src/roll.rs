@@ -1,11 +1,11 @@
-//! M1 and M2: what a roll of the camera does to pictures and to angles.
+//! M1 and M2: how pictures and angles of strokes turn as the camera rolls.
 
 use impasto_gl_render::Picture;
 
-use crate::strokes::{SeenStrokes, degrees_apart};
+use crate::strokes::{StrokesByKey, degrees_apart};
 use crate::turning::quarters_of_bytes;
 
-/// How far a picture is from another one turned.
+/// The difference between a picture and another one turned by quarters.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuarterDifference {
     /// Mean difference of a channel, levels of 255.
@@ -16,8 +16,8 @@ pub struct QuarterDifference {
     pub pixels: usize,
 }
 
-/// M1 of quarter turns: square pictures of a camera, straight and rolled by this many quarters, which turns the picture
-/// back by as many. Within a mask of the rolled one.
+/// M1 for quarter turns: compares square pictures of a camera, straight and rolled by this many quarters (which turns the picture
+/// back by as many), within a mask of the rolled one.
 pub fn quarter_difference(
     straight: &Picture,
     rolled: &Picture,
@@ -42,8 +42,8 @@ pub fn quarter_difference(
     found
 }
 
-/// M2: |wrap(θ(φ) − θ(0) + φ)| of the strokes that are in both, degrees.
-pub fn roll_errors_deg(straight: &SeenStrokes, rolled: &SeenStrokes, roll_deg: f64) -> Vec<f64> {
+/// M2: |wrap(θ(φ) − θ(0) + φ)| of the strokes that are in both frames, degrees.
+pub fn roll_errors_deg(straight: &StrokesByKey, rolled: &StrokesByKey, roll_deg: f64) -> Vec<f64> {
     let errors = straight.iter().filter_map(|(key, before)| {
         let now = rolled.get(key)?;
         Some(degrees_apart(now.angle_rad + roll_deg.to_radians(), before.angle_rad))

@@ -1,4 +1,4 @@
-//! A flat sheet that carries a scene's strokes: density and tilt without anything else.
+//! A scene of a flat sheet that carries another scene's strokes, to measure density under tilt.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use impasto_scene::mesh_file::{Material, MeshFile};
 use impasto_scene::motion::CameraPose;
 use impasto_scene::presets;
 
-use crate::looks::body_alone;
+use crate::versions::body_alone;
 
 const SHEET: &str = "#![enable(implicit_some)]
 (
@@ -21,8 +21,8 @@ const SHEET: &str = "#![enable(implicit_some)]
     objects: [(name: \"sheet\", mesh: \"sheet\")],
 )";
 
-/// A scene of a sheet, 2 by 2 units, that fills a square picture and carries the body layer of region `region` of another
-/// scene (of everything else where it is `None`), without chance in size. `None` if that cannot be read.
+/// A scene of a sheet, 2 by 2 units, that fills a square picture. It carries the body layer of region `region` of another scene
+/// (`None`: of what is in no region), without chance in size. `None` if its text cannot be read.
 pub fn sheet(loaded: &LoadedScene, region: Option<usize>, side_px: u32) -> Option<LoadedScene> {
     let mut version = loaded.clone();
     let body = presets::resolve(&loaded.scene, region).body().clone();
@@ -57,7 +57,7 @@ fn mesh() -> MeshFile {
     MeshFile { mesh, groups: vec!["sheet".to_owned()], materials: vec![material] }
 }
 
-/// The sheet's camera, tilted against it.
+/// A camera that looks at the sheet from this tilt.
 pub fn camera(tilt_deg: f64) -> CameraPose {
     let (sin, cos) = tilt_deg.to_radians().sin_cos();
     CameraPose {

@@ -1,40 +1,40 @@
-//! M7: does the brushwork stand still on the picture while what is painted moves under it?
+//! M7, shower door: does the brushwork stand still on the picture while the painted surface moves under it?
 
 use crate::correlation;
 use crate::plane::{Plane, Taps};
 use crate::turns::Turn;
 
-/// Brushwork of two pictures of a moving thing.
+/// How the brushwork of two pictures correlates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShowerDoor {
-    /// Correlation at the same pixels: 1 behind a shower door, 0 where nothing stays on the picture.
+    /// Correlation at the same pixels: 1 for a shower door, 0 where nothing stays on the picture.
     pub same_pixels: f64,
-    /// Correlation at the same surface points: 1 where the brushwork goes along wholly.
+    /// Correlation at the same surface points: 1 where the brushwork moves wholly with the surface.
     pub same_points: f64,
-    /// How many pixels that rests on.
+    /// How many pixels `same_pixels` is taken over.
     pub pixels: usize,
 }
 
-/// Two pictures with what is seen in them.
+/// Two pictures with their bodies and the motion between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<'a> {
     /// The pictures.
     pub pictures: [&'a Plane; 2],
-    /// Bodies in them; 0 where none is.
+    /// Body ids per pixel; 0 where no body is.
     pub body_ids: [&'a [u32]; 2],
-    /// Where each surface point of the first is in the second ([`crate::warp::places_then`]).
-    pub places: &'a [Option<[f64; 2]>],
+    /// Where each surface point of the first is in the second ([`crate::warp::correspondences`]).
+    pub correspondences: &'a [Option<[f64; 2]>],
     /// The median length of strokes, pixels.
     pub stroke_px: f64,
 }
 
-/// M7 over the pixels whose point has moved by more than half a stroke and is seen in both, H = I − G_{ℓ/2} * I within each
-/// body's own pixels.
+/// M7 over the pixels whose point shows in both pictures and has moved by more than half a stroke; brushwork is
+/// H = I − G_{ℓ/2} * I within each body's own pixels.
 pub fn shower_door(pair: &Pair<'_>) -> ShowerDoor {
     let brushwork = [0, 1].map(|side| fine(pair.pictures[side], pair.body_ids[side], 0.5 * pair.stroke_px));
     let size_px = brushwork[0].size_px;
     let moved: Vec<(usize, [f64; 2])> = pair
-        .places
+        .correspondences
         .iter()
         .enumerate()
         .filter_map(|(index, place)| place.map(|place| (index, place)))
@@ -55,18 +55,18 @@ pub fn shower_door(pair: &Pair<'_>) -> ShowerDoor {
     ShowerDoor { same_pixels, same_points, pixels }
 }
 
-/// How strokes lag behind what they should do: L = mean e^{2i(θ − θ₀ − φ)}.
+/// How far the turns of strokes lag behind the analytic turns: L = mean e^{2i(θ − θ₀ − φ)}.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lag {
     /// |arg L|, degrees.
     pub arg_deg: f64,
     /// |L|: 1 where all strokes agree.
     pub length: f64,
-    /// How many strokes that rests on.
+    /// How many strokes L is taken over.
     pub strokes: usize,
 }
 
-/// L over these turns.
+/// The lag over these turns.
 pub fn lag<'a>(turns: impl Iterator<Item = &'a Turn>) -> Lag {
     let (mut sum, mut strokes) = (glam::DVec2::ZERO, 0);
     for turn in turns {
@@ -76,7 +76,7 @@ pub fn lag<'a>(turns: impl Iterator<Item = &'a Turn>) -> Lag {
     Lag { arg_deg: sum.to_angle().abs().to_degrees(), length: sum.length() / strokes.max(1) as f64, strokes }
 }
 
-/// What is finer than strokes, each body for itself, so that no silhouette is taken for brushwork.
+/// The detail finer than strokes, body by body, so that silhouettes do not count as brushwork.
 fn fine(picture: &Plane, body_ids: &[u32], sigma_px: f64) -> Plane {
     let mut bodies: Vec<u32> = body_ids.iter().copied().filter(|&id| id > 0).collect();
     bodies.sort_unstable();
@@ -92,7 +92,7 @@ fn fine(picture: &Plane, body_ids: &[u32], sigma_px: f64) -> Plane {
     sum
 }
 
-/// The share of the pixels of some bodies whose point has moved by more than this.
+/// The share of the pixels of some bodies whose point has moved by more than `by_px`.
 pub fn share_moved(
     motion: &impasto_gl_render::MotionPixels,
     is_counted: impl Fn(u32) -> bool,
@@ -117,10 +117,10 @@ mod tests {
     }
 
     #[test]
-    fn a_pattern_that_stays_and_one_that_goes() {
+    fn a_pattern_that_stays_correlates_at_pixels_and_one_that_moves_at_points() {
         let size = [96, 96];
         let ids = vec![1; 96 * 96];
-        let places: Vec<Option<[f64; 2]>> = (0..96 * 96)
+        let correspondences: Vec<Option<[f64; 2]>> = (0..96 * 96)
             .map(|index| {
                 let x = (index % 96) as f64 + 7.0;
                 (x <= 95.0).then_some([x, (index / 96) as f64])
@@ -129,8 +129,12 @@ mod tests {
         let now = Plane::of(size, |x, y| noise(x as i64, y as i64)).blurred(1.0);
         let goes = Plane::of(size, |x, y| noise(x as i64 - 7, y as i64)).blurred(1.0);
         let of = |then: &Plane| {
-            let pair =
-                Pair { pictures: [&now, then], body_ids: [&ids, &ids], places: &places, stroke_px: 8.0 };
+            let pair = Pair {
+                pictures: [&now, then],
+                body_ids: [&ids, &ids],
+                correspondences: &correspondences,
+                stroke_px: 8.0,
+            };
             shower_door(&pair)
         };
         let carried = of(&goes);

@@ -1,4 +1,4 @@
-//! The strokes of a frame by what they belong to, so that two frames can be compared.
+//! The strokes of a frame by key (body, layer, particle), so that two frames can be compared stroke by stroke.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use impasto_gl_render::ResolvedStroke;
 use impasto_painting::Frame;
 use impasto_painting::frame::LayerKind;
 
-/// Which stroke: the same particle in every frame.
+/// Identifies a stroke in every frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct StrokeKey {
     /// Index of the object plus 1.
@@ -17,10 +17,10 @@ pub struct StrokeKey {
     pub particle: u32,
 }
 
-/// What is measured of a stroke. Pixels from the lower left, Y up.
+/// A stroke as it is measured. Pixels from the lower left, Y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SeenStroke {
-    /// Centre, as drawn where it was drawn.
+pub struct MeasuredStroke {
+    /// Centre as drawn; of a stroke that was not drawn, as computed.
     pub center_px: [f64; 2],
     /// Where its particle projects.
     pub particle_px: [f64; 2],
@@ -30,9 +30,9 @@ pub struct SeenStroke {
     pub length_px: f64,
     /// Width.
     pub width_px: f64,
-    /// How much of it is there: as drawn where it was drawn, else its presence.
+    /// Alpha as drawn; of a stroke that was not drawn, its presence.
     pub alpha: f64,
-    /// How much of it there would be if nothing hid it and its layer were wanted in full.
+    /// Its presence: the alpha if nothing hid it and its layer were wanted in full.
     pub presence: f64,
     /// Cosine between its surface's normal and the direction to the eye.
     pub facing: f64,
@@ -40,7 +40,7 @@ pub struct SeenStroke {
     pub region: u32,
 }
 
-impl SeenStroke {
+impl MeasuredStroke {
     /// Length times width.
     pub fn area_px(&self) -> f64 {
         self.length_px * self.width_px
@@ -48,19 +48,18 @@ impl SeenStroke {
 }
 
 /// All strokes of a frame.
-pub type SeenStrokes = BTreeMap<StrokeKey, SeenStroke>;
+pub type StrokesByKey = BTreeMap<StrokeKey, MeasuredStroke>;
 
-/// The strokes of a frame. `resolved` is what was drawn of each, parallel to the frame's strokes; empty where nothing was
-/// drawn.
-pub fn seen(frame: &Frame, resolved: &[ResolvedStroke]) -> SeenStrokes {
-    let mut strokes = SeenStrokes::new();
+/// The strokes of a frame. `resolved` holds what was drawn of each, in the frame's order; it is empty if nothing was drawn.
+pub fn strokes_by_key(frame: &Frame, resolved: &[ResolvedStroke]) -> StrokesByKey {
+    let mut strokes = StrokesByKey::new();
     for run in &frame.layers {
         for index in run.first as usize..(run.first + run.count) as usize {
             let (stroke, source) = (&frame.strokes[index], &frame.sources[index]);
             let key = StrokeKey { body_id: stroke.body_id, kind: run.kind, particle: source.particle };
             let drawn = resolved.get(index);
             let center_px = drawn.map_or(stroke.center_px, |drawn| drawn.center_px);
-            let seen = SeenStroke {
+            let measured = MeasuredStroke {
                 center_px: center_px.map(f64::from),
                 particle_px: stroke.center_px.map(f64::from),
                 angle_rad: f64::from(stroke.angle_rad),
@@ -71,18 +70,21 @@ pub fn seen(frame: &Frame, resolved: &[ResolvedStroke]) -> SeenStrokes {
                 facing: f64::from(source.facing),
                 region: source.region,
             };
-            strokes.insert(key, seen);
+            strokes.insert(key, measured);
         }
     }
     strokes
 }
 
 /// The strokes of one layer.
-pub fn of_layer(strokes: &SeenStrokes, kind: LayerKind) -> impl Iterator<Item = (&StrokeKey, &SeenStroke)> {
+pub fn of_layer(
+    strokes: &StrokesByKey,
+    kind: LayerKind,
+) -> impl Iterator<Item = (&StrokeKey, &MeasuredStroke)> {
     strokes.iter().filter(move |(key, _)| key.kind == kind)
 }
 
-/// How far two angles are apart, degrees in 0..=180.
+/// The difference of two angles, degrees in 0..=180.
 pub fn degrees_apart(first_rad: f64, second_rad: f64) -> f64 {
     impasto_core::angle::wrap_pi(first_rad - second_rad).abs().to_degrees()
 }

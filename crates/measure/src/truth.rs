@@ -1,5 +1,5 @@
-//! What a stroke should do, in closed form: the local screen map by finite differences through a 4×4 matrix written out
-//! here, so that it shares no function with the code that paints.
+//! The oracle for turns: the local screen map by finite differences through a 4×4 matrix written out here, so that it shares no
+//! function with the code that paints.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4, Vec3};
 use impasto_core::sampling::Particle;
@@ -7,14 +7,14 @@ use impasto_painting::frame::BodySurface;
 use impasto_scene::document::Lens;
 use impasto_scene::motion::CameraPose;
 
-/// A camera and the picture that it fills.
+/// A camera with the size of its picture.
 #[derive(Clone, Debug)]
 pub struct TrueView {
-    /// Rows of clip_from_world, row by row; depth is not needed.
+    /// Rows x, y and w of clip_from_world; depth is not needed.
     rows: [DVec4; 3],
     half_px: DVec2,
     eye: DVec3,
-    /// The gaze of an orthographic lens.
+    /// The gaze; `None` for a perspective lens.
     parallel: Option<DVec3>,
 }
 
@@ -77,25 +77,25 @@ pub struct SurfacePoint {
     pub normal: DVec3,
 }
 
-/// A point of a surface in the reference pose and now.
+/// How a point of a surface moves from the reference pose to the current one, model space.
 #[derive(Clone, Copy, Debug)]
-pub struct Ride {
-    /// In the reference pose.
+pub struct PointMotion {
+    /// The point in the reference pose.
     pub before: SurfacePoint,
-    /// Now.
+    /// The point in the current pose.
     pub after: SurfacePoint,
-    /// F: what has become of directions in model space; the identity on a surface that keeps its shape.
+    /// F, the deformation gradient: it carries directions; the identity on a surface that keeps its shape.
     pub carry: DMat3,
 }
 
-impl Ride {
+impl PointMotion {
     /// A point of a surface that keeps its shape.
     pub fn rigid(point: SurfacePoint) -> Self {
         Self { before: point, after: point, carry: DMat3::IDENTITY }
     }
 
-    /// A particle of a surface that has turned into its morph by these shares in the reference pose and now: its triangle's
-    /// edges and its normal carry it.
+    /// A particle of a surface that is morphed by these shares in the reference pose and in the current one. Its triangle's edges
+    /// and its normal give F.
     pub fn of(surface: &BodySurface, particle: &Particle, shares: [f64; 2]) -> Self {
         let mesh = &surface.mesh;
         let corners = mesh.triangles[particle.triangle as usize].map(|vertex| vertex as usize);
@@ -138,27 +138,28 @@ pub struct BodyView<'a> {
 }
 
 impl BodyView<'_> {
-    fn place(&self, point: SurfacePoint) -> (DVec3, DVec3) {
+    /// Position and unit normal in world space.
+    fn in_world(&self, point: SurfacePoint) -> (DVec3, DVec3) {
         let at = self.world_from_model.transform_point3(point.position);
         (at, self.world_from_model.transform_vector3(point.normal).normalize_or_zero())
     }
 
     /// Cosine between the point's normal and the direction to the eye; 0 behind the eye.
     pub fn facing(&self, point: SurfacePoint) -> f64 {
-        let (at, normal) = self.place(point);
+        let (at, normal) = self.in_world(point);
         if self.view.is_in_front(at) { self.view.facing(at, normal) } else { 0.0 }
     }
 
     /// J B: the tangents in pixels.
     fn tangents_px(&self, point: SurfacePoint, tangents: [DVec3; 2]) -> [DVec2; 2] {
-        let (at, _) = self.place(point);
-        let in_world = tangents.map(|tangent| self.world_from_model.transform_vector3(tangent));
+        let (at, _) = self.in_world(point);
+        let tangents = tangents.map(|tangent| self.world_from_model.transform_vector3(tangent));
         let step = 1e-6 * (at - self.view.eye).length().max(1e-3);
-        self.view.columns(at, in_world, step)
+        self.view.columns(at, tangents, step)
     }
 }
 
-/// What the picture of a surface does between two views at one of its points.
+/// The local screen map between two views at a point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenTurn {
     /// φ(A): the turn of the best similarity, radians.
@@ -170,12 +171,13 @@ pub struct ScreenTurn {
 impl ScreenTurn {
     /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference sees the surface
     /// edge-on.
-    pub fn between(ride: &Ride, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
-        let point = ride.before;
+    pub fn between(point_motion: &PointMotion, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
+        let point = point_motion.before;
         let first = point.normal.any_orthonormal_vector();
         let tangents = [first, point.normal.cross(first)];
         let [a, b] = reference.tangents_px(point, tangents);
-        let [c, d] = now.tangents_px(ride.after, tangents.map(|tangent| ride.carry * tangent));
+        let [c, d] =
+            now.tangents_px(point_motion.after, tangents.map(|tangent| point_motion.carry * tangent));
         let determinant = a.x * b.y - b.x * a.y;
         // A [a b] = [c d].
         let map = [(c * b.y - d * a.y) / determinant, (d * a.x - c * b.x) / determinant];
@@ -188,7 +190,7 @@ impl ScreenTurn {
         (self.map[0] - DVec2::X).length() + (self.map[1] - DVec2::Y).length() < 1e-9
     }
 
-    /// The direction into which a material line at this angle has gone: arg(A d).
+    /// The angle to which a line on the surface at this angle has turned: arg(A d).
     pub fn material_rad(&self, angle_rad: f64) -> f64 {
         let (sin, cos) = angle_rad.sin_cos();
         let line = self.map[0] * cos + self.map[1] * sin;
@@ -213,18 +215,18 @@ mod tests {
         SurfacePoint { position: DVec3::new(0.2, 0.1, 0.3), normal: DVec3::new(0.0, 0.6, 0.8) };
 
     #[test]
-    fn a_roll_turns_back_by_itself() {
+    fn a_roll_of_the_camera_turns_strokes_back_by_as_much() {
         let size = [640, 360];
         let reference = TrueView::new(&camera(DVec3::new(0.3, 0.9, 3.0), 0.0), size);
         let rolled = TrueView::new(&camera(DVec3::new(0.3, 0.9, 3.0), 37.0), size);
         let body = |view| BodyView { view, world_from_model: DAffine3::from_rotation_y(0.3) };
-        let turn = ScreenTurn::between(&Ride::rigid(POINT), body(&reference), body(&rolled)).unwrap();
+        let turn = ScreenTurn::between(&PointMotion::rigid(POINT), body(&reference), body(&rolled)).unwrap();
         assert!((turn.polar_rad.to_degrees() + 37.0).abs() < 1e-5, "{}", turn.polar_rad.to_degrees());
         assert!((turn.material_rad(0.4).to_degrees() - 0.4f64.to_degrees() + 37.0).abs() < 1e-5);
     }
 
     #[test]
-    fn the_middle_of_the_picture_is_the_target() {
+    fn the_target_is_in_the_middle_of_the_picture() {
         let view = TrueView::new(&camera(DVec3::new(2.0, 1.0, 3.0), 20.0), [640, 360]);
         assert!(view.pixel(DVec3::new(0.1, 0.2, 0.0)).length() < 1e-9);
         assert!(view.is_in_front(DVec3::ZERO) && !view.is_in_front(DVec3::new(4.0, 2.0, 6.0)));

@@ -1,4 +1,4 @@
-//! Turning pictures: exactly by quarters, else by sampling.
+//! Turns pictures: by quarter turns exactly, by other angles with bilinear sampling.
 
 use crate::plane::Plane;
 
@@ -6,7 +6,7 @@ use crate::plane::Plane;
 fn before_quarters(quarters: i32, [x, y]: [usize; 2], last: usize) -> [usize; 2] {
     match quarters.rem_euclid(4) {
         0 => [x, y],
-        // What is at the top now was at the right.
+        // The top row was the right column.
         1 => [last - y, x],
         2 => [last - x, last - y],
         _ => [y, last - x],
@@ -32,7 +32,7 @@ pub fn place_before(size_px: [usize; 2], angle_rad: f64, [x, y]: [usize; 2]) -> 
     [middle[0] + dx * cos + dy * sin, middle[1] - (dy * cos - dx * sin)]
 }
 
-/// A picture turned counter-clockwise about its middle; 0 where it was off the picture.
+/// A picture turned counter-clockwise about its middle; 0 where nothing of the picture comes to lie.
 pub fn turned(plane: &Plane, angle_rad: f64) -> Plane {
     Plane::of(plane.size_px, |x, y| {
         let [from_x, from_y] = place_before(plane.size_px, angle_rad, [x, y]);
@@ -40,7 +40,7 @@ pub fn turned(plane: &Plane, angle_rad: f64) -> Plane {
     })
 }
 
-/// The pixels within this share of the largest disk in the middle of a picture.
+/// A mask of the disk in the middle of a picture, its radius this share of the largest possible.
 pub fn disk(size_px: [usize; 2], share: f64) -> Vec<bool> {
     let middle = size_px.map(|side| (side as f64 - 1.0) * 0.5);
     let radius = 0.5 * size_px[0].min(size_px[1]) as f64 * share;

@@ -1,14 +1,14 @@
-//! A whole turn about a scene in place of its shot.
+//! Replaces a scene's shot by a whole turn of the camera.
 
 use impasto_scene::document::{CameraKey, Ease, ObjectKey, Reference};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion;
 
 use crate::cameras;
-use crate::looks::{leave_out, orbit_blockers};
+use crate::versions::{leave_out, orbit_blockers};
 
-/// The scene with its shot replaced by a whole turn of the camera about what it looks at in the reference frame, a degree a
-/// frame; objects stand as they do there, and what would hide them from the camera is left out.
+/// The scene with its shot replaced by a whole turn of the camera about its target in the reference frame, one degree per frame.
+/// Objects keep their reference pose, and objects that would hide the target are left out.
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();
     let scene = &mut version.scene;

@@ -1,16 +1,16 @@
-//! M5 and the visible part of motion: what is seen in two pictures, and how alike it looks.
+//! M5, warp error: which surface points show in two pictures, and how alike they look.
 
 use impasto_gl_render::{MotionPixels, ReferencePixels};
 
 use crate::plane::{Plane, Taps};
 
-/// Depths agree when they differ by less than this share, or by what a slanted surface has within a pixel.
+/// Depths agree when they differ by less than this share.
 const DEPTH_SHARE: f32 = 0.01;
 
-/// For each pixel of the first picture, where its surface point shows in the second, in columns and rows; `None` where no
-/// body is, or where the point is off the second picture or hidden in it: all pixels about the place must show the same
-/// body, and one of them the same depth.
-pub fn places_then(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Option<[f64; 2]>> {
+/// For each pixel of the first picture, where its surface point shows in the second, in columns and rows. `None` where no body
+/// is, or where the point is off the second picture or hidden in it: the four pixels round it must show the same body, and their
+/// mean depth must be its own.
+pub fn correspondences(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Option<[f64; 2]>> {
     let size_px = motion.size_px.map(|side| side as usize);
     let place = |index: usize| {
         let id = motion.body_id[index];
@@ -27,19 +27,19 @@ pub fn places_then(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Option<
     (0..motion.body_id.len()).map(place).collect()
 }
 
-/// What a picture fails to carry along.
+/// How much a picture differs from the one before, carried along with the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Warp {
     /// Mean squared difference at the same surface points, squares of levels of 255.
     pub error: f64,
-    /// How many pixels that rests on.
+    /// How many pixels the mean is taken over.
     pub pixels: usize,
 }
 
 /// M5: W = Σ M ‖I_then(x + v) − I_now(x)‖² / Σ M over the pixels whose point is seen in both pictures.
-pub fn warp_error(now: &Plane, then: &Plane, places: &[Option<[f64; 2]>]) -> Warp {
+pub fn warp_error(now: &Plane, then: &Plane, correspondences: &[Option<[f64; 2]>]) -> Warp {
     let (mut sum, mut pixels) = (0.0, 0);
-    for (value, place) in now.values.iter().zip(places) {
+    for (value, place) in now.values.iter().zip(correspondences) {
         let Some([x, y]) = place else { continue };
         if let Some(there) = then.sample(*x, *y) {
             sum += f64::from(there - value).powi(2);
@@ -71,20 +71,20 @@ mod tests {
         let now = Plane::of([32, 32], |x, y| texture(x as i64, y as i64));
         let carried = Plane::of([32, 32], |x, y| texture(x as i64 - 3, y as i64 + 2));
         let (motion, then) = moved(32, [3.0, -2.0]);
-        let places = places_then(&motion, &then);
-        let warp = warp_error(&now, &carried, &places);
+        let correspondences = correspondences(&motion, &then);
+        let warp = warp_error(&now, &carried, &correspondences);
         assert_eq!((warp.error, warp.pixels), (0.0, 29 * 30));
-        let left_behind = warp_error(&now, &now, &places);
+        let left_behind = warp_error(&now, &now, &correspondences);
         assert!(left_behind.error > 100.0, "{left_behind:?}");
     }
 
     #[test]
-    fn what_is_hidden_then_does_not_count() {
+    fn points_hidden_in_the_second_picture_do_not_count() {
         let (motion, mut then) = moved(8, [0.0, 0.0]);
         then.body_id[9] = 2;
         then.depth[18] = 1.0;
-        let places = places_then(&motion, &then);
-        assert_eq!(places.iter().filter(|place| place.is_none()).count(), 2);
-        assert!(places[9].is_none() && places[18].is_none());
+        let correspondences = correspondences(&motion, &then);
+        assert_eq!(correspondences.iter().filter(|place| place.is_none()).count(), 2);
+        assert!(correspondences[9].is_none() && correspondences[18].is_none());
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use impasto_scene::house_mesh;
+use impasto_scene::built_in_mesh;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::frame::{Frame, FrameBody, Strokes};
@@ -43,7 +43,7 @@ impl Painting {
                 .zip(poses.iter().zip(shapes))
                 .zip(&scene.objects)
                 .map(|((body, (&pose, shape)), object)| FrameBody {
-                    is_backdrop: object.mesh == house_mesh::BACKDROP,
+                    is_backdrop: object.mesh == built_in_mesh::BACKDROP,
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: shape.morph as f32,

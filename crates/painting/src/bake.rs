@@ -133,7 +133,7 @@ impl BakeInputs {
                 let index = first + number * CHUNK + offset;
                 let point = sources.point(index, sources.traits.region(index));
                 let (lift, base_rad) = self.lift(index, point, &stated);
-                baked.set(offset, (sources.off_surface(point).position, point.normal), lift);
+                baked.set(offset, sources.off_surface(point).position, point.normal, lift);
                 if let Some(base_angle_rad) = base_angles_rad.get_mut(offset) {
                     *base_angle_rad = base_rad as f32;
                 }

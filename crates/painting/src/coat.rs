@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use impasto_core::sampling::{self, Place, ProgressiveState, Surface};
+use impasto_core::sampling::{self, PackedParticle, ProgressiveState, Surface};
 use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
@@ -84,7 +84,8 @@ impl SampleInputs {
         if self.per_polygon.is_some() {
             let entries = sampling::per_polygon(surface, count, self.name_hash);
             let polygons = PolygonCounts::new(surface, &body.mesh, &entries);
-            let places: Vec<Place> = entries.iter().map(|entry| Place::of(&entry.particle)).collect();
+            let places: Vec<PackedParticle> =
+                entries.iter().map(|entry| PackedParticle::of(&entry.particle)).collect();
             let particles = Particles::new(body, Arc::new(places), usize::MAX);
             return Arc::new(Sampled {
                 albedo: Arc::new(body.albedo(particles.par_range(0..particles.len()))),
@@ -100,7 +101,7 @@ impl SampleInputs {
             all.extend(before.particles.places().iter().map(|place| place.on(&body.mesh)));
         }
         state.grow(surface, self.name_hash, &mut all, count);
-        let places: Arc<Vec<Place>> = Arc::new(all.iter().map(Place::of).collect());
+        let places: Arc<Vec<PackedParticle>> = Arc::new(all.iter().map(PackedParticle::of).collect());
         Arc::new(Sampled {
             albedo: Arc::new(body.albedo(all.par_iter().copied())),
             particles: match before {

@@ -9,7 +9,7 @@ mod samples;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DVec2, DVec3};
-use impasto_core::direction::carry::{Carried, Stencils};
+use impasto_core::direction::carry::{SolvedSample, Stencils};
 use impasto_core::direction::field::{Constraint, FieldGraph};
 use impasto_core::direction::singularities::{self, Singularity};
 use impasto_core::direction::{Symmetry, tangent_axes};
@@ -102,7 +102,7 @@ impl BodyField {
         let shown = self.relaxed.as_deref().unwrap_or(&self.solved);
         self.singularities.get_or_init(|| {
             self.unguided.graph.get().map_or_else(Vec::new, |graph| {
-                singularities::find(graph, (positions, normals), shown, self.symmetry)
+                singularities::find(graph, positions, normals, shown, self.symmetry)
             })
         })
     }
@@ -164,7 +164,7 @@ impl BodyField {
         let inputs = &self.inputs;
         let sample = |index: usize| {
             let sample = &self.unguided.points[index];
-            inputs.joined(sample.point, point).then(|| Carried {
+            inputs.joined(sample.point, point).then(|| SolvedSample {
                 position: inputs.samples.positions[index],
                 normal: sample.point.normal,
                 solved: solved[index],
@@ -172,7 +172,7 @@ impl BodyField {
                 anchor: self.anchors[index],
             })
         };
-        let at = (point.position.as_vec3(), point.normal, stated);
-        stencils.carry(particle, at, self.symmetry, sample)
+        let position = point.position.as_vec3();
+        stencils.carry(particle, position, point.normal, stated, self.symmetry, sample)
     }
 }

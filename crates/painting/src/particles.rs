@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::Vec3;
-use impasto_core::sampling::{Particle, Place};
+use impasto_core::sampling::{PackedParticle, Particle};
 use rayon::prelude::*;
 
 use crate::body::{BodySurface, Vertices};
@@ -14,7 +14,7 @@ use crate::body::{BodySurface, Vertices};
 pub struct Particles {
     /// The identity of the order on a surface of this shape, however many of its particles have been sampled.
     order: Arc<()>,
-    all: Arc<Vec<Place>>,
+    all: Arc<Vec<PackedParticle>>,
     surface: Arc<BodySurface>,
     /// The vertices of a surface that has changed its shape; none at rest.
     moved: Option<Arc<Vertices>>,
@@ -30,7 +30,7 @@ impl PartialEq for Particles {
 
 impl Particles {
     /// The first `count` of a new order on a surface at rest.
-    pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<Place>>, count: usize) -> Self {
+    pub(crate) fn new(surface: &Arc<BodySurface>, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
         let count = count.min(all.len());
         Self { order: Arc::new(()), all, surface: Arc::clone(surface), moved: None, count }
     }
@@ -41,7 +41,7 @@ impl Particles {
     }
 
     /// The same order with more particles.
-    pub(crate) fn continued(&self, all: Arc<Vec<Place>>, count: usize) -> Self {
+    pub(crate) fn continued(&self, all: Arc<Vec<PackedParticle>>, count: usize) -> Self {
         Self { count: count.min(all.len()), all, ..self.clone() }
     }
 
@@ -56,7 +56,7 @@ impl Particles {
     }
 
     /// The places of all particles of the order that have been sampled.
-    pub(crate) fn places(&self) -> &Arc<Vec<Place>> {
+    pub(crate) fn places(&self) -> &Arc<Vec<PackedParticle>> {
         &self.all
     }
 
@@ -107,7 +107,7 @@ impl Particles {
     }
 
     #[inline]
-    fn place_on_surface(&self, place: Place) -> Particle {
+    fn place_on_surface(&self, place: PackedParticle) -> Particle {
         let mesh = &self.surface.mesh;
         match &self.moved {
             Some(vertices) => place.on_moved(mesh, &vertices.positions, &vertices.normals),

@@ -117,7 +117,7 @@ impl DirectionRules<'_> {
             }
             Direction::Along(axis) => direction::towards(DVec3::from(axis), normal),
             Direction::Up => direction::towards(DVec3::Y, normal),
-            Direction::Toward(target) => direction::toward(DVec3::from(target), position, normal),
+            Direction::Toward(target) => direction::towards_point(DVec3::from(target), position, normal),
             Direction::Angle(degrees) | Direction::Crossing(degrees, _) => {
                 return Line::Shown(degrees.to_radians());
             }

@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
-use crate::problem::{Place, Problem, Severity};
+use crate::problem::{Problem, Severity, TextPosition};
 
-/// The longest name of a file that is looked for, in bytes; longer ones are more than any system opens.
+/// The longest file name that is accepted, in bytes; no system opens longer ones.
 pub const MAX_NAME_BYTES: usize = 4096;
 
 /// The folders that a scene's files may come from.
@@ -16,7 +16,7 @@ pub struct AssetFolders {
     pub extra: Vec<PathBuf>,
 }
 
-/// One file that another file names.
+/// A file that another file names.
 #[derive(Clone, Copy, Debug)]
 pub struct AssetRequest<'a> {
     /// The file that names it: the name is relative to this file's folder.
@@ -73,7 +73,7 @@ pub enum AssetError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
 }
@@ -92,8 +92,8 @@ impl AssetError {
         }
     }
 
-    /// The problem to report in the file `path`, which names this one; a file over its limit stays a limit.
-    pub fn to_problem(&self, severity: Severity, path: &Path, place: Option<Place>) -> Problem {
+    /// The problem to report for the file `path`, which names this one. A file that is too large is always a limit.
+    pub fn to_problem(&self, severity: Severity, path: &Path, place: Option<TextPosition>) -> Problem {
         let severity = if matches!(self, Self::TooLarge { .. }) { Severity::Limit } else { severity };
         Problem {
             severity,
@@ -177,7 +177,7 @@ pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>, AssetEr
         return Err(too_large());
     }
     let mut bytes = Vec::new();
-    // One byte more than allowed, so that a file that grew since is noticed.
+    // One byte more than allowed, to notice a file that has grown meanwhile.
     File::open(path).map_err(unreadable)?.take(max_bytes + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > max_bytes { Err(too_large()) } else { Ok(bytes) }
 }
@@ -206,7 +206,7 @@ fn canonical(folder: &Path) -> PathBuf {
     fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())
 }
 
-/// The path with `.` and `..` worked out on the text alone.
+/// The path with `.` and `..` resolved by text alone, without the file system.
 fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for component in path.components() {

@@ -1,9 +1,9 @@
 //! The document: what a `.ron` scene file means, mesh files, keyframes, located errors.
 
 pub mod assets;
+pub mod built_in_mesh;
 pub mod check;
 pub mod document;
-pub mod house_mesh;
 pub mod limits;
 pub mod load;
 pub mod loaded;

@@ -1,4 +1,4 @@
-//! What a scene may ask for at most. Everything above is refused by name, before any memory is set aside for it.
+//! Limits of a scene. Whatever exceeds one is refused by name, before any memory is allocated for it.
 
 /// Bytes of a scene file.
 pub const MAX_SCENE_BYTES: u64 = 16 << 20;
@@ -15,7 +15,7 @@ pub const MAX_NUMBER_CHARS: usize = 400;
 /// Bytes of a name of an object, light or region.
 pub const MAX_NAME_BYTES: usize = 1024;
 
-/// Pixels along one side of the picture: the least that a current driver takes as a render target.
+/// Pixels along one side of the picture: every current driver takes a render target of this size.
 pub const MAX_SIDE_PX: u32 = 16_384;
 
 /// Pixels of the picture.
@@ -54,7 +54,7 @@ pub const MAX_STROKE_PX: f64 = 4096.0;
 /// Strokes per pixel × length × width.
 pub const MAX_COVERAGE: f64 = 20.0;
 
-/// Factors that have no natural end: jitter of colour, temperature, relief, weave, varnish.
+/// Factors without a natural limit: jitter of colour, temperature, relief, weave, varnish.
 pub const MAX_STRENGTH: f64 = 10.0;
 
 /// Thickness of a layer of paint.
@@ -66,10 +66,10 @@ pub const MAX_PALETTE: usize = 16;
 /// Brushes of a mix.
 pub const MAX_BRUSHES: usize = 64;
 
-/// Different brushes of a scene that are pictures.
+/// Brushes of a scene that are pictures, each counted once.
 pub const MAX_BRUSH_PICTURES: usize = 16;
 
-/// Frames that a pose is held.
+/// Frames for which a pose is held.
 pub const MAX_HOLD: u32 = 1000;
 
 /// Distance of a layer from 0.
@@ -84,7 +84,7 @@ pub const MAX_POINT_LIGHTS: usize = 16;
 /// Problems that one report lists.
 pub const MAX_PROBLEMS: usize = 100;
 
-/// Poses that directions may refer to beside the reference.
+/// References in addition to the first.
 pub const MAX_FURTHER_REFERENCES: usize = 16;
 
 /// Guides of a scene.
@@ -102,7 +102,7 @@ pub const MAX_FLOODS: usize = 256;
 /// Patches that all regions of a scene cover.
 pub const MAX_PATCHES: usize = 16_384;
 
-/// Numbers of a noise-displaced material that have no natural end.
+/// Numbers of a noise-displaced material without a natural limit.
 pub const NOISE_RATE: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
 
 /// Layers of a noise-displaced material: each but the first is looked up twice for every pixel.

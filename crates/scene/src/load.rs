@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::assets::{AssetFolders, AssetRequest};
+use crate::built_in_mesh;
 use crate::check::{self, Finding};
 use crate::document::Scene;
-use crate::house_mesh;
 use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::Located;
@@ -218,17 +218,17 @@ mod tests;
 
 /// A mesh that the scene names.
 fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
-    if name.starts_with(house_mesh::PREFIX) {
+    if name.starts_with(built_in_mesh::PREFIX) {
         let unknown = || {
             let message = format!("there is no mesh {name:?} in the house");
             Report(vec![error_in(
                 scene,
                 None,
                 message,
-                format!("the only one is {:?}", house_mesh::BACKDROP),
+                format!("the only one is {:?}", built_in_mesh::BACKDROP),
             )])
         };
-        return house_mesh::of_name(name).map(|mesh| (mesh, Vec::new())).ok_or_else(unknown);
+        return built_in_mesh::of_name(name).map(|mesh| (mesh, Vec::new())).ok_or_else(unknown);
     }
     let root = folder_of(scene);
     let request = AssetRequest { name, beside: scene, root, max_bytes: crate::obj::MAX_FILE_BYTES };

@@ -1,4 +1,4 @@
-//! A scene with everything that it names, read and checked.
+//! A scene with all files that it names, read and checked.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -8,8 +8,7 @@ use crate::document::Scene;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::problem::Problem;
 
-/// A scene and the files that it names. Whoever holds one may rely on everything that `check` promises: names resolve,
-/// numbers are finite and in range, limits hold.
+/// A scene and the files that it names. `check` has passed: names resolve, numbers are finite and in range, limits hold.
 #[derive(Clone, Debug)]
 pub struct LoadedScene {
     /// The scene file, or the mesh file that the scene was made for.
@@ -22,12 +21,12 @@ pub struct LoadedScene {
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Pictures that serve as brushes, by the path written in the document.
     pub brushes: BTreeMap<String, Arc<Texture>>,
-    /// Everything that was odd and could be mended on the way.
+    /// Everything that was wrong but could be repaired while reading.
     pub warnings: Vec<Problem>,
 }
 
 impl LoadedScene {
-    /// Every file that it was read from, for not writing over it.
+    /// Every file that it was read from; these must not be overwritten.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
         let named = self.meshes.keys().chain(self.textures.keys()).chain(self.brushes.keys());

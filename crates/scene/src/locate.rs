@@ -5,7 +5,7 @@
 //! numbers of a million digits), and `--set` finds the text that it replaces.
 
 use crate::limits;
-use crate::problem::Place;
+use crate::problem::TextPosition;
 
 mod scan;
 
@@ -84,7 +84,7 @@ impl Located {
     }
 
     /// Line and column of a byte offset.
-    pub(crate) fn place(&self, offset: usize) -> Place {
+    pub(crate) fn place(&self, offset: usize) -> TextPosition {
         place_in(&self.text, &self.line_starts, offset)
     }
 
@@ -98,7 +98,7 @@ impl Located {
 
     /// Where a field stands, such as `objects[2].keys[1].frame`. Where the file leaves it out (it has a default, or a
     /// variant has no such field), the nearest value around it that the file does have.
-    pub fn place_of(&self, field_path: &str) -> Place {
+    pub fn place_of(&self, field_path: &str) -> TextPosition {
         let mut node = &self.root;
         for step in Step::split(field_path) {
             match self.child(node, step) {
@@ -195,13 +195,13 @@ pub(crate) fn line_starts(text: &str) -> Vec<usize> {
 }
 
 /// Line and column of a byte offset.
-pub(crate) fn place_in(text: &str, line_starts: &[usize], offset: usize) -> Place {
+pub(crate) fn place_in(text: &str, line_starts: &[usize], offset: usize) -> TextPosition {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
         offset -= 1;
     }
     let line = line_starts.partition_point(|&start| start <= offset).max(1);
-    Place { line, column: 1 + text[line_starts[line - 1]..offset].chars().count() }
+    TextPosition { line, column: 1 + text[line_starts[line - 1]..offset].chars().count() }
 }
 
 impl Refused {

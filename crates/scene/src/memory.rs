@@ -1,12 +1,11 @@
-//! What memory there is, where the system says so (Linux).
+//! Available memory and this process's peak, as Linux reports them; `None` on other systems.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The most that was ever held, as far as [`peak_since_last_bytes`] has seen.
+/// The largest peak that [`peak_since_last_bytes`] has seen before it reset the system's mark.
 static MOST: AtomicU64 = AtomicU64::new(0);
 
-/// Bytes that a program may still take without the system running out: what is free or can be freed, within the limits of the
-/// group of processes.
+/// Bytes that can still be allocated: what the system has free or can free, within the limit of the control group.
 pub fn available_bytes() -> Option<u64> {
     let of_system = field_bytes("/proc/meminfo", "MemAvailable:");
     let number = |path: &str| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
@@ -20,21 +19,21 @@ pub fn available_bytes() -> Option<u64> {
     }
 }
 
-/// The most memory that this process has held at once, bytes.
+/// The most memory that this process has had at once, bytes.
 pub fn peak_bytes() -> Option<u64> {
     field_bytes("/proc/self/status", "VmHWM:").map(|now| now.max(MOST.load(Ordering::Relaxed)))
 }
 
-/// The most memory that this process has held at once since this was last asked, bytes.
+/// The most memory that this process has had at once since the last call of this function, bytes.
 pub fn peak_since_last_bytes() -> Option<u64> {
     let peak = field_bytes("/proc/self/status", "VmHWM:")?;
     MOST.fetch_max(peak, Ordering::Relaxed);
-    // "5" lets the mark fall to what is held now; where that is not allowed the peaks only grow.
+    // "5" resets the mark to the current use; where that is not allowed, peaks only grow.
     let _ = std::fs::write("/proc/self/clear_refs", "5");
     Some(peak)
 }
 
-/// A line such as `VmHWM:  1234 kB` of a file of the system, in bytes.
+/// The value of a line such as `VmHWM:  1234 kB` in a file of the system, bytes.
 fn field_bytes(path: &str, name: &str) -> Option<u64> {
     let text = std::fs::read_to_string(path).ok()?;
     let line = text.lines().find(|line| line.starts_with(name))?;
@@ -46,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_peak_falls_back_to_what_is_held() {
+    fn asking_for_the_peak_resets_it() {
         let before = peak_since_last_bytes().unwrap();
         assert!(available_bytes().unwrap() > 0);
         let held = std::hint::black_box(vec![1u8; 64 << 20]);

@@ -1,10 +1,10 @@
-//! What a mesh may turn into: another one of equal topology.
+//! Morph targets: meshes of equal topology that a mesh may turn into.
 
 use glam::Vec3;
 
 use crate::mesh_file::MeshFile;
 
-/// Where the vertices of a mesh go, one entry per vertex of the mesh.
+/// Where the vertices of a mesh move to, one entry per vertex of the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MorphTarget {
     /// Positions, in the file's coordinates.
@@ -13,13 +13,13 @@ pub struct MorphTarget {
     pub normals: Vec<Vec3>,
 }
 
-/// The vertices of `base` as they stand in `target`.
+/// The vertices of `base` with their positions and normals in `target`.
 ///
-/// Both have the same faces in the same order, corner by corner. Vertices are matched by the corners of triangles, so that
-/// the two files may split their vertices differently.
+/// Both must have the same faces in the same order, corner by corner. Vertices are matched by the corners of triangles, so the two
+/// files may split their vertices differently.
 ///
 /// # Errors
-/// The difference, as a phrase, where the topologies are not equal.
+/// A phrase that names the difference, where the topologies differ.
 pub fn target_of(base: &MeshFile, target: &MeshFile) -> Result<MorphTarget, String> {
     let (base, target) = (&base.mesh, &target.mesh);
     let counts = |what: &str, here: usize, there: usize| {
@@ -37,7 +37,7 @@ pub fn target_of(base: &MeshFile, target: &MeshFile) -> Result<MorphTarget, Stri
             let (vertex, other) = (vertex as usize, other as usize);
             let position = target.positions[other];
             if positions[vertex].is_some_and(|known| known != position) {
-                return Err("its faces hang together differently".to_owned());
+                return Err("its faces are connected differently".to_owned());
             }
             positions[vertex] = Some(position);
             normals[vertex] += target.normals[other];

@@ -1,4 +1,4 @@
-//! Keyframes: where the camera and the objects are at any frame. Pure functions of the document and the frame.
+//! Evaluates keyframes: camera and objects at any frame, as pure functions of the document and the frame.
 
 use std::collections::HashMap;
 
@@ -6,14 +6,14 @@ use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
 
 use crate::document::{CameraKey, Ease, Lens, Object, ObjectKey, Reference, Scene};
 
-/// Where the camera is at one frame.
+/// The camera at one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraPose {
     /// The eye, world space.
     pub eye: DVec3,
     /// What it looks at, world space.
     pub target: DVec3,
-    /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as the camera's user sees it.
+    /// Turn of the camera about its gaze, radians in (−π, π], counter-clockwise as seen from behind it.
     pub roll_rad: f64,
     /// The lens, with the field of view of this frame.
     pub lens: Lens,
@@ -22,9 +22,8 @@ pub struct CameraPose {
 impl CameraPose {
     /// World space to view space: right-handed, looking down −Z, Y up.
     ///
-    /// The camera turns counter-clockwise by `roll_rad`, so what stood at the screen angle φ without roll is seen at
-    /// φ − roll. `check` refuses a gaze along the Y axis; for such a pose Z stands in for up, so that the matrix is
-    /// finite whatever the pose.
+    /// The camera turns counter-clockwise by `roll_rad`, so a thing at the screen angle φ without roll shows at φ − roll. `check`
+    /// refuses a gaze along the Y axis; for such a pose Z is used as up, so that the matrix is always finite.
     pub fn view_from_world(&self) -> DMat4 {
         let gaze = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
         let up = if gaze.cross(DVec3::Y).length_squared() > 1e-20 { DVec3::Y } else { DVec3::Z };
@@ -33,10 +32,10 @@ impl CameraPose {
     }
 }
 
-/// The camera at a frame, which need not be whole. Before the first and after the last key it stands still.
+/// The camera at a frame, which need not be whole. It stands still before the first and after the last key.
 ///
-/// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the key that is left. A key
-/// without a field of view keeps the one before it; before the first such key the lens's own holds.
+/// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the earlier key. A key without a field of
+/// view keeps the one of the key before; the first keys take it from the lens.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     let span = Span::at(keys, frame, |key| (key.frame, key.ease));
@@ -64,7 +63,7 @@ pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     }
 }
 
-/// The camera of a reference, and the frame at which the objects stand.
+/// The camera of a reference, and the frame whose object poses it uses.
 pub fn referred_to(scene: &Scene, reference: &Reference) -> (CameraPose, f64) {
     match *reference {
         Reference::Frame(frame) => (camera_at(scene, frame as f64), frame as f64),
@@ -81,21 +80,21 @@ pub fn referred_to(scene: &Scene, reference: &Reference) -> (CameraPose, f64) {
     }
 }
 
-/// The field of view that the last of these keys leaves, degrees.
+/// The field of view in force at the last of these keys, degrees.
 fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
     keys.iter().rev().find_map(|key| key.fov_y_deg)
 }
 
-/// `world_from_model` of every object, in the order of the file: turned, moved and evenly scaled. An object moves with its
-/// parent, wherever in the file that stands; keys are in the parent's space.
+/// `world_from_model` of every object, in the order of the file: rotation, translation and uniform scale. Keys are in the space of
+/// the parent, which may come later in the file.
 ///
-/// Takes time and memory in proportion to the objects and follows chains of any depth. An unknown parent, or one that
+/// Takes time and memory proportional to the number of objects and follows chains of any depth. An unknown parent, or one that
 /// closes a cycle, counts as none (`check` refuses both).
 pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     let objects = &scene.objects;
     let parents = parent_indices(objects);
     let mut poses: Vec<DAffine3> =
-        objects.iter().map(|object| pose_in_parent(&object.keys, held(scene, object, frame))).collect();
+        objects.iter().map(|object| pose_in_parent(&object.keys, held_frame(scene, object, frame))).collect();
     for index in parents_first(&parents) {
         if let Some(parent) = parents[index] {
             poses[index] = poses[parent] * poses[index];
@@ -104,24 +103,23 @@ pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     poses
 }
 
-/// How far every object has turned into its morph, in the order of the file: 0 not at all, 1 wholly.
+/// The morph weight of every object, in the order of the file: 0 is its own mesh, 1 its morph target.
 pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
     let weight = |object: &Object| {
-        let span = Span::at(&object.keys, held(scene, object, frame), |key| (key.frame, key.ease));
+        let span = Span::at(&object.keys, held_frame(scene, object, frame), |key| (key.frame, key.ease));
         let at = |index: usize| object.keys[index].morph;
         span.map_or(0.0, |span| span.mix(at(span.left), at(span.right)))
     };
     scene.objects.iter().map(weight).collect()
 }
 
-/// How many seconds have passed for every object since frame 0, in the order of the file: an object that holds its pose holds
-/// its time too.
+/// The time of every object in seconds since frame 0, in the order of the file. An object that holds its pose holds its time too.
 pub fn seconds_at(scene: &Scene, frame: f64) -> Vec<f64> {
-    scene.objects.iter().map(|object| held(scene, object, frame) / scene.timeline.fps).collect()
+    scene.objects.iter().map(|object| held_frame(scene, object, frame) / scene.timeline.fps).collect()
 }
 
-/// The frame whose pose an object holds.
-fn held(scene: &Scene, object: &Object, frame: f64) -> f64 {
+/// The frame whose pose an object shows: with `hold`, the last one that it did not skip.
+fn held_frame(scene: &Scene, object: &Object, frame: f64) -> f64 {
     let first = scene.timeline.first as f64;
     match object.hold {
         0 | 1 => frame,
@@ -148,7 +146,7 @@ pub(crate) fn parent_indices(objects: &[Object]) -> Vec<Option<usize>> {
 
 /// One object of every cycle of parents, each cycle once, in the order of the file.
 pub(crate) fn cycle_closers(parents: &[Option<usize>]) -> Vec<usize> {
-    // The walk that visited an object first; meeting one's own walk again is a cycle.
+    // The walk that visited each object first; a walk that meets itself has found a cycle.
     let mut walk_of = vec![usize::MAX; parents.len()];
     let mut closers = Vec::new();
     for start in 0..parents.len() {
@@ -194,9 +192,10 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
     DAffine3::from_mat3_translation(rotation * scale, span.mix_vec3(left.translation, right.translation))
 }
 
-/// The numbers of an object's pose at a frame as a key would hold them, in its parent's space.
+/// An object's pose at a frame as a key, in its parent's space.
 pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
-    let Some(span) = Span::at(&object.keys, held(scene, object, frame), |key| (key.frame, key.ease)) else {
+    let Some(span) = Span::at(&object.keys, held_frame(scene, object, frame), |key| (key.frame, key.ease))
+    else {
         return ObjectKey::at(frame);
     };
     let (left, right) = (&object.keys[span.left], &object.keys[span.right]);
@@ -256,7 +255,7 @@ fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
     }
 }
 
-/// Two neighbouring keys and how far between them a frame is, ease applied.
+/// The two keys round a frame, and the weight of the second after easing.
 struct Span {
     left: usize,
     right: usize,
@@ -265,7 +264,7 @@ struct Span {
 }
 
 impl Span {
-    /// `frame_and_ease` reads a key. `None` without keys.
+    /// The span at a frame; `frame_and_ease` gives those of a key. `None` without keys.
     fn at<K>(keys: &[K], frame: f64, frame_and_ease: impl Fn(&K) -> (f64, Ease)) -> Option<Self> {
         let last = keys.len().checked_sub(1)?;
         let right = keys.partition_point(|key| frame_and_ease(key).0 <= frame);

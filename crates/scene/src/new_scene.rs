@@ -1,4 +1,4 @@
-//! The scene that a bare mesh is shown in: a view from the side and above that fits it, a warm sun, a cool sky.
+//! New scenes: for a bare mesh, with a camera that frames it, a warm sun, a cool sky and a backdrop; and an empty one.
 
 mod add;
 
@@ -6,33 +6,33 @@ use std::path::Path;
 
 use glam::DVec3;
 
+use crate::built_in_mesh;
 use crate::document::{
     Camera, CameraKey, Color, Direction, Ease, Lens, Light, LightKind, Object, ObjectKey, Region, Scale,
     Scene, Selector, StrokeSettings, Timeline,
 };
-use crate::house_mesh;
 use crate::mesh_file::MeshFile;
 
 pub use add::{REGION_COLORS, add_mesh, regions_of};
 
-/// Vertical field of view, degrees: near that of an eye that looks at one thing, so that forms are not distorted.
+/// Vertical field of view, degrees: narrow enough not to distort forms.
 const FOV_Y_DEG: f64 = 35.0;
 
 /// Share of the picture that stays free at each border.
 const MARGIN: f64 = 0.08;
 
-/// The backdrop is this much larger than the diagonal of what stands before it: it fills the picture.
+/// Size of the backdrop over the diagonal of the mesh, so that it fills the picture.
 const BACKDROP_SCALE: f64 = 3.0;
 const BACKDROP_NAME: &str = "backdrop";
 
 /// Width and height in pixels.
 const SIZE_PX: (u32, u32) = (1280, 720);
 
-/// A scene with one object before a backdrop, framed with a margin of 8 % whatever its size and place.
+/// A scene with one object before a backdrop, framed with a margin of 8 % whatever its size and position.
 ///
-/// The object is the first one; it is named after the file, and its mesh is the file's bare name: the scene is meant to stand
-/// in the same folder. A mesh that is open and shows its back to the usual viewpoint is looked at from the other side; where
-/// that is from below, there is no backdrop, since its floor would stand in the way.
+/// The object comes first and is named after the file. Its mesh is the file's bare name, so the scene belongs into the same folder.
+/// An open mesh that shows its back to the usual viewpoint is seen from the other side; if that is from below, there is no backdrop,
+/// since its floor would hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
     let name = object_name(path);
     let view = View::of(mesh);
@@ -59,15 +59,14 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
         camera: view.camera(),
         lights: view.axes.lights(),
         objects,
-        // A model that nobody has looked at may have much that is small.
+        // Smaller strokes than usual: an unknown model may have much fine detail.
         strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
         regions,
         style: Default::default(),
     }
 }
 
-/// A scene with a camera, a sun and a sky, and nothing in it: the picture is its background. What stands about 1 high at
-/// the origin fills it.
+/// A scene with a camera, a sun and a sky, but no objects. An object about 1 high at the origin fills its picture.
 pub fn empty() -> Scene {
     let (eye, target) = (DVec3::new(1.2, 1.15, 2.2), DVec3::new(0.0, 0.5, 0.0));
     let key = CameraKey {
@@ -120,7 +119,7 @@ struct View {
 struct Axes {
     right: DVec3,
     up: DVec3,
-    /// From what is seen to the eye.
+    /// From the target to the eye.
     back: DVec3,
 }
 
@@ -136,7 +135,7 @@ impl Axes {
         DVec3::new(self.right.dot(vector), self.up.dot(vector), self.back.dot(vector))
     }
 
-    /// The sun stands at the upper left before the object, as seen in the picture.
+    /// A sun from the upper left front as seen in the picture, and a sky.
     fn lights(self) -> Vec<Light> {
         let from_sun = round_to(self.to_world(DVec3::new(0.6, -0.75, -0.55)), 1e-3);
         let light = |name: &str, kind, hex: &str, intensity| Light {
@@ -201,7 +200,7 @@ impl View {
     /// A floor under the mesh and a wall behind it, turned to the eye.
     fn backdrop(&self, name: &str) -> Object {
         let yaw_deg = self.axes.back.x.atan2(self.axes.back.z).to_degrees();
-        // A hair below, so that a mesh that is flat lies on it.
+        // A little below, so that a flat mesh lies on it.
         let below = self.foot - DVec3::Y * (0.002 * self.size);
         Object {
             scale: Scale([significant(BACKDROP_SCALE * self.size); 3]),
@@ -210,13 +209,13 @@ impl View {
                 rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
                 ..ObjectKey::at(0.0)
             }],
-            ..Object::new(name, house_mesh::BACKDROP)
+            ..Object::new(name, built_in_mesh::BACKDROP)
         }
     }
 }
 
-/// Where to look from, as a direction: three quarters from the front, slightly from above; where an open mesh would
-/// show its back, from the side that shows the most of its front.
+/// The direction from the mesh to the eye: three quarters from the front, slightly from above. An open mesh that would show its back
+/// is seen from the side that shows the most of its front.
 fn viewpoint(mesh: &MeshFile) -> DVec3 {
     const USUAL: DVec3 = DVec3::new(0.5, 0.27, 0.9);
     let mut area_vector = DVec3::ZERO;
@@ -254,7 +253,7 @@ struct Framing {
 
 impl Framing {
     /// A point is inside where |x − eye.x| ≤ t·(eye.z − z), with t the slope of the picture's border less the margin.
-    /// So x + t·z and −x + t·z are bounded by what the eye gives, and their maxima fix the eye; the same for y.
+    /// So the maxima of x + t·z and −x + t·z over all points give the nearest eye; likewise for y.
     fn of(points: impl Iterator<Item = DVec3>) -> Self {
         let slope_y = (FOV_Y_DEG.to_radians() / 2.0).tan() * (1.0 - 2.0 * MARGIN);
         let slope_x = slope_y * f64::from(SIZE_PX.0) / f64::from(SIZE_PX.1);
@@ -275,7 +274,7 @@ impl Framing {
         }
         let [right, left, top, bottom] = reach;
         let distance = ((right + left) / (2.0 * slope_x)).max((top + bottom) / (2.0 * slope_y));
-        // What is almost a point is seen from a little way off.
+        // A mesh that is almost a point is seen from a small distance.
         let distance = distance.max(depth.1 + 0.05);
         let eye = DVec3::new((right - left) / 2.0, (top - bottom) / 2.0, distance);
         Self { eye, nearest: distance - depth.1, farthest: distance - depth.0 }
@@ -292,7 +291,7 @@ fn significant(value: f64) -> f64 {
     round_at(value, value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32 - 1)
 }
 
-/// Rounds at a decimal place; dividing by a power of ten gives the number that the digits stand for.
+/// Rounds at a decimal place. Dividing by a whole power of ten gives the float nearest to the decimal number.
 fn round_at(value: f64, exponent: i32) -> f64 {
     let rounded = if exponent < 0 {
         let scale = 10_f64.powi(-exponent);

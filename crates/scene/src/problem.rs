@@ -1,18 +1,18 @@
-//! What is wrong with a file: where, what, and how to mend it. Every reader of this crate reports in this form.
+//! Problems in files: where, what is wrong, and how to mend it. Every reader of this crate reports in this form.
 
 use std::fmt;
 use std::path::PathBuf;
 
-/// One thing that is wrong, or odd, in one place.
+/// One error or oddity in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Whether the file can still be used.
     pub severity: Severity,
     /// The file that it is in.
     pub path: PathBuf,
-    /// Line (from 1) and column (from 1, in characters), where the place is known.
-    pub place: Option<Place>,
-    /// The field of the scene that it is about, as in `objects[2].keys[1].frame`; empty where it is about none.
+    /// Line and column, where they are known.
+    pub place: Option<TextPosition>,
+    /// The field of the scene that it concerns, as in `objects[2].keys[1].frame`; empty where it concerns none.
     pub field_path: Box<str>,
     /// What is wrong, as one sentence without a full stop.
     pub message: String,
@@ -20,9 +20,9 @@ pub struct Problem {
     pub mend: String,
 }
 
-/// A place in a text file, counted from 1.
+/// A position in a text file, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct TextPosition {
     /// Line.
     pub line: usize,
     /// Column, in characters.
@@ -36,7 +36,7 @@ pub enum Severity {
     Warning,
     /// The file cannot be used.
     Error,
-    /// The file asks for more than this build allows; it cannot be used.
+    /// The file exceeds a limit and cannot be used.
     Limit,
 }
 

@@ -1,4 +1,4 @@
-//! Pictures that materials name: decoded within limits, whatever their header claims.
+//! Decodes pictures (textures and brushes) within limits, whatever their header claims.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -18,19 +18,19 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// What a decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: u64 = 384 << 20;
 
-/// More pixels per byte than this, no PNG, BMP, TGA or JPEG can hold: deflate packs at most 1032 : 1, one bit a pixel.
+/// No PNG, BMP, TGA or JPEG has more pixels per byte than this: deflate packs at most 1032 : 1, and a pixel has at least one bit.
 const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 
-/// A picture and what was odd about it.
+/// A picture and the warnings about it.
 #[derive(Debug, PartialEq)]
 pub struct Decoded {
     /// The picture.
     pub texture: Texture,
-    /// What was mended.
+    /// What was repaired.
     pub warnings: Vec<Problem>,
 }
 
-/// Decodes a PNG, JPEG, BMP, TGA or WebP picture; the content says which, not the file's name.
+/// Decodes a PNG, JPEG, BMP, TGA or WebP picture; the content decides which it is, not the file's name.
 ///
 /// A picture with a side over [`Texture::MAX_SIDE_PX`] is scaled down, with a warning.
 ///
@@ -56,8 +56,8 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
     if is_svg {
         return Err(broken("the picture is SVG or XML text, which is not read".to_owned()));
     }
-    let format = format_of(path, bytes)
-        .ok_or_else(|| broken("the picture is in no format that is known here".to_owned()))?;
+    let format =
+        format_of(path, bytes).ok_or_else(|| broken("the format of the picture is unknown".to_owned()))?;
     let decoder_error = |error: image::ImageError| match error {
         image::ImageError::Limits(_) => over_limit(path, None),
         other => broken(format!("the picture can not be decoded: {}", one_line(&other.to_string()))),
@@ -117,7 +117,7 @@ pub fn read(folders: &AssetFolders, request: &AssetRequest<'_>) -> Result<Decode
 }
 
 fn format_of(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
-    // TGA has no mark of its own: its name is all there is.
+    // TGA has no signature: only the file's name identifies it.
     image::guess_format(bytes)
         .ok()
         .or_else(|| ImageFormat::from_path(path).ok().filter(|&format| format == ImageFormat::Tga))
@@ -127,7 +127,7 @@ fn format_of(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
         })
 }
 
-/// The size in a PNG's header, read by hand so that a file cut right after it is still judged by what it claims.
+/// The size in a PNG's header, read by hand so that a file cut off right after it is still refused for the size it claims.
 fn claimed_png_size(bytes: &[u8]) -> Option<[u32; 2]> {
     let header = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(4..16)?.strip_prefix(b"IHDR")?;
     let number = |from: usize| {
@@ -148,7 +148,7 @@ fn over_limit(path: &Path, size_px: Option<[u32; 2]>) -> Problem {
     }
 }
 
-/// Scales a picture down to the longest side that is kept.
+/// Scales a picture down to [`Texture::MAX_SIDE_PX`].
 fn fit(picture: DynamicImage, warn: impl FnOnce(String)) -> DynamicImage {
     let (width, height) = (picture.width(), picture.height());
     let longest = width.max(height);

@@ -6,7 +6,7 @@ use std::path::Path;
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::obj;
-use impasto_scene::problem::{Place, Problem, Report};
+use impasto_scene::problem::{Problem, Report, TextPosition};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -18,7 +18,7 @@ fn read(folder: &Path, text: &[u8]) -> Result<(MeshFile, Vec<Problem>), Report> 
     obj::read(&path, folder, &AssetFolders::default())
 }
 
-fn first_place(result: Result<(MeshFile, Vec<Problem>), Report>) -> Option<Place> {
+fn first_place(result: Result<(MeshFile, Vec<Problem>), Report>) -> Option<TextPosition> {
     result
         .expect_err("the text is wrong")
         .0
@@ -97,7 +97,7 @@ fn errors_stand_where_they_are() {
         let text = format!("\u{feff}{SQUARE}{line}\nf 1 2 3\n");
         assert_eq!(
             first_place(read(folder.path(), text.as_bytes())),
-            Some(Place { line: 5, column }),
+            Some(TextPosition { line: 5, column }),
             "{line}"
         );
     }

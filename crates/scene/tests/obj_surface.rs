@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::obj;
-use impasto_scene::problem::{Place, Problem};
+use impasto_scene::problem::{Problem, TextPosition};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -237,7 +237,7 @@ fn a_missing_picture_is_located_in_its_mtl_file() {
     let (_, warnings) = obj::read(&path, folder.path(), &AssetFolders::default()).unwrap();
     assert_eq!(warnings.len(), 1);
     assert!(warnings[0].path.ends_with("m.mtl"));
-    assert_eq!(warnings[0].place, Some(Place { line: 3, column: 3 }));
+    assert_eq!(warnings[0].place, Some(TextPosition { line: 3, column: 3 }));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::noise_displace::gaussian;
 use impasto_gl_render::context::Driver;
 use impasto_measure::popping;
-use impasto_measure::strokes::seen;
+use impasto_measure::strokes::strokes_by_key;
 use impasto_painting::frame::LayerKind;
 use impasto_painting::{Frame, FrameOptions, Painting, prepare};
 use impasto_scene::document::{Direction, NoiseDisplace, NoiseSpace, Region, Scene, Selector, VertexNoise};
@@ -127,7 +127,7 @@ fn nothing_pops_over_a_loop_and_it_closes_to_the_bit() {
     let (first, mut largest) = (before.strokes.clone(), 0.0_f64);
     for frame in 1..=48 {
         let after = painting.at(f64::from(frame), &OPTIONS);
-        let found = popping::popping(&seen(&before, &[]), &seen(&after, &[]), SIZE_PX);
+        let found = popping::popping(&strokes_by_key(&before, &[]), &strokes_by_key(&after, &[]), SIZE_PX);
         assert!(found.strokes > 500, "{found:?}");
         assert_eq!(found.share, 0.0, "frame {frame}: {found:?}");
         largest = largest.max(found.largest_step);

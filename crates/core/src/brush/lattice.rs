@@ -1,16 +1,16 @@
-//! Value noise over a mark, from tables that are filled once.
+//! Value noise over a mark, from a table of random values that is filled once.
 
 use crate::hash;
 use crate::presence::smoothstep;
 
-/// Value noise, 0..1, over u and across in about −0.2..1.2, at fixed numbers of cycles.
+/// Value noise, 0..1, for u and across in about −0.2..1.2, with a fixed number of cycles each way.
 pub(super) struct Lattice {
     columns: usize,
     cycles: [f32; 2],
     values: Vec<f32>,
 }
 
-/// Two neighbouring lattice lines, and how far a place is from the first to the second.
+/// Two neighbouring lattice lines and the smoothed weight of the second.
 #[derive(Clone, Copy)]
 pub(super) struct Cell {
     first: usize,
@@ -24,7 +24,7 @@ impl Cell {
     }
 }
 
-/// Cells before the first one that a mark's own rectangle needs.
+/// How far the noise reaches beyond 0..1 on either side: marks read a little outside.
 const MARGIN: f32 = 0.25;
 
 impl Lattice {
@@ -35,7 +35,7 @@ impl Lattice {
         Self { columns, cycles, values }
     }
 
-    /// Noise along a line.
+    /// Noise of one dimension, read with [`Lattice::along`].
     pub(super) fn line(seed: u32, cycles: f32) -> Self {
         Self::new(seed, [cycles, 0.0])
     }
@@ -44,17 +44,17 @@ impl Lattice {
         self.between(self.column(u), self.row(across))
     }
 
-    /// Where along u a place lies; many places share it.
+    /// The lattice columns round u; all texels of a column of the mark share them.
     pub(super) fn column(&self, u: f32) -> Cell {
         Cell::of((u + MARGIN).max(0.0) * self.cycles[0], self.columns)
     }
 
-    /// Where across.
+    /// The lattice rows round `across`.
     pub(super) fn row(&self, across: f32) -> Cell {
         Cell::of((across + MARGIN).max(0.0) * self.cycles[1], self.values.len() / self.columns)
     }
 
-    /// Noise at a column and a row.
+    /// Noise where a column and a row cross.
     pub(super) fn between(&self, column: Cell, row: Cell) -> f32 {
         let first = row.first * self.columns + column.first;
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
@@ -64,7 +64,7 @@ impl Lattice {
         mix(low, high, row.share)
     }
 
-    /// Of a line.
+    /// Noise of one dimension at t.
     pub(super) fn along(&self, t: f32) -> f32 {
         self.at(t, 0.0)
     }

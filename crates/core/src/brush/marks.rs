@@ -1,4 +1,4 @@
-//! The marks of the brushes that come with Impasto.
+//! The marks of the built-in brushes.
 
 use super::lattice::{Cell, Lattice};
 use super::{Mark, NAMES, SIZE, Texel};
@@ -11,10 +11,11 @@ const ASPECT: f32 = 6.2;
 /// What sets one brush apart from another.
 #[derive(Clone, Copy)]
 struct Brush {
+    /// How many hairs across.
     hairs: f32,
     /// Rounding of the loaded start and of the lifted end, half widths.
     caps: [f32; 2],
-    /// How ragged the end is, shares of the length.
+    /// How ragged the end is, as a share of the length.
     ragged: f32,
     /// Dryness at the start and at the end.
     dry: [f32; 2],
@@ -83,19 +84,19 @@ const BRUSHES: [Brush; NAMES.len()] = [
     },
 ];
 
-/// One mark of a brush, of so many as a brush has.
+/// Mark number `variant` of brush number `index`.
 pub(super) fn of_brush(index: usize, variant: u32) -> Mark {
     let brush = BRUSHES[index];
     let hairs = Hairs::new(brush, hash::combine(hash::of_name(NAMES[index]), variant));
     let mut texels = Vec::with_capacity(SIZE[0] * SIZE[1]);
-    let places = (0..SIZE[0]).map(|column| Mark::place(column)[0]);
-    let columns: Vec<AlongHere> = places.map(|u| hairs.along(u, u.clamp(0.0, 1.0))).collect();
+    let us = (0..SIZE[0]).map(|column| Mark::uv(column)[0]);
+    let columns: Vec<AlongHere> = us.map(|u| hairs.along(u, u.clamp(0.0, 1.0))).collect();
     for row in 0..SIZE[1] {
-        let v = Mark::place(row * SIZE[0])[1];
+        let v = Mark::uv(row * SIZE[0])[1];
         let across = hairs.across(v);
         for here in &columns {
             texels.push(match brush.shape {
-                // Hairs that spread are at another place of the mark in every texel.
+                // Spreading hairs shift u and v by another amount in every texel.
                 Shape::Fan => {
                     let spread = v / (0.50 + 0.48 * here.along.powf(1.2));
                     hairs.texel(&hairs.along(here.u - 0.10 * v * v, here.along), &hairs.across(spread))
@@ -134,7 +135,7 @@ impl Hairs {
         }
     }
 
-    /// What is the same across the mark; `along` is where the texel lies before hairs have spread, 0..=1.
+    /// What depends on u alone; `along` is u before the hairs spread, 0..=1.
     fn along(&self, u: f32, along: f32) -> AlongHere {
         let brush = &self.brush;
         let width = match brush.shape {
@@ -145,7 +146,7 @@ impl Hairs {
         AlongHere {
             u,
             along,
-            // The same at both ends, so that a mark as a whole lies straight.
+            // The same at both ends, so that the mark as a whole stays straight.
             wander: (0.5 * (self.wander.along(u) + self.wander.along(1.0 - u)) - 0.5) * 0.10,
             widths: [0, 1].map(|side| width + (self.edges[side].along(u) - 0.5) * 0.10),
             dryness: brush.dry[0] + (brush.dry[1] - brush.dry[0]) * along.powf(1.6),
@@ -153,7 +154,7 @@ impl Hairs {
         }
     }
 
-    /// What is the same along the mark.
+    /// What depends on v alone.
     fn across(&self, v: f32) -> AcrossHere {
         let across = v * 0.5 + 0.5;
         AcrossHere {
@@ -173,7 +174,7 @@ impl Hairs {
         let start = (u - over.start[0] - over.start[1]) * ASPECT - brush.caps[0] * over.cap;
         let end = (1.0 - u - over.ragged) * ASPECT - brush.caps[1] * over.cap;
         let inside = (start / 0.4).min(end / 0.68).min(side / 0.16).clamp(0.0, 1.0);
-        let (streaks, mixed) = self.streaks.between(&here.columns, (&over.rows, over.hairs));
+        let (streaks, mixed) = self.streaks.between(&here.columns, &over.rows, over.hairs);
         let paint = inside * (1.0 - here.dryness * (1.0 - streaks) * 1.25).max(0.0);
         let tint = 0.6 * mixed + 0.4 * (streaks * 2.0 - 1.0);
         let covered = smoothstep((paint - 0.05) / 0.30);
@@ -191,18 +192,18 @@ impl Hairs {
     }
 }
 
-/// What a mark has along its length at one place of it.
+/// What all texels at one u share.
 struct AlongHere {
     u: f32,
     along: f32,
     wander: f32,
-    /// From the middle to either edge.
+    /// Half widths: from the middle to either edge.
     widths: [f32; 2],
     dryness: f32,
     columns: [Cell; STREAKS],
 }
 
-/// What a mark has across it at one place of its width.
+/// What all texels at one v share.
 struct AcrossHere {
     v: f32,
     cap: f32,
@@ -238,7 +239,7 @@ impl Streaks {
 
     /// How much paint the hairs carry here, about 0..1, and how half-mixed it is, −1..1.
     pub(super) fn at(&self, u: f32, across: f32) -> (f32, f32) {
-        self.between(&self.columns(u), (&self.rows(across), self.hairs(across)))
+        self.between(&self.columns(u), &self.rows(across), self.hairs(across))
     }
 
     fn columns(&self, u: f32) -> [Cell; STREAKS] {
@@ -249,14 +250,14 @@ impl Streaks {
         std::array::from_fn(|which| self.along[which].row(across))
     }
 
-    /// What each hair carries, whatever the place along it.
+    /// How much paint the hairs carry over their whole length.
     fn hairs(&self, across: f32) -> f32 {
         0.4 * self.hairs[0].along(across)
             + 0.35 * self.hairs[1].along(across)
             + 0.25 * self.hairs[2].along(across)
     }
 
-    fn between(&self, columns: &[Cell; STREAKS], (rows, hairs): (&[Cell; STREAKS], f32)) -> (f32, f32) {
+    fn between(&self, columns: &[Cell; STREAKS], rows: &[Cell; STREAKS], hairs: f32) -> (f32, f32) {
         let noise = |which: usize| self.along[which].between(columns[which], rows[which]);
         let along = 0.55 * noise(0) + 0.30 * noise(1) + 0.15 * noise(2);
         (0.6 * along + 0.4 * hairs, noise(3) * 2.0 - 1.0)

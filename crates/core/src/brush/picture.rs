@@ -1,16 +1,16 @@
-//! A picture of the user's own as a brush.
+//! Brushes made from the user's own pictures.
 
 use super::marks::Streaks;
 use super::{Mark, SIZE, Texel, VARIANTS};
 use crate::hash;
 
-/// Hairs that are laid over the mark, so that no two strokes are quite alike.
+/// How many hairs across are laid over the picture, so that no two marks are quite alike.
 const HAIRS: f32 = 16.0;
 
-/// Grey levels between the emptiest and the fullest texel, 0..255, that make a mark.
+/// A picture with less than this between its emptiest and its fullest texel holds no mark; levels of 255.
 const LEAST_CONTRAST: f32 = 8.0;
 
-/// Whether a picture holds a mark: something lighter (or more opaque) than something else. `rgba8` holds
+/// Whether a picture holds a mark, that is, has any contrast in lightness times opacity. `rgba8` holds
 /// `size_px[0] * size_px[1]` texels with straight alpha, top row first.
 pub fn has_mark(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> bool {
     let texels = size_px[0] as usize * size_px[1] as usize;
@@ -20,8 +20,9 @@ pub fn has_mark(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> bool {
     most - least >= LEAST_CONTRAST / 255.0
 }
 
-/// The marks of a brush that is a picture: light is paint and dark is none, times opacity; dark marks on a light ground
-/// are taken the other way round. The picture is stretched over the stroke, its left edge the stroke's start.
+/// The marks of a brush that is a picture. Light texels are paint and dark ones none, times opacity; a dark mark on a light
+/// background is inverted. The picture is stretched over the stroke, its left edge at the stroke's start. None where `rgba8`
+/// holds fewer texels than its size says.
 pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
     let [width, height] = size_px.map(|side| side as usize);
     let grey: Vec<f32> = rgba8.iter().map(paint_of).collect();
@@ -44,7 +45,7 @@ pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
         if !(0.0..1.0).contains(&u) || !(-1.0..1.0).contains(&v) {
             return 0.0;
         }
-        // The texels that fall on one of ours, so that a large picture is not picked at random.
+        // All texels of the picture that fall on one of the mark's, so that a large picture is averaged.
         let span = |at: f32, ours: f32, theirs: usize| {
             let first = ((at - 0.5 / ours).max(0.0) * theirs as f32) as usize;
             let last = ((at + 0.5 / ours) * theirs as f32).ceil() as usize;
@@ -56,12 +57,12 @@ pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
         let even = (grey - least) / (most - least).max(1e-6);
         if is_dark_on_light { 1.0 - even } else { even }
     };
-    let places: Vec<[f32; 2]> = (0..SIZE[0] * SIZE[1]).map(Mark::place).collect();
-    let paint: Vec<f32> = places.iter().map(|&[u, v]| paint_at(u, v)).collect();
+    let uvs: Vec<[f32; 2]> = (0..SIZE[0] * SIZE[1]).map(Mark::uv).collect();
+    let paint: Vec<f32> = uvs.iter().map(|&[u, v]| paint_at(u, v)).collect();
     (0..VARIANTS)
         .map(|variant| {
             let streaks = Streaks::new(hash::combine(0x9c, variant), HAIRS);
-            let texels: Vec<Texel> = places
+            let texels: Vec<Texel> = uvs
                 .iter()
                 .zip(&paint)
                 .map(|(&[u, v], &paint)| {
@@ -76,7 +77,7 @@ pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
         .collect()
 }
 
-/// How much paint a texel means, 0..1.
+/// How much paint a texel stands for, 0..1.
 fn paint_of(rgba: &[u8; 4]) -> f32 {
     let [r, g, b, a] = rgba.map(f32::from);
     (0.2126 * r + 0.7152 * g + 0.0722 * b) * a / (255.0 * 255.0)

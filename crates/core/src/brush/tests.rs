@@ -1,3 +1,5 @@
+//! Tests of brush marks: they differ, fit their rectangles, and their paint is equalised.
+
 use super::*;
 
 #[test]
@@ -7,7 +9,7 @@ fn marks_differ_and_end_inside_their_rectangles() {
         let marks = marks_of(name).unwrap();
         assert_eq!(marks.len(), VARIANTS as usize);
         for (variant, mark) in marks.iter().enumerate() {
-            assert!(!all.contains(mark), "{name} {variant} is a mark that was there before");
+            assert!(!all.contains(mark), "{name} {variant} repeats an earlier mark");
             let border = mark.texels.iter().enumerate().filter(|(index, _)| {
                 let (x, y) = (index % SIZE[0], index / SIZE[0]);
                 x == 0 || y == 0 || x == SIZE[0] - 1 || y == SIZE[1] - 1
@@ -55,7 +57,7 @@ fn hairs_run_along_the_stroke() {
 }
 
 #[test]
-fn a_picture_is_a_brush_if_there_is_a_mark_in_it() {
+fn a_picture_with_contrast_makes_a_brush() {
     let disc = |inside: [u8; 4], outside: [u8; 4]| -> Vec<[u8; 4]> {
         (0..64 * 32)
             .map(|index| {

@@ -1,62 +1,71 @@
-//! From the field's samples to any particle of the surface.
+//! Interpolates the direction field from its samples to the particles.
 
 use glam::{DVec2, DVec3, Vec3};
 
 use super::{Symmetry, transport_rad};
 use crate::neighbours::{Neighbours, Points};
 
-/// How many samples a particle listens to.
+/// How many samples a particle is interpolated from, at most.
 const MOST: usize = 6;
 
-/// They lie within this many spacings, and count by a Gaussian of this deviation in spacings.
+/// They lie within this many sample spacings, and are weighted by a Gaussian of this deviation in spacings.
 const REACH_SPACINGS: f64 = 1.6;
 const DEVIATION_SPACINGS: f64 = 0.55;
 
-/// Particles with the samples that each listens to; depends on where both are, not on any direction.
+/// For each particle, the samples near it. Depends on positions and normals, not on directions.
 #[derive(Clone, Debug)]
 pub struct Stencils {
     lists: Neighbours,
     spacing: f64,
 }
 
-/// A sample's solved direction beside the one that it was stated to have, unit numbers in the axes of its normal.
+/// A sample with its direction before and after the solve, as unit complex numbers in the tangent axes of its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Carried {
+pub struct SolvedSample {
     /// Position, model space.
     pub position: Vec3,
     /// Unit normal, model space.
     pub normal: DVec3,
-    /// As solved.
+    /// The direction that the solve found.
     pub solved: DVec2,
-    /// As stated.
+    /// The direction that was stated.
     pub stated: DVec2,
-    /// A share that is carried along, 0..=1.
+    /// A weight, 0..=1, that is interpolated like the direction.
     pub anchor: f64,
 }
 
 impl Stencils {
-    /// The samples (about `spacing` apart) that each of `particles` listens to.
+    /// Finds the samples (about `spacing` apart) near each of `particles`.
     pub fn new(particles: Points<'_>, samples: Points<'_>, spacing: f64) -> Self {
         let reach = (REACH_SPACINGS * spacing) as f32;
-        // Some more than are used, since not all of them count for every particle.
+        // More than are used: some are left out for some particles.
         Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MOST), spacing }
     }
 
-    /// The direction of a particle and its anchor, from the samples that `counts`: `stated` turned by what the solve has
-    /// turned its samples, or, where that does not hang together (stated directions whirl), what the samples have been solved
-    /// to, transported. `None` where no sample counts.
+    /// The direction and the anchor of a particle, from the samples near it for which `sample` gives something.
+    ///
+    /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned by the
+    /// mean of these turns. Where they disagree (stated directions whirl), the mean of the samples' solved directions,
+    /// transported to the particle, takes over. `None` where no sample counts.
     pub fn carry(
         &self,
         particle: usize,
-        (position, normal, stated): (Vec3, DVec3, DVec2),
+        position: Vec3,
+        normal: DVec3,
+        stated: DVec2,
         symmetry: Symmetry,
-        sample: impl Fn(usize) -> Option<Carried>,
+        sample: impl Fn(usize) -> Option<SolvedSample>,
     ) -> Option<(DVec2, f64)> {
         let deviation_sq = (DEVIATION_SPACINGS * self.spacing).powi(2);
         let (mut turned, mut transported, mut anchor, mut weights) = (DVec2::ZERO, DVec2::ZERO, 0.0, 0.0);
         let near = self.lists.of(particle).iter().filter_map(|&index| sample(index as usize)).take(MOST);
-        for Carried { position: at, normal: there, solved, stated: stated_there, anchor: anchor_there } in
-            near
+        for SolvedSample {
+            position: at,
+            normal: there,
+            solved,
+            stated: stated_there,
+            anchor: anchor_there,
+        } in near
         {
             let distance_sq = f64::from(position.distance_squared(at));
             let weight = normal.dot(there).max(0.0) * (-0.5 * distance_sq / deviation_sq).exp();
@@ -70,7 +79,7 @@ impl Stencils {
             return None;
         }
         let (coherent_turn, coherent) = (turned.length() / weights, transported.length() / weights);
-        // 1 where the turns agree at least as well as the directions do, give or take.
+        // 1 where the turns agree about as well as the directions do, or better.
         let trust = ((coherent_turn - coherent + 0.06) / 0.05).clamp(0.0, 1.0);
         let by_turn = turned.normalize_or_zero().rotate(stated);
         let mixed = by_turn * trust + transported.normalize_or_zero() * (1.0 - trust);
@@ -85,7 +94,7 @@ mod tests {
     use crate::direction::{angle_between, tangent_axes, towards};
 
     #[test]
-    fn what_is_stated_and_solved_alike_is_carried_exactly() {
+    fn a_turn_that_all_samples_share_reaches_every_particle_exactly() {
         let (samples, spacing) = spiral_sphere(2000);
         let (particles, _) = spiral_sphere(3001);
         let symmetry = Symmetry::Lines;
@@ -97,11 +106,11 @@ mod tests {
         let mut worst = 0.0f64;
         for (index, &particle) in particles.iter().enumerate() {
             let normal = particle.as_dvec3();
-            let found = stencils.carry(index, (particle, normal, up(normal)), symmetry, |sample| {
+            let found = stencils.carry(index, particle, normal, up(normal), symmetry, |sample| {
                 let there = samples[sample].as_dvec3();
                 let stated = up(there);
                 let solved = turn.rotate(stated);
-                Some(Carried { position: samples[sample], normal: there, solved, stated, anchor: 0.5 })
+                Some(SolvedSample { position: samples[sample], normal: there, solved, stated, anchor: 0.5 })
             });
             let (u, anchor) = found.unwrap();
             assert!((anchor - 0.5).abs() < 1e-9);
@@ -112,7 +121,7 @@ mod tests {
             }
         }
         assert!(worst < 1e-5, "{worst}");
-        let nothing = stencils.carry(0, (particles[0], DVec3::Y, DVec2::X), symmetry, |_| None);
+        let nothing = stencils.carry(0, particles[0], DVec3::Y, DVec2::X, symmetry, |_| None);
         assert_eq!(nothing, None);
     }
 }

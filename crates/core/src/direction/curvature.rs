@@ -7,7 +7,7 @@ use super::tangent_axes;
 /// The principal curvatures of a point and their directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
-    /// The greater one by size, and the other; 1 over model units, positive where the surface bends away from its normal.
+    /// The one of greater magnitude, then the other; 1 / model units, positive where the surface bends away from its normal.
     pub curvatures: [f64; 2],
     /// Their unit tangents, model space.
     pub directions: [DVec3; 2],
@@ -45,7 +45,7 @@ pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> O
     } else {
         [mean - radius, mean + radius]
     };
-    // The direction of the greater one: of S minus the other, either column.
+    // The first eigenvector is any column of S − (second eigenvalue)·1; the longer one is exacter.
     let others = shape - DMat2::from_diagonal(DVec2::splat(values[1]));
     let column = if others.x_axis.length_squared() > others.y_axis.length_squared() {
         others.x_axis

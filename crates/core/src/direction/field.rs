@@ -1,9 +1,9 @@
 //! The direction field of a body: few samples, a sparse solve with parallel transport (Knöppel et al. 2013, the guided case,
 //! on points in place of a mesh).
 //!
-//! Unknown is a complex number `u` per sample (see [`super`]). It minimises
-//! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`, ρ the transport of j's axes to i's, raised to the field's power; then
-//! every `u` is made a unit number again and the sum is lowered with that kept.
+//! The unknown is one complex number `u` per sample (see [`super`]). The field minimises
+//! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`, ρ the transport of j's axes to i's, raised to the field's power. The solution
+//! is normalised, and the same sum is then lowered further with every `u` on the unit circle.
 
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::{Symmetry, transport_rad};
 use crate::neighbours::Neighbours;
 
-/// How many samples carry the field of a body, at most.
+/// How many samples the field of a body has, at most.
 pub const MAX_SAMPLES: usize = 4096;
 
 /// Neighbours lie within this many spacings of the hexagonal lattice.
@@ -23,13 +23,13 @@ const REACH_SPACINGS: f64 = 1.9;
 const MOST_STEPS: usize = 400;
 const RESIDUAL: f64 = 1e-5;
 
-/// Rounds in which every number becomes a unit number again.
+/// How many steps are taken on the unit circle after the linear solve.
 const UNIT_ROUNDS: usize = 24;
 
 /// Samples with their neighbours and the transport between them.
 #[derive(Clone, Debug)]
 pub struct FieldGraph {
-    /// First edge of each sample, and the end.
+    /// Index of the first edge of each sample, and the number of all edges.
     starts: Vec<u32>,
     edges: Vec<Edge>,
     /// Sum of the weights of each sample's edges.
@@ -46,10 +46,10 @@ struct Edge {
     transport_rad: f64,
 }
 
-/// What a sample is held to.
+/// The direction that a sample is pulled to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
-    /// The unit number that it should be.
+    /// The unit number that the sample should have.
     pub target: DVec2,
     /// How firmly, in units of one neighbour's weight, > 0.
     pub weight: f64,
@@ -129,8 +129,8 @@ impl FieldGraph {
         &self.edges[self.starts[sample] as usize..self.starts[sample + 1] as usize]
     }
 
-    /// The unit numbers that fit the constraints best; a sample that nothing reaches keeps its target. Depends on the inputs
-    /// alone, to the bit.
+    /// The unit numbers that fit the constraints best; a sample that nothing reaches keeps its target. The same inputs give the
+    /// same bits, on any number of threads.
     pub fn solve(&self, symmetry: Symmetry, constraints: &[Constraint]) -> Vec<DVec2> {
         let system = System { graph: self, turns: self.turns(symmetry), constraints };
         let mut u = system.conjugate_gradients();
@@ -172,7 +172,8 @@ impl System<'_> {
         })
     }
 
-    /// Preconditioned by the diagonal. Sums run in order, so that threads do not change a bit.
+    /// Solves the linear problem (preconditioned by the diagonal) and normalises. Sums run in order, so that threads do not
+    /// change a bit.
     fn conjugate_gradients(&self) -> Vec<DVec2> {
         let count = self.graph.len();
         let diagonal: Vec<f64> =
@@ -217,8 +218,8 @@ impl System<'_> {
             .collect()
     }
 
-    /// Every sample becomes the mean of what it is held to, unit: this never raises the sum (half a step, so that it cannot
-    /// swing).
+    /// Moves every sample half-way to the normalised mean of its neighbours and its target. This never raises the sum; whole
+    /// steps could oscillate.
     fn unit_round(&self, u: &[DVec2]) -> Vec<DVec2> {
         self.map(|sample| {
             let (sum, weights) = self.gathered(u, sample);
@@ -281,7 +282,7 @@ mod tests {
             .map(|position| {
                 let normal = position.as_dvec3();
                 let axes = tangent_axes(normal);
-                // The front is combed at 35 degrees; the back is unseen.
+                // The front is combed at 35 degrees; the back is free.
                 let front = crate::direction::towards(DVec3::new(0.57, 0.82, 0.0), normal);
                 let weight = if normal.z > 0.3 { 100.0 } else { 1e-6 };
                 Constraint { target: symmetry.encode(front, axes), weight }

@@ -1,11 +1,11 @@
-//! Guides: gestures on a surface that strokes follow.
+//! Guides: gestures on a surface that comb the strokes near them.
 
 use glam::DVec3;
 
 /// A polyline on a surface with its reach, model space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
-    /// At least two; neighbours apart.
+    /// At least two; no two neighbours coincide.
     points: Vec<Corner>,
     /// How far it reaches, model units.
     radius: f64,
@@ -38,6 +38,7 @@ pub struct GuidePoint {
     pub turn_rad: f64,
 }
 
+/// A point with the tangent of the line there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Corner {
     position: DVec3,
@@ -47,7 +48,7 @@ struct Corner {
     along: DVec3,
 }
 
-/// What a guide says about a point of the surface.
+/// What a guide asks of the strokes at a point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Influence {
     /// Strength times falloff, 0..=1.
@@ -58,13 +59,13 @@ pub struct Influence {
     pub turn_rad: f64,
 }
 
-/// Surfaces turned away from a guide's own by more than this cosine do not follow it; those at `SQUARE` follow wholly.
-const TURNED_AWAY: f64 = 0.1;
-const SQUARE: f64 = 0.4;
+/// A guide has no effect where the cosine between the surface's normal and its own is below `NO_EFFECT_COS`, and its full effect
+/// from `FULL_EFFECT_COS` on.
+const NO_EFFECT_COS: f64 = 0.1;
+const FULL_EFFECT_COS: f64 = 0.4;
 
 impl Guide {
-    /// A guide through points; points that lie on the one before are left out. `None` where fewer than two
-    /// are left.
+    /// A guide through points; a point that coincides with the one before is left out. `None` where fewer than two are left.
     pub fn new(
         points: impl Iterator<Item = GuidePoint>,
         radius: f64,
@@ -85,7 +86,7 @@ impl Guide {
         for (index, point) in kept.iter_mut().enumerate() {
             let before = pieces[index.saturating_sub(1)];
             let after = pieces[index.min(pieces.len() - 1)];
-            // The shorter piece is nearer to the tangent.
+            // The shorter piece counts more: it is nearer to the tangent.
             let (unit_before, unit_after) = (before.normalize_or_zero(), after.normalize_or_zero());
             let mean = unit_before * after.length() + unit_after * before.length();
             point.along = mean.try_normalize().unwrap_or(unit_after);
@@ -96,8 +97,7 @@ impl Guide {
         Some(Self { points: kept, radius, strength, falloff, ball })
     }
 
-    /// What it says about a point with this unit normal, as if it reached at least `least_reach` far. `None` where it does not
-    /// reach.
+    /// Its influence on a point with this unit normal, with a radius of at least `least_reach`. `None` out of reach.
     pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
         let reach = self.radius.max(least_reach);
         if position.distance(self.ball.0) > self.ball.1 + reach {
@@ -121,7 +121,8 @@ impl Guide {
             Falloff::Linear => 1.0 - r,
             Falloff::Flat => 1.0,
         };
-        let facing = (own_normal.normalize_or_zero().dot(normal) - TURNED_AWAY) / (SQUARE - TURNED_AWAY);
+        let facing = own_normal.normalize_or_zero().dot(normal);
+        let facing = (facing - NO_EFFECT_COS) / (FULL_EFFECT_COS - NO_EFFECT_COS);
         let weight = self.strength * falloff * facing.clamp(0.0, 1.0);
         (weight > 0.0).then(|| Influence {
             weight,
@@ -156,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn it_turns_with_its_points() {
+    fn direction_and_turn_are_interpolated_between_points() {
         let along = |x: f64, y: f64| {
             guide(Falloff::Flat).influence(DVec3::new(x, y, 0.0), DVec3::Z, 0.0).unwrap().along
         };

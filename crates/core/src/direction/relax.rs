@@ -1,4 +1,4 @@
-//! Some samples of a solved field let go: they join smoothly what lies around them.
+//! Solves some samples of a finished field again, so that they blend smoothly into the rest.
 
 use std::collections::VecDeque;
 
@@ -7,10 +7,11 @@ use glam::DVec2;
 use super::Symmetry;
 use super::field::{Constraint, FieldGraph};
 
-/// Where the blend of what lies around is shorter than this, it is torn: it would jump rather than turn.
+/// Where the blend of the surroundings is shorter than this, opposite directions meet: it is torn, and would jump instead of
+/// turning.
 const TORN: f64 = 0.5;
 
-/// How firmly a torn place is led round one way, in units of one neighbour's weight.
+/// Weight of the constraint that makes a tear turn one way round, in units of one neighbour's weight.
 const LEAD: f64 = 0.5;
 
 /// Conjugate gradients stop after this many steps, or when the residual has fallen by this factor.
@@ -21,27 +22,27 @@ const RESIDUAL: f64 = 1e-6;
 const ROUNDS: usize = 3;
 
 impl FieldGraph {
-    /// A field of unit numbers in which the samples with a hold are only held as firmly as it says, and all others keep what
-    /// was `solved`. The turn from one side to the other is spread evenly over the samples that are loose; where the two sides
-    /// are opposite, it goes round one way. Depends on the inputs alone, to the bit.
+    /// The field `solved` with some samples freed: those with a constraint in `holds` are pulled by it and by their neighbours,
+    /// all others stay as they are. The turn from one fixed side to the other is spread evenly over the free samples; where the
+    /// two sides are opposite, all turn the same way round. The same inputs give the same bits.
     pub fn relaxed(&self, symmetry: Symmetry, solved: &[DVec2], holds: &[Option<Constraint>]) -> Vec<DVec2> {
-        let loose = Loose::new(self, symmetry, holds);
+        let free = FreeSamples::new(self, symmetry, holds);
         let mut field = solved.to_vec();
-        let blend = loose.blend(&field, &vec![None; loose.inner.len()]);
-        let leads = loose.leads(&field, &blend);
-        let blend = if leads.iter().any(Option::is_some) { loose.blend(&field, &leads) } else { blend };
-        for (&sample, blended) in loose.inner.iter().zip(&blend) {
+        let blend = free.blend(&field, &vec![None; free.inner.len()]);
+        let leads = free.leads(&field, &blend);
+        let blend = if leads.iter().any(Option::is_some) { free.blend(&field, &leads) } else { blend };
+        for (&sample, blended) in free.inner.iter().zip(&blend) {
             field[sample] = blended.try_normalize().unwrap_or(field[sample]);
         }
         for _ in 0..ROUNDS {
-            loose.even_out(&mut field);
+            free.even_out(&mut field);
         }
         field
     }
 }
 
-/// The loose samples of a field, and what ties them.
-struct Loose {
+/// The free samples of a field and their edges.
+struct FreeSamples {
     inner: Vec<usize>,
     hold: Vec<Constraint>,
     ties: Vec<Vec<Tie>>,
@@ -49,27 +50,27 @@ struct Loose {
 
 struct Tie {
     to: usize,
-    /// Its place among the loose ones.
+    /// Its index among the free samples; `None` if it is fixed.
     inner: Option<usize>,
     weight: f64,
     /// ρ of the edge.
     turn: DVec2,
 }
 
-impl Loose {
+impl FreeSamples {
     fn new(graph: &FieldGraph, symmetry: Symmetry, holds: &[Option<Constraint>]) -> Self {
-        let mut place = vec![None; holds.len()];
+        let mut inner_index = vec![None; holds.len()];
         let (mut inner, mut hold) = (Vec::new(), Vec::new());
         for (sample, held) in holds.iter().enumerate() {
             if let Some(held) = held {
-                place[sample] = Some(inner.len());
+                inner_index[sample] = Some(inner.len());
                 inner.push(sample);
                 hold.push(*held);
             }
         }
         let tie = |(to, weight, transport_rad): (usize, f64, f64)| Tie {
             to,
-            inner: place[to],
+            inner: inner_index[to],
             weight,
             turn: symmetry.turn(transport_rad),
         };
@@ -77,7 +78,7 @@ impl Loose {
         Self { inner, hold, ties }
     }
 
-    /// The numbers that fit best, before they are made unit ones.
+    /// The complex numbers that fit best, not yet normalised.
     fn blend(&self, field: &[DVec2], leads: &[Option<Constraint>]) -> Vec<DVec2> {
         let mut firm = Vec::with_capacity(self.inner.len());
         let mut pull = Vec::with_capacity(self.inner.len());
@@ -92,8 +93,8 @@ impl Loose {
         self.solve(start, &firm, &pull, |tie, there| tie.turn.rotate(there))
     }
 
-    /// Where the blend is torn, a target that leads it round: square to the way along which it changes, the same way over the
-    /// whole tear, and the shorter one.
+    /// Where the blend is torn, a constraint that decides which way it turns: perpendicular to the line along which it changes,
+    /// to the same side over the whole tear, and to the side that is the shorter way.
     fn leads(&self, field: &[DVec2], blend: &[DVec2]) -> Vec<Option<Constraint>> {
         let torn = |index: usize| blend[index].length() < TORN;
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);
@@ -136,7 +137,7 @@ impl Loose {
         found.into_iter().zip(blend).map(lead).collect()
     }
 
-    /// Turns every loose sample so that the squares of the turns between neighbours are least.
+    /// Turns every free sample so that the sum of the squared turns between neighbours is least.
     fn even_out(&self, field: &mut [DVec2]) {
         let angle = |from: DVec2, to: DVec2| DVec2::new(from.x, -from.y).rotate(to).to_angle();
         let mut firm = Vec::with_capacity(self.inner.len());
@@ -155,7 +156,7 @@ impl Loose {
         }
     }
 
-    /// Solves (firm + Σ w) x − Σ w ρ x = pull over the loose samples, from `start`; sums run in order.
+    /// Solves (firm + Σ w) x − Σ w ρ x = pull over the free samples by conjugate gradients from `start`; sums run in order.
     fn solve(
         &self,
         start: Vec<DVec2>,
@@ -217,8 +218,8 @@ mod tests {
 
     use super::*;
 
-    /// A plane of 30 by 30 samples, its left half at 0 degrees, its right half at `angle_deg`, loose for 10 columns on either
-    /// side; the angles along the middle row, degrees.
+    /// The angles along the middle row, in degrees, of a plane of 30 by 30 samples: its left half at 0 degrees, its right half
+    /// at `angle_deg`, free for 10 columns on either side of the seam.
     fn middle_row(symmetry: Symmetry, angle_deg: f64) -> Vec<f64> {
         let positions: Vec<Vec3> =
             (0..900).map(|i| Vec3::new((i % 30) as f32, (i / 30) as f32, 0.0)).collect();

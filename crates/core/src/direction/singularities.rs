@@ -1,7 +1,7 @@
 //! Where a direction field has no direction: the points that lines run round or out of.
 //!
-//! The index of a loop is how often the field turns along it, with what transport turns by itself taken off. On a closed
-//! surface without holes the indices add up to 2, whatever the field (Poincaré and Hopf).
+//! The index of a loop is how often the field turns along it, minus the turn that parallel transport alone makes. On a closed
+//! surface without handles the indices add up to 2, whatever the field (Poincaré and Hopf).
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -18,17 +18,18 @@ pub struct Singularity {
     pub index: f64,
 }
 
-/// The singular points of a field of unit numbers over samples.
+/// The singular points of a field of unit numbers over samples (positions and unit normals, model space).
 pub fn find(
     graph: &FieldGraph,
-    (positions, normals): (&[Vec3], &[Vec3]),
+    positions: &[Vec3],
+    normals: &[Vec3],
     field: &[DVec2],
     symmetry: Symmetry,
 ) -> Vec<Singularity> {
     let index_of = |ring: &[usize]| index_of_loop(ring, normals, field, symmetry);
     let indices: Vec<f64> =
         (0..graph.len()).map(|sample| index_of(&ring(graph, sample, positions, normals))).collect();
-    // Loops overlap: neighbours that see something are one, and the loop round them all says what.
+    // The loops of neighbours overlap. Neighbours with an index make one cluster; the loop round it gives its index.
     let mut seen = vec![false; indices.len()];
     let mut found = Vec::new();
     for start in 0..indices.len() {
@@ -71,8 +72,8 @@ fn index_of_loop(ring: &[usize], normals: &[Vec3], field: &[DVec2], symmetry: Sy
     ((turned + wrap_pi(transport)) / std::f64::consts::TAU * n).round() / n
 }
 
-/// The samples round a cluster, counter-clockwise as seen from outside: in each of many directions the nearest that is not of
-/// it.
+/// The samples round a cluster, counter-clockwise as seen from outside: in each of many directions the nearest that is not in the
+/// cluster.
 fn ring_of_cluster(
     graph: &FieldGraph,
     cluster: &[usize],
@@ -115,7 +116,7 @@ fn ring(graph: &FieldGraph, sample: usize, positions: &[Vec3], normals: &[Vec3])
         }
     }
     let filled = nearest.iter().filter(|(_, other)| *other != usize::MAX).count();
-    // At a border the ring does not close.
+    // The ring does not close at a border.
     if filled + 2 < SECTORS {
         return Vec::new();
     }
@@ -140,7 +141,7 @@ mod tests {
                     symmetry.encode(towards(DVec3::Y, normal), tangent_axes(normal))
                 })
                 .collect();
-            let found = find(&graph, (&positions, &positions), &up, symmetry);
+            let found = find(&graph, &positions, &positions, &up, symmetry);
             assert_eq!(found.len(), 2, "{found:?}");
             for pole in &found {
                 assert_eq!(pole.index, 1.0);
@@ -154,7 +155,7 @@ mod tests {
                 .collect();
             let solved = graph.solve(symmetry, &constraints);
             let sum: f64 =
-                find(&graph, (&positions, &positions), &solved, symmetry).iter().map(|s| s.index).sum();
+                find(&graph, &positions, &positions, &solved, symmetry).iter().map(|s| s.index).sum();
             assert_eq!(sum, 2.0);
         }
     }

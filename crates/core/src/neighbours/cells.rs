@@ -1,4 +1,4 @@
-//! Points sorted by grid cell, so that whatever is near a cell lies in nine runs of memory.
+//! Points sorted by grid cell, so that all points near a cell lie in nine runs of memory.
 
 use std::ops::Range;
 
@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::Points;
 
-/// Where cells lie and how wide they are, at least as wide as the search radius. Their numbers grow with z, then y, then x, and
-/// every cell that holds a point has one on each side.
+/// The grid. Cells are at least as wide as the search radius and numbered with x fastest, then y, then z; every cell that holds
+/// a point has neighbours on all sides.
 #[derive(Clone, Copy)]
 pub(super) struct CellSpace {
     low: [f64; 3],
@@ -18,14 +18,14 @@ pub(super) struct CellSpace {
 }
 
 impl CellSpace {
-    /// Holds all positions that are finite.
+    /// A grid round all finite positions.
     pub(super) fn new(positions: [&[Vec3]; 2], radius: f32) -> Self {
         let none = (Vec3::splat(f32::MAX), Vec3::splat(f32::MIN));
         let joined = |a: (Vec3, Vec3), b: (Vec3, Vec3)| (a.0.min(b.0), a.1.max(b.1));
         let finite = positions.into_par_iter().flatten().filter(|position| position.is_finite());
         let (low, high) = finite.map(|&position| (position, position)).reduce(|| none, joined);
         let extent = (high.as_dvec3() - low.as_dvec3()).max(glam::DVec3::ZERO).to_array();
-        // A little wider than need be, against rounding; and so wide that the numbers of all cells are in range.
+        // A little wider than needed, against rounding, and wide enough for all cell numbers to be in range.
         let mut width = f64::from(radius.max(f32::MIN_POSITIVE)) * 1.00001;
         let cells = loop {
             let cells = extent.map(|extent| (extent / width).floor() + 3.0);
@@ -42,7 +42,7 @@ impl CellSpace {
     fn number(&self, position: Vec3) -> u64 {
         let position = position.as_dvec3().to_array();
         let [x, y, z] = [0, 1, 2].map(|axis| {
-            // In range, whatever the position.
+            // In range whatever the position, even NaN.
             let cell = ((position[axis] - self.low[axis]) * self.cells_per_unit) as u64;
             cell.min(self.cells[axis] - 3) + 1
         });
@@ -62,7 +62,7 @@ pub(super) struct SortedPoints {
     cells: Vec<u64>,
     /// Positions, then normals: x, y, z.
     pub(super) axes: [Vec<f32>; 6],
-    /// Which of the points each is.
+    /// The number of each point before sorting.
     pub(super) numbers: Vec<u32>,
 }
 
@@ -74,7 +74,7 @@ impl SortedPoints {
             .map(|(number, position)| (space.number(*position), number as u32))
             .collect();
         sorted.par_sort_unstable();
-        // Read in one go: where a point lies is waited for once.
+        // Position and normal together, so that there is one cache miss per point.
         let numbers = sorted.par_iter().with_min_len(4096);
         let gathered: Vec<[Vec3; 2]> = numbers
             .map(|&(_, number)| [points.positions[number as usize], points.normals[number as usize]])
@@ -102,11 +102,11 @@ impl SortedPoints {
     }
 }
 
-/// Finds what lies round cells whose numbers never fall.
+/// Finds the points round one cell after the other; cell numbers must not decrease.
 pub(super) struct RowCursor<'a> {
     points: &'a SortedPoints,
     space: &'a CellSpace,
-    /// In each of the nine rows, the first point that may count; `None` before the first cell.
+    /// In each of the nine rows, the first point that may still be needed; `None` before the first cell.
     at: Option<[usize; 9]>,
 }
 

@@ -1,29 +1,30 @@
-//! The points round one cell, copied next to each other, and the nearest of them to a place.
+//! The points round one cell, copied next to each other, and the search for the nearest of them.
 
 use glam::Vec3;
 
 use super::cells::SortedPoints;
 use std::ops::Range;
 
-/// So many candidates are looked at together.
+/// How many candidates are tested together.
 pub(super) const LANES: usize = 16;
 
-/// Distances are sorted into so many classes before they are compared; fewer of them count than fit into a byte.
+/// Buckets of the counting sort by distance. At most [`MANY`] candidates are sorted this way, so that counts fit into bytes.
 const CLASSES: usize = 256;
 
-/// More than this are cut down to the nearest before they are sorted.
+/// More candidates than this are first reduced to the nearest by selection.
 const MANY: usize = 255;
 
-/// Of what is sorted, and of a block of what stands behind it.
+/// Room for all sorted candidates and for a block read past their end.
 const SLOTS: usize = CLASSES + 64;
 
-/// What one task works in.
+/// Working memory of one task.
 pub(super) struct Crowd {
     /// Positions, then normals: x, y, z.
     axes: [Vec<f32>; 6],
     numbers: Vec<u32>,
-    /// Bits of the squared distance, then the number: those that count, and the same by class.
+    /// Near points as keys: the bits of the squared distance, then the number.
     found: Vec<u64>,
+    /// The same, sorted.
     sorted: [u64; SLOTS],
 }
 
@@ -33,11 +34,11 @@ impl Default for Crowd {
     }
 }
 
-/// How those of a block are kept that are near enough.
-pub(super) trait Keep {
-    /// Writes the bits of each squared distance that is not above `radius_sq`, then its number, one after the other; gives how
-    /// many. What stands behind them is of no meaning.
-    fn keep(
+/// A way to write the near points of a block one after the other.
+pub(super) trait PackNear {
+    /// Writes a key (the bits of the squared distance, then the number) for each squared distance up to `radius_sq`, without
+    /// gaps, and returns how many. What is in `found` behind them has no meaning.
+    fn pack(
         distances_sq: &[f32; LANES],
         numbers: &[u32; LANES],
         radius_sq: f32,
@@ -45,12 +46,12 @@ pub(super) trait Keep {
     ) -> usize;
 }
 
-/// Without a branch that nobody can foresee: each is written, and counted if it is near.
+/// Portable, without a branch that would often be mispredicted: each key is written, and stays only if it is near.
 pub(super) struct OneByOne;
 
-impl Keep for OneByOne {
+impl PackNear for OneByOne {
     #[inline(always)]
-    fn keep(
+    fn pack(
         distances_sq: &[f32; LANES],
         numbers: &[u32; LANES],
         radius_sq: f32,
@@ -65,12 +66,12 @@ impl Keep for OneByOne {
     }
 }
 
-/// Where neighbours are looked for, and which.
+/// One search for neighbours.
 #[derive(Clone, Copy)]
 pub(super) struct Query {
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
-    /// The number of a point that does not count.
+    /// The number of the query point, which does not count.
     pub(super) own: u32,
     pub(super) radius: f32,
     /// The longest list.
@@ -78,7 +79,7 @@ pub(super) struct Query {
 }
 
 impl Crowd {
-    /// Takes in some runs of points.
+    /// Copies some runs of points, padded to whole blocks.
     pub(super) fn gather(&mut self, points: &SortedPoints, runs: &[Range<usize>; 9]) {
         let count: usize = runs.iter().map(Range::len).sum();
         let padded = count.next_multiple_of(LANES);
@@ -93,10 +94,10 @@ impl Crowd {
         self.found.resize(padded + LANES, 0);
     }
 
-    /// Writes the nearest points, nearest first, equal distances by number; gives how many.
+    /// Writes the nearest points, nearest first, equal distances by number; returns how many.
     #[inline(always)]
-    pub(super) fn nearest<K: Keep>(&mut self, query: &Query, list: &mut [u32]) -> usize {
-        let count = self.collect::<K>(query);
+    pub(super) fn nearest<P: PackNear>(&mut self, query: &Query, list: &mut [u32]) -> usize {
+        let count = self.collect::<P>(query);
         let mut found = &mut self.found[..count];
         if count > MANY {
             let most = query.most.min(count);
@@ -114,9 +115,9 @@ impl Crowd {
         most
     }
 
-    /// Those within the radius on the same side, in any order; gives how many.
+    /// Collects the points within the radius on the same side of the surface, in any order; returns how many.
     #[inline(always)]
-    fn collect<K: Keep>(&mut self, query: &Query) -> usize {
+    fn collect<P: PackNear>(&mut self, query: &Query) -> usize {
         let [(xs, _), (ys, _), (zs, _), (us, _), (vs, _), (ws, _)] =
             self.axes.each_ref().map(|axis| axis.as_chunks::<LANES>());
         let (numbers, _) = self.numbers.as_chunks::<LANES>();
@@ -132,20 +133,20 @@ impl Crowd {
                 distances_sq[i] = if counts { distance_sq } else { f32::NAN };
             }
             let Some(found) = self.found[end..].first_chunk_mut() else { break };
-            end += K::keep(&distances_sq, numbers, query.radius * query.radius, found);
+            end += P::pack(&distances_sq, numbers, query.radius * query.radius, found);
         }
         end
     }
 }
 
-/// Sorts by classes of distances, of which a surface has about equally many in each, and then what little is left; at least as
-/// far as the longest list goes.
+/// Sorts the nearest `query.most` keys, and perhaps more: a counting sort into equal ranges of squared distance (on a surface
+/// each holds about equally many points), then an insertion sort.
 #[inline(always)]
 fn sort_by_class(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
     let classes_per_sq = (CLASSES - 1) as f32 / (query.radius * query.radius);
     let class = |key: u64| {
         let distance_sq = f32::from_bits((key >> 32) as u32);
-        // Added to 2^23, a number stands rounded in the lowest bits.
+        // Adding 2^23 leaves the rounded number in the lowest bits.
         (distance_sq * classes_per_sq + 8_388_608.0).to_bits() as usize % CLASSES
     };
     let mut ends = [0u8; CLASSES];
@@ -154,7 +155,7 @@ fn sort_by_class(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
     }
     let mut sum = 0u64;
     for ends in ends.as_chunks_mut::<8>().0 {
-        // Sums of eight bytes at once; all of them stay below 256.
+        // Running sums of eight bytes at once; no sum exceeds 255.
         let mut word = u64::from_le_bytes(*ends);
         word += word << 8;
         word += word << 16;
@@ -170,14 +171,14 @@ fn sort_by_class(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
     let count = found.len();
     let last = if count < query.most { CLASSES } else { class(sorted[query.most - 1]) };
     let end = (query.most..count).find(|&i| class(sorted[i]) > last).unwrap_or(count);
-    sort_what_is_left(sorted, end);
+    sort_nearly_sorted(sorted, end);
 }
 
-/// Sorts what is nearly sorted.
+/// Insertion sort of nearly sorted keys.
 #[inline(always)]
-fn sort_what_is_left(sorted: &mut [u64; SLOTS], count: usize) {
+fn sort_nearly_sorted(sorted: &mut [u64; SLOTS], count: usize) {
     for first in (0..count.saturating_sub(1)).step_by(64) {
-        // Which are more than the next, found without a branch that nobody can foresee.
+        // A bit for each key that is greater than the next, found without branches.
         let Some(block) = sorted[first..].first_chunk::<65>() else { break };
         let mut falls = 0u64;
         for bit in 0..64 {
@@ -187,7 +188,7 @@ fn sort_what_is_left(sorted: &mut [u64; SLOTS], count: usize) {
         while falls != 0 {
             let mut i = first + falls.trailing_zeros() as usize + 1;
             falls &= falls - 1;
-            // What comes next may be less than what then stands here.
+            // Moving a key down may leave the one after it too low as well.
             while i < count && sorted[i - 1] > sorted[i] {
                 let (key, mut at) = (sorted[i], i);
                 while at > 0 && sorted[at - 1] > key {

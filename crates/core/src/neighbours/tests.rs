@@ -1,3 +1,5 @@
+//! Tests of neighbour lists against brute force, for every build of the search.
+
 use super::*;
 use crate::hash;
 
@@ -14,11 +16,12 @@ fn scattered(count: u32, size: Vec3) -> (Vec<Vec3>, Vec<Vec3>) {
     (positions, normals)
 }
 
-/// What the lists should be, from the definition.
+/// The lists by definition; `own` counts a point with the query's own number too.
 fn brute_force(
     queries: Points<'_>,
     points: Points<'_>,
-    (radius, most): (f32, usize),
+    radius: f32,
+    most: usize,
     own: bool,
 ) -> Vec<Vec<u32>> {
     let list = |query: usize| {
@@ -37,12 +40,12 @@ fn brute_force(
     (0..queries.positions.len()).map(list).collect()
 }
 
-/// By every build of the search.
+/// Compares every build of the search with brute force.
 fn check(positions: &[Vec3], normals: &[Vec3], radius: f32) {
     let points = Points { positions, normals };
-    let expected = brute_force(points, points, (radius, MAX_NEIGHBOURS), false);
+    let expected = brute_force(points, points, radius, MAX_NEIGHBOURS, false);
     for (build, run) in wide::builds() {
-        let found = Neighbours::found(points, None, (radius, MAX_NEIGHBOURS), run);
+        let found = Neighbours::found(points, None, radius, MAX_NEIGHBOURS, run);
         assert_eq!(found.len(), positions.len());
         for (particle, expected) in expected.iter().enumerate() {
             assert_eq!(found.of(particle), expected, "{build}: particle {particle}, radius {radius}");
@@ -68,7 +71,7 @@ fn lists_of_others_equal_brute_force() {
     let points = Points { positions: &positions, normals: &normals };
     let queries = Points { positions: &around, normals: &around_normals };
     for most in [0, 1, 12] {
-        let expected = brute_force(queries, points, (0.3, most), true);
+        let expected = brute_force(queries, points, 0.3, most, true);
         let found = Neighbours::find_among(queries, points, 0.3, most);
         assert_eq!(found.len(), 900);
         for (query, expected) in expected.iter().enumerate() {
@@ -81,7 +84,7 @@ fn lists_of_others_equal_brute_force() {
 }
 
 #[test]
-fn odd_bodies_equal_brute_force() {
+fn degenerate_bodies_equal_brute_force() {
     let count = 700;
     let up = vec![Vec3::Y; count];
     let body = |position: &dyn Fn(f32) -> Vec3| -> Vec<Vec3> {
@@ -90,7 +93,7 @@ fn odd_bodies_equal_brute_force() {
     check(&body(&|_| Vec3::splat(0.3)), &up, 0.1);
     check(&body(&|index| Vec3::X * index), &up, 40.5);
     check(&body(&|index| Vec3::splat(1e-3 * (index % 7.0))), &up, 0.002);
-    // Two clouds at the ends of the world, of cells that no memory holds.
+    // Two clouds so far apart that the cells between them would fit into no memory.
     let (cloud, normals) = scattered(count as u32, Vec3::splat(1e-4));
     let apart: Vec<Vec3> = cloud
         .iter()
@@ -103,7 +106,7 @@ fn odd_bodies_equal_brute_force() {
 }
 
 #[test]
-fn what_is_nowhere_has_no_neighbours() {
+fn points_at_nan_or_infinity_have_no_neighbours() {
     let (mut positions, normals) = scattered(600, Vec3::ONE);
     for (index, position) in positions.iter_mut().enumerate() {
         position.x = match index % 5 {

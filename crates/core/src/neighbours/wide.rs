@@ -1,10 +1,10 @@
-//! The search with AVX-512, which packs what was found by an instruction of its own; vectors without it gain nothing over portable
-//! code. Both builds round alike (no fused multiply-add), so the bits do not depend on the machine.
+//! The search with AVX-512, which has an instruction that packs the near points together; shorter vectors gain nothing over
+//! portable code. Both builds round alike (no fused multiply-add), so the bits do not depend on the machine.
 #![expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 
 use super::crowd::OneByOne;
 #[cfg(target_arch = "x86_64")]
-use super::crowd::{Keep, LANES};
+use super::crowd::{LANES, PackNear};
 use super::{Part, Search};
 
 /// Finds the lists of a part of the queries.
@@ -23,14 +23,14 @@ fn run_avx512(search: &Search<'_>, part: Part<'_>) {
     search.run::<Compressed>(part);
 }
 
-/// Eight at a time, by an instruction made for it. Named in [`run_avx512`] alone.
+/// Packs eight keys at a time by `vpcompressq`. Used in [`run_avx512`] alone.
 #[cfg(target_arch = "x86_64")]
 struct Compressed;
 
 #[cfg(target_arch = "x86_64")]
-impl Keep for Compressed {
+impl PackNear for Compressed {
     #[inline(always)]
-    fn keep(
+    fn pack(
         distances_sq: &[f32; LANES],
         numbers: &[u32; LANES],
         radius_sq: f32,

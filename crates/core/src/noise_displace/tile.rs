@@ -1,4 +1,4 @@
-//! A texture that repeats: raw values, read between four texels.
+//! A repeating texture of raw values, read bilinearly.
 
 use glam::DVec2;
 
@@ -53,12 +53,12 @@ impl Tile {
         &self.texels
     }
 
-    /// The breadth of a texel, in lengths of the texture.
+    /// Size of a texel, in lengths of the texture.
     pub fn texel(&self) -> DVec2 {
         1.0 / DVec2::new(self.size[0] as f64, self.size[1] as f64)
     }
 
-    /// The value at a place in lengths of the texture, V up: between the centres of four texels.
+    /// The bilinear value at a point, in lengths of the texture, V up.
     pub fn sample(&self, at: DVec2) -> [f64; 4] {
         let [columns, rows] = self.size;
         let at = (at - at.floor()) * DVec2::new(columns as f64, rows as f64) - 0.5;
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_turned_up_and_reduced() {
+    fn pictures_are_flipped_to_bottom_up_and_reduced() {
         let tile = Tile::of_picture([1, 2], &[[255; 4], [0; 4]]);
         assert_eq!(tile.texels(), [[0.0; 4], [1.0; 4]]);
         let wide = Tile::of_picture([2050, 1], &[[51; 4]; 2050]);

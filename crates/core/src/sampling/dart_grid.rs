@@ -1,39 +1,39 @@
-//! Accepted particles sorted by cells, so that a search reads a few short runs of memory.
+//! A hash grid of darts, sorted by cells, so that a search reads a few short runs of memory.
 
 use std::ops::Range;
 
 use glam::Vec3;
 
-/// A particle, or what may become one.
+/// An accepted particle, or a candidate for one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dart {
     /// Model space.
     pub(super) position: Vec3,
     /// The face of the surface that it lies on.
     pub(super) face: u32,
-    /// Which particle or candidate it is.
+    /// Number of the particle or candidate.
     pub(super) number: u32,
 }
 
-/// How many darts are looked at together.
+/// How many darts are tested together.
 const LANES: usize = 8;
 
-/// Widths of a cell in search radii, a little over 2 and 4, against rounding: a search reads two cells of a row, which are
-/// next to each other, and as much of the rows beside where they are near.
+/// Size of a cell in search radii, a little over 2 and 4 against rounding: a search reads two neighbouring cells of a row along x,
+/// and the same of the next rows in y and z where they are within reach.
 const CELL: Vec3 = Vec3::new(2.02, 4.04, 4.04);
 
-/// Darts by grid cell. Cells share buckets: those that differ in x by one are next to each other, others are anywhere. A search
-/// may read more than it asked for, never less.
+/// Darts by grid cell. Cells are hashed into buckets so that neighbours along x have neighbouring buckets; distant cells may share
+/// one, so a search reads some darts too many, never too few.
 pub(super) struct DartGrid {
     /// Along each axis.
     cells_per_unit: Vec3,
-    /// From one row to the next in y: about as many as a row has cells, so that they are near each other in memory too.
+    /// Buckets from one row to the next in y: about as many as a row has cells, so that rows are near each other in memory.
     row_stride: u32,
     /// One less than the number of buckets, a power of two.
     mask: u32,
     /// First dart of each bucket, and the end.
     starts: Vec<u32>,
-    /// Positions of the darts, and [`LANES`] that are infinitely far away.
+    /// Positions of the darts, then [`LANES`] that are infinitely far away.
     axes: [Vec<f32>; 3],
     faces: Vec<u32>,
     numbers: Vec<u32>,
@@ -65,7 +65,7 @@ impl DartGrid {
             end += *start;
             *start = end;
         }
-        // From the ends of the buckets down to their starts.
+        // Each bucket is filled from its end, so that `starts` ends up at the beginnings.
         for dart in darts.iter().rev() {
             let bucket = grid.bucket(dart.position) as usize;
             grid.starts[bucket] -= 1;
@@ -94,15 +94,14 @@ impl DartGrid {
         (0..self.numbers.len()).map(|at| self.dart(at)).collect()
     }
 
-    /// Makes the cells as fine as `radius` allows and the buckets as many as the darts need, where that is worth it.
+    /// Builds the grid anew, with finer cells or more buckets, where `radius` has become much smaller or the darts many more.
     pub(super) fn fit(&mut self, radius: f32) {
         if radius * CELL.x * self.cells_per_unit.x < 0.8 || self.numbers.len() > 2 * self.starts.len() {
             *self = Self::new(&self.darts(), radius);
         }
     }
 
-    /// The same darts, those next to each other that are so in the grid: one search after the other finds what it reads in
-    /// the cache.
+    /// Sorts darts roughly by bucket, so that each search finds what it reads in the cache.
     pub(super) fn in_order(&self, darts: Vec<Dart>) -> Vec<Dart> {
         let Some(&first) = darts.first() else { return darts };
         let buckets = self.mask as usize + 1;
@@ -140,7 +139,7 @@ impl DartGrid {
             axis.resize(count + LANES, f32::INFINITY);
             axis[count..].fill(f32::INFINITY);
         }
-        // From the last one down; what lies between two moves up by as many as are still to come.
+        // From the last one down: what lies between two new darts moves up by the number of new ones before it.
         let mut bucket_end = self.starts.len();
         for (before, &key) in order.iter().enumerate().rev() {
             let (after, index) = ((key >> 32) as usize + 1, key as u32 as usize);
@@ -158,7 +157,7 @@ impl DartGrid {
         }
     }
 
-    /// Whether `found` holds for any of the darts nearer than `radius` to a position; it may be asked twice of one.
+    /// Whether `found` holds for any of the darts nearer than `radius` to a position; it may be asked twice about a dart.
     #[inline]
     pub(super) fn any_near(&self, position: Vec3, radius: f32, mut found: impl FnMut(&Dart) -> bool) -> bool {
         let scaled = position * self.cells_per_unit;
@@ -166,9 +165,9 @@ impl DartGrid {
         let first_x = x.wrapping_sub(i32::from(scaled.x - (x as f32) < 0.5));
         let mut in_row = |y: i32, z: i32| {
             let bucket = self.bucket_of([first_x, y, z]) as usize;
-            self.any_in_row(bucket, (position, radius * radius), &mut found)
+            self.any_in_row(bucket, position, radius * radius, &mut found)
         };
-        // The position's own row first, where most of what crowds it is.
+        // Its own row first, where most of the near darts are.
         if in_row(y, z) {
             return true;
         }
@@ -183,28 +182,30 @@ impl DartGrid {
     fn any_in_row(
         &self,
         bucket: usize,
-        (position, radius_sq): (Vec3, f32),
+        position: Vec3,
+        radius_sq: f32,
         found: &mut impl FnMut(&Dart) -> bool,
     ) -> bool {
         let last = self.mask as usize;
         let run = self.starts[bucket] as usize..self.starts[(bucket + 2).min(last + 1)] as usize;
-        if self.any_in_run(run, (position, radius_sq), found) {
+        if self.any_in_run(run, position, radius_sq, found) {
             return true;
         }
-        bucket == last && self.any_in_run(0..self.starts[1] as usize, (position, radius_sq), found)
+        bucket == last && self.any_in_run(0..self.starts[1] as usize, position, radius_sq, found)
     }
 
     #[inline]
     fn any_in_run(
         &self,
         run: Range<usize>,
-        (position, radius_sq): (Vec3, f32),
+        position: Vec3,
+        radius_sq: f32,
         found: &mut impl FnMut(&Dart) -> bool,
     ) -> bool {
         let [xs, ys, zs] = &self.axes;
         let mut from = run.start;
         loop {
-            // Whole lanes, past the run's end too: what lies there is tested like all others.
+            // Whole blocks, past the run's end too: darts there are tested like all others.
             let (x, y, z) = (&xs[from..][..LANES], &ys[from..][..LANES], &zs[from..][..LANES]);
             let mut distances_sq = [0.0; LANES];
             let mut any = 0;
@@ -241,7 +242,7 @@ impl DartGrid {
     }
 }
 
-/// `f32::floor` is a call where the processor is taken to be old.
+/// The floor of a number; `f32::floor` is a function call on x86-64 without SSE4.1, which is the default target.
 #[inline]
 fn floor(value: f32) -> i32 {
     let toward_zero = value as i32;

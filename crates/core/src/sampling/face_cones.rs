@@ -1,13 +1,13 @@
-//! Tells by two faces alone whether all that lies on them is on one side of the surface, or nothing is.
+//! A cone of normals for each face: most pairs of particles are on the same side of the surface, or not, by their faces alone.
 
 use glam::Vec3;
 
 use super::{Face, Surface};
 
-/// More than all rounding of unit vectors and of what is interpolated between them.
+/// More than all rounding of unit vectors and of interpolation between them.
 const MARGIN: f32 = 1e-3;
 
-/// Round each face a cone that holds the normal of every place on it.
+/// For each face, a cone that holds the interpolated normals of all its points.
 pub(super) struct FaceCones {
     cones: Vec<Cone>,
 }
@@ -15,9 +15,9 @@ pub(super) struct FaceCones {
 #[derive(Clone, Copy)]
 struct Cone {
     axis: Vec3,
-    /// Sine of the angle between the axis and the side, plus a margin; above 1 when nothing is sure.
+    /// Sine of half the opening angle, plus a margin; above 1 where the cone decides nothing.
     spread: f32,
-    /// Whether any two normals of the face have a product above 0.
+    /// Whether the dot product of any two normals of the face is positive.
     even: bool,
 }
 
@@ -26,8 +26,7 @@ impl FaceCones {
         Self { cones: surface.faces.iter().map(|face| Cone::of(surface, face)).collect() }
     }
 
-    /// Whether normals on the one face and normals on the other have a product above 0; `None` where it takes the normals
-    /// themselves to tell.
+    /// Whether the dot product of normals on the two faces is positive, for all of them; `None` where it depends on the points.
     #[inline]
     pub(super) fn same_side(&self, first: u32, second: u32) -> Option<bool> {
         let alike = first == second;
@@ -60,7 +59,7 @@ impl Cone {
         let Some(across) = (if face.flipped { -across } else { across }).try_normalize() else {
             return Self::UNSURE;
         };
-        // A particle's normal is turned to its side of the triangle: all three must turn alike, whatever is between them.
+        // A particle's normal is flipped to its side of the triangle. Either all three corners flip, or, as checked below, none.
         if normals.iter().all(|normal| normal.dot(across) < 0.0) {
             normals = normals.map(|normal| -normal);
         }

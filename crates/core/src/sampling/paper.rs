@@ -1,4 +1,4 @@
-//! The source paper's sampling: a given number of particles at random places of every polygon.
+//! The source paper's sampling: the same number of particles at random points of every polygon.
 
 use rayon::prelude::*;
 
@@ -16,8 +16,8 @@ pub struct PolygonParticle {
     pub count_in_polygon: u32,
 }
 
-/// `count` particles, as equally many on each polygon side as goes, at random places in it (seed paper, 2.1): the
-/// first `count % polygons` polygons get one more.
+/// `count` particles at random points, equally many on each visible side of a polygon (seed paper, 2.1); the first
+/// `count % polygons` get one more.
 pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<PolygonParticle> {
     let polygons = polygons(surface);
     let counts: Vec<usize> = (0..polygons.len())
@@ -41,10 +41,9 @@ pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Polygo
                     }
                     target -= area;
                 }
-                let place =
-                    barycentric(hash::unit(hash::combine(seed, 1)), hash::unit(hash::combine(seed, 2)));
+                let at = barycentric(hash::unit(hash::combine(seed, 1)), hash::unit(hash::combine(seed, 2)));
                 PolygonParticle {
-                    particle: surface.particle(face, place),
+                    particle: surface.particle(face, at),
                     number_in_polygon: number,
                     count_in_polygon: count as u32,
                 }
@@ -53,7 +52,7 @@ pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Polygo
         .collect()
 }
 
-/// The faces of each polygon side, with their areas.
+/// The faces of each visible side of a polygon, with their areas.
 fn polygons(surface: &Surface<'_>) -> Vec<Vec<(usize, f64)>> {
     let mut polygons: Vec<Vec<(usize, f64)>> = Vec::new();
     let mut keys: std::collections::HashMap<(u32, bool), usize> = std::collections::HashMap::new();

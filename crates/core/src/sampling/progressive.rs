@@ -1,4 +1,4 @@
-//! Progressive dart throwing: an order in which every beginning is blue noise.
+//! Progressive dart throwing: an order of particles whose first n are blue noise, for every n.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::dart_grid::{Dart, DartGrid};
 use super::face_cones::FaceCones;
 use super::{Particle, Surface, hexagonal_spacing};
 
-/// Particles keep this share of the hexagonal spacing of as many as their level is meant to end with.
+/// Least distance between particles, as a share of the hexagonal spacing of as many as their level is meant to end with.
 const SPACING: f64 = 0.56;
 
 /// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
@@ -18,23 +18,23 @@ const TRIES: usize = 5;
 /// A level ends with this many times the particles that it began with.
 const GROWTH: f64 = 1.08;
 
-/// Where there is no room (faces that lie on each other, the first few particles of a thin rod), a level still ends with
-/// this share of the particles that it is meant for, so that the work is in proportion to the count.
+/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is filled up to this
+/// share of the particles that it is meant to end with, regardless of distances, so that the work stays proportional to the count.
 const LEAST_FILLED: f64 = 0.5;
 
-/// How many candidates one task handles: fewer are not worth another thread. The more there are, the nearer to each other those lie
-/// that are looked at one after the other.
+/// How many candidates one task handles. Fewer are not worth another thread; the more there are, the better they can be sorted so
+/// that consecutive searches share the cache.
 const LEAST_CHUNK: usize = 1024;
 const MOST_CHUNK: usize = 1 << 20;
 
-/// Stands for no dart.
+/// The index of no dart.
 const NONE: u32 = u32::MAX;
 
 /// `count` particles in progressive blue-noise order: the first `n` of them are spread evenly, for every `n`, and a
 /// greater `count` keeps the particles that a smaller one gives.
 ///
-/// Dart throwing in levels, whose spacings are absolute: they do not depend on how many particles there will be. Two
-/// particles crowd each other only on the same side of the surface, so thin sheets carry their full share on both.
+/// Dart throwing in levels whose spacings do not depend on how many particles there will be in the end. Two particles crowd each
+/// other only on the same side of the surface, so thin sheets carry their full share on both.
 /// The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
 pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut particles = Vec::new();
@@ -43,8 +43,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     particles
 }
 
-/// Where a progressive order has come to, so that it can go on: more particles later cost no more than what is added, and one
-/// look at what is there.
+/// How far a progressive order has come, so that it can go on later: more particles cost no more than what is added, and one
+/// pass over what is there.
 #[derive(Clone, Copy, Debug)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -61,8 +61,8 @@ impl Default for ProgressiveState {
 }
 
 impl ProgressiveState {
-    /// Grows `particles` by whole levels to at least `count`, unless the surface is empty. Surface, seed and particles are those
-    /// of the growth before; the first `n` particles are those of [`progressive`].
+    /// Grows `particles` by whole levels to at least `count`, unless the surface is empty. Surface, seed and particles must be
+    /// those of the call before; the first `n` particles are those of [`progressive`].
     pub fn grow(&mut self, surface: &Surface<'_>, seed: u32, particles: &mut Vec<Particle>, count: usize) {
         if surface.faces.is_empty() || particles.len() >= count {
             return;
@@ -71,7 +71,7 @@ impl ProgressiveState {
         let field = DartField { candidates: Candidates::new(surface, seed), cones: FaceCones::new(surface) };
         let Self { thrown, level_end } = self;
         let mut grid = DartGrid::new(&surface.darts(particles), spacing(*level_end));
-        // Grows as particles are found, so that a count is never taken on trust.
+        // Memory grows as particles are found, never by the count that was asked for.
         while particles.len() < count {
             let level_begin = *level_end;
             *level_end = (level_begin + 1).max((level_begin as f64 * GROWTH) as usize);
@@ -79,48 +79,48 @@ impl ProgressiveState {
             grid.fit(radius);
             let tries = ((*level_end - level_begin) * TRIES) as u32;
             let level = *thrown..thrown.wrapping_add(tries);
-            // First against those that stood before, then, the few that are left, against each other.
-            let roomy = field.roomy(level.clone(), &Standing { grid: &grid, particles, radius });
-            let mut kept = field.kept(&level, &roomy, radius);
+            // First against the particles of earlier levels; then the few that are left, against each other.
+            let clear = field.clear_of(&Accepted { grid: &grid, particles, radius }, level.clone());
+            let mut added = field.thinned(&level, &clear, radius);
             let least = (*level_end as f64 * LEAST_FILLED) as usize;
-            let missing = least.saturating_sub(particles.len() + kept.len());
-            kept.extend(level.clone().take(missing).map(|number| field.candidates.dart(number)));
-            let numbers: Vec<u32> = kept.iter().map(|dart| dart.number).collect();
-            kept.iter_mut().zip(particles.len() as u32..).for_each(|(dart, number)| dart.number = number);
-            if kept.len() < LEAST_CHUNK {
+            let missing = least.saturating_sub(particles.len() + added.len());
+            added.extend(level.clone().take(missing).map(|number| field.candidates.dart(number)));
+            let numbers: Vec<u32> = added.iter().map(|dart| dart.number).collect();
+            added.iter_mut().zip(particles.len() as u32..).for_each(|(dart, number)| dart.number = number);
+            if added.len() < LEAST_CHUNK {
                 particles.extend(field.candidates.particles(&numbers));
-                grid.insert(&kept);
+                grid.insert(&added);
             } else {
                 let chosen = numbers.par_chunks(LEAST_CHUNK);
                 let chosen = chosen.flat_map_iter(|numbers| field.candidates.particles(numbers));
-                rayon::join(|| particles.par_extend(chosen), || grid.insert(&kept));
+                rayon::join(|| particles.par_extend(chosen), || grid.insert(&added));
             }
             *thrown = level.end;
         }
     }
 }
 
-/// What stood before a level, and how far apart its particles are.
-struct Standing<'a> {
+/// The particles of earlier levels, and the least distance to them in this one.
+struct Accepted<'a> {
     grid: &'a DartGrid,
     particles: &'a [Particle],
     radius: f32,
 }
 
-/// Where darts fall.
+/// The candidates of a surface, and what tells on which side of it they are.
 struct DartField<'a> {
     candidates: Candidates<'a>,
     cones: FaceCones,
 }
 
 impl DartField<'_> {
-    /// Those of a level's candidates that nothing crowds of what stood before, in any order.
-    fn roomy(&self, level: Range<u32>, standing: &Standing<'_>) -> Vec<Dart> {
+    /// A level's candidates that no accepted particle crowds, in any order.
+    fn clear_of(&self, accepted: &Accepted<'_>, level: Range<u32>) -> Vec<Dart> {
         let threads = rayon::current_num_threads();
         let chunk = (level.len() / (2 * threads)).clamp(LEAST_CHUNK, MOST_CHUNK);
         let of_chunk = |first: u32| {
             let numbers = first..level.end.min(first.saturating_add(chunk as u32));
-            self.roomy_of(numbers, standing)
+            self.chunk_clear_of(accepted, numbers)
         };
         if level.len() <= chunk {
             return of_chunk(level.start);
@@ -130,8 +130,8 @@ impl DartField<'_> {
         found.concat()
     }
 
-    fn roomy_of(&self, numbers: Range<u32>, standing: &Standing<'_>) -> Vec<Dart> {
-        let Standing { grid, particles, radius } = standing;
+    fn chunk_clear_of(&self, accepted: &Accepted<'_>, numbers: Range<u32>) -> Vec<Dart> {
+        let Accepted { grid, particles, radius } = accepted;
         let mut darts = grid.in_order(self.candidates.darts(numbers));
         darts.retain(|dart| {
             let mut normal = None;
@@ -146,8 +146,9 @@ impl DartField<'_> {
         darts
     }
 
-    /// Those that stay when each in turn, by number, is dropped if one before it crowds it; by number.
-    fn kept(&self, level: &Range<u32>, darts: &[Dart], radius: f32) -> Vec<Dart> {
+    /// The darts that stay when each in turn, by number, is dropped if an earlier one that stays crowds it. They come in order of
+    /// their numbers.
+    fn thinned(&self, level: &Range<u32>, darts: &[Dart], radius: f32) -> Vec<Dart> {
         let grid = DartGrid::new(darts, radius);
         let rivals = |dart: &Dart| {
             let mut rivals = Vec::new();
@@ -172,13 +173,13 @@ impl DartField<'_> {
             sorted.par_iter().with_min_len(LEAST_CHUNK).flat_map_iter(rivals).collect()
         };
         pairs.sort_unstable();
-        // Which dart has a number and stays.
+        // For each number, the index of its dart as long as it stays.
         let mut stays = vec![NONE; level.len()];
         for (index, dart) in darts.iter().enumerate() {
             stays[(dart.number - level.start) as usize] = index as u32;
         }
         for (later, earlier) in pairs {
-            // All that could drop the earlier one was looked at before.
+            // Pairs are sorted, so all that could drop the earlier one has been handled.
             if stays[earlier as usize] != NONE {
                 stays[later as usize] = NONE;
             }

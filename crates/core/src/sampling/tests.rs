@@ -1,10 +1,12 @@
+//! Tests of sampling: the order never changes by a bit, and degenerate meshes do no harm.
+
 use glam::Vec3;
 
 use super::candidates::Candidates;
 use super::{Particle, ProgressiveState, Surface, progressive, scattered};
 use crate::TriangleMesh;
 
-/// Square grids of triangles; each patch maps a place in −1..1 squared to a position and a normal.
+/// Square grids of triangles; each patch maps a point of the square −1..1 to a position and a normal.
 fn patches(cells: u32, patches: &[&dyn Fn(f32, f32) -> (Vec3, Vec3)]) -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
     for patch in patches {
@@ -25,7 +27,7 @@ fn patches(cells: u32, patches: &[&dyn Fn(f32, f32) -> (Vec3, Vec3)]) -> Triangl
     mesh
 }
 
-/// A cube blown up to a ball, so that no sine is in it.
+/// A cube projected onto a ball: sines may differ between machines, this does not.
 fn ball() -> TriangleMesh {
     let on = |position: Vec3| (position.normalize(), position.normalize());
     patches(
@@ -45,7 +47,7 @@ fn sheet() -> TriangleMesh {
     patches(3, &[&|x, y| (Vec3::new(x, y, 0.0), Vec3::Z)])
 }
 
-/// Some with normals across each other, so that it takes the particles' own to tell the sides.
+/// Faces whose corner normals differ so much that only the particles' own normals tell the sides apart.
 fn creased_sheet() -> TriangleMesh {
     patches(5, &[&|x, y| (Vec3::new(x, y, 0.1 * x * y), Vec3::new(2.0 * x, 1.9 * y, 0.3).normalize())])
 }
@@ -78,9 +80,9 @@ fn bits(particles: &[Particle]) -> u64 {
     hash
 }
 
-/// What is painted hangs on every bit of this order.
+/// Every painting depends on every bit of this order.
 #[test]
-fn the_order_is_the_one_that_it_always_was() {
+fn the_order_has_never_changed() {
     let bodies: [(&str, TriangleMesh, [u64; 3]); 5] = [
         ("ball", ball(), [0x25b1_b734_e6d1_d93c, 0x7c0a_9ebd_1cd9_693d, 0xb59b_5cef_e3e9_40d0]),
         ("sheet", sheet(), [0x77e8_bc0e_300e_df7d, 0x5c4a_991c_7a68_a4e8, 0x39dc_8b4c_c3da_c996]),
@@ -108,7 +110,7 @@ fn the_order_is_the_one_that_it_always_was() {
 }
 
 #[test]
-fn an_order_that_grows_in_steps_is_the_same() {
+fn growing_in_steps_gives_the_same_order() {
     for mesh in [ball(), creased_sheet(), squares_on_each_other()] {
         let surface = Surface::new(&mesh, |_| true);
         let (mut state, mut particles) = (ProgressiveState::default(), Vec::new());
@@ -120,7 +122,7 @@ fn an_order_that_grows_in_steps_is_the_same() {
 }
 
 #[test]
-fn no_body_makes_it_stop_or_fail() {
+fn degenerate_bodies_get_all_their_particles() {
     let at =
         |scale: f32, offset: Vec3| patches(1, &[&|x, y| (Vec3::new(x, y, 0.0) * scale + offset, Vec3::Z)]);
     let mut bodies = vec![
@@ -157,8 +159,8 @@ fn scattered_particles_fill_every_face_by_its_area() {
 }
 
 #[test]
-fn particles_side_by_side_are_those_one_by_one() {
-    // Normals that cancel each other have none between them.
+fn particles_computed_in_blocks_equal_those_computed_singly() {
+    // Between corner normals that cancel each other there is no interpolated normal.
     let mut bent =
         patches(2, &[&|x, y| (Vec3::new(x, y, 0.2 * x), if x < 0.0 { Vec3::Y } else { -Vec3::Y })]);
     bent.normals[4] = Vec3::ZERO;

@@ -1,4 +1,4 @@
-//! Which particles may show in a view, found before anything else is computed for them; then one at a time.
+//! Culling: which particles may show in a view, a bit each; and the solve of those that do, one at a time.
 
 use rayon::prelude::*;
 
@@ -6,23 +6,23 @@ use super::{BakedParticles, CHUNK, Rows, project, slices};
 use crate::ScreenMap;
 use crate::wide::{Wide, widest};
 
-/// Particles a word of bits.
+/// Particles per word of bits.
 const WORD: usize = u64::BITS as usize;
 
-/// A screen map, ready for particles.
+/// A screen map in single precision, to cull and solve particles with.
 #[derive(Clone, Copy)]
 pub struct ParticleView {
     rows: Rows,
 }
 
-/// What a particle that may show is within.
+/// Bounds that a particle must keep to show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// From the picture's centre, exclusive.
+    /// Greatest distance from the picture's centre in x and y, exclusive.
     pub half_px: [f32; 2],
     /// Nearest and farthest depth, exclusive.
     pub near_far: [f32; 2],
-    /// Times a particle's px² per unit of surface: what its number is less than.
+    /// A particle's number must be less than this times its projected area in px² per unit of surface.
     pub most_per_area: f32,
 }
 
@@ -42,12 +42,12 @@ pub struct SolvedParticle {
 }
 
 impl ParticleView {
-    /// Of a screen map.
+    /// From a screen map.
     pub fn new(map: &ScreenMap) -> Self {
         Self { rows: Rows::new(map) }
     }
 
-    /// To the bit what [`super::solve`] finds for one particle.
+    /// One particle, to the bit as [`super::solve`] finds it.
     #[inline]
     pub fn solved(&self, particles: &BakedParticles, particle: usize) -> SolvedParticle {
         let of = |arrays: &[Vec<f32>; 3]| [0, 1, 2].map(|axis| arrays[axis][particle]);
@@ -65,8 +65,7 @@ impl ParticleView {
         }
     }
 
-    /// Of all particles that face the eye, a bit each for those within the bounds; 64 particles a word, the first the lowest
-    /// bit.
+    /// One bit per particle, set where it faces the eye and keeps the bounds; 64 particles per word, the first in the lowest bit.
     pub fn within(&self, particles: &BakedParticles, bounds: &Bounds) -> Vec<u64> {
         let mut words = vec![0; particles.len().div_ceil(WORD)];
         words.par_chunks_mut(CHUNK / WORD).enumerate().for_each(|(chunk, words)| {
@@ -95,9 +94,9 @@ impl Wide for Marking<'_> {
             let first = self.first + number * WORD;
             let mut flags = [0; WORD];
             match particles.len() - first {
-                // Of one known length, so that lanes run side by side.
-                WORD.. => mark_word(particles, first, (rows, bounds), &mut flags),
-                rest => mark_word(particles, first, (rows, bounds), &mut flags[..rest]),
+                // Of one known length, so that the compiler vectorises it.
+                WORD.. => mark_word(particles, first, rows, bounds, &mut flags),
+                rest => mark_word(particles, first, rows, bounds, &mut flags[..rest]),
             }
             *word = packed(&flags);
         }
@@ -105,13 +104,13 @@ impl Wide for Marking<'_> {
 }
 
 #[inline(always)]
-fn mark_word(particles: &BakedParticles, first: usize, (rows, bounds): (&Rows, &Bounds), flags: &mut [u8]) {
+fn mark_word(particles: &BakedParticles, first: usize, rows: &Rows, bounds: &Bounds, flags: &mut [u8]) {
     let count = flags.len();
     let [px, py, pz] = slices(&particles.position, first, count);
     let [nx, ny, nz] = slices(&particles.normal, first, count);
     for (i, flag) in flags.iter_mut().enumerate() {
         let seen = project(rows, [px[i], py[i], pz[i]], [nx[i], ny[i], nz[i]]);
-        // Without a branch: every test is cheap.
+        // Without branches: every test is cheap.
         *flag = u8::from(
             (seen.area_px > 0.0)
                 & (seen.area_px * bounds.most_per_area > (first as i32 + i as i32) as f32)
@@ -123,14 +122,14 @@ fn mark_word(particles: &BakedParticles, first: usize, (rows, bounds): (&Rows, &
     }
 }
 
-/// A bit a byte.
+/// Packs bytes of 0 or 1 into bits.
 #[inline(always)]
 fn packed(flags: &[u8; WORD]) -> u64 {
     let mut word = 0;
     for (index, bytes) in flags.chunks_exact(8).enumerate() {
         let mut eight = [0; 8];
         eight.copy_from_slice(bytes);
-        // The bit of each byte, moved side by side into the top byte.
+        // The product gathers the lowest bits of all eight bytes in the top byte.
         let bits = u64::from_le_bytes(eight).wrapping_mul(0x0102_0408_1020_4080) >> 56;
         word |= bits << (index * 8);
     }
@@ -146,7 +145,7 @@ mod tests {
     use crate::screen_map::PixelLens;
     use glam::{DAffine3, DMat4, DVec3};
 
-    /// Everywhere round the eye, some behind it, facing anywhere.
+    /// Particles all round the eye, some behind it, facing every way.
     fn crowd(count: u32, wrapped: bool) -> BakedParticles {
         let vector = |particle: u32, which: u32| {
             DVec3::from_array(
@@ -187,7 +186,7 @@ mod tests {
 
     #[test]
     fn bits_are_set_where_every_bound_holds() {
-        // More than a task, and no whole word.
+        // More than one task, and not a whole number of words.
         let (particles, map) = (crowd(CHUNK as u32 + 1000, false), view());
         let mut solved = SolvedParticles::default();
         solve(&particles, &map, &mut solved);

@@ -1,4 +1,4 @@
-//! Things and their places.
+//! Commands on objects, lights and cameras: importing, moving, turning, scaling, materials, lens.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ use crate::selection::{Item, Selection};
 pub struct Shift {
     /// Where each point of the world goes: a rotation, an even scale above 0 and a translation.
     pub world_from_world: DAffine3,
-    /// The frame that it is seen at: what stands on a moving parent is shifted as the parent stands then.
+    /// The frame at which it is done: children of a moving parent are shifted in the parent's pose at this frame.
     pub frame: f64,
 }
 
@@ -57,7 +57,7 @@ pub enum Arrange {
         /// The mesh's path, relative to the scene's folder.
         mesh: String,
     },
-    /// Moves, turns and scales objects with all their keys; what stands on a shifted object goes with it.
+    /// Moves, turns and scales objects with all their keys; children follow.
     ShiftMotion {
         /// The objects.
         objects: Vec<String>,
@@ -84,13 +84,13 @@ pub enum Arrange {
         /// Its new value; degrees for turns.
         value: f64,
     },
-    /// Turns a mesh that was made with Z up on its feet, or back.
+    /// Turns a mesh that was made with Z up upright, or back.
     TurnUpright(String),
     /// Scales a mesh so that its longest side is as long as this.
     ScaleTo(String, f64),
-    /// Sets or takes away what overrides the materials of the mesh.
+    /// Sets or removes the material override of an object.
     SetMaterial(String, Option<MaterialOverride>),
-    /// How many particles an object has; none leaves it to the coverage.
+    /// Sets the number of particles of an object; `None` computes it from the coverage.
     SetParticles(String, Option<u64>),
     /// Adds a light of a kind at a point of the world, shining on another.
     AddLight {
@@ -105,7 +105,7 @@ pub enum Arrange {
     SetLight {
         /// Its name.
         name: String,
-        /// What it is like; its name stays.
+        /// Its new values; the name stays.
         light: Light,
         /// What changed: *brighter*.
         what: String,
@@ -226,11 +226,11 @@ fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) 
     if mesh.trim().is_empty() {
         return Err(Refusal::new("That file has no name"));
     }
-    // The first thing of a scene whose camera nobody has moved is seen whole.
+    // The first object of a scene is framed, if nobody has moved the camera.
     if scene.objects.is_empty() && scene.camera == new_scene::empty().camera {
         scene.camera = new_scene::for_mesh(Path::new(mesh), file).camera;
     }
-    let name = new_scene::add_mesh(scene, (mesh, file), &before.meshes);
+    let name = new_scene::add_mesh(scene, mesh, file, &before.meshes);
     let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
     Ok(Done::new(format!("Import {file_name}")).selecting(Selection::only(Item::Object(name))))
 }
@@ -281,7 +281,7 @@ fn rides_on_one_of(scene: &Scene, index: usize, objects: &[String]) -> bool {
     false
 }
 
-/// Takes all that is stated in an object's own space along when that space changes.
+/// Transforms everything that is stated in an object's own space when that space changes.
 fn carry_guides(scene: &mut Scene, object: &str, new_from_old: DMat3) {
     let normal_matrix = new_from_old.inverse().transpose();
     let point = |at: &mut [f64; 3]| *at = (new_from_old * DVec3::from(*at)).map(tidy).to_array();

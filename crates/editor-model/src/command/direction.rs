@@ -1,4 +1,4 @@
-//! Directions and guides.
+//! Commands on directions: guides that gestures leave, base directions of regions, references.
 
 use impasto_scene::document::{
     Direction, Falloff, Guide, GuidePoint, GuideView, Reference, Region, Scene, Selector, Sense,
@@ -12,21 +12,21 @@ use crate::path::simplify;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 
-/// Which region a gesture works on.
+/// The region that a gesture works on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RegionTarget {
-    /// One that is there.
+    /// An existing region.
     Named(String),
-    /// None lies there yet: one that covers the whole object is made, in the same entry.
+    /// A new region that covers the whole object of this name, made in the same entry.
     NewOn(String),
 }
 
-/// What a gesture did.
+/// The kind of a gesture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
     /// Strokes follow it.
     Comb,
-    /// What lies under it is joined.
+    /// Directions under it are smoothed.
     Smooth,
     /// Directions were dragged along it.
     Smear,
@@ -34,7 +34,7 @@ pub enum Gesture {
     Curve,
 }
 
-/// What holds for a whole guide; what is none stays.
+/// Settings of a whole guide; `None` keeps the old value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuideSettings {
     /// How far it reaches, units of the object's own space.
@@ -48,7 +48,7 @@ pub struct GuideSettings {
 /// Directions and guides.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Directions {
-    /// Adds what one gesture left on the surface: its pieces and their mirror images.
+    /// Adds the guides of one gesture: its pieces and their mirror images.
     Stroke {
         /// Where.
         region: RegionTarget,
@@ -57,7 +57,7 @@ pub enum Directions {
         /// Its pieces.
         guides: Vec<Guide>,
     },
-    /// Puts other guides in place of a region's own, as an eraser does.
+    /// Replaces the guides of a region, as an eraser does.
     Erase {
         /// The region.
         region: String,
@@ -73,7 +73,7 @@ pub enum Directions {
         /// Where to.
         to: GuidePoint,
     },
-    /// Puts a point into a guide, before the point that stands there.
+    /// Inserts a point into a guide, before the point with this index.
     InsertGuidePoint {
         /// The region and the guide's place in it.
         guide: (String, usize),
@@ -82,7 +82,7 @@ pub enum Directions {
         /// Where.
         at: GuidePoint,
     },
-    /// Takes a point out of a guide; with fewer than two left the guide goes.
+    /// Removes a point from a guide; a guide with fewer than two points left is removed.
     DeleteGuidePoint {
         /// The region and the guide's place in it.
         guide: (String, usize),
@@ -236,7 +236,7 @@ fn target(scene: &mut Scene, region: &RegionTarget) -> Result<String, Refusal> {
         RegionTarget::NewOn(object) => {
             unlocked_object(scene, object)?;
             let name = names::unique(object, scene.regions.iter().map(|region| region.name.as_str()));
-            // First of all: it covers the whole object, and those that cover a part lie on it.
+            // First in the list: it covers the whole object, and regions that cover a part take precedence.
             scene.regions.insert(0, Region::new(name.clone(), Selector::Object(object.clone())));
             Ok(name)
         }
@@ -274,7 +274,7 @@ fn turn(region: &mut Region, by_deg: f64) {
     region.turn_deg = if turned == -180.0 { 180.0 } else { turned };
 }
 
-/// What people call a base direction.
+/// The name of a base direction in the history.
 pub(crate) fn words_of(direction: &Direction) -> String {
     match direction {
         Direction::Auto => "automatic".to_owned(),
@@ -288,7 +288,7 @@ pub(crate) fn words_of(direction: &Direction) -> String {
     }
 }
 
-/// Points on the line between their neighbours go; so do guides that a later one covers with all its strength.
+/// Removes points on the line between their neighbours, and guides that a later one covers at full strength.
 fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     let before = region.guides.len();
     let covers = |later: &Guide, earlier: &Guide| {
@@ -312,7 +312,7 @@ fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     Ok(Done::new(format!("Simplify {before} guides to {after}")))
 }
 
-/// The old reference stays with what was stated against it, so that all directions stay as they are.
+/// The old reference stays for everything that was stated in it, so that no direction changes.
 fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let new = Reference::Frame(frame);
     if scene.reference == new {

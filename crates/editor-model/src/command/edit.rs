@@ -1,4 +1,4 @@
-//! Names, parents, order, deletion.
+//! Commands on things of every kind: names, parents, order, visibility, locks, deletion.
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{ObjectKey, Scene};
@@ -13,17 +13,17 @@ use crate::selection::{Item, Selection};
 /// Names, parents, order, deletion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// Takes things out. An object goes with its regions; what stood on it stands on what it stood on.
+    /// Deletes things. An object is deleted with its regions; its children move to its parent.
     Delete(Vec<Item>),
     /// Makes copies of objects (with their regions), regions and lights, and selects them.
     Duplicate(Vec<Item>),
     /// Gives a thing another name.
     Rename(Item, String),
-    /// Puts an object on another one, or takes it off; where it stands at the reference stays.
+    /// Makes an object the child of another one, or of none; its pose at the reference stays.
     SetParent {
         /// The object.
         object: String,
-        /// What it is put on; none takes it off.
+        /// The new parent, if any.
         parent: Option<String>,
     },
     /// Moves an object, a region or a light to another place of its list; later regions win.
@@ -74,7 +74,7 @@ fn of_items(items: &[Item]) -> String {
 }
 
 fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
-    // Guides from the last to the first, so that their places hold.
+    // Guides from the last to the first, so that the indices of the others stay valid.
     let mut items = items.to_vec();
     items.sort();
     items.dedup();
@@ -165,7 +165,7 @@ fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
         scene.regions.iter().filter(|region| region.on.object() == Some(name)).cloned().collect();
     for mut region in of_it {
         region.name = names::unique(&region.name, scene.regions.iter().map(|region| region.name.as_str()));
-        // One region alone: its object's name is its own.
+        // A scene of this region alone, so that only its own names are changed.
         let mut alone = Scene { objects: Vec::new(), regions: vec![region], ..scene.clone() };
         names::rename_object(&mut alone, name, &new);
         scene.regions.append(&mut alone.regions);
@@ -230,7 +230,7 @@ fn set_parent(scene: &mut Scene, object: &str, parent: Option<&str>) -> Result<D
     }))
 }
 
-/// Changes an object's parent; its keys are told in the new parent's space as that stands at `frame`.
+/// Changes an object's parent; its keys are converted to the new parent's space in its pose at `frame`.
 fn put_on(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> Result<(), Refusal> {
     let poses = motion::poses_at(scene, frame);
     let pose_of = |name: Option<&str>| {
@@ -247,7 +247,7 @@ fn put_on(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> 
     if object.keys.is_empty() {
         object.keys.push(ObjectKey::at(frame));
     }
-    // Keys turn, move and scale evenly, and so does what lies between two parents.
+    // Keys hold rotations, translations and uniform scales only, so the map between two parents is one too.
     let factor = new_from_old.matrix3.determinant().cbrt();
     let turn: DMat3 = new_from_old.matrix3 * (1.0 / factor);
     for key in &mut object.keys {

@@ -1,4 +1,4 @@
-//! Regions and their strokes.
+//! Commands on regions: what they cover, and their stroke settings.
 
 use impasto_scene::document::{
     BrushMix, Color, Dab, Edges, LayerSettings, Patch, Region, Scene, Seam, Selector, StrokeNumber,
@@ -11,7 +11,7 @@ use crate::names;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 
-/// Whose stroke settings.
+/// The owner of stroke settings.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum StrokesOf {
     /// The scene's, which hold where no region says otherwise.
@@ -20,7 +20,7 @@ pub enum StrokesOf {
     Region(String),
 }
 
-/// One stroke setting; none leaves it to the scene and its preset.
+/// One stroke setting; `None` leaves it to the scene and its preset.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StrokeChange {
     /// A number of [`impasto_scene::document::STROKE_NUMBERS`], by its name in a scene file, in the file's units.
@@ -35,7 +35,7 @@ pub enum StrokeChange {
     Preset(Option<String>),
     /// The pigments.
     Palette(Option<Vec<Color>>),
-    /// What differs in one layer of paint.
+    /// The settings of one layer of paint.
     PaintLayer(Box<LayerSettings>),
 }
 
@@ -59,7 +59,7 @@ pub enum Regions {
     SetSeam(String, Seam),
     /// Changes one stroke setting.
     SetStroke(StrokesOf, StrokeChange),
-    /// Puts all stroke settings of one place of another's.
+    /// Replaces all stroke settings by copied ones.
     PasteStrokes(StrokesOf, Box<StrokeSettings>),
 }
 
@@ -117,7 +117,7 @@ pub(crate) fn in_file(color: Color) -> Color {
     Color::from_hex(&color.to_hex()).unwrap_or(color)
 }
 
-/// Dabs go on the end of what a region covers already.
+/// Appends dabs to what a region covers.
 fn paint(on: &mut Selector, dabs: &[Dab]) -> Result<(), Refusal> {
     if let Selector::Dabs(_, list) = on {
         list.extend(dabs.iter().cloned());

@@ -1,4 +1,4 @@
-//! Size, style and backdrop.
+//! Commands on the scene as a whole: size, seed, background and style.
 
 use impasto_scene::document::{Color, Scene, Style};
 
@@ -12,11 +12,11 @@ use crate::refusal::Refusal;
 pub enum SceneEdit {
     /// Width and height in pixels for which stroke sizes are meant.
     SetSize(u32, u32),
-    /// Changes every random choice at once.
+    /// Sets the seed of all random choices.
     SetSeed(u32),
-    /// What is seen where nothing is painted.
+    /// Sets the background: what shows where nothing is painted.
     SetBackground(Color),
-    /// How the scene is drawn, with what changed in words: *Canvas: linen*.
+    /// Sets the style, with a text of what changed: *Canvas: linen*.
     SetStyle(Style, String),
 }
 

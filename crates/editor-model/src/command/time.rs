@@ -1,4 +1,4 @@
-//! Keys and the timeline.
+//! Commands on keys of objects and camera, and on the timeline.
 
 use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
 use impasto_scene::motion::{self, CameraPose};
@@ -6,7 +6,7 @@ use impasto_scene::motion::{self, CameraPose};
 use super::{Done, finite, object_mut, unlocked_object};
 use crate::refusal::Refusal;
 
-/// Whose keys.
+/// The owner of keys.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum KeyOf {
     /// The shot camera's.
@@ -27,18 +27,18 @@ pub enum Pose {
 /// Keys and the timeline.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Time {
-    /// Keys the pose that something has at a frame, as it is.
+    /// Sets a key with the current pose at a frame.
     SetKey(KeyOf, f64),
-    /// Gives something another pose at a frame. The first key at another frame than the reference also keys the old pose at
-    /// the reference, so that there is a way from one to the other.
+    /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the reference, so
+    /// that there is a motion between the two.
     PoseAtFrame(Pose, f64),
-    /// Moves keys by frames; one that lands on another takes its place.
+    /// Moves keys by this many frames; a key that lands on another replaces it.
     MoveKeys(Vec<(KeyOf, f64)>, f64),
-    /// Doubles keys, so many frames on; a double that lands on another key takes its place.
+    /// Copies keys by this many frames; a copy that lands on another key replaces it.
     CopyKeys(Vec<(KeyOf, f64)>, f64),
-    /// Takes keys out. A camera keeps its last one.
+    /// Deletes keys. The camera keeps its last one.
     DeleteKeys(Vec<(KeyOf, f64)>),
-    /// How values leave keys.
+    /// Sets the ease of keys, which holds up to the next key.
     SetEase(Vec<(KeyOf, f64)>, Ease),
     /// First and last frame.
     SetRange(i64, i64),
@@ -138,7 +138,7 @@ fn counted(keys: &[(KeyOf, f64)]) -> String {
     if keys.len() == 1 { "1 key".to_owned() } else { format!("{} keys", keys.len()) }
 }
 
-/// In the order in which they may move one after the other without landing on one that has yet to move.
+/// The keys in an order in which they can move one by one without landing on one that has yet to move.
 fn sorted(keys: &[(KeyOf, f64)], ascending: bool) -> Vec<&(KeyOf, f64)> {
     let mut keys: Vec<_> = keys.iter().collect();
     keys.sort_by(|a, b| if ascending { a.1.total_cmp(&b.1) } else { b.1.total_cmp(&a.1) });

@@ -1,4 +1,4 @@
-//! A document and its files on the disk: saving, reading again, copies of unsaved work.
+//! A document and its files on disk: saving, reading again, and the copy of unsaved work.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub enum SaveError {
     /// It has no file yet.
     #[error("this scene has no file yet: choose a name")]
     Unnamed,
-    /// What the scene names would not be found from there.
+    /// Files that the scene names would not be found from there.
     #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
     FilesElsewhere {
         /// The file that was chosen.
@@ -38,7 +38,7 @@ pub enum SaveError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// Somebody else wrote the file since it was read.
+    /// The file was changed by another program since it was read.
     #[error("{} was changed by another program since it was read", target.display())]
     ChangedOutside {
         /// The file.
@@ -60,7 +60,7 @@ impl Document {
     /// Writes the scene to its file; at any moment the file is the old one or the new one, whole.
     ///
     /// # Errors
-    /// As [`Document::save_as`], where there is no file yet, and where somebody else wrote the file since.
+    /// As [`Document::save_as`]; and where there is no file yet, or another program has changed it.
     pub fn save(&mut self) -> Result<PathBuf, SaveError> {
         let file = self.file.clone().ok_or(SaveError::Unnamed)?;
         self.may_save_over(&file)?;
@@ -71,7 +71,7 @@ impl Document {
         Ok(file)
     }
 
-    /// As [`Document::save`], in the place of what somebody else wrote since.
+    /// As [`Document::save`], but overwrites what another program has written since.
     ///
     /// # Errors
     /// As [`Document::save_as`], and where there is no file yet.
@@ -81,7 +81,7 @@ impl Document {
         Ok(file)
     }
 
-    /// Whether the document's file holds other bytes than were read or written last. One that is gone is nothing that could
+    /// Whether the document's file holds other bytes than were last read or written. A deleted file does not count: nothing could
     /// be lost.
     pub fn is_changed_outside(&self) -> bool {
         let is_other = |file: &PathBuf| Stamp::is_other(self.stamp.as_ref(), file) && file.exists();
@@ -153,15 +153,15 @@ impl Document {
         AssetFolders::default().find(&request).ok()
     }
 
-    /// The files that the scene names, but for those of the house.
+    /// The files that the scene names, without built-in meshes.
     pub fn files_named(&self) -> impl Iterator<Item = &str> {
         let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
         let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
-        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::house_mesh::PREFIX))
+        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }
 
-    /// Reads the scene's own file again, all of it, meshes and pictures too: one entry of the history, so that edits can be
-    /// brought back. Where the file has errors, everything stays as it was.
+    /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought back. If the
+    /// file has errors, nothing changes.
     ///
     /// # Errors
     /// What is wrong with the file.
@@ -171,7 +171,7 @@ impl Document {
         Ok(self.go_on_with(read))
     }
 
-    /// As [`Document::reload`], with as much of a file with errors as can be read.
+    /// As [`Document::reload`], but reads as much as possible of a file with errors.
     ///
     /// # Errors
     /// Where there is nothing to read.
@@ -227,7 +227,7 @@ impl Document {
         files
     }
 
-    /// The unsaved work, to be kept.
+    /// The unsaved work, for the recovery copy.
     pub fn work(&self, at_unix_secs: u64) -> Work {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let copy = Copy {

@@ -1,4 +1,4 @@
-//! Settling what could not be read, and what lies oddly: each repair is one entry of the history.
+//! Problems of a document and their repairs; each repair is one entry of the history.
 
 use std::sync::Arc;
 
@@ -14,18 +14,18 @@ use crate::command::{Command, Directions};
 use crate::refusal::Refusal;
 use crate::source::Source;
 
-/// One thing that is wrong with the document, for a list.
+/// One problem of the document, for a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProblemRow {
     /// What, and where in the text.
     pub problem: Problem,
-    /// What serves until it is mended, as a sentence; empty for what is only odd.
+    /// What is used until it is mended, as a sentence; empty for warnings.
     pub instead: String,
-    /// What can be done about it, the best last.
+    /// The possible repairs, the best last.
     pub repairs: Vec<Repair>,
 }
 
-/// What can be done about a problem.
+/// A repair of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Repair {
     /// Another mesh for an object.
@@ -35,14 +35,14 @@ pub enum Repair {
     },
     /// A change of the text that it was read from.
     Fix {
-        /// Its place among the losses of the source.
+        /// Index of the loss in the source.
         loss: usize,
         /// The verb: *Rename*, *Use leaf.obj*.
         verb: String,
         /// Whether nothing else can have been meant.
         is_certain: bool,
     },
-    /// A guide's points go onto the surface.
+    /// Moves the points of a guide onto the surface.
     Snap {
         /// The region.
         region: String,
@@ -92,7 +92,7 @@ impl Document {
         Some(first.problem.place.map_or(1, |place| place.line))
     }
 
-    /// Of meshes that cannot be used, those that the scene names still.
+    /// The losses that are left; of unusable meshes, only those that the scene still names.
     fn open_losses(&self) -> impl Iterator<Item = (usize, &Loss)> {
         let losses = self.source.iter().flat_map(|source| source.losses.iter().enumerate());
         losses.filter(|(_, loss)| {
@@ -104,7 +104,7 @@ impl Document {
     /// Mends one loss.
     ///
     /// # Errors
-    /// Where there is no certain way, or what it would change was edited since; the document is as it was.
+    /// Where there is no certain way, or the same thing was edited since; the document is unchanged.
     pub fn fix_problem(&mut self, loss: usize) -> Result<Step, Refusal> {
         self.fix(&[loss])
     }
@@ -140,7 +140,7 @@ impl Document {
     /// Reads another text in place of the one that the scene was read from. The file on disk stays as it is.
     ///
     /// # Errors
-    /// Where nothing of it can be read, or what it changes was edited since; the document is as it was.
+    /// Where nothing of it can be read, or the same thing was edited since; the document is unchanged.
     pub fn read_text(&mut self, text: &str) -> Result<Step, Refusal> {
         self.read_instead(text, "Read the source again".to_owned())
     }
@@ -150,7 +150,7 @@ impl Document {
             .map_err(|report| Refusal::of(&report))?;
         let after = Source::of(&read).map(Arc::new);
         let loaded = match &self.source {
-            // Edited since: both changes hold, where they are of different things.
+            // Edited since: both changes are merged where they concern different things.
             Some(source) if source.scene != *self.scene() => {
                 let scene = both(&source.scene, &read.loaded.scene, self.scene())?;
                 // What is held already is not read again, what stands in for something stands on.
@@ -225,7 +225,7 @@ fn guide_in(field_path: &str) -> Option<(usize, usize)> {
     Some((region.parse().ok()?, guide.parse().ok()?))
 }
 
-/// What came of a scene `from` which two hands changed.
+/// Three-way merge of two versions of a scene that both came from `from`.
 fn both(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
     let mut scene = Scene {
         size: either(&from.size, &left.size, &right.size, "size")?,
@@ -260,7 +260,7 @@ fn either<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str) -> Re
     }
 }
 
-/// Lists of things with names: what `right` has, with what `left` changed, added and took away.
+/// Three-way merge of lists of named things: `right` with the changes, additions and removals of `left`.
 fn items<T: Clone + PartialEq>(
     from: &[T],
     left: &[T],

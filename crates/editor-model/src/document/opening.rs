@@ -33,14 +33,14 @@ impl Document {
         Ok(Self { stamp, source, ..document })
     }
 
-    /// Goes on with a copy of unsaved work: edited, and not saved. Its files are named from where the scene was.
+    /// Opens a copy of unsaved work, as an edited document. Files are found from the scene's original folder.
     ///
     /// # Errors
     /// Where nothing of the copy can be read.
     pub fn recovered(copy: &Copy, options: &LoadOptions) -> Result<Self, Report> {
         let salvaged = salvage::salvage_text(&copy.path, &copy.text, options)?;
         let source = Source::of(&salvaged).map(Arc::new);
-        // A scene that was read with losses must not take the place of its file, whose problems are known no more.
+        // A scene that was read with losses must not overwrite its file, whose losses are not known any more.
         let file = copy.file.clone().filter(|_| !copy.lossy);
         let stamp = copy.stamp.filter(|_| file.is_some());
         let document = Self::of(salvaged.loaded, file, options.clone());

@@ -1,4 +1,4 @@
-//! What keys, menus and the command search do.
+//! Carries out actions, whether they come from keys, menus or the command search.
 
 use impasto_scene::motion;
 
@@ -59,7 +59,7 @@ impl Editor {
             ),
             Action::Compare => {
                 self.session.compare = !self.session.compare;
-                // The pictures lie elsewhere: what was under the pointer is not any more.
+                // The layout of the pictures changes: the pointer is over something else.
                 self.cancel(view);
                 self.output = Default::default();
             }
@@ -133,7 +133,7 @@ impl Editor {
         }
     }
 
-    /// Tools, and what a hand is at; whether the action was one of those.
+    /// Actions on tools and on the interaction under way; whether the action was one of these.
     fn act_on_the_hand(&mut self, action: Action, view: &View) -> bool {
         let tool = match action {
             Action::Select => Tool::Select,
@@ -204,7 +204,7 @@ impl Editor {
         true
     }
 
-    /// Takes a tool up; what the hand was at is as if never begun.
+    /// Takes a tool up; cancels the interaction under way.
     pub fn take_up(&mut self, tool: Tool, view: &View) {
         self.cancel(view);
         self.session.set_tool(tool);
@@ -221,7 +221,7 @@ impl Editor {
         }
     }
 
-    /// Changes the mode; what the hand was at is as if never begun.
+    /// Changes the mode; cancels the interaction under way.
     pub fn set_mode(&mut self, mode: Mode, view: &View) {
         self.cancel(view);
         let frame = reference_frame(self.document.scene());
@@ -286,7 +286,7 @@ impl Editor {
         let chosen: Vec<usize> = (0..scene.objects.len())
             .filter(|&object| {
                 let object = &scene.objects[object];
-                let is_scenery = object.mesh.starts_with(impasto_scene::house_mesh::PREFIX);
+                let is_scenery = object.mesh.starts_with(impasto_scene::built_in_mesh::PREFIX);
                 match selected {
                     true => self.document.selection().contains(&Item::Object(object.name.clone())),
                     false => !object.hidden && !is_scenery,
@@ -316,7 +316,7 @@ impl Editor {
         self.run(&Command::Directions(Directions::Recapture(frame)));
     }
 
-    /// By how much an object has turned about the gaze since the reference, degrees: what Compare tells beside its strokes.
+    /// How far an object has turned about the gaze since the reference, degrees: Compare shows it beside its strokes.
     pub fn turned_deg(&self, object: usize) -> Option<f64> {
         let scene = &self.document.shown().scene;
         let (camera, at) = motion::referred_to(scene, &scene.reference);

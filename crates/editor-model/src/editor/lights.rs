@@ -1,4 +1,4 @@
-//! Lights as things of the viewport: where their icons stand, which one is under the pointer, and how one is moved.
+//! Lights in the viewport: where their icons are, which one is under the pointer, and how one is moved.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use impasto_scene::document::{Light, LightKind};
@@ -11,10 +11,10 @@ use crate::selection::Item;
 use crate::session::Mode;
 use crate::transform::{Operation, TransformDelta};
 
-/// A light that comes from nowhere has its icon so far from the middle of the scene, world units.
+/// Distance of the icon of a light without position from the middle of the scene, world units.
 const AWAY: f64 = 2.0;
 
-/// A pointer so near to the middle of an icon is on it, pixels.
+/// Radius of an icon for the pointer, pixels.
 const REACH_PX: f64 = 14.0;
 
 /// Where a light has its icon.
@@ -39,7 +39,7 @@ impl Editor {
             .collect()
     }
 
-    /// The middle of all that stands in the scene.
+    /// The middle of all objects.
     fn middle(&self) -> DVec3 {
         let objects = 0..self.document.shown().scene.objects.len();
         let bounds = self.picker.bounds_in_world(objects, &self.poses());
@@ -68,9 +68,9 @@ impl Editor {
         Some((&lights[found.index], found.position))
     }
 
-    /// What moving or turning a light comes to; `axes` are those that the delta counts in.
+    /// The command that moves or turns a light; `axes` are those of the delta.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
-        // From where it was when the hand took it.
+        // From where it was at the beginning of the drag.
         let light = self.document.scene().lights.iter().find(|light| light.name == name)?;
         let middle = self.middle();
         let tidy = |at: DVec3| at.map(euler::tidy).to_array();

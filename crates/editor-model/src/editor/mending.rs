@@ -1,4 +1,4 @@
-//! Files that changed, and scenes that could not be read whole: what the window asks for about them.
+//! Repairs of scenes that could not be read whole, and reading files again after they changed on disk.
 
 use impasto_scene::problem::Report;
 
@@ -7,7 +7,7 @@ use crate::document::{Document, Step};
 use crate::refusal::Refusal;
 use crate::watch::News;
 
-/// Something to do about what is wrong with the document.
+/// A repair of the document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
     /// Mends the loss at this place of the source.
@@ -22,27 +22,27 @@ pub enum Mend {
     ReadAgain,
 }
 
-/// What came of reading files anew, on a thread of its own or not; [`Editor::take`] makes it the document.
+/// A repaired document, made on any thread; [`Editor::take`] puts it in place.
 pub struct Mended {
     document: Document,
     result: Result<Step, Refusal>,
     /// What the document was when it began.
     version_of: (u64, bool),
-    /// What is said of it where it went well, and nobody asked for it.
+    /// The message after success, where nobody asked for the repair.
     unasked: Option<String>,
 }
 
-/// Whether something is still of use when it is done.
+/// Whether a repaired document was put in place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Took {
-    /// It is the document now; whether anything changed.
+    /// It was; whether anything changed.
     In(bool),
-    /// The document was edited or saved meanwhile: it was dropped.
+    /// It was dropped, because the document was edited or saved meanwhile.
     Late,
 }
 
 impl Editor {
-    /// Does something about what is wrong. Whether anything changed.
+    /// Does a repair; whether anything changed.
     pub fn mend(&mut self, mend: &Mend) -> bool {
         let mended = self.mending(mend.clone())();
         self.take(mended) == Took::In(true)
@@ -64,7 +64,7 @@ impl Editor {
         }
     }
 
-    /// Makes it the document, unless that is another by now.
+    /// Puts a repaired document in place, unless the document has changed meanwhile.
     pub fn take(&mut self, mended: Mended) -> Took {
         if version_of(&self.document) != mended.version_of {
             return Took::Late;
@@ -113,7 +113,7 @@ fn version_of(document: &Document) -> (u64, bool) {
 fn take_in(document: &mut Document, news: News) -> Result<Step, Refusal> {
     let first = |report: Report| Refusal::of(&report);
     match (news, document.source().map(|source| source.text.clone())) {
-        // What is being mended by another hand shows what is left to mend.
+        // A file that is repaired in another program is read as far as possible, to show what is left.
         (News::Scene, Some(_)) => document.read_again().map_err(first),
         (News::Scene, None) => document.reload().map_err(first),
         (News::Files, Some(text)) => document.read_text(&text),
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_is_read_beside_the_work_that_goes_on_and_late_news_are_begun_anew() {
+    fn a_changed_mesh_is_read_in_the_background_and_again_if_the_document_changed_meanwhile() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut editor = editor(folder.path());
         fs::write(folder.path().join("leaf.obj"), QUAD.replace("f 1", "v 2 2 2\nf 2 3 4\nf 1"))

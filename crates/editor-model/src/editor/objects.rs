@@ -94,7 +94,7 @@ impl Editor {
             Tool::Scale => Operation::Scale,
             _ => return None,
         };
-        // A comparison shows the reference, where nothing stands as it does now.
+        // A comparison shows the reference, whose poses differ from the current ones.
         let poses = self.session.mode != Mode::Paint && !self.session.compare;
         let is_shown = poses && !self.is_navigating() && !self.time.playback.is_playing();
         if !is_shown {
@@ -134,7 +134,7 @@ impl Editor {
         self.transform(TransformEvent::Typed(character), view);
     }
 
-    /// The command that a transform comes to: in Arrange the whole motion moves, in Animate the pose at this frame.
+    /// The command of a transform: in Arrange it moves the whole motion, in Animate the pose at this frame.
     fn transform_command(&self, delta: TransformDelta) -> Option<Command> {
         let Busy::Transforming(drag) = &self.busy else { return None };
         if let Some(light) = &drag.light {

@@ -1,4 +1,4 @@
-//! What tools ask of the painting.
+//! Answers what the tools ask about the painting: regions and stroke directions under the pointer.
 
 use impasto_core::sampling::Particle;
 use impasto_painting::{Painting, SurfacePlace};

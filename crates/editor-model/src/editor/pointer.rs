@@ -1,4 +1,4 @@
-//! The pointer over the viewport.
+//! Pointer events over the viewport: navigation, selection, dragging, and the tools of Paint.
 
 use glam::DVec2;
 use impasto_scene::document::LightKind;
@@ -21,7 +21,7 @@ const DRAG_PX: f64 = 4.0;
 /// One wheel step brings the eye this much nearer, in drags of pixels.
 const ZOOM_PX_PER_STEP: f64 = 60.0;
 
-/// What the pointer does.
+/// The kind of a pointer event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointerKind {
     /// It moves, with whatever is held.
@@ -72,8 +72,8 @@ impl Editor {
         }
     }
 
-    /// Time passed and nothing moved: what waits for a rest of the hand shows, what only a moving hand has goes. `at_secs` is
-    /// on the clock of the pointer's events.
+    /// To be called as time passes without pointer events: shows what waits for a resting pointer, and hides what belongs to a
+    /// moving one. `at_secs` is on the clock of the pointer's events.
     pub fn rested(&mut self, at_secs: f64, view: &View) {
         let waits = matches!(self.busy, Busy::Idle)
             && self.session.mode == Mode::Paint
@@ -250,7 +250,7 @@ impl Editor {
         self.session.mode == Mode::Animate && self.session.lock_to_view && self.looking == Looking::Shot
     }
 
-    /// The point that the view turns about: what lies under the pointer, else what is selected, else the target's depth.
+    /// The point that the view turns about: the one under the pointer, else the selection, else one at the target's depth.
     fn about(&self, at_px: DVec2, view: &View) -> glam::DVec3 {
         if let Some(hit) = self.hit(at_px, view) {
             return hit.position_in_world;
@@ -268,7 +268,7 @@ impl Editor {
         self.picker.pick(&view.ray(at_px), &self.poses(), visible)
     }
 
-    /// Hands an event to the tool of Paint and does what comes of it.
+    /// Passes an event to the tool of Paint and carries out its result.
     pub(super) fn tool(&mut self, event: ToolEvent, view: &View) {
         let poses = self.poses();
         let loaded = std::sync::Arc::clone(self.document.loaded());
@@ -303,7 +303,7 @@ impl Editor {
         }
     }
 
-    /// Whatever the hand is at is as if never begun.
+    /// Cancels the interaction under way.
     pub(super) fn cancel(&mut self, view: &View) {
         match std::mem::take(&mut self.busy) {
             Busy::Transforming(_) => self.end_preview(),
@@ -318,14 +318,14 @@ impl Editor {
 
     fn add_light(&mut self, at_px: DVec2, view: &View) {
         let toward = self.about(at_px, view);
-        // Off the surface, towards the eye: a light inside of what it lights is of no use.
+        // Off the surface, towards the eye: a light inside the object would not show.
         let to_eye = (view.camera.eye - toward) * 0.25;
         let kind = LightKind::Point;
         self.run(&Command::Arrange(Arrange::AddLight { kind, at: toward + to_eye, toward }));
         self.session.set_tool(Tool::Select);
     }
 
-    /// With what held the last event came.
+    /// The modifiers of the last event.
     pub fn held(&self) -> Modifiers {
         self.held
     }

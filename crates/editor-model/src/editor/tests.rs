@@ -72,7 +72,7 @@ fn middle_of_the_apple(editor: &Editor) -> DVec2 {
 const HERE: Modifiers = Modifiers { ctrl: false, shift: false, alt: false };
 
 #[test]
-fn one_drag_is_one_entry_and_shows_before_it_is_kept() {
+fn one_drag_is_previewed_and_becomes_one_entry() {
     let mut editor = with_apple();
     act(&mut editor, Action::Paint);
     let at = middle_of_the_apple(&editor);
@@ -122,7 +122,7 @@ fn escape_and_a_lost_focus_leave_no_trace() {
 }
 
 #[test]
-fn what_is_locked_is_not_painted_and_says_so() {
+fn painting_on_a_locked_region_is_refused_with_a_message() {
     let mut editor = with_apple();
     let names: Vec<Item> =
         editor.document().scene().objects.iter().map(|object| Item::Object(object.name.clone())).collect();
@@ -193,7 +193,7 @@ fn a_refused_command_says_why_once() {
 }
 
 #[test]
-fn strokes_are_foreseen_while_the_hand_moves_and_until_it_rests() {
+fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     let mut editor = with_apple();
     act(&mut editor, Action::Paint);
     let at = middle_of_the_apple(&editor);

@@ -1,4 +1,4 @@
-//! Time under the hand: playing, scrubbing, keys, and poses that are not keyed.
+//! Time in the editor: playing, scrubbing, keys, and loose poses (made with Auto key off and not keyed yet).
 
 use super::{Editor, Offer, Said};
 use crate::command::{Command, KeyOf, Pose, Time};
@@ -15,7 +15,7 @@ impl Editor {
         &self.time
     }
 
-    /// The clock stands at `now_secs`, of the same clock as the pointer's events. To be told before anything else is.
+    /// Sets the time to `now_secs`, on the clock of the pointer's events. To be called before anything else.
     pub fn tick(&mut self, now_secs: f64) {
         self.at_secs = now_secs;
         let (frame, mode) = (self.session.frame, self.session.mode);
@@ -26,19 +26,19 @@ impl Editor {
             return;
         }
         if self.time.played != Some(frame) || self.document.scene().objects.is_empty() {
-            // Somebody else moved the playhead.
+            // Something other than playback moved the playhead.
             return self.time.playback.stop();
         }
         let course = self.course();
         self.time.playback.tick(course, now_secs);
     }
 
-    /// Where the clock stood when it was told last.
+    /// The time of the last [`Editor::tick`].
     pub fn now_secs(&self) -> f64 {
         self.at_secs
     }
 
-    /// What would be played now.
+    /// The range, rate and looping of playback now.
     pub fn course(&self) -> Course {
         let timeline = &self.document.scene().timeline;
         Course {
@@ -55,7 +55,7 @@ impl Editor {
         self.time.playback.asked().unwrap_or(self.session.frame)
     }
 
-    /// A picture of this frame is there. Returns whether it is the next of what is played.
+    /// Reports that a picture of this frame is shown. Returns whether it is the next one of the playback.
     pub fn shown_frame(&mut self, frame: f64) -> bool {
         let is_next = self.time.playback.shown(frame, self.at_secs);
         if is_next {
@@ -65,7 +65,7 @@ impl Editor {
         is_next
     }
 
-    /// Does what was done on the timeline.
+    /// Handles an event of the timeline.
     pub fn timeline(&mut self, event: TimelineEvent) {
         match event {
             TimelineEvent::Scrub(frame) => {
@@ -99,7 +99,7 @@ impl Editor {
         }
     }
 
-    /// What an action does to selected keys; false where it is not for them.
+    /// Applies an action to the selected keys; false where it does not concern them.
     pub(super) fn act_on_keys(&mut self, action: Action) -> bool {
         if !self.time.keys.has_focus() {
             return false;
@@ -138,7 +138,7 @@ impl Editor {
         self.time.played = Some(self.session.frame);
     }
 
-    /// Keys what is selected, and what stands in a pose that is not keyed.
+    /// Keys the selected things and all loose poses.
     pub(super) fn set_key(&mut self) {
         let frame = self.session.frame;
         let loose = self.time.loose.take();
@@ -163,7 +163,7 @@ impl Editor {
         }
     }
 
-    /// Shows a pose without keying it, where Auto key is off; none where the command is for the history.
+    /// With Auto key off, shows the command's poses as loose ones; `None` where the command goes to the history.
     pub(super) fn pose_loosely(&mut self, command: &Command) -> Option<bool> {
         let frame = self.session.frame;
         if self.session.auto_key || self.session.mode != Mode::Animate {
@@ -192,7 +192,7 @@ impl Editor {
         }
     }
 
-    /// What keys a pose that is not keyed yet, where a command keys just that thing.
+    /// The command that keys a loose pose, where `command` sets a key of just that thing.
     pub(super) fn take_loose(&mut self, command: &Command) -> Option<Command> {
         let Command::Time(Time::SetKey(of, at_frame)) = command else { return None };
         let loose = self.time.loose.as_mut().filter(|loose| loose.frame == *at_frame)?;
@@ -204,7 +204,7 @@ impl Editor {
         Some(posed)
     }
 
-    /// Poses that are not keyed show again, after something else was shown or done.
+    /// Shows the loose poses again after something else was shown or done.
     pub(super) fn show_loose(&mut self) {
         let Some(loose) = &self.time.loose else { return self.document.end_preview() };
         if self.document.preview(&loose.command()).is_ok() {
@@ -217,7 +217,7 @@ impl Editor {
         }
     }
 
-    /// Leaves poses that are not keyed behind.
+    /// Drops the loose poses.
     pub(super) fn put_back(&mut self) {
         let Some(loose) = self.time.loose.take() else { return };
         self.document.end_preview();
@@ -227,7 +227,7 @@ impl Editor {
         self.time.put_back = Some(loose);
     }
 
-    /// Takes the poses up again that were left behind last, at their frame.
+    /// Restores the loose poses that were dropped last, at their frame.
     pub fn pose_again(&mut self) {
         let Some(loose) = self.time.put_back.take() else { return };
         self.time.playback.stop();
@@ -237,7 +237,7 @@ impl Editor {
         self.version += 1;
     }
 
-    /// What the status line says of time; none where nothing happens.
+    /// The status line for playback and keys; `None` where nothing happens.
     pub(super) fn time_status(&self) -> Option<String> {
         let playback = &self.time.playback;
         if playback.is_playing() {
@@ -272,7 +272,7 @@ impl Editor {
     }
 }
 
-/// The poses that a command makes at a frame, and nothing else; none where it does more.
+/// The poses that a command sets at a frame; `None` where it does anything else.
 fn poses_of(command: &Command, at_frame: f64) -> Option<Vec<(String, Command)>> {
     match command {
         Command::Time(Time::PoseAtFrame(pose, frame)) if *frame == at_frame => {

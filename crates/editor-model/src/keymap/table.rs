@@ -12,7 +12,7 @@ const MODAL: &[Where] = &[Where::In(Scope::Transform), Where::In(Scope::Drawing)
 const UNDERWAY: &[Where] =
     &[Where::In(Scope::Transform), Where::In(Scope::Drawing), Where::In(Scope::Typing), Where::Everywhere];
 
-/// The digits that stand in for the number pad's.
+/// The digits that replace the number pad's.
 pub(super) const DIGITS_AS_NUMPAD: &[(Action, u8)] = &[
     (Action::ViewFront, 1),
     (Action::ViewRight, 3),

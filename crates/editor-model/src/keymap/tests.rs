@@ -102,7 +102,7 @@ fn no_key_does_two_things_in_one_scope() {
 }
 
 #[test]
-fn every_row_of_the_design_holds() {
+fn the_keys_of_both_presets_are_as_documented() {
     use Action as A;
     use Scope as S;
     let all: &[Scope] = &[S::Arrange, S::Paint, S::Animate];

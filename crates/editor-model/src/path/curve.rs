@@ -1,5 +1,5 @@
-//! The hand's way between two reports of the pointer: a centripetal Catmull-Rom curve (Barry and Goldman 1988; Yuksel,
-//! Schaefer and Keyser 2011), walked in equal steps.
+//! Interpolates the pointer between two reports by a centripetal Catmull-Rom curve (Barry and Goldman 1988; Yuksel, Schaefer and
+//! Keyser 2011), walked in equal steps.
 
 use glam::DVec2;
 
@@ -14,7 +14,7 @@ pub(super) struct PointerCurve {
     walked_px: f64,
 }
 
-/// Reports closer than this are one.
+/// Reports closer than this count as one.
 const SAME_PX: f64 = 1e-3;
 
 impl PointerCurve {

@@ -1,4 +1,4 @@
-//! The mirror images of a gesture in an object's own axes.
+//! Mirrors gestures in an object's own axes.
 
 use glam::DVec3;
 use impasto_scene::document::{Guide, GuidePoint};

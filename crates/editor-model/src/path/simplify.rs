@@ -5,7 +5,7 @@ use impasto_scene::document::GuidePoint;
 
 use super::PathPoint;
 
-/// So many steps from its ends, a path keeps a point: a short last piece says where it was headed.
+/// A path keeps the points this many steps from its ends: they fix the direction in which it begins and ends.
 const END_STEPS: usize = 3;
 
 /// Those points of a path that keep it within `tolerance` (model units); both ends stay.
@@ -25,7 +25,7 @@ pub(crate) fn guide_within(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePo
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
 }
 
-/// Which places are needed between those of `ends`, which stay.
+/// Which points are needed between those of `ends`, which stay.
 fn needed(places: &[DVec3], ends: &[usize], tolerance: f64) -> Vec<bool> {
     let mut keep = vec![false; places.len()];
     for &end in ends {

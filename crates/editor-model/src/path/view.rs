@@ -1,4 +1,4 @@
-//! A camera as an object sees it: what a guide remembers of the view that it was drawn in.
+//! The view in which a guide was drawn, in the object's own space.
 
 use glam::{DAffine3, DVec3};
 use impasto_scene::document::{GuideView, Lens};
@@ -25,9 +25,9 @@ pub enum Rays {
     Parallel,
 }
 
-/// Two views are one within this sine, or this share of the distance.
+/// Two views count as equal within this sine, or this share of the distance.
 const SAME: f64 = 1e-7;
-/// An eye so many times as far away sees by rays that are as good as parallel.
+/// From this many times the distance, the rays of an eye are practically parallel.
 const FAR: f64 = 1e5;
 
 impl ObjectView {
@@ -48,7 +48,7 @@ impl ObjectView {
             return None;
         }
         let distance = self.eye.distance(self.target);
-        // Guides are read by rays of the scene's own kind: the other kind is said in its terms.
+        // Guides are read with rays of the scene's own kind; a view of the other kind is converted.
         let [eye, target] = match (self.rays, reference.rays) {
             (Rays::Parallel, Rays::Central) => {
                 let centre = middle.reject_from(self.gaze()) + self.target.project_onto(self.gaze());

@@ -1,4 +1,4 @@
-//! One object's surface as rays find it: a tree of boxes over its triangles, in the object's own space.
+//! The surface of one object for picking: a bounding volume hierarchy over its triangles, in the object's own space.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -35,7 +35,7 @@ pub struct SurfacePoint {
 /// A surface with its tree.
 pub(super) struct SurfaceTree {
     surface: Arc<BodySurface>,
-    /// How it stands.
+    /// Its morph and noise.
     shape: BodyShape,
     positions: Vec<Vec3>,
     /// Found when a back is first met: it takes as long as the tree.
@@ -44,7 +44,7 @@ pub(super) struct SurfaceTree {
     bounds: Option<[DVec3; 2]>,
 }
 
-/// The box round a triangle, as wide as rounding asks for.
+/// The box round a triangle, enlarged against rounding.
 struct TriangleBox(Aabb);
 
 impl Boundable for TriangleBox {
@@ -82,7 +82,7 @@ impl SurfaceTree {
         Self { surface, shape, positions, tree, bounds }
     }
 
-    /// Whether it was built for this very surface, standing like this.
+    /// Whether it was built for this surface in this shape.
     pub(super) fn is_of(&self, surface: &Arc<BodySurface>, shape: &BodyShape) -> bool {
         let rests = |shape: &BodyShape| surface.is_at_rest(shape);
         Arc::ptr_eq(&self.surface, surface) && (self.shape == *shape || (rests(&self.shape) && rests(shape)))
@@ -196,7 +196,7 @@ impl SurfaceTree {
     ) -> (SurfacePoint, bool) {
         let corners = self.corners(triangle);
         let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
-        // A front that is looked at is painted, but for the inside of what is inside out: an eye is hardly ever there.
+        // A front that faces the eye is the painted side, except inside shells that are inside out, where an eye is hardly ever.
         let sign = if looked_at(winding) {
             1.0
         } else {
@@ -228,13 +228,13 @@ fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, 
     let v = to_origin.dot(across) / determinant;
     let w = direction.dot(to_origin.cross(ab)) / determinant;
     let distance = ac.dot(to_origin.cross(ab)) / determinant;
-    // A rounding's breadth over each edge, so that no ray slips between two triangles.
+    // A tolerance of a rounding error at each edge, so that no ray slips between two triangles.
     let slack = -1e-12;
     let inside = v >= slack && w >= slack && v + w <= 1.0 - slack;
     (inside && distance >= 0.0 && distance.is_finite()).then_some((distance, [1.0 - v - w, v, w]))
 }
 
-/// Weights of the point of a triangle that is nearest to `to`; of one without area, of its first corner.
+/// Weights of the point of a triangle that is nearest to `to`; for a triangle without area, those of its first corner.
 fn closest_weights([a, b, c]: [DVec3; 3], to: DVec3) -> [f64; 3] {
     let near = nearest_point(to, [a, b, c]);
     let normal = (b - a).cross(c - a);

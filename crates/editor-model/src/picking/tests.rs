@@ -70,7 +70,7 @@ fn ball(columns: u32, rows: u32) -> TriangleMesh {
     TriangleMesh { normals, ..mesh(positions, triangles) }
 }
 
-/// Triangles of many sizes, anyhow.
+/// Random triangles of many sizes.
 fn heap(count: u32) -> TriangleMesh {
     let mut number = numbers();
     let mut positions = Vec::new();
@@ -108,7 +108,7 @@ fn nearest_by_force(
 }
 
 #[test]
-fn rays_meet_what_a_search_of_all_triangles_meets() {
+fn picking_equals_a_search_of_all_triangles() {
     let bodies = [(surface(heap(400)), 0.0), (surface(ball(40, 20)), 0.0), (surface(heap(3)), 0.0)];
     let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, -1.0, 2.0);
     let poses = [
@@ -151,7 +151,7 @@ fn rays_meet_what_a_search_of_all_triangles_meets() {
 }
 
 #[test]
-fn what_is_hidden_is_looked_through() {
+fn hidden_objects_are_not_picked() {
     let bodies = [(surface(ball(16, 8)), 0.0), (surface(ball(16, 8)), 0.0)];
     let poses = [DAffine3::from_translation(DVec3::Z * 4.0), DAffine3::IDENTITY];
     let mut picker = Picker::default();
@@ -224,7 +224,7 @@ fn the_nearest_point_of_a_surface() {
 }
 
 #[test]
-fn a_pixel_its_ray_and_back() {
+fn the_ray_of_a_pixel_projects_back_to_it() {
     let lenses = [
         Lens::Perspective { fov_y_deg: 50.0, near: 0.1, far: 50.0 },
         Lens::Orthographic { height: 3.0, near: 0.1, far: 50.0 },
@@ -260,7 +260,7 @@ fn a_pixel_its_ray_and_back() {
 }
 
 #[test]
-fn what_another_picker_has_built_is_not_built_again() {
+fn trees_of_another_picker_are_reused() {
     let bodies = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
     let mut there = Picker::default();
     assert_eq!(there.update(&bodies), 1);

@@ -1,4 +1,4 @@
-//! A camera before a viewport: from a pixel to a ray, and from the world to a pixel.
+//! A camera with its viewport: from a pixel to a ray, and from the world to a pixel.
 
 use glam::{DAffine3, DMat4, DVec2, DVec3};
 use impasto_core::ScreenMap;
@@ -56,7 +56,7 @@ impl View {
         let near = match self.camera.lens {
             Lens::Perspective { near, .. } | Lens::Orthographic { near, .. } => near,
         };
-        // A ray begins on the near plane: what it begins at still shows.
+        // A ray begins on the near plane: its first point must still project.
         let least = near - near.abs() * 1e-9;
         (map.depth(position_in_world) >= least).then(|| self.viewport_px(map.project(position_in_world)))
     }

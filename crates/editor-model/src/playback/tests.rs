@@ -53,7 +53,7 @@ impl Drawer {
 }
 
 #[test]
-fn what_is_slow_to_draw_is_shown_on_time_and_what_it_skips_is_counted() {
+fn slow_pictures_are_shown_on_time_and_skipped_frames_are_counted() {
     for takes_secs in [0.02, 0.07, 0.11, 0.25] {
         let course = course(0, 119, 24.0);
         let mut playback = Playback::default();
@@ -128,7 +128,7 @@ fn a_clock_that_jumps_goes_on_where_the_film_was() {
 }
 
 #[test]
-fn one_frame_is_a_film_too() {
+fn a_range_of_one_frame_plays() {
     for pacing in [Pacing::RealTime, Pacing::EveryFrame] {
         let still = Course { pacing, ..course(7, 7, 24.0) };
         let mut playback = Playback::default();
@@ -162,7 +162,7 @@ fn without_a_loop_the_last_frame_is_shown_and_ends_it() {
 }
 
 #[test]
-fn every_frame_is_shown_in_its_turn_and_the_real_rate_is_told() {
+fn every_frame_is_shown_in_turn_and_the_real_rate_is_reported() {
     let all = Course { pacing: Pacing::EveryFrame, ..course(0, 11, 24.0) };
     for (takes_secs, rate) in [(0.1, 1.0 / 0.102), (0.001, 24.0)] {
         let mut playback = Playback::default();

@@ -1,20 +1,20 @@
-//! When the next copy is due.
+//! Decides when the next copy of unsaved work is due.
 
 /// Edits after which a copy is due, however little time they took.
 pub const EDITS: u64 = 20;
 
-/// Tells when unsaved work is to be copied: some time after its first edit that no copy has, or after [`EDITS`] of them.
+/// Decides when unsaved work is copied: some time after the first edit since the last copy, or after [`EDITS`] edits.
 #[derive(Clone, Debug, Default)]
 pub struct Cadence {
     /// The revision that the last copy has.
     kept: Option<u64>,
-    /// When there was first something that it has not.
+    /// When the first edit after that copy was noticed.
     since_secs: Option<f64>,
 }
 
 impl Cadence {
-    /// Whether a copy is due now; if so, it is taken as made. `edited` is the document's revision where it has anything that
-    /// its file has not; time runs on the caller's clock.
+    /// Whether a copy is due now; if so, it counts as made. `edited` is the revision of a document with unsaved edits, else `None`;
+    /// time is on the caller's clock.
     pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, every_secs: f64) -> bool {
         let Some(revision) = edited else {
             *self = Self::default();

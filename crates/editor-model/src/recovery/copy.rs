@@ -1,4 +1,4 @@
-//! One copy as a file: a scene that anyone can open, under a few lines that say what it is a copy of.
+//! The file of a copy of unsaved work: a scene file, headed by comment lines that say what it is a copy of.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::stamp::{Stamp, hash};
 const FIRST: &str = "// Impasto: a copy of unsaved work, 1";
 const LAST: &str = "// end of what it is a copy of";
 
-/// Unsaved work, as it is handed over to be kept.
+/// Unsaved work to be copied.
 #[derive(Clone, Debug)]
 pub struct Work {
     /// What the copy is of.
@@ -23,7 +23,7 @@ pub struct Work {
     pub scene: Arc<LoadedScene>,
 }
 
-/// What a copy is of.
+/// A copy of unsaved work, with its origin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Copy {
     /// The scene's own file; none where it has none yet.
@@ -34,9 +34,9 @@ pub struct Copy {
     pub stamp: Option<Stamp>,
     /// When the copy was made, seconds since 1970.
     pub at_unix_secs: u64,
-    /// Entries of the history that the file has not.
+    /// How many unsaved entries of the history there are.
     pub changes: usize,
-    /// Whether the scene was read with losses, so that it must not take the place of its file.
+    /// Whether the scene was read with losses, so that it must not overwrite its file.
     pub lossy: bool,
     /// The scene as text; empty before it is written.
     pub text: String,

@@ -1,11 +1,11 @@
-//! The thread that writes copies, so that no disk ever holds up the window.
+//! The thread that writes copies of unsaved work, so that the window never waits for the disk.
 
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::JoinHandle;
 
 use super::{Offer, Recovery, Work};
 
-/// Writes copies on a thread of its own, in the order in which they are asked for.
+/// Writes copies on a thread of its own, in order.
 #[derive(Debug)]
 pub struct Keeper {
     orders: Option<Sender<Order>>,
@@ -13,12 +13,12 @@ pub struct Keeper {
     thread: Option<JoinHandle<()>>,
 }
 
-/// What came of a copy.
+/// The result of writing a copy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// It is written; when it was made, seconds since 1970.
+    /// It was written; the time when it was made, seconds since 1970.
     At(u64),
-    /// It is not, with the words that say why.
+    /// It failed, for this reason.
     Not(String),
 }
 
@@ -57,7 +57,7 @@ impl Keeper {
         self.order(Order::TakeOver(Box::new(offer)));
     }
 
-    /// What came of the copies since it was asked last.
+    /// The results since the last call.
     pub fn done(&self) -> Vec<Kept> {
         self.done.try_iter().collect()
     }
@@ -71,7 +71,7 @@ impl Keeper {
 }
 
 impl Drop for Keeper {
-    /// Waits until everything that was ordered is done. A copy that nobody said to forget stays.
+    /// Waits until all orders are done. A copy that was not forgotten stays.
     fn drop(&mut self) {
         self.orders = None;
         if let Some(thread) = self.thread.take() {
@@ -83,7 +83,7 @@ impl Drop for Keeper {
 fn work(recovery: &Recovery, to_do: &Receiver<Order>, told: &Sender<Kept>) {
     let not = |error: std::io::Error| Kept::Not(format!("Unsaved work could not be copied: {error}"));
     while let Ok(mut order) = to_do.recv() {
-        // Of several copies that wait, only the last is of use.
+        // Of several waiting copies, only the last is written.
         let mut next = None;
         while matches!(order, Order::Keep(_)) && next.is_none() {
             match to_do.try_recv() {

@@ -9,7 +9,7 @@ use super::*;
 use crate::Document;
 use crate::command::{Command, SceneEdit};
 
-/// A scene of the house, in a folder that lasts as long as the tests.
+/// A shipped scene, in a folder that lasts as long as the tests.
 fn scene() -> &'static Path {
     static SCENE: OnceLock<(tempfile::TempDir, PathBuf)> = OnceLock::new();
     let (_, path) = SCENE.get_or_init(|| {
@@ -37,7 +37,7 @@ fn files(folder: &Path) -> Vec<String> {
     names
 }
 
-/// What a session leaves that ends without a word: its lock is free, its files stay.
+/// Leaves the files of a crashed session: its lock is free, its files stay.
 fn crashed(folder: &Path, name: &str, at: u64) {
     let document = edited(at as u32);
     let recovery = Recovery::open(folder, name).expect("opens");

@@ -1,13 +1,13 @@
-//! The same frames by the command line.
+//! The command line that renders the same frames.
 
 use super::{Existing, RenderDriver, RenderPlan};
 use crate::document::Document;
 
 impl RenderPlan {
-    /// What `impasto` is to be told to write the same files.
+    /// The arguments with which `impasto` writes the same files.
     ///
     /// # Errors
-    /// Where no command can: it reads the scene's file.
+    /// Where there are none, because the document differs from its file, which the command would read.
     pub fn command(&self, document: &Document) -> Result<Vec<String>, String> {
         let Some(file) = document.file() else {
             return Err("Save the scene first: a command reads its file".to_owned());

@@ -1,4 +1,4 @@
-//! How far rendering is, in numbers and words. Times are handed in.
+//! Progress of rendering, in numbers and words. Times are handed in.
 
 use std::path::PathBuf;
 
@@ -64,7 +64,7 @@ impl RenderProgress {
         format!("{} of {}", self.done(), self.total)
     }
 
-    /// Time that is left, as far as the frames so far tell; none before the first and after the last.
+    /// Estimated time left, from the frames so far; `None` before the first and after the last.
     pub fn left_s(&self) -> Option<f64> {
         let left = self.total.saturating_sub(self.done());
         let is_known = self.written > 0 && left > 0 && self.outcome.is_none();
@@ -95,7 +95,7 @@ impl RenderProgress {
         }
     }
 
-    /// What it is at, or how it ended, in one line.
+    /// The state, or how it ended, in one line.
     pub fn state_words(&self) -> String {
         let frames = |count: u64| super::counted_frames(count);
         match (&self.outcome, self.stage) {

@@ -27,7 +27,7 @@ fn a_sheet_begins_with_the_whole_shot_beside_the_scene() {
 }
 
 #[test]
-fn what_is_wrong_is_told_at_its_field() {
+fn faults_are_reported_at_their_fields() {
     let document = document();
     let settings = RenderSettings::of(document.scene());
     let list =

@@ -1,5 +1,5 @@
-//! Keys under the hand: `Idle —press a key→ Held —3 px→ Dragging —release→ one command`; what a drag would replace is told
-//! before, and happens on release only. A press beside keys draws a box round some.
+//! Selecting and dragging keys: `Idle —press a key→ Held —3 px→ Dragging —release→ one command`. Keys that a drag would replace are
+//! shown before and replaced on release only. A drag that begins beside keys draws a selection box.
 
 use impasto_scene::limits::MAX_FRAME;
 
@@ -9,10 +9,10 @@ use crate::command::{Command, KeyOf, Time};
 #[cfg(test)]
 mod tests;
 
-/// A drag begins after so many points.
+/// A drag begins after this many points.
 pub const DRAG_PX: f64 = 3.0;
 
-/// A place on the lanes.
+/// A position on the lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LanePosition {
     /// Points from the left.
@@ -25,7 +25,7 @@ pub struct LanePosition {
     pub lane: usize,
 }
 
-/// What happens to keys.
+/// An event that concerns keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeysEvent {
     /// The button goes down, on a key or beside all.
@@ -49,7 +49,7 @@ pub enum KeysEvent {
     SelectNone,
     /// Copies of the selected keys follow the pointer until a press; of keys that are dragged already, copies go on.
     Copy,
-    /// As if never begun.
+    /// Cancels the drag or the box.
     Cancel,
     /// Another part of the window has the keyboard.
     Blur,
@@ -58,9 +58,9 @@ pub enum KeysEvent {
 /// A drag of keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dragged {
-    /// By so many frames.
+    /// By how many frames.
     pub by: f64,
-    /// Copies go, the keys stay.
+    /// Whether copies move and the keys stay.
     pub copies: bool,
 }
 
@@ -74,7 +74,7 @@ enum Busy {
         adds: bool,
     },
     Dragging {
-        /// The frame that snaps to whole ones.
+        /// The frame of the key that was grabbed; it snaps to whole frames.
         grabbed: f64,
         /// Where the pointer was; none before it is known.
         from: Option<LanePosition>,
@@ -88,7 +88,7 @@ enum Busy {
     },
 }
 
-/// Which keys are selected, and what the hand is at.
+/// The selected keys, and the drag under way.
 #[derive(Clone, Debug, Default)]
 pub struct KeysHand {
     selected: Vec<KeyAt>,
@@ -107,7 +107,7 @@ impl KeysHand {
         self.selected.iter().any(|(other, at)| other == of && *at == frame)
     }
 
-    /// Whether keys of the keyboard go to the selected keys.
+    /// Whether the selected keys have the keyboard focus.
     pub fn has_focus(&self) -> bool {
         self.focused && !self.selected.is_empty()
     }
@@ -135,7 +135,7 @@ impl KeysHand {
         }
     }
 
-    /// The keys that letting go now would take the place of.
+    /// The keys that would be replaced if the button were released now.
     pub fn replaces(&self, lanes: &[Lane]) -> Vec<KeyAt> {
         let Some(Dragged { by, copies }) = self.dragged().filter(|dragged| dragged.by != 0.0) else {
             return Vec::new();
@@ -148,7 +148,7 @@ impl KeysHand {
         lands.filter(is_taken).map(|(of, frame)| (of.clone(), frame)).collect()
     }
 
-    /// Takes an event; what comes of it, if something does.
+    /// Handles an event; returns the command that follows from it, if any.
     pub fn take(&mut self, event: KeysEvent, lanes: &[Lane]) -> Option<Command> {
         match event {
             KeysEvent::Press { .. } if matches!(self.busy, Busy::Dragging { .. }) => {
@@ -184,7 +184,7 @@ impl KeysHand {
         None
     }
 
-    /// The selected keys go by so many frames. Returns those that were selected.
+    /// Shifts the selection by this many frames, after its keys were moved. Returns the old selection.
     pub(crate) fn go(&mut self, by: f64) -> Vec<KeyAt> {
         let before = self.selected.clone();
         self.selected.iter_mut().for_each(|(_, frame)| *frame += by);
@@ -195,7 +195,7 @@ impl KeysHand {
         self.selected = keys;
     }
 
-    /// Leaves out what is not there any more.
+    /// Deselects keys that do not exist any more.
     pub(crate) fn retain(&mut self, lanes: &[Lane]) {
         self.selected.retain(|(of, frame)| lanes.iter().any(|lane| lane.of == *of && lane.has(*frame)));
     }

@@ -1,4 +1,4 @@
-//! Lanes: whose keys lie where.
+//! The lanes of the timeline: for the camera and each object, its keys.
 
 use impasto_scene::document::{Ease, Scene};
 
@@ -19,9 +19,9 @@ pub struct LaneKey {
 /// The keys of one thing, in the order of frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lane {
-    /// Whose.
+    /// The owner of the keys.
     pub of: KeyOf,
-    /// They cannot be changed.
+    /// Whether they cannot be changed.
     pub locked: bool,
     /// The keys.
     pub keys: Vec<LaneKey>,
@@ -33,7 +33,7 @@ impl Lane {
         self.keys.iter().any(|key| key.frame == frame)
     }
 
-    /// The key whose ease holds at a place between two keys.
+    /// The key whose ease holds at a frame between two keys.
     pub fn left_of(&self, frame: f64) -> Option<LaneKey> {
         let right = self.keys.partition_point(|key| key.frame <= frame);
         (right > 0 && right < self.keys.len()).then(|| self.keys[right - 1])
@@ -65,7 +65,7 @@ pub fn keyed_frames(scene: &Scene) -> Vec<f64> {
     frames
 }
 
-/// The ease that a click brings after this one.
+/// The next ease when one clicks through them.
 pub fn next_ease(ease: Ease) -> Ease {
     match ease {
         Ease::Smooth => Ease::Linear,

@@ -1,4 +1,4 @@
-//! Frames as people type them.
+//! Reads frames that a person types, as `37` or `1.5 s`.
 
 /// The frame in what was typed: `37`, or a time from frame 0, `1.5 s`.
 pub fn typed_frame(text: &str, fps: f64) -> Option<f64> {

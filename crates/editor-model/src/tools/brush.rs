@@ -1,4 +1,4 @@
-//! Comb, Smooth, Smear, Erase and the region brush: a ring that is dragged over a surface.
+//! The brush tools (Comb, Smooth, Smear, Erase, region brush): a ring that is dragged over a surface.
 
 use glam::DVec2;
 use impasto_scene::document::{Dab, Falloff, Guide, GuideMode, Region, Selector};
@@ -14,7 +14,7 @@ use crate::refusal::Refusal;
 use crate::selection::Item;
 use crate::session::{RegionDoes, Tool};
 
-/// A brush in the hand.
+/// The state of the brush tools.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
@@ -74,7 +74,7 @@ impl Brush {
             ToolEvent::Release => {
                 let stroke = self.stroke.take();
                 let commit = stroke.as_ref().and_then(|stroke| stroke.command(around));
-                // What was acted on is selected, even where the stroke was too short to leave anything.
+                // The region that was painted on is selected, even if the stroke was too short to leave anything.
                 let on = stroke.and_then(|stroke| stroke.on.region.map(|_| stroke.on.name));
                 let select = on.filter(|_| commit.is_none()).map(Item::Region);
                 ToolOutput { commit, select, ..ToolOutput::saying(words(tool, around)) }
@@ -97,7 +97,7 @@ impl Brush {
         let radius_px = around.options.radius_px;
         let hit = around.hit(at_px);
         let mut output = match around.paintable(hit.as_ref()) {
-            // Nothing under the ring is said by the ring.
+            // A hollow ring already shows that nothing is under it.
             Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
             _ => ToolOutput::saying(words(tool, around)),
         };
@@ -114,7 +114,7 @@ impl Brush {
         output.foreseen = self.foreseen(tool, &hit, around);
         output.needle = along.map(|along| Needle { at_px, along, headed: moving });
         if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
-            // A line has no head: its angle is told from −90° to 90°.
+            // A line has no head: its angle is shown from −90° to 90°.
             let angle_deg = shown.angle_rad.to_degrees();
             let angle_deg = (angle_deg - 180.0 * (angle_deg / 180.0).round()).round() + 0.0;
             output.label = Some(format!("{angle_deg}°  trust {:.2}", shown.trust));
@@ -122,7 +122,7 @@ impl Brush {
         output
     }
 
-    /// The comb that a press would begin, where one could.
+    /// The comb that a press would begin here, if it could.
     fn foreseen(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<Foreseen> {
         let options = around.options;
         let wanted = tool == Tool::Comb && options.foresee && self.foresees;
@@ -187,7 +187,7 @@ impl Brush {
     }
 }
 
-/// The words while it waits: the region brush names the region that it paints.
+/// The status line while it waits; the region brush names the region that it paints.
 fn words(tool: Tool, around: &Surroundings) -> String {
     let selected = around.selected_region().and_then(|region| around.scene().regions.get(region));
     let name = selected.map_or("a new region", |region| region.name.as_str());
@@ -290,7 +290,7 @@ impl Does {
 }
 
 impl Stroke {
-    /// What it would do if the hand let go now; nothing where it is too short.
+    /// The command if the button were released now; `None` if the stroke is too short.
     fn command(&self, around: &Surroundings) -> Option<Command> {
         let path = self.path.finished(&mut self.does.picks(&self.on, around));
         let directions = |gesture: Gesture, guides: Vec<Guide>| {

@@ -1,4 +1,4 @@
-//! Guide curve: a curve by its points, and the handles of curves that are there.
+//! The guide curve tool: draws curves point by point, and edits existing ones by their handles.
 //!
 //! `Idle ─press─▶ Drawing ─press─▶ +1 ─Enter, double press, last point─▶ one guide`; `Idle ─press on a handle─▶ Dragging`.
 
@@ -18,13 +18,13 @@ use crate::session::Tool;
 
 mod spline;
 
-/// A pointer so near is on a handle; on a line; on the arrow beyond its end.
+/// Distances within which the pointer is on a handle, on a line, and on the arrow beyond its end.
 const HANDLE_PX: f64 = 12.0;
 const LINE_PX: f64 = 6.0;
 const ARROW_PX: f64 = 8.0;
-/// The arrow's tip lies so far beyond the last point.
+/// Distance of the arrow's tip from the last point.
 const ARROW_OUT_PX: f64 = 16.0;
-/// A second press so soon and so near ends a curve.
+/// A second press within this time and distance ends a curve.
 const DOUBLE_SECS: f64 = 0.4;
 const DOUBLE_PX: f64 = 4.0;
 /// A dragged handle moves beyond this; until then it is a click.
@@ -32,7 +32,7 @@ const CLICK_PX: f64 = 3.0;
 /// The polyline lies within this share of the radius of the curve.
 const TOLERANCE: f64 = 0.05;
 
-/// The curve tool in the hand.
+/// The state of the curve tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curve {
     state: State,
@@ -64,7 +64,7 @@ struct Dragging {
     command: Option<Box<Command>>,
 }
 
-/// What is held of a guide.
+/// The part of a guide that is gripped.
 #[derive(Clone, Debug, PartialEq)]
 struct Grip {
     /// The region's name, and the guide's place in it.
@@ -187,7 +187,7 @@ impl Curve {
         self.shown(around)
     }
 
-    /// A press on what is there.
+    /// Handles a press on an existing guide.
     fn hold(&mut self, mut grip: Grip, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {
         let region = around.scene().regions.iter().find(|region| region.name == grip.guide.0);
         if region.is_some_and(|region| region.locked) {
@@ -322,7 +322,7 @@ impl Dragging {
         }
     }
 
-    /// What it does with the pointer here; nothing off the object.
+    /// The command with the pointer here; `None` off the object.
     fn command_at(&self, at_px: DVec2, around: &Surroundings) -> Option<Command> {
         let Grip { guide, object, on } = &self.grip;
         let region = around.scene().regions.iter().find(|region| region.name == guide.0)?;
@@ -354,7 +354,7 @@ fn place(at_px: DVec2, hit: &Hit) -> PathPoint {
     PathPoint { at_px, position: hit.position_in_model, normal: hit.normal_in_model }
 }
 
-/// What a pointer is on, of the guides of the selected region that face the eye.
+/// The part of a guide under the pointer, among guides of the selected region that face the eye.
 fn grip(at_px: DVec2, around: &Surroundings) -> Option<Grip> {
     let region = around.scene().regions.get(around.selected_region()?)?;
     let mut best: Option<(u8, f64, Grip)> = None;

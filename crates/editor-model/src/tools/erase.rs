@@ -1,12 +1,12 @@
-//! Cutting guides where an eraser went.
+//! Cuts guides along the path of an eraser.
 
 use glam::DVec3;
 use impasto_scene::document::{Guide, GuidePoint};
 
 use crate::path::PathPoint;
 
-/// What is left of a guide after an eraser of a radius (model units) touched these places: the whole guide, pieces of it, or
-/// nothing. Only what faces the same way is erased.
+/// What is left of a guide after an eraser of this radius (model units) touched these points: the whole guide, pieces of it, or
+/// nothing. Only parts that face the same way are erased.
 pub(super) fn cut(guide: &Guide, touched: &[PathPoint], radius: f64) -> Vec<Guide> {
     let mut pieces: Vec<Vec<GuidePoint>> = vec![Vec::new()];
     let mut was_cut = false;
@@ -35,7 +35,7 @@ pub(super) fn cut(guide: &Guide, touched: &[PathPoint], radius: f64) -> Vec<Guid
     whole.map(|points| Guide { points, ..guide.clone() }).collect()
 }
 
-/// A point goes onto the last piece, unless it ends there already.
+/// Appends a point to the last piece, unless it ends with that point already.
 fn push(pieces: &mut [Vec<GuidePoint>], point: GuidePoint) {
     if let Some(piece) = pieces.last_mut()
         && piece.last().is_none_or(|last| last.at != point.at)
@@ -44,7 +44,7 @@ fn push(pieces: &mut [Vec<GuidePoint>], point: GuidePoint) {
     }
 }
 
-/// The shares of a piece of line that are erased, in order and apart.
+/// The erased intervals of a line segment, as shares of it, sorted and disjoint.
 fn gone_from(from: &GuidePoint, to: &GuidePoint, touched: &[PathPoint], radius: f64) -> Vec<[f64; 2]> {
     let (start, way) = (DVec3::from(from.at), DVec3::from(to.at) - DVec3::from(from.at));
     let normal = DVec3::from(from.normal) + DVec3::from(to.normal);

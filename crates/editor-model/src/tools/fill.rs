@@ -1,4 +1,4 @@
-//! Fill direction: one statement for a whole region, by a click; a constant angle by dragging its needle.
+//! The fill tool: states one direction for a whole region by a click, or a constant angle by dragging a needle.
 
 use glam::{DMat2, DVec2, DVec3};
 use impasto_scene::document::{Bend, Direction};
@@ -13,7 +13,7 @@ use crate::session::{FillKind, Tool};
 /// A needle shorter than this is a click.
 const LEAST_NEEDLE_PX: f64 = 6.0;
 
-/// A fill in the hand.
+/// The state of the fill tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fill {
     filling: Option<Filling>,
@@ -127,8 +127,8 @@ impl Filling {
     }
 }
 
-/// How far what shows here is turned in the reference of a region, radians: the polar rotation of the screen map
-/// A = (J_ref B)(J B)⁻¹. `None` where either view sees the surface from its edge.
+/// How far a direction shown here is turned in the reference of a region, radians: the polar rotation of the screen map
+/// A = (J_ref B)(J B)⁻¹. `None` where either view sees the surface edge-on.
 pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surroundings) -> Option<f64> {
     let (camera, pose) = around.reference(hit.object, region);
     let reference = crate::picking::View { camera, size_px: around.view.size_px };

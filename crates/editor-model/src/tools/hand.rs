@@ -1,4 +1,4 @@
-//! The hand: the tool of Paint that is held, and the sizes that F and Shift F change in it.
+//! The active tool of Paint: passes events to it, and to the resizing by F and Shift F.
 
 use glam::DVec2;
 
@@ -12,13 +12,13 @@ use crate::command::{Command, Directions};
 use crate::keymap::Action;
 use crate::session::{RegionBy, Tool};
 
-/// What the hand is doing in Paint. One lives as long as the window.
+/// The active tool of Paint and its state. One lives as long as the window.
 #[derive(Clone, Debug, Default)]
 pub struct Hand {
     tool: Option<Tool>,
     held: ToolState,
     sizing: Option<Sizing>,
-    /// A button is still down whose press ended a size: its release says nothing.
+    /// The button whose press ended a resizing is still down: its release is ignored.
     let_go: bool,
     at_px: Option<DVec2>,
 }
@@ -47,7 +47,7 @@ impl Hand {
         held || self.sizing.is_some()
     }
 
-    /// Takes an event for a tool of Paint; another tool than before drops what the last one had begun.
+    /// Handles an event for a tool of Paint; a change of the tool cancels what the last one had begun.
     pub fn take(&mut self, tool: Tool, event: &ToolEvent, around: &Surroundings) -> ToolOutput {
         if self.tool != Some(tool) {
             let at_px = self.at_px;

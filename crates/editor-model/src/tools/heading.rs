@@ -1,14 +1,14 @@
-//! Where the hand is going: the movement of its last pixels, and whether it moves at all.
+//! The heading of the pointer: its direction over the last pixels, and whether it moves or rests.
 
 use std::collections::VecDeque;
 
 use glam::DVec2;
 
-/// The needle looks back this far.
+/// The direction is taken over this distance.
 const BACK_PX: f64 = 12.0;
-/// Strokes are foreseen while the hand has moved `BACK_PX` in this time.
+/// The pointer is moving if it has covered `BACK_PX` in this time.
 const RECENT_SECS: f64 = 0.15;
-/// A hand that has been still so long rests.
+/// A pointer that has been still for this long rests.
 pub(crate) const REST_SECS: f64 = 0.4;
 
 /// The last movement of a pointer.
@@ -24,7 +24,7 @@ impl Heading {
             return;
         }
         self.trail.push_front((at_px, at_secs));
-        // As much as either question asks for.
+        // As much as the direction and the speed need.
         let mut length = 0.0;
         let mut keep = 1;
         for (newer, older) in self.trail.iter().zip(self.trail.iter().skip(1)) {

@@ -1,4 +1,4 @@
-//! The region tool by click: a flood, a group or a material of the mesh.
+//! The region tool by clicks: chooses a flood of faces, a group or a material of the mesh.
 
 use impasto_scene::document::{Patch, Region, Seed, Selector};
 
@@ -58,7 +58,7 @@ fn chosen(hit: &Hit, around: &Surroundings) -> Result<Command, Refusal> {
     }
 }
 
-/// What a click chooses, and what a region of it would be called.
+/// The patch that a click chooses, and a name for a region of it.
 fn patch(hit: &Hit, around: &Surroundings) -> Result<(Patch, String), Refusal> {
     let object = around.object(hit.object).ok_or_else(|| Refusal::new(NOTHING_HERE))?;
     let unknown = || Refusal::new(format!("The mesh of {} names none here", object.name));
@@ -86,7 +86,7 @@ fn patch(hit: &Hit, around: &Surroundings) -> Result<(Patch, String), Refusal> {
     }
 }
 
-/// A selector with a patch more; `None` where it does not lie on the object.
+/// A selector with one more patch; `None` if it does not lie on the object.
 fn added(on: &Selector, object: &str, patch: Patch) -> Option<Selector> {
     if on.object() != Some(object) {
         return None;

@@ -34,7 +34,7 @@ pub struct Needle {
     pub headed: bool,
 }
 
-/// A comb that a press would begin here: strokes under it are shown as it would lay them.
+/// A comb that a press would begin here; strokes under it are previewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foreseen {
     /// Index of the object under the ring.
@@ -54,13 +54,13 @@ pub struct Foreseen {
 }
 
 impl Ring {
-    /// Off every surface.
+    /// A ring off every surface.
     pub(super) fn hollow(at_px: DVec2, radius_px: f64) -> Self {
         let points_px = (0..=PIECES).map(|piece| at_px + angle(piece) * radius_px).collect();
         Self { points_px, half_px: Vec::new(), at_px, hollow: true, mirrored: false }
     }
 
-    /// At a hit, `radius_px` wide where the surface faces the eye.
+    /// A ring at a hit, with a radius of `radius_px` where the surface faces the eye.
     pub(super) fn on(hit: &Hit, radius_px: f64, around: &Surroundings) -> Self {
         let radius = radius_px / hit.px_per_model_unit(around.view, around.poses);
         Self::lying(hit.object, hit.position_in_model, hit.normal_in_model, radius, around)
@@ -103,7 +103,7 @@ fn angle(piece: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * piece as f64 / PIECES as f64)
 }
 
-/// Radius in an object's own units of what is `radius_px` at a hit.
+/// The radius in the object's own units that is `radius_px` at a hit.
 pub(super) fn radius_in_model(hit: &Hit, radius_px: f64, around: &Surroundings) -> f64 {
     let scale = world_units_per_model_unit(around.pose(hit.object));
     radius_px / (around.view.px_per_unit(hit.position_in_world) * scale)

@@ -1,4 +1,4 @@
-//! F and Shift F: radius or strength follows the pointer until a press.
+//! Resizing by F and Shift F: radius or strength follows the pointer until a press.
 
 use glam::DVec2;
 
@@ -10,10 +10,10 @@ use crate::session::ToolOptions;
 const RADII_PX: std::ops::RangeInclusive<f64> = 2.0..=500.0;
 /// `[` and `]` change the radius by this.
 const RADIUS_STEP: f64 = 1.1;
-/// The pointer goes so far for the whole of a strength.
+/// Pointer distance for the full range of the strength.
 const STRENGTH_PX: f64 = 200.0;
 
-/// A size under way.
+/// A resizing under way.
 #[derive(Clone, Debug)]
 pub(super) struct Sizing {
     what: What,

@@ -1,14 +1,14 @@
-//! Smearing: the brush takes up the direction that it is pressed on, and carries it along.
+//! Smearing: the brush takes up the direction under it and carries it along.
 
 use glam::DVec2;
 
 use crate::path::PathPoint;
 
-/// How much of what lies under it the brush takes up at each stamp.
+/// The share of the direction under it that the brush takes up at each stamp.
 const TAKEN_UP: f64 = 0.1;
 
 /// The directions that a brush carries along its way, one for each stamp: lines, radians counter-clockwise as they show.
-/// `shown_rad` is what lay at each stamp before; where nothing is known, the brush keeps what it has.
+/// `shown_rad` is the direction at each stamp before; where there is none, the brush keeps its own.
 pub(super) fn carried(shown_rad: impl Iterator<Item = Option<f64>>) -> Vec<Option<f64>> {
     // Lines: at twice the angle a half turn is none.
     let mut brush: Option<DVec2> = None;

@@ -1,4 +1,4 @@
-//! A hand before a ball and a plate.
+//! Test scene for the tools of Paint: a ball and a plate, with events as from a pointer.
 
 use std::fmt::Write;
 use std::sync::{Arc, OnceLock};

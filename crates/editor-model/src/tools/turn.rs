@@ -1,4 +1,4 @@
-//! Turn direction: flips a region by a click, or turns it by a drag. And the one-click Pick.
+//! The turn tool, which flips a region's directions by a click or turns them by a drag; and Pick, which copies a direction.
 
 use glam::DVec2;
 
@@ -13,7 +13,7 @@ const DEG_PER_PX: f64 = 0.5;
 /// With Ctrl, in steps of this.
 const STEP_DEG: f64 = 5.0;
 
-/// A turn in the hand.
+/// The state of the turn tool.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Turn {
     turning: Option<Turning>,

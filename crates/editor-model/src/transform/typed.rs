@@ -1,4 +1,4 @@
-//! A number as it is typed.
+//! A number while it is being typed.
 
 /// The characters so far.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -7,7 +7,7 @@ pub(super) struct Typed {
     negative: bool,
 }
 
-/// More digits than this say nothing more.
+/// The most digits that are taken.
 const MOST: usize = 12;
 
 impl Typed {

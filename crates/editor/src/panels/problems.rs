@@ -10,7 +10,7 @@ use egui::{
 use impasto_editor_model::document::{ProblemRow, Repair, Source};
 use impasto_editor_model::editor::Mend;
 use impasto_editor_model::{Document, Item, Selection};
-use impasto_scene::problem::Place;
+use impasto_scene::problem::TextPosition;
 
 use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
@@ -197,7 +197,7 @@ fn line(
     let font = type_face::icon(measure::ICON);
     ui.painter().text(pos2(rect.left() + 21.0, middle), Align2::CENTER_CENTER, icon.glyph(), font, colour);
     let (place, spoken) = match problem.place {
-        Some(Place { line, column }) => {
+        Some(TextPosition { line, column }) => {
             (format!("{line}:{column}"), format!("line {line} column {column}, "))
         }
         None => (String::new(), String::new()),
@@ -299,7 +299,7 @@ fn sentence(words: &str) -> String {
 fn source(
     ui: &mut Ui,
     shown: &PanelInput<'_>,
-    place: Option<Place>,
+    place: Option<TextPosition>,
     memory: &mut Memory,
     asks: &mut Vec<Ask>,
 ) {
@@ -370,7 +370,7 @@ fn code(colour: Color32) -> TextFormat {
 }
 
 /// The text, with the line of a problem marked and what is wrong in it underlined.
-fn coloured(text: &str, marked: Option<Place>, tokens: &Tokens) -> LayoutJob {
+fn coloured(text: &str, marked: Option<TextPosition>, tokens: &Tokens) -> LayoutJob {
     let mut job = LayoutJob { break_on_newline: true, ..LayoutJob::default() };
     job.wrap.max_width = f32::INFINITY;
     let plain = code(tokens.text);
@@ -403,7 +403,7 @@ fn word_at(line: &str, column: usize) -> [&str; 3] {
 }
 
 /// Of a long text the lines round one, to be read only.
-fn excerpt(ui: &mut Ui, text: &str, place: Option<Place>) {
+fn excerpt(ui: &mut Ui, text: &str, place: Option<TextPosition>) {
     let tokens = Tokens::of(ui);
     let line = place.map_or(1, |place| place.line);
     let first = line.saturating_sub(4);
@@ -412,7 +412,7 @@ fn excerpt(ui: &mut Ui, text: &str, place: Option<Place>) {
         .map(|(index, line)| format!("{:>6} {}\n", index + 1, line.chars().take(200).collect::<String>()))
         .collect();
     // Each line has its number before it.
-    let marked = place.map(|place| Place { line: line - first, column: place.column + 7 });
+    let marked = place.map(|place| TextPosition { line: line - first, column: place.column + 7 });
     ScrollArea::both().id_salt("excerpt").auto_shrink(false).show(ui, |ui| {
         let label = ui.add(egui::Label::new(coloured(&lines, marked, tokens)).selectable(false));
         label.widget_info(|| WidgetInfo::labeled(Role::Label, true, "Source"));

@@ -1,4 +1,4 @@
-//! M11: what is stated, saved, scrubbed and made denser stays what it was.
+//! M11, authoring: saving and reading, frames in another order, and twice the particles change nothing that was stated.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,15 +9,15 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{load, save};
 
 use super::guides;
+use crate::context::MeasureContext;
 use crate::figures::Spread;
-use crate::looks::Look;
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Reading, Row, Verdict};
-use crate::strokes::{degrees_apart, of_layer, seen};
-use crate::studio::Studio;
+use crate::strokes::{degrees_apart, of_layer, strokes_by_key};
+use crate::versions::SceneVersion;
 
-pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M11,
         "frames of the shot: after saving and reading, in another order, and the reference picture with twice the particles \
@@ -25,32 +25,35 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         "strokes bit-equal after saving and in any order; at twice the density angles on average ≤ 3 deg apart; \
          at a guide, as drawn within 0.5 deg",
     );
-    let painting = studio.painting(Look::Own)?;
-    let options = studio.frame_options(Rotation::On);
-    let frames: Vec<f64> = studio.frames().into_iter().take(3).collect();
+    let painting = context.painting(SceneVersion::Unchanged)?;
+    let options = context.frame_options(Rotation::On);
+    let frames: Vec<f64> = context.frames().into_iter().take(3).collect();
     let in_order: Vec<Frame> = frames.iter().map(|&frame| painting.at(frame, &options)).collect();
 
-    let text = save::to_ron(&studio.loaded.scene);
+    let text = save::to_ron(&context.loaded.scene);
     let saved = load::parse(Path::new("saved.ron"), &text).ok();
     let reread = match &saved {
         Some(scene) => {
-            let again =
-                prepare(Arc::new(LoadedScene { scene: scene.clone(), ..LoadedScene::clone(studio.loaded) }))?;
+            let again = prepare(Arc::new(LoadedScene {
+                scene: scene.clone(),
+                ..LoadedScene::clone(context.loaded)
+            }))?;
             let same = |(frame, before): (&f64, &Frame)| again.at(*frame, &options).strokes == before.strokes;
             frames.iter().zip(&in_order).all(same) && save::to_ron(scene) == text
         }
         None => false,
     };
-    let alone = prepare(Arc::clone(studio.loaded))?;
+    let alone = prepare(Arc::clone(context.loaded))?;
     let scrubbed = frames
         .iter()
         .zip(&in_order)
         .rev()
         .all(|(&frame, before)| alone.at(frame, &options).strokes == before.strokes);
 
-    let at_rest = studio.reference_frame();
-    let [once, twice] = [Look::Steady, Look::SteadyTwice].map(|look| studio.painting(look));
-    let [once, twice] = [once?, twice?].map(|painting| seen(&painting.at(at_rest, &options), &[]));
+    let at_rest = context.reference_frame();
+    let [once, twice] = [SceneVersion::NoAngleChance, SceneVersion::NoAngleChanceTwice]
+        .map(|version| context.painting(version));
+    let [once, twice] = [once?, twice?].map(|painting| strokes_by_key(&painting.at(at_rest, &options), &[]));
     let changes: Vec<f64> = of_layer(&once, LayerKind::Body)
         .filter_map(|(key, stroke)| Some(degrees_apart(stroke.angle_rad, twice.get(key)?.angle_rad)))
         .collect();
@@ -63,7 +66,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         Reading::one("bit-equal in any order (1 is yes)", "", yes(scrubbed)),
         Reading::many("change of angles at twice the density", "deg", spread),
     ];
-    let guides = guides::add(studio, &mut row)?;
+    let guides = guides::add(context, &mut row)?;
     row.verdict = Verdict::of(reread && scrubbed && guides && spread.mean <= 3.0, row.counts);
     Ok(row)
 }

@@ -1,4 +1,4 @@
-//! M14: the largest object on a zoom, its strokes on a tilted sheet.
+//! M14, density: measured on the largest object while zooming in, and with its strokes on a tilted sheet.
 
 use std::sync::Arc;
 
@@ -8,56 +8,56 @@ use impasto_scene::document::Selector;
 use impasto_scene::presets;
 
 use crate::cameras::zoomed;
-use crate::density::{Placed, shown_over_wanted, spacing_over_ideal};
-use crate::looks::{Look, orbit_blockers};
+use crate::context::{DrawnFrame, MeasureContext};
+use crate::density::{PlacedStroke, shown_over_wanted, spacing_over_ideal};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
 use crate::sheet;
-use crate::strokes::{of_layer, seen};
-use crate::studio::{Shown, Studio};
+use crate::strokes::{of_layer, strokes_by_key};
+use crate::versions::{SceneVersion, orbit_blockers};
 
 const ZOOMS: [f64; 9] = [1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 13.0, 20.0];
 
 const TILTS_DEG: [f64; 6] = [0.0, 20.0, 40.0, 60.0, 70.0, 80.0];
 
-/// Side of the sheet's picture: enough for strokes by the thousand.
+/// Side of the sheet's picture, large enough for thousands of strokes.
 const SHEET_PX: u32 = 2048;
 
-/// Of the sheet's sides, what is counted: strokes that come from beyond its border are missing there.
+/// The share of the sheet's sides within which strokes are counted: near its border, strokes from beyond it are missing.
 const WINDOW: f64 = 0.85;
 
-/// From this demand per supply on the last ranks are not whole any more.
+/// Strokes wanted per particle from which on the last ranks are not fully present any more.
 const RUN_OUT: f64 = 0.82;
 
-/// An object's strokes in one view.
-struct Seen {
-    /// Shown over wanted.
+/// The strokes of an object in one view.
+struct ObjectDensity {
+    /// Strokes shown over strokes wanted.
     density: f64,
-    /// Strokes wanted over particles, 9 of 10 at most.
+    /// Strokes wanted over particles: 9 of 10 strokes have at most this.
     demand: f64,
     strokes: usize,
     pixels: usize,
 }
 
-pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M14,
         "body layer of the object that fills most of the reference picture (backdrops aside), zoomed in up to 20 times; a flat sheet with its \
          strokes, tilted up to 80 deg",
         "density 0.9 to 1.1 until particles run out; spacing ≥ 0.6 to 60 deg, ≥ 0.5 to 80 deg",
     );
-    let camera = studio.reference_camera();
-    let reference = studio.show_from(Look::Body, &camera)?;
-    let Some(object) = largest(&reference.reference.body_id, &orbit_blockers(studio.loaded)) else {
+    let camera = context.reference_camera();
+    let reference = context.drawn_view(SceneVersion::Body, &camera)?;
+    let Some(object) = largest(&reference.reference.body_id, &orbit_blockers(context.loaded)) else {
         row.verdict = Verdict::TooFew("no object is seen in the reference picture".to_owned());
         return Ok(row);
     };
-    let name = studio.loaded.scene.objects[object].name.clone();
+    let name = context.loaded.scene.objects[object].name.clone();
     row.notes.push(format!("the object is {name}"));
     let (mut holds, mut run_out) = (true, None);
     for zoom in ZOOMS {
-        let seen = of_object(studio, object, zoom)?;
+        let seen = of_object(context, object, zoom)?;
         if seen.strokes < 30 {
             break;
         }
@@ -74,19 +74,19 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         }
     }
     if let Some((zoom, demand)) = run_out {
-        let count = studio.painting(Look::Body)?.particle_counts()[object];
-        studio.warnings.push(format!(
+        let count = context.painting(SceneVersion::Body)?.particle_counts()[object];
+        context.warnings.push(format!(
             "the particles of object {name:?} run out from zoom {zoom} on; {count} are too few there by a factor of {:.1}: \
              raise `particles`",
             demand / RUN_OUT
         ));
     }
-    holds &= on_sheet(studio, object, &mut row)?;
+    holds &= on_sheet(context, object, &mut row)?;
     row.verdict = Verdict::of(holds, row.counts);
     Ok(row)
 }
 
-/// The object with most pixels; a backdrop only where there is nothing else.
+/// The object with the most pixels; a backdrop only where there is nothing else.
 fn largest(body_ids: &[u32], backdrops: &[usize]) -> Option<usize> {
     let bodies = body_ids.iter().copied().max().unwrap_or(0);
     let pixels = |id: u32| body_ids.iter().filter(|&&other| other == id).count();
@@ -94,12 +94,16 @@ fn largest(body_ids: &[u32], backdrops: &[usize]) -> Option<usize> {
     (1..=bodies).max_by_key(|&id| (pixels(id) > 0 && !is_backdrop(id), pixels(id))).map(|id| id as usize - 1)
 }
 
-fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, MeasureError> {
-    let camera = zoomed(&studio.reference_camera(), zoom);
-    let shown = studio.show_from(Look::Sized, &camera)?;
+fn of_object(
+    context: &mut MeasureContext<'_>,
+    object: usize,
+    zoom: f64,
+) -> Result<ObjectDensity, MeasureError> {
+    let camera = zoomed(&context.reference_camera(), zoom);
+    let shown = context.drawn_view(SceneVersion::EqualSizes, &camera)?;
     let id = object as u32 + 1;
     let pixels = shown.reference.body_id.iter().filter(|&&other| other == id).count();
-    let scene = &studio.loaded.scene;
+    let scene = &context.loaded.scene;
     let coverages: Vec<f32> = (0..=scene.regions.len())
         .map(|region| {
             let region = Some(region).filter(|&region| region < scene.regions.len());
@@ -116,7 +120,7 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
         }
         let coverage = coverages[source.region as usize];
         let area_px = f64::from(stroke.length_px * stroke.width_px);
-        placed.push(Placed {
+        placed.push(PlacedStroke {
             center_px: stroke.center_px.map(f64::from),
             alpha: f64::from(stroke.presence()),
             wanted_area_px: area_px / f64::from(coverage.max(f32::MIN_POSITIVE)),
@@ -126,7 +130,7 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
         }
     }
     demands.sort_by(f64::total_cmp);
-    Ok(Seen {
+    Ok(ObjectDensity {
         density: shown_over_wanted(&placed, pixels),
         demand: demands.get(demands.len() * 9 / 10).copied().unwrap_or(0.0),
         strokes: placed.len(),
@@ -134,11 +138,11 @@ fn of_object(studio: &mut Studio<'_>, object: usize, zoom: f64) -> Result<Seen, 
     })
 }
 
-/// Depths of the same surface differ by less than this share within a pixel.
+/// Depths of one surface differ by less than this share within a pixel.
 const DEPTH_SHARE: f32 = 0.004;
 
-/// Whether the pixel under a stroke's centre shows its surface, not another one in front, be it of its own body.
-fn is_seen(shown: &Shown, stroke: &Stroke) -> bool {
+/// Whether the pixel under a stroke's centre shows the stroke's surface, not one in front of it (another body's or its own's).
+fn is_seen(shown: &DrawnFrame, stroke: &Stroke) -> bool {
     let [x, y] = stroke.center_px;
     let [width, height] = shown.frame.size_px.map(|side| side as i64);
     let (column, row) = (x.floor() as i64, height - 1 - y.floor() as i64);
@@ -149,28 +153,28 @@ fn is_seen(shown: &Shown, stroke: &Stroke) -> bool {
         && shown.reference.depth[at] >= stroke.depth * (1.0 - DEPTH_SHARE)
 }
 
-fn on_sheet(studio: &mut Studio<'_>, object: usize, row: &mut Row) -> Result<bool, MeasureError> {
-    let scene = &studio.loaded.scene;
+fn on_sheet(context: &mut MeasureContext<'_>, object: usize, row: &mut Row) -> Result<bool, MeasureError> {
+    let scene = &context.loaded.scene;
     let name = &scene.objects[object].name;
     let region = scene.regions.iter().rposition(|region| match &region.on {
         Selector::Everything => true,
         Selector::Object(other) => other == name,
         _ => false,
     });
-    let Some(version) = sheet::sheet(studio.loaded, region, SHEET_PX) else { return Ok(false) };
+    let Some(version) = sheet::sheet(context.loaded, region, SHEET_PX) else { return Ok(false) };
     let wanted = presets::resolve(&version.scene, None).body().wanted_per_px();
     let painting = prepare(Arc::new(version))?;
     let options = FrameOptions::new([SHEET_PX, SHEET_PX]);
     let mut holds = true;
     for tilt_deg in TILTS_DEG {
-        let strokes = seen(&painting.seen_by(&sheet::camera(tilt_deg), 0.0, &options), &[]);
+        let strokes = strokes_by_key(&painting.seen_by(&sheet::camera(tilt_deg), 0.0, &options), &[]);
         let side = f64::from(SHEET_PX);
         let half = [0.5 * side * WINDOW, 0.5 * side * WINDOW * tilt_deg.to_radians().cos()];
-        let placed: Vec<Placed> = of_layer(&strokes, LayerKind::Body)
+        let placed: Vec<PlacedStroke> = of_layer(&strokes, LayerKind::Body)
             .filter(|(_, stroke)| {
                 [0, 1].into_iter().all(|axis| (stroke.center_px[axis] - 0.5 * side).abs() < half[axis])
             })
-            .map(|(_, stroke)| Placed {
+            .map(|(_, stroke)| PlacedStroke {
                 center_px: stroke.center_px,
                 alpha: stroke.alpha,
                 wanted_area_px: 1.0 / f64::from(wanted),

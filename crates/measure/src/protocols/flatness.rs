@@ -1,35 +1,38 @@
-//! M8 on the shot and on a zoom.
+//! M8, flatness: measured on the shot and on a zoom.
 
 use impasto_painting::Rotation;
 use impasto_scene::presets;
 
 use crate::cameras::zoomed;
+use crate::context::MeasureContext;
 use crate::figures::Spread;
 use crate::flatness::flatness;
-use crate::looks::Look;
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
-use crate::strokes::{SeenStrokes, seen};
-use crate::studio::Studio;
+use crate::strokes::{StrokesByKey, strokes_by_key};
+use crate::versions::SceneVersion;
 
-pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M8,
         "the shot, and the reference pose from 0.5 to 4 times as near; length and width as they are drawn, all layers",
         "variation over the frames ≤ 0.0001",
     );
-    let painting = studio.painting(Look::Board)?;
-    let options = studio.frame_options(Rotation::On);
-    let camera = studio.reference_camera();
-    let at_rest = studio.reference_frame();
-    let mut frames: Vec<SeenStrokes> =
-        studio.frames().into_iter().map(|frame| seen(&painting.at(frame, &options), &[])).collect();
+    let painting = context.painting(SceneVersion::Board)?;
+    let options = context.frame_options(Rotation::On);
+    let camera = context.reference_camera();
+    let at_rest = context.reference_frame();
+    let mut frames: Vec<StrokesByKey> = context
+        .frames()
+        .into_iter()
+        .map(|frame| strokes_by_key(&painting.at(frame, &options), &[]))
+        .collect();
     for factor in [0.5, 2.0, 4.0] {
-        frames.push(seen(&painting.seen_by(&zoomed(&camera, factor), at_rest, &options), &[]));
+        frames.push(strokes_by_key(&painting.seen_by(&zoomed(&camera, factor), at_rest, &options), &[]));
     }
-    // What follows the size of its surface is meant to change.
-    let scene = &studio.loaded.scene;
+    // Strokes with `size_follow` are meant to change with their surface.
+    let scene = &context.loaded.scene;
     let follows: Vec<bool> = (0..=scene.regions.len())
         .map(|region| {
             presets::resolve(scene, Some(region).filter(|&r| r < scene.regions.len())).size_follow > 0.0
@@ -45,9 +48,9 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
         row.notes.push(format!("left out, since they follow the size of their surface: {left_out} strokes"));
     }
     let found = flatness(frames.iter());
-    let mapped = studio.frame_options(Rotation::Mapped);
+    let mapped = context.frame_options(Rotation::Mapped);
     let as_texture = [1.0, 2.0, 4.0]
-        .map(|factor| seen(&painting.seen_by(&zoomed(&camera, factor), at_rest, &mapped), &[]));
+        .map(|factor| strokes_by_key(&painting.seen_by(&zoomed(&camera, factor), at_rest, &mapped), &[]));
     let as_texture = Spread::of(flatness(as_texture.iter()).variation);
     row.counts = Counts { strokes: found.variation.len(), pixels: 0, frames: frames.len() };
     let spread = Spread::of(found.variation);

@@ -1,30 +1,30 @@
-//! Painted against shown directions at a scene's guides: each seen from where it was drawn.
+//! A part of M11: do strokes on a guide show as it was drawn, seen from where it was drawn?
 
 use glam::DVec3;
 use impasto_painting::frame::LayerKind;
 use impasto_scene::document::{Falloff, Guide, GuideMode, Scene};
 use impasto_scene::motion::{self, CameraPose};
 
+use crate::context::MeasureContext;
 use crate::figures::Spread;
-use crate::looks::Look;
 use crate::options::MeasureError;
 use crate::report::{Reading, Row};
-use crate::strokes::{of_layer, seen};
-use crate::studio::Studio;
+use crate::strokes::{of_layer, strokes_by_key};
 use crate::truth::TrueView;
+use crate::versions::SceneVersion;
 
-/// Strokes within this share of a guide's radius lie on it.
+/// Strokes within this share of a guide's radius count as lying on it.
 const ON_IT: f64 = 0.05;
 
-/// They face the eye by this cosine.
+/// Strokes that face the eye by a smaller cosine are left out.
 const FACED: f64 = 0.35;
 
-/// The largest difference that is allowed, degrees.
+/// The largest difference allowed, degrees.
 const MOST_DEG: f64 = 0.5;
 
-/// Adds what is found to the row of M11; false where a stroke on a guide does not show as drawn.
-pub(super) fn add(studio: &mut Studio<'_>, row: &mut Row) -> Result<bool, MeasureError> {
-    let scene = studio.loaded.scene.clone();
+/// Adds the result to the row of M11; false where a stroke on a guide does not show as drawn.
+pub(super) fn add(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<bool, MeasureError> {
+    let scene = context.loaded.scene.clone();
     let (mut errors, mut guides) = (Vec::new(), 0);
     for (region, guide) in scene
         .regions
@@ -34,7 +34,7 @@ pub(super) fn add(studio: &mut Studio<'_>, row: &mut Row) -> Result<bool, Measur
     {
         let combs = guide.mode == GuideMode::Comb && guide.strength >= 1.0;
         if combs && guide.falloff != Falloff::Flat {
-            errors.extend(at_guide(studio, &scene, region, guide)?);
+            errors.extend(at_guide(context, &scene, region, guide)?);
             guides += 1;
         }
     }
@@ -50,7 +50,7 @@ pub(super) fn add(studio: &mut Studio<'_>, row: &mut Row) -> Result<bool, Measur
 
 /// How far the strokes on a guide lie from it as drawn, degrees.
 fn at_guide(
-    studio: &mut Studio<'_>,
+    context: &mut MeasureContext<'_>,
     scene: &Scene,
     region: usize,
     guide: &Guide,
@@ -59,20 +59,20 @@ fn at_guide(
     let Some(object) = scene.objects.iter().position(|object| Some(object.name.as_str()) == name) else {
         return Ok(Vec::new());
     };
-    let frame = studio.reference_frame();
+    let frame = context.reference_frame();
     let pose = motion::poses_at(scene, frame)[object];
     let camera = match &guide.view {
-        None => studio.reference_camera(),
+        None => context.reference_camera(),
         Some(view) => CameraPose {
             eye: pose.transform_point3(DVec3::from(view.eye)),
             target: pose.transform_point3(DVec3::from(view.target)),
-            ..studio.reference_camera()
+            ..context.reference_camera()
         },
     };
-    let painting = studio.painting(Look::Steady)?;
-    let options = studio.frame_options(impasto_painting::Rotation::On);
-    let strokes = seen(&painting.seen_by(&camera, frame, &options), &[]);
-    let view = TrueView::new(&camera, studio.size_px);
+    let painting = context.painting(SceneVersion::NoAngleChance)?;
+    let options = context.frame_options(impasto_painting::Rotation::On);
+    let strokes = strokes_by_key(&painting.seen_by(&camera, frame, &options), &[]);
+    let view = TrueView::new(&camera, context.size_px);
     let others: Vec<&Guide> = scene.regions[region].guides.iter().filter(|other| *other != guide).collect();
     let mut errors = Vec::new();
     for (key, stroke) in of_layer(&strokes, LayerKind::Body) {
@@ -98,8 +98,8 @@ fn at_guide(
     Ok(errors)
 }
 
-/// Distance of a point to a guide's line, the direction of the gesture there (turning evenly from the middle of one piece
-/// to that of the next), and by how many degrees strokes are turned from it.
+/// Distance of a point to a guide's line, the direction of the gesture at the nearest point (it turns evenly from the middle of one
+/// piece to the middle of the next), and by how many degrees strokes are turned from it.
 fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3, f64)> {
     let points: Vec<DVec3> = guide.points.iter().map(|point| DVec3::from(point.at)).collect();
     let pieces: Vec<DVec3> = points.windows(2).map(|pair| (pair[1] - pair[0]).normalize_or_zero()).collect();

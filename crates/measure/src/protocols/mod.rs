@@ -1,4 +1,4 @@
-//! From a scene to a row: which views are taken, and what is said of them.
+//! The protocols: for each metric, which frames and views are measured, and the row of the report.
 
 mod authoring;
 mod coverage;
@@ -15,34 +15,34 @@ mod speed;
 mod turns;
 mod warp;
 
+use crate::context::MeasureContext;
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Row, Series};
-use crate::studio::Studio;
 
-/// What is said of a shot of one frame.
+/// Why a metric over several frames does not apply to a shot of one.
 pub(crate) const ONE_FRAME: &str = "the shot has one frame";
 
-/// Measures one metric.
+/// Measures one metric; may add series over the frames of the shot.
 pub(crate) fn row(
     metric: Metric,
-    studio: &mut Studio<'_>,
+    context: &mut MeasureContext<'_>,
     series: &mut Vec<Series>,
 ) -> Result<Row, MeasureError> {
     match metric {
-        Metric::M1 => roll::pictures(studio),
-        Metric::M2 => roll::angles(studio),
-        Metric::M3 => turns::row(studio, series),
-        Metric::M4 => popping::row(studio, series),
-        Metric::M5 => warp::row(studio),
-        Metric::M6 => reveal::row(studio),
-        Metric::M7 => shower_door::row(studio, series),
-        Metric::M8 => flatness::row(studio),
-        Metric::M9 => coverage::row(studio),
-        Metric::M10 => jitter::row(studio),
-        Metric::M11 => authoring::row(studio),
-        Metric::M12 => speed::row(studio),
-        Metric::M13 => replay::row(studio),
-        Metric::M14 => density::row(studio),
+        Metric::M1 => roll::pictures(context),
+        Metric::M2 => roll::angles(context),
+        Metric::M3 => turns::row(context, series),
+        Metric::M4 => popping::row(context, series),
+        Metric::M5 => warp::row(context),
+        Metric::M6 => reveal::row(context),
+        Metric::M7 => shower_door::row(context, series),
+        Metric::M8 => flatness::row(context),
+        Metric::M9 => coverage::row(context),
+        Metric::M10 => jitter::row(context),
+        Metric::M11 => authoring::row(context),
+        Metric::M12 => speed::row(context),
+        Metric::M13 => replay::row(context),
+        Metric::M14 => density::row(context),
     }
 }

@@ -1,34 +1,35 @@
-//! M4 on the shot, on a turntable, on a zoom.
+//! M4, popping: measured on the shot, on a turntable and on a zoom.
 
 use impasto_painting::Rotation;
 use impasto_scene::document::Scene;
 use impasto_scene::motion::CameraPose;
 
 use crate::cameras::{orbited, zoomed};
+use crate::context::MeasureContext;
 use crate::figures::Spread;
-use crate::looks::{Look, orbit_blockers};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::popping::{Popping, by_presence, of_moving_bodies, popping};
 use crate::report::{LEAST_STROKES, Reading, Row, Series, Verdict};
-use crate::strokes::SeenStrokes;
-use crate::studio::Studio;
+use crate::strokes::StrokesByKey;
+use crate::versions::{SceneVersion, orbit_blockers};
 
-/// Where round the target pairs of views are taken, one degree apart.
+/// Angles round the target at which pairs of views are taken, one degree apart.
 const AROUND_DEG: [f64; 6] = [0.0, 47.0, 101.0, 180.0, 233.0, 312.0];
 
-/// Where on a zoom pairs of views are taken, one percent apart.
+/// Zoom factors at which pairs of views are taken, one percent apart.
 const ZOOMS: [f64; 4] = [1.0, 1.6, 2.7, 5.0];
 
-/// Two neighbouring frames.
+/// Popping between two neighbouring frames.
 struct Pair {
+    /// As drawn.
     drawn: Popping,
-    /// By the number of strokes alone: [`by_presence`].
+    /// By presence alone: [`by_presence`].
     counted: Popping,
 }
 
 impl Pair {
-    fn of(before: &SeenStrokes, after: &SeenStrokes, size_px: [u32; 2]) -> Self {
+    fn of(before: &StrokesByKey, after: &StrokesByKey, size_px: [u32; 2]) -> Self {
         Self {
             drawn: popping(before, after, size_px),
             counted: popping(&by_presence(before), &by_presence(after), size_px),
@@ -36,27 +37,27 @@ impl Pair {
     }
 }
 
-pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M4,
         "neighbouring frames as drawn, all layers: the shot, bodies that move; a turntable of the reference pose, 1 deg a frame; a zoom, 1 % a \
          frame; strokes at the picture's border left out",
         "turntable and zoom 0 %; shot ≤ 0.1 %",
     );
-    let shot = shot(studio, Look::Board)?;
+    let shot = shot(context, SceneVersion::Board)?;
     let around: Vec<[CameraPose; 2]> = {
-        let camera = studio.reference_camera();
+        let camera = context.reference_camera();
         AROUND_DEG.map(|angle| [angle, angle + 1.0].map(|angle| orbited(&camera, angle))).to_vec()
     };
     let zooms: Vec<[CameraPose; 2]> = {
-        let camera = studio.reference_camera();
+        let camera = context.reference_camera();
         ZOOMS.map(|factor| [factor, factor * 1.01].map(|factor| zoomed(&camera, factor))).to_vec()
     };
-    let turntable = views(studio, Look::Orbit, &around)?;
-    let zoom = views(studio, Look::Board, &zooms)?;
+    let turntable = views(context, SceneVersion::Orbit, &around)?;
+    let zoom = views(context, SceneVersion::Board, &zooms)?;
     let papers = [
-        ("the shot", self::shot(studio, Look::Paper)?),
-        ("turntable", views(studio, Look::OrbitPaper, &around[..3])?),
+        ("the shot", self::shot(context, SceneVersion::Paper)?),
+        ("turntable", views(context, SceneVersion::OrbitPaper, &around[..3])?),
     ];
     let percent = |found: &[Pair]| Spread::of(found.iter().map(|pair| 100.0 * pair.drawn.share).collect());
     for (name, found) in [("shot", &shot), ("turntable", &turntable), ("zoom", &zoom)] {
@@ -68,7 +69,7 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
         row.values.push(Reading::one(format!("{name}: by presence alone, worst"), "%", counted));
         let steepest = found.iter().max_by(|a, b| a.drawn.largest_step.total_cmp(&b.drawn.largest_step));
         if let Some(Popping { largest_step, worst: Some(key), .. }) = steepest.map(|pair| pair.drawn) {
-            let object = scene_of(studio, name).objects[key.body_id as usize - 1].name.clone();
+            let object = scene_of(context, name).objects[key.body_id as usize - 1].name.clone();
             let what = format!("{name}: largest step of alpha ({} of {object})", key.kind.name());
             row.values.push(Reading::one(what, "", largest_step));
         }
@@ -82,7 +83,7 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     for (name, found) in papers.iter().filter(|(_, found)| !found.is_empty()) {
         row.baselines.push(Reading::many(format!("the paper's rule on {name}"), "%", percent(found)));
     }
-    left_out(studio, &mut row);
+    left_out(context, &mut row);
     let worst = |found: &[Pair]| found.iter().map(|pair| pair.drawn.share).fold(0.0, f64::max);
     let holds = worst(&turntable) == 0.0 && worst(&zoom) == 0.0 && worst(&shot) <= 1e-3;
     let each = [&shot, &turntable, &zoom];
@@ -93,7 +94,7 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     if !enough {
         row.verdict = Verdict::TooFew("one of the motions shows fewer than 500 strokes".to_owned());
     }
-    let pairs = studio.pairs();
+    let pairs = context.pairs();
     let points = pairs.iter().map(|pair| pair[0]).zip(shot.iter().map(|pair| 100.0 * pair.drawn.share));
     series.push(Series {
         metric: Metric::M4,
@@ -105,39 +106,43 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     Ok(row)
 }
 
-/// The scene that a motion was taken on.
-fn scene_of(studio: &Studio<'_>, motion: &str) -> Scene {
-    let look = if motion == "turntable" { Look::Orbit } else { Look::Board };
-    look.of(studio.loaded, &[]).scene
+/// The version of the scene on which a motion was measured.
+fn scene_of(context: &MeasureContext<'_>, motion: &str) -> Scene {
+    let version = if motion == "turntable" { SceneVersion::Orbit } else { SceneVersion::Board };
+    version.of(context.loaded, &[]).scene
 }
 
-/// Says what stands in the way of a camera that goes round.
-pub(super) fn left_out(studio: &Studio<'_>, row: &mut Row) {
-    let scene = &studio.loaded.scene;
-    let blockers = orbit_blockers(studio.loaded);
+/// Notes which objects were left out because they hide the target from a camera that goes round it.
+pub(super) fn left_out(context: &MeasureContext<'_>, row: &mut Row) {
+    let scene = &context.loaded.scene;
+    let blockers = orbit_blockers(context.loaded);
     if !blockers.is_empty() && blockers.len() < scene.objects.len() {
         let names: Vec<&str> = blockers.iter().map(|&index| scene.objects[index].name.as_str()).collect();
         row.notes.push(format!("left out where the camera goes round: {}", names.join(", ")));
     }
 }
 
-fn shot(studio: &mut Studio<'_>, look: Look) -> Result<Vec<Pair>, MeasureError> {
+fn shot(context: &mut MeasureContext<'_>, version: SceneVersion) -> Result<Vec<Pair>, MeasureError> {
     let mut found = Vec::new();
-    for [first, second] in studio.pairs() {
-        let before = studio.show(look, first, Rotation::On)?;
-        let after = studio.show(look, second, Rotation::On)?;
+    for [first, second] in context.pairs() {
+        let before = context.drawn_frame(version, first, Rotation::On)?;
+        let after = context.drawn_frame(version, second, Rotation::On)?;
         let [before, after] = of_moving_bodies(&before.strokes, &after.strokes);
-        found.push(Pair::of(&before, &after, studio.size_px));
+        found.push(Pair::of(&before, &after, context.size_px));
     }
     Ok(found)
 }
 
-fn views(studio: &mut Studio<'_>, look: Look, pairs: &[[CameraPose; 2]]) -> Result<Vec<Pair>, MeasureError> {
+fn views(
+    context: &mut MeasureContext<'_>,
+    version: SceneVersion,
+    pairs: &[[CameraPose; 2]],
+) -> Result<Vec<Pair>, MeasureError> {
     let mut found = Vec::new();
     for [first, second] in pairs {
-        let before = studio.show_from(look, first)?;
-        let after = studio.show_from(look, second)?;
-        found.push(Pair::of(&before.strokes, &after.strokes, studio.size_px));
+        let before = context.drawn_view(version, first)?;
+        let after = context.drawn_view(version, second)?;
+        found.push(Pair::of(&before.strokes, &after.strokes, context.size_px));
     }
     Ok(found)
 }

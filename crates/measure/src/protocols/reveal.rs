@@ -1,22 +1,22 @@
-//! M6: what the reference view did not see.
+//! M6, reveal coherence: measured on views from about 90 and 180 degrees round the target.
 
 use impasto_painting::Rotation;
 
 use super::popping::left_out;
 use crate::cameras::orbited;
+use crate::context::MeasureContext;
 use crate::figures::Spread;
-use crate::looks::{Look, TurnSolver};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{LEAST_STROKES, Reading, Row, Verdict};
 use crate::reveal::{Difference, NEIGHBOURS, revealed};
-use crate::studio::Studio;
+use crate::versions::{SceneVersion, TurnSolver};
 
-/// Views about a quarter and a half of the way round; several, for strokes enough.
+/// Views from about a quarter and half of the way round, several of each for enough strokes.
 const QUARTER_DEG: [f64; 6] = [-90.0, 90.0, -100.0, 100.0, -80.0, 80.0];
 const HALF_DEG: [f64; 5] = [180.0, 170.0, 190.0, 160.0, 200.0];
 
-pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M6,
         "camera round its target by 80 to 100 and by 160 to 200 deg; body layer without chance, second families and contour; \
@@ -24,22 +24,22 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
          points of the directions",
         "90 deg: median ≤ 3, p95 ≤ 12; 180 deg: median ≤ 6, p95 ≤ 25",
     );
-    let looks = [
-        ("", Look::Calm(TurnSolver::Own)),
-        ("the paper's rule, ", Look::CalmPaper),
-        ("horn, ", Look::Calm(TurnSolver::Horn)),
+    let versions = [
+        ("", SceneVersion::NoChance(TurnSolver::Own)),
+        ("the paper's rule, ", SceneVersion::NoChancePaper),
+        ("horn, ", SceneVersion::NoChance(TurnSolver::Horn)),
     ];
     let mut judged = Vec::new();
-    for (index, (rule, look)) in looks.into_iter().enumerate() {
+    for (index, (rule, version)) in versions.into_iter().enumerate() {
         let few = if index == 0 { usize::MAX } else { 2 };
         for (angle, views) in [("90 deg", &QUARTER_DEG[..]), ("180 deg", &HALF_DEG[..])] {
             let views = &views[..views.len().min(few)];
             let mut differences = Vec::new();
             for &angle_deg in views {
-                let camera = orbited(&studio.reference_camera(), angle_deg);
-                let shown = studio.show_from(look, &camera)?;
-                let painting = studio.painting(look)?;
-                differences.extend(revealed(&painting, &shown.strokes, studio.size_px));
+                let camera = orbited(&context.reference_camera(), angle_deg);
+                let shown = context.drawn_view(version, &camera)?;
+                let painting = context.painting(version)?;
+                differences.extend(revealed(&painting, &shown.strokes, context.size_px));
             }
             let all = spread(&differences, |_| true);
             let spread = spread(&differences, |found| !found.near_pole);
@@ -48,7 +48,7 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
             if index == 0 {
                 row.values.push(reading);
                 row.values.push(Reading::many(format!("{angle}: all"), "deg", all));
-                row.notes.push(format!("{angle}: {}", by_object(studio, &differences)));
+                row.notes.push(format!("{angle}: {}", by_object(context, &differences)));
                 row.counts.frames += views.len();
                 row.counts.strokes += spread.count / NEIGHBOURS;
                 judged.push(spread);
@@ -57,8 +57,8 @@ pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
             }
         }
     }
-    on_shot(studio, &mut row)?;
-    left_out(studio, &mut row);
+    on_shot(context, &mut row)?;
+    left_out(context, &mut row);
     row.notes.push("a constant angle scores 0: read it with M3".to_owned());
     let fits = |spread: &Spread, median: f64, p95: f64| spread.median <= median && spread.p95 <= p95;
     let holds = fits(&judged[0], 3.0, 12.0) && fits(&judged[1], 6.0, 25.0);
@@ -75,9 +75,9 @@ fn spread(differences: &[Difference], counts: impl Fn(&Difference) -> bool) -> S
     Spread::of(differences.iter().filter(|found| counts(found)).map(|found| found.apart_deg).collect())
 }
 
-/// Which objects are how coherent, in words.
-fn by_object(studio: &Studio<'_>, differences: &[Difference]) -> String {
-    let scene = Look::Orbit.of(studio.loaded, &[]).scene;
+/// A note with the figures of each object.
+fn by_object(context: &MeasureContext<'_>, differences: &[Difference]) -> String {
+    let scene = SceneVersion::Orbit.of(context.loaded, &[]).scene;
     let words = scene.objects.iter().zip(1..).filter_map(|(object, id)| {
         let spread = spread(differences, |found| found.body_id == id && !found.near_pole);
         (spread.count > 0).then(|| {
@@ -93,14 +93,14 @@ fn by_object(studio: &Studio<'_>, differences: &[Difference]) -> String {
     format!("median and p95 by object: {}", words.collect::<Vec<_>>().join(", "))
 }
 
-/// What the shot itself reveals; printed, not judged.
-fn on_shot(studio: &mut Studio<'_>, row: &mut Row) -> Result<(), MeasureError> {
-    let look = Look::Truth(TurnSolver::Own);
-    let painting = studio.painting(look)?;
+/// The same on the shot itself; printed, not judged.
+fn on_shot(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<(), MeasureError> {
+    let version = SceneVersion::NoContour(TurnSolver::Own);
+    let painting = context.painting(version)?;
     let mut differences = Vec::new();
-    for frame in studio.frames() {
-        let shown = studio.show(look, frame, Rotation::On)?;
-        differences.extend(revealed(&painting, &shown.strokes, studio.size_px));
+    for frame in context.frames() {
+        let shown = context.drawn_frame(version, frame, Rotation::On)?;
+        differences.extend(revealed(&painting, &shown.strokes, context.size_px));
     }
     if !differences.is_empty() {
         row.values.push(Reading::many(

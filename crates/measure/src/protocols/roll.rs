@@ -1,36 +1,37 @@
-//! M1 and M2: the camera rolls about its gaze.
+//! M1 and M2, picture and angles under roll: measured while the camera rolls about its gaze.
 
 use impasto_gl_render::Picture;
 use impasto_painting::{FrameOptions, Rotation};
 
 use crate::cameras::rolled;
+use crate::context::MeasureContext;
 use crate::figures::Spread;
-use crate::looks::Look;
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::orientation::{Tensors, error_rad};
 use crate::plane::Plane;
 use crate::report::{Counts, Reading, Row, Verdict};
 use crate::roll::{quarter_difference, roll_errors_deg};
-use crate::strokes::seen;
-use crate::studio::Studio;
+use crate::strokes::strokes_by_key;
 use crate::turning::disk;
+use crate::versions::SceneVersion;
 
 /// Side of M1's picture.
 const SIDE_PX: u32 = 400;
 
-/// Of the largest disk, what is looked at: the picture's border has no say there.
+/// Radius of the disk that is compared, as a share of the largest: the picture's border has no influence there.
 const DISK: f64 = 0.85;
 
-/// Deviation of the window of structure tensors.
+/// Deviation of the window of structure tensors, pixels.
 const TENSOR_PX: f64 = 2.0;
 
+/// Rolls that are no quarter turns.
 const ODD_DEG: [f64; 3] = [7.0, 30.0, 137.0];
 
-/// More particles than this, and M2 takes each angle at one picture size only.
+/// With more particles than this, M2 measures each angle at one picture size only.
 const MANY_PARTICLES: usize = 120_000;
 
-/// What a roll does to pictures that should only turn.
+/// How rolled pictures differ from the straight one, turned.
 #[derive(Default)]
 struct Turned {
     mean: f64,
@@ -39,13 +40,13 @@ struct Turned {
     pixels: usize,
 }
 
-pub(super) fn pictures(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+pub(super) fn pictures(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M1,
         "camera rolled at the reference frame, square picture on a board, no relief, no varnish; surfaces within a disk",
         "90, 180, 270: mean ≤ 2 of 255, ≤ 1 % over 16; 7, 30, 137: streaks ≤ 0.5 deg",
     );
-    let ours = turned(studio, Rotation::On, &ODD_DEG)?;
+    let ours = turned(context, Rotation::On, &ODD_DEG)?;
     row.counts = Counts { pixels: ours.pixels, frames: 1 + 3 + ODD_DEG.len(), strokes: 0 };
     row.values = vec![
         Reading::one("quarter turns: mean difference", "of 255", ours.mean),
@@ -54,7 +55,7 @@ pub(super) fn pictures(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     for (angle_deg, error) in ODD_DEG.iter().zip(&ours.orientation_deg) {
         row.values.push(Reading::one(format!("streaks at {angle_deg} off by"), "deg", *error));
     }
-    let fixed = turned(studio, Rotation::Off, &ODD_DEG[1..2])?;
+    let fixed = turned(context, Rotation::Off, &ODD_DEG[1..2])?;
     row.baselines = vec![
         Reading::one("fixed angle: mean difference", "of 255", fixed.mean),
         Reading::one("fixed angle: streaks at 30 off by", "deg", fixed.orientation_deg[0]),
@@ -64,16 +65,20 @@ pub(super) fn pictures(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
     Ok(row)
 }
 
-fn turned(studio: &mut Studio<'_>, rotation: Rotation, odd_deg: &[f64]) -> Result<Turned, MeasureError> {
-    let painting = studio.painting(Look::Bare)?;
+fn turned(
+    context: &mut MeasureContext<'_>,
+    rotation: Rotation,
+    odd_deg: &[f64],
+) -> Result<Turned, MeasureError> {
+    let painting = context.painting(SceneVersion::Bare)?;
     let options = FrameOptions { rotation, ..FrameOptions::new([SIDE_PX, SIDE_PX]) };
-    let (camera, frame) = (studio.reference_camera(), studio.reference_frame());
+    let (camera, frame) = (context.reference_camera(), context.reference_frame());
     let side = SIDE_PX as usize;
     let inside = disk([side, side], DISK);
     let mut take = |roll_deg: f64| -> Result<(Picture, Vec<bool>), MeasureError> {
         let camera = rolled(&camera, roll_deg.to_radians());
-        let picture = studio.picture(&painting.seen_by(&camera, frame, &options))?;
-        let ids = studio.renderer.read_reference().body_id;
+        let picture = context.picture(&painting.seen_by(&camera, frame, &options))?;
+        let ids = context.renderer.read_reference().body_id;
         let mask = ids.iter().zip(&inside).map(|(&id, &inside)| id > 0 && inside).collect();
         Ok((picture, mask))
     };
@@ -100,9 +105,9 @@ fn turned(studio: &mut Studio<'_>, rotation: Rotation, odd_deg: &[f64]) -> Resul
     Ok(found)
 }
 
-pub(super) fn angles(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
-    let painting = studio.painting(Look::Body)?;
-    let height = studio.size_px[1].max(2);
+pub(super) fn angles(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
+    let painting = context.painting(SceneVersion::Body)?;
+    let height = context.size_px[1].max(2);
     let sizes = [[height, height], [(height * 16 / 9).max(2), height], [(height * 9 / 21).max(2), height]];
     let all = painting.particle_total() <= MANY_PARTICLES;
     let mut row = Row::new(
@@ -116,15 +121,15 @@ pub(super) fn angles(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
             painting.particle_total()
         ));
     }
-    let camera = studio.reference_camera();
-    let frame = studio.reference_frame();
+    let camera = context.reference_camera();
+    let frame = context.reference_frame();
     let mut errors = Vec::new();
     let mut fixed = Vec::new();
     for (which, &size_px) in sizes.iter().enumerate() {
         let strokes = |roll_deg: f64, rotation: Rotation| {
             let options = FrameOptions { rotation, ..FrameOptions::new(size_px) };
             let camera = rolled(&camera, roll_deg.to_radians());
-            seen(&painting.seen_by(&camera, frame, &options), &[])
+            strokes_by_key(&painting.seen_by(&camera, frame, &options), &[])
         };
         let straight = strokes(0.0, Rotation::On);
         row.counts.strokes += straight.len();

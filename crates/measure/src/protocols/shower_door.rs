@@ -1,4 +1,4 @@
-//! M7 on the shot.
+//! M7, shower door: measured on pairs of frames of the shot, far enough apart for strokes to have moved.
 
 use std::rc::Rc;
 
@@ -7,17 +7,17 @@ use impasto_painting::frame::LayerKind;
 use impasto_scene::motion;
 
 use super::ONE_FRAME;
-use crate::looks::{Look, TurnSolver};
+use crate::context::{DrawnFrame, MeasureContext};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Reading, Row, Series, Verdict};
 use crate::shower_door::{Lag, Pair, ShowerDoor, lag, share_moved, shower_door};
-use crate::strokes::{SeenStrokes, of_layer, seen};
-use crate::studio::{Shown, Studio};
+use crate::strokes::{StrokesByKey, of_layer, strokes_by_key};
 use crate::turns::Reference;
-use crate::warp::places_then;
+use crate::versions::{SceneVersion, TurnSolver};
+use crate::warp::correspondences;
 
-/// Mean of several pairs of frames, weighted by pixels.
+/// Means over several pairs of frames, weighted by pixels.
 #[derive(Default)]
 struct Mean {
     same_pixels: f64,
@@ -38,30 +38,30 @@ impl Mean {
     }
 }
 
-pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M7,
         "pairs of frames of the shot, so far apart that half of what moves has moved by more than half a stroke; on a board, unlit, \
          luma finer than half a stroke within each body; pixels that moved so far",
         "abs S ≤ 0.1, C printed, abs arg L ≤ 0.1 deg",
     );
-    let starts: Vec<f64> = studio.pairs().iter().map(|pair| pair[0]).collect();
+    let starts: Vec<f64> = context.pairs().iter().map(|pair| pair[0]).collect();
     if starts.is_empty() {
         return Ok(row.not_applicable(ONE_FRAME));
     }
     let (mut ours, mut fixed, mut points, mut steps) =
         (Mean::default(), Mean::default(), Vec::new(), Vec::new());
     for &start in &starts {
-        let now = studio.show(Look::Unlit, start, Rotation::On)?;
+        let now = context.drawn_frame(SceneVersion::Unlit, start, Rotation::On)?;
         let stroke_px = median_length_px(&now.strokes);
-        let Some(step) = least_step(studio, &now, start, stroke_px)? else { continue };
-        let then = studio.show(Look::Unlit, start + step, Rotation::On)?;
-        let places = places_then(&studio.motion(&now.frame, &then.frame)?, &then.reference);
-        let compare = |now: &Rc<Shown>, then: &Rc<Shown>| {
+        let Some(step) = least_step(context, &now, start, stroke_px)? else { continue };
+        let then = context.drawn_frame(SceneVersion::Unlit, start + step, Rotation::On)?;
+        let correspondences = correspondences(&context.motion(&now.frame, &then.frame)?, &then.reference);
+        let compare = |now: &Rc<DrawnFrame>, then: &Rc<DrawnFrame>| {
             shower_door(&Pair {
                 pictures: [&now.luma, &then.luma],
                 body_ids: [&now.reference.body_id, &then.reference.body_id],
-                places: &places,
+                correspondences: &correspondences,
                 stroke_px,
             })
         };
@@ -69,15 +69,15 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
         points.push((start, found.same_pixels.abs()));
         steps.push(step);
         ours.add(found);
-        let now = studio.show(Look::Unlit, start, Rotation::Off)?;
-        let then = studio.show(Look::Unlit, start + step, Rotation::Off)?;
+        let now = context.drawn_frame(SceneVersion::Unlit, start, Rotation::Off)?;
+        let then = context.drawn_frame(SceneVersion::Unlit, start + step, Rotation::Off)?;
         fixed.add(compare(&now, &then));
     }
     if steps.is_empty() {
         return Ok(row.not_applicable("nothing in the shot moves by half a stroke"));
     }
-    let turned = lag_of(studio, Rotation::On)?;
-    let unturned = lag_of(studio, Rotation::Off)?;
+    let turned = lag_of(context, Rotation::On)?;
+    let unturned = lag_of(context, Rotation::Off)?;
     let [same_pixels, same_points] = ours.values();
     row.counts.pixels = ours.pixels;
     row.counts.strokes = turned.strokes;
@@ -105,7 +105,7 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
     Ok(row)
 }
 
-fn median_length_px(strokes: &SeenStrokes) -> f64 {
+fn median_length_px(strokes: &StrokesByKey) -> f64 {
     let mut lengths: Vec<f64> = of_layer(strokes, LayerKind::Body)
         .filter(|(_, stroke)| stroke.alpha > 0.5)
         .map(|(_, stroke)| stroke.length_px)
@@ -114,25 +114,26 @@ fn median_length_px(strokes: &SeenStrokes) -> f64 {
     lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// The least number of frames after which half of the moving bodies' pixels have moved by more than half a stroke.
+/// The least number of frames after which half of the pixels of moving bodies have moved by more than half a stroke; `None` where
+/// the shot ends before.
 fn least_step(
-    studio: &mut Studio<'_>,
-    now: &Shown,
+    context: &mut MeasureContext<'_>,
+    now: &DrawnFrame,
     start: f64,
     stroke_px: f64,
 ) -> Result<Option<f64>, MeasureError> {
-    let painting = studio.painting(Look::Unlit)?;
-    let options = studio.frame_options(Rotation::On);
-    let most = studio.loaded.scene.timeline.last as f64 - start;
+    let painting = context.painting(SceneVersion::Unlit)?;
+    let options = context.frame_options(Rotation::On);
+    let most = context.loaded.scene.timeline.last as f64 - start;
     let mut moved = |step: f64| -> Result<bool, MeasureError> {
         let then = painting.at(start + step, &options);
-        let motion = studio.motion(&now.frame, &then)?;
+        let motion = context.motion(&now.frame, &then)?;
         let bodies = now.frame.bodies.len() as u32;
         let moves: Vec<bool> =
             (0..=bodies).map(|id| share_moved(&motion, |other| other == id, 0.02) > 0.5).collect();
         Ok(share_moved(&motion, |id| moves[id as usize], 0.5 * stroke_px) > 0.5)
     };
-    // Far enough by doubling, then the least by halving.
+    // Doubles the step until it is far enough, then bisects.
     let mut far = 1.0;
     while !moved(f64::min(far, most))? {
         if far >= most {
@@ -148,16 +149,16 @@ fn least_step(
     Ok(Some(far))
 }
 
-/// L over the strokes of the shot that have turned at all.
-fn lag_of(studio: &mut Studio<'_>, rotation: Rotation) -> Result<Lag, MeasureError> {
-    let painting = studio.painting(Look::Truth(TurnSolver::Own))?;
-    let reference = Reference::of(&painting, studio.size_px);
-    let options = studio.frame_options(rotation);
+/// The lag over the strokes of the shot that have turned at all.
+fn lag_of(context: &mut MeasureContext<'_>, rotation: Rotation) -> Result<Lag, MeasureError> {
+    let painting = context.painting(SceneVersion::NoContour(TurnSolver::Own))?;
+    let reference = Reference::of(&painting, context.size_px);
+    let options = context.frame_options(rotation);
     let mut turns = Vec::new();
-    for frame in studio.frames() {
-        let camera = motion::camera_at(&studio.loaded.scene, frame);
-        let now = seen(&painting.at(frame, &options), &[]);
-        turns.extend(reference.turns(&painting, &now, (&camera, frame), options.size_px).into_values());
+    for frame in context.frames() {
+        let camera = motion::camera_at(&context.loaded.scene, frame);
+        let now = strokes_by_key(&painting.at(frame, &options), &[]);
+        turns.extend(reference.turns(&painting, &now, &camera, frame, options.size_px).into_values());
     }
     Ok(lag(turns.iter().filter(|turn| !turn.truth.is_still())))
 }

@@ -1,17 +1,17 @@
-//! M3 on the shot and on fixed views.
+//! M3, angles in general: measured on the shot and on fixed views of the reference pose.
 
 use impasto_painting::Rotation;
 use impasto_scene::motion::{self, CameraPose};
 
 use crate::cameras::{moved_sideways, orbited, zoomed};
+use crate::context::MeasureContext;
 use crate::figures::Spread;
-use crate::looks::{Look, TurnSolver};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Series, Verdict};
-use crate::strokes::seen;
-use crate::studio::Studio;
+use crate::strokes::strokes_by_key;
 use crate::turns::{Reference, Turn};
+use crate::versions::{SceneVersion, TurnSolver};
 
 /// The fixed views: round the target, sideways, closer.
 fn fixed_views(camera: &CameraPose) -> Vec<CameraPose> {
@@ -25,27 +25,31 @@ fn fixed_views(camera: &CameraPose) -> Vec<CameraPose> {
     ]
 }
 
-/// What a rule of turning does on the shot and on the fixed views.
+/// Angle errors of one way of turning strokes, on the shot and on the fixed views.
 #[derive(Default)]
-struct Found {
+struct TurnErrors {
     errors_deg: Vec<f64>,
     material_deg: Vec<f64>,
     frames: usize,
     max_of_frame: Vec<(f64, f64)>,
 }
 
-fn found(studio: &mut Studio<'_>, solver: TurnSolver, rotation: Rotation) -> Result<Found, MeasureError> {
-    let painting = studio.painting(Look::Truth(solver))?;
-    let reference = Reference::of(&painting, studio.size_px);
-    let options = studio.frame_options(rotation);
-    let scene = &studio.loaded.scene;
-    let at_rest = studio.reference_frame();
-    let shot = studio.frames().into_iter().map(|frame| (motion::camera_at(scene, frame), frame, true));
-    let fixed = fixed_views(&studio.reference_camera()).into_iter().map(|camera| (camera, at_rest, false));
-    let mut found = Found::default();
+fn turn_errors(
+    context: &mut MeasureContext<'_>,
+    solver: TurnSolver,
+    rotation: Rotation,
+) -> Result<TurnErrors, MeasureError> {
+    let painting = context.painting(SceneVersion::NoContour(solver))?;
+    let reference = Reference::of(&painting, context.size_px);
+    let options = context.frame_options(rotation);
+    let scene = &context.loaded.scene;
+    let at_rest = context.reference_frame();
+    let shot = context.frames().into_iter().map(|frame| (motion::camera_at(scene, frame), frame, true));
+    let fixed = fixed_views(&context.reference_camera()).into_iter().map(|camera| (camera, at_rest, false));
+    let mut found = TurnErrors::default();
     for (camera, frame, is_shot) in shot.chain(fixed) {
-        let strokes = seen(&painting.seen_by(&camera, frame, &options), &[]);
-        let turns = reference.turns(&painting, &strokes, (&camera, frame), options.size_px);
+        let strokes = strokes_by_key(&painting.seen_by(&camera, frame, &options), &[]);
+        let turns = reference.turns(&painting, &strokes, &camera, frame, options.size_px);
         let errors: Vec<f64> = turns.values().map(Turn::error_deg).collect();
         if is_shot {
             found.max_of_frame.push((frame, errors.iter().copied().fold(0.0, f64::max)));
@@ -57,14 +61,14 @@ fn found(studio: &mut Studio<'_>, solver: TurnSolver, rotation: Rotation) -> Res
     Ok(found)
 }
 
-pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M3,
         "the shot, and the reference pose seen from 10, 30, 50 deg aside, moved sideways, twice as near; body layer without \
          contour (which follows the view by design), strokes that the reference faces by cos 0.5",
         "tangent: max ≤ 0.01 deg; horn as it is",
     );
-    let ours = found(studio, TurnSolver::Own, Rotation::On)?;
+    let ours = turn_errors(context, TurnSolver::Own, Rotation::On)?;
     row.counts = Counts { strokes: ours.errors_deg.len(), pixels: 0, frames: ours.frames };
     let spread = Spread::of(ours.errors_deg);
     row.values = vec![
@@ -72,13 +76,13 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
         Reading::many("against the material line arg(A d), inherent", "deg", Spread::of(ours.material_deg)),
     ];
     for (name, solver) in [("horn", TurnSolver::Horn), ("horn-exact", TurnSolver::HornExact)] {
-        let errors = found(studio, solver, Rotation::On)?.errors_deg;
+        let errors = turn_errors(context, solver, Rotation::On)?.errors_deg;
         row.baselines.push(Reading::many(name, "deg", Spread::of(errors)));
     }
-    let fixed = found(studio, TurnSolver::Own, Rotation::Off)?.errors_deg;
+    let fixed = turn_errors(context, TurnSolver::Own, Rotation::Off)?.errors_deg;
     row.baselines.push(Reading::many("fixed angle", "deg", Spread::of(fixed)));
-    let flatness = impasto_scene::presets::resolve(&studio.loaded.scene, None).flatness;
-    let is_horn = uses_horn(studio);
+    let flatness = impasto_scene::presets::resolve(&context.loaded.scene, None).flatness;
+    let is_horn = uses_horn(context);
     if flatness < 1.0 {
         row.notes
             .push("flatness below 1 lets strokes follow material lines: the error to φ(A) is wanted".into());
@@ -98,9 +102,9 @@ pub(super) fn row(studio: &mut Studio<'_>, series: &mut Vec<Series>) -> Result<R
 }
 
 /// Whether the scene itself asks for the paper's solver.
-pub(super) fn uses_horn(studio: &Studio<'_>) -> bool {
+pub(super) fn uses_horn(context: &MeasureContext<'_>) -> bool {
     use impasto_scene::document::{Solver, Style};
-    let scene = &studio.loaded.scene;
+    let scene = &context.loaded.scene;
     let by_style = matches!(&scene.style, Style::RotatingStrokes(style) if style.solver != Solver::Tangent);
     by_style || impasto_scene::presets::is_paper(scene)
 }

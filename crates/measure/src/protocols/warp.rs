@@ -1,54 +1,54 @@
-//! M5 on the shot.
+//! M5, warp error: measured on neighbouring frames of the shot, beside the paper's, random and fixed angles.
 
 use impasto_painting::Rotation;
 
 use super::ONE_FRAME;
-use crate::looks::Look;
+use crate::context::MeasureContext;
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
 use crate::shower_door::share_moved;
-use crate::studio::Studio;
-use crate::warp::{Warp, places_then, warp_error};
+use crate::versions::SceneVersion;
+use crate::warp::{Warp, correspondences, warp_error};
 
-/// Less than this in any pixel, and nothing moves.
+/// A body whose pixels all move by less than this stands still.
 const STILL_PX: f64 = 0.01;
 
-pub(super) fn row(studio: &mut Studio<'_>) -> Result<Row, MeasureError> {
+pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M5,
         "neighbouring frames of the shot on a board, else as the scene looks; luma of the encoded picture, exact motion, \
          what is seen in both of bodies that move; all rules on the pixels of ours",
         "below the paper's rule, and ≤ 0.25 of random per frame",
     );
-    let pairs = studio.pairs();
+    let pairs = context.pairs();
     if pairs.is_empty() {
         return Ok(row.not_applicable(ONE_FRAME));
     }
     let rules = [
-        ("", Look::Board, Rotation::On),
-        ("the paper's rule", Look::Paper, Rotation::On),
-        ("random per frame", Look::Board, Rotation::Random),
-        ("fixed angle", Look::Board, Rotation::Off),
+        ("", SceneVersion::Board, Rotation::On),
+        ("the paper's rule", SceneVersion::Paper, Rotation::On),
+        ("random per frame", SceneVersion::Board, Rotation::Random),
+        ("fixed angle", SceneVersion::Board, Rotation::Off),
     ];
     let mut sums = [(0.0, 0usize); 4];
     let mut moves = false;
     for [first, second] in &pairs {
-        let now = studio.show(Look::Board, *first, Rotation::On)?;
-        let then = studio.show(Look::Board, *second, Rotation::On)?;
-        let motion = studio.motion(&now.frame, &then.frame)?;
+        let now = context.drawn_frame(SceneVersion::Board, *first, Rotation::On)?;
+        let then = context.drawn_frame(SceneVersion::Board, *second, Rotation::On)?;
+        let motion = context.motion(&now.frame, &then.frame)?;
         let bodies = 0..=now.frame.bodies.len() as u32;
         let moving: Vec<bool> =
             bodies.map(|id| share_moved(&motion, |other| other == id, STILL_PX) > 0.0).collect();
         moves |= moving.contains(&true);
-        let mut places = places_then(&motion, &then.reference);
-        for (place, &id) in places.iter_mut().zip(&motion.body_id) {
+        let mut correspondences = correspondences(&motion, &then.reference);
+        for (place, &id) in correspondences.iter_mut().zip(&motion.body_id) {
             *place = place.filter(|_| moving[id as usize]);
         }
-        for (sum, (_, look, rotation)) in sums.iter_mut().zip(rules) {
-            let now = studio.show(look, *first, rotation)?;
-            let then = studio.show(look, *second, rotation)?;
-            let Warp { error, pixels } = warp_error(&now.luma, &then.luma, &places);
+        for (sum, (_, version, rotation)) in sums.iter_mut().zip(rules) {
+            let now = context.drawn_frame(version, *first, rotation)?;
+            let then = context.drawn_frame(version, *second, rotation)?;
+            let Warp { error, pixels } = warp_error(&now.luma, &then.luma, &correspondences);
             *sum = (sum.0 + error * pixels as f64, sum.1 + pixels);
         }
     }

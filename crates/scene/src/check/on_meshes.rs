@@ -49,7 +49,7 @@ pub(super) fn check(
             let name = guide.object.as_deref().or(region.on.object());
             if let Some((object, file)) = name.and_then(mesh_of) {
                 let guide_path = format!("regions[{index}].guides[{guide_index}]");
-                check_guide(&guide_path, guide, (object, file), (&mut left, findings));
+                check_guide(&guide_path, guide, object, file, &mut left, findings);
             }
         }
     }
@@ -86,8 +86,10 @@ fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings
 fn check_guide(
     guide_path: &str,
     guide: &Guide,
-    (object, file): (&Object, &MeshFile),
-    (left, findings): (&mut usize, &mut Findings),
+    object: &Object,
+    file: &MeshFile,
+    left: &mut usize,
+    findings: &mut Findings,
 ) {
     let mesh = &file.mesh;
     let model_from_file = object.model_from_file();

@@ -27,7 +27,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
         }
         for (guide_index, guide) in region.guides.iter().enumerate() {
             let guide_path = format!("{region_path}.guides[{guide_index}]");
-            check_guide_object(&guide_path, scene, (region, guide), findings);
+            check_guide_object(&guide_path, scene, region, guide, findings);
             check_guide(&guide_path, guide, findings);
         }
         strokes::check_of_region(&format!("{region_path}.strokes"), scene, index, findings);
@@ -110,7 +110,8 @@ fn radius(field_path: &str, what: &str, radius: f64, findings: &mut Findings) {
 fn check_guide_object(
     guide_path: &str,
     scene: &Scene,
-    (region, guide): (&Region, &Guide),
+    region: &Region,
+    guide: &Guide,
     findings: &mut Findings,
 ) {
     let field_path = format!("{guide_path}.object");

@@ -1,3 +1,5 @@
+//! Tests of the checks on scenes.
+
 use std::path::Path;
 
 use impasto_core::TriangleMesh;

@@ -100,7 +100,11 @@ pub(super) fn first_uses<'a>(
 }
 
 /// The problem as one of the scene file, keeping the words about the file that it was about.
-pub(super) fn retold(problem: Problem, scene_path: &Path, place: Option<crate::problem::Place>) -> Problem {
+pub(super) fn retold(
+    problem: Problem,
+    scene_path: &Path,
+    place: Option<crate::problem::TextPosition>,
+) -> Problem {
     let file = problem.path.display().to_string();
     let message = if problem.path == scene_path || problem.message.contains(&file) {
         problem.message

@@ -26,7 +26,7 @@ use crate::document::Scene;
 use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::{Inside, Located, Step};
-use crate::problem::{Place, Problem, Report, Severity};
+use crate::problem::{Problem, Report, Severity, TextPosition};
 
 use files::Held;
 pub use fix::{Fix, mended};
@@ -204,7 +204,7 @@ impl Reading<'_> {
         };
         let at = place(cut.read_to);
         let message = match at {
-            Some(Place { line, column }) => {
+            Some(TextPosition { line, column }) => {
                 format!("cannot read past line {line}, column {column}: {}", refused.message)
             }
             None => refused.message.clone(),

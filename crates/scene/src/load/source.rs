@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::limits;
 use crate::locate::{Located, Refused, line_starts, place_in};
-use crate::problem::{Place, Problem, Severity};
+use crate::problem::{Problem, Severity, TextPosition};
 
 /// Whether a file that the user names is there and is a regular one; devices, pipes and folders are not opened.
 pub(super) fn check_regular(path: &Path) -> Result<(), Problem> {
@@ -70,7 +70,7 @@ pub(super) fn scan_refusing(text: &str) -> Result<Located, Refused> {
     Located::scan(text)
 }
 
-const START: Place = Place { line: 1, column: 1 };
+const START: TextPosition = TextPosition { line: 1, column: 1 };
 
 pub(super) fn too_long(path: &Path) -> Problem {
     let limit_mib = limits::MAX_SCENE_BYTES >> 20;
@@ -86,7 +86,7 @@ pub(super) fn too_long(path: &Path) -> Problem {
 /// An error in a file.
 pub(super) fn error_in(
     path: &Path,
-    place: Option<Place>,
+    place: Option<TextPosition>,
     message: impl Into<String>,
     mend: impl Into<String>,
 ) -> Problem {

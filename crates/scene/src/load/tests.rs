@@ -1,3 +1,5 @@
+//! Tests of loading scenes: errors, their positions and suggestions.
+
 use super::*;
 use crate::document::{BrushMix, Lens, RotatingStrokes, Solver, Style};
 

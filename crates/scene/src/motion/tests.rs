@@ -1,3 +1,5 @@
+//! Tests of keyframes: camera, eases, parents, held poses.
+
 use glam::{DVec3, DVec4};
 
 use super::*;
@@ -84,7 +86,7 @@ fn the_field_of_view_is_kept_until_a_key_changes_it() {
 }
 
 #[test]
-fn each_ease_leaves_its_key_in_its_own_way() {
+fn eases_are_step_linear_and_smooth() {
     for (ease, at_quarter) in [(Ease::Step, 0.0), (Ease::Linear, 2.5), (Ease::Smooth, 1.5625)] {
         let keys =
             vec![ObjectKey { ease, ..key(4.0) }, ObjectKey { translation: [10.0, 0.0, 0.0], ..key(8.0) }];
@@ -110,7 +112,7 @@ fn euler_angles_turn_about_x_then_y_then_z() {
 }
 
 #[test]
-fn seven_hundred_and_twenty_degrees_are_two_turns() {
+fn a_rotation_by_720_degrees_is_two_turns() {
     let keys = vec![key(0.0), ObjectKey { rotation_deg: [0.0, 0.0, 720.0], ..key(80.0) }];
     let scene = scene(vec![], vec![object("a", None, keys)]);
     for (frame, x, y) in

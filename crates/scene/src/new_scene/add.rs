@@ -1,4 +1,4 @@
-//! Another mesh for a scene: an object that stands beside the others, and regions for what it is made of.
+//! Adds a mesh to a scene: an object beside the others, and regions for its groups or materials.
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
@@ -7,13 +7,13 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::{object_name, round_to};
+use crate::built_in_mesh;
 use crate::document::{Color, Object, ObjectKey, Region, Scene, Selector};
-use crate::house_mesh;
 use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::motion;
 
-/// Colours of regions in overlays, told apart by colour-blind eyes too (Krzywinski's twelve); neighbours differ most.
+/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); neighbours differ most.
 pub const REGION_COLORS: [Color; 12] = [
     rgb(0x00, 0x8d, 0xf9),
     rgb(0xff, 0xc3, 0x3b),
@@ -33,21 +33,22 @@ const fn rgb(red: u8, green: u8, blue: u8) -> Color {
     Color([red as f32 / 255.0, green as f32 / 255.0, blue as f32 / 255.0])
 }
 
-/// A mesh with more groups than this has them for its own reasons: they make no regions.
+/// A mesh with more groups (or materials) than this gets no regions from them: they hardly stand for things to paint.
 const MOST_REGIONS: usize = 64;
 
-/// Share of its width that a new object stands off what is there.
+/// Gap between a new object and the others, as a share of its width.
 const GAP: f64 = 0.15;
 
-/// Adds an object with this mesh, which the scene names `mesh_name`, and its regions ([`regions_of`]); returns its name,
-/// which is the file's, made unique.
+/// Adds an object with this mesh, which the scene names `mesh_name`, and its regions ([`regions_of`]); returns its name, which is
+/// the file's, made unique.
 ///
-/// The first object stays where its file puts it. A later one stands on the floor (the lowest point of what is there, in the
-/// reference pose), to the right of everything. `meshes` are those that the scene holds; objects whose mesh is not among them
-/// are passed over, and so is a backdrop of the house.
+/// The first object stays where its file puts it. A later one stands to the right of all others, on the height of their lowest
+/// point in the reference pose. `meshes` are those of the scene; objects whose mesh is not among them, and built-in meshes, are
+/// ignored.
 pub fn add_mesh(
     scene: &mut Scene,
-    (mesh_name, mesh): (&str, &MeshFile),
+    mesh_name: &str,
+    mesh: &MeshFile,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
 ) -> String {
     let taken: HashSet<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
@@ -73,9 +74,9 @@ pub fn add_mesh(
     name
 }
 
-/// A region for each group of an object's mesh; where it has one group, for each material; else one for the whole object.
-/// Their names are unique among each other, their colours the first of [`REGION_COLORS`]. What no triangle uses is left out;
-/// of more than 64 groups or materials none becomes a region.
+/// A region for each group of an object's mesh; if it has only one, for each material; else one for the whole object. Their names
+/// are unique among each other, their colours the first of [`REGION_COLORS`]. Groups and materials that no triangle uses are left
+/// out; more than 64 of them make no regions.
 pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
     let own = |selector: fn(String, String) -> Selector| {
         move |name: &str| (name.to_owned(), selector(object.name.clone(), name.to_owned()))
@@ -105,7 +106,7 @@ pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
     regions
 }
 
-/// A name that a region may have: on one line, not empty, not endless.
+/// A valid name for a region: on one line, not empty, not too long.
 fn plain(name: &str, else_name: &str) -> String {
     let name = name.replace(char::is_control, " ");
     let name = match name.trim() {
@@ -119,7 +120,7 @@ fn plain(name: &str, else_name: &str) -> String {
     name[..end].to_owned()
 }
 
-/// The name, or the name with the first number behind it that is free.
+/// The name, with the first free number behind it if it is taken.
 fn unique(name: &str, taken: &HashSet<&str>) -> String {
     let mut numbered = (2..).map(|number: u32| format!("{name} {number}"));
     if !taken.contains(name) {
@@ -128,11 +129,11 @@ fn unique(name: &str, taken: &HashSet<&str>) -> String {
     numbered.find(|numbered| !taken.contains(numbered.as_str())).unwrap_or_default()
 }
 
-/// Least and greatest corner of the box round all objects in the reference pose, world space, without the house's own meshes.
+/// Least and greatest corner of the box round all objects in the reference pose, world space, without built-in meshes.
 fn bounds_of_all(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Option<[DVec3; 2]> {
     let poses = motion::poses_at(scene, motion::referred_to(scene, &scene.reference).1);
     let of_objects = scene.objects.iter().zip(poses).filter_map(|(object, pose)| {
-        let is_file = !object.mesh.starts_with(house_mesh::PREFIX);
+        let is_file = !object.mesh.starts_with(built_in_mesh::PREFIX);
         bounds(object, meshes.get(&object.mesh).filter(|_| is_file)?, pose)
     });
     of_objects.reduce(|[low, high], [other_low, other_high]| [low.min(other_low), high.max(other_high)])

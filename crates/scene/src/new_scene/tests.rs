@@ -1,3 +1,5 @@
+//! Tests of new scenes: framing, backdrop, light, names and regions.
+
 use glam::{DMat4, DVec4, Vec3};
 use impasto_core::TriangleMesh;
 
@@ -93,7 +95,7 @@ fn names_come_from_the_file() {
         (scene.objects[0].name.as_str(), scene.objects[0].mesh.as_str()),
         ("red apple", "red apple.obj")
     );
-    assert_eq!(scene.objects[1].mesh, house_mesh::BACKDROP);
+    assert_eq!(scene.objects[1].mesh, built_in_mesh::BACKDROP);
     assert_eq!(scene.regions[0].on, Selector::Object("backdrop".to_owned()));
     let text = crate::save::to_ron(&scene);
     assert_eq!(crate::load::parse(Path::new("s.ron"), &text).unwrap(), scene);
@@ -114,10 +116,10 @@ fn the_backdrop_stands_under_and_behind_the_model() {
     let view = camera_at(&scene, 0.0).view_from_world();
     let depth = |point: DVec3| -view.transform_point3(point).z;
     assert!(depth(wall) > depth(center.as_dvec3()) + 0.5);
-    // A model called as the backdrop would be does not clash with it.
+    // A model with the backdrop's name does not clash with it.
     let named = for_mesh(Path::new("backdrop.obj"), &mesh);
     assert!(crate::check::check(&named).is_empty());
-    // What is looked at from below has no floor in the way.
+    // Seen from below, there is no floor in the way.
     let ceiling = box_between(Vec3::NEG_ONE, Vec3::ONE, true);
     let mut turned = ceiling.clone();
     for position in &mut turned.mesh.positions {
@@ -150,13 +152,13 @@ fn grouped(low: Vec3, high: Vec3, groups: &[&str]) -> MeshFile {
 }
 
 #[test]
-fn meshes_are_added_beside_each_other_with_a_region_for_each_group() {
+fn added_meshes_stand_beside_each_other_with_a_region_for_each_group() {
     let mut scene = empty();
     assert!(crate::check::check(&scene).is_empty());
     let mut meshes = std::collections::BTreeMap::new();
     let mesh = grouped(Vec3::new(-1.0, 0.5, -1.0), Vec3::new(1.0, 2.5, 3.0), &["skin", "stem", "a\nb"]);
     for (count, expected) in ["apple", "apple 2", "apple 3"].into_iter().enumerate() {
-        let name = add_mesh(&mut scene, ("meshes/apple.obj", &mesh), &meshes);
+        let name = add_mesh(&mut scene, "meshes/apple.obj", &mesh, &meshes);
         assert_eq!((name.as_str(), scene.objects.len()), (expected, count + 1));
         meshes.insert("meshes/apple.obj".to_owned(), std::sync::Arc::new(mesh.clone()));
     }
@@ -178,7 +180,7 @@ fn meshes_are_added_beside_each_other_with_a_region_for_each_group() {
 }
 
 #[test]
-fn without_groups_materials_become_regions_and_without_those_the_object() {
+fn regions_come_from_groups_else_materials_else_the_object() {
     let mesh = grouped(Vec3::ZERO, Vec3::ONE, &["all"]);
     let object = Object::new("chair", "chair.obj");
     let regions = regions_of(&object, &mesh);

@@ -1,7 +1,7 @@
 //! MTL files: checked line by line, the pictures read through [`crate::texture`].
 
 use super::text::{Findings, Lines, Walk, Word, name_of, to_utf8};
-use crate::problem::{Place, Problem};
+use crate::problem::{Problem, TextPosition};
 use std::path::Path;
 
 /// The colour (sRGB) of whatever has no material.
@@ -16,7 +16,7 @@ pub(super) struct Described {
     /// The picture's name as written.
     pub picture: Option<String>,
     /// Where its line begins in the MTL file.
-    pub picture_place: Option<Place>,
+    pub picture_place: Option<TextPosition>,
     /// Mean of `Ks`, 0..=1.
     highlight: f32,
     /// `Ns`, 0..=1000.

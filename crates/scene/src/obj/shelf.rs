@@ -9,7 +9,7 @@ use super::lint::{Checked, Library};
 use super::materials::{self, Described, GREY};
 use crate::assets::{Asset, AssetError, AssetFolders, AssetRequest};
 use crate::mesh_file::{Material, Texture};
-use crate::problem::{Place, Problem, Report, Severity};
+use crate::problem::{Problem, Report, Severity, TextPosition};
 use crate::texture;
 
 /// How many different names of MTL files are looked for.
@@ -22,7 +22,7 @@ const MAX_KEPT_PIXELS: usize = 1 << 27;
 const MAX_TOLD: usize = 20;
 
 /// Line and column of a byte of the OBJ text; it walks the text, so ask only for what is told.
-type PlaceOf<'a> = &'a dyn Fn(usize) -> Place;
+type PlaceOf<'a> = &'a dyn Fn(usize) -> TextPosition;
 
 /// Where materials and pictures are looked for, and what was found so far.
 pub(super) struct Shelf<'a> {
@@ -174,7 +174,7 @@ impl<'a> Shelf<'a> {
         self.warnings.push(problem);
     }
 
-    fn warning(&self, place: Option<Place>, message: String, mend: &str) -> Problem {
+    fn warning(&self, place: Option<TextPosition>, message: String, mend: &str) -> Problem {
         let path = self.path.to_owned();
         Problem {
             severity: Severity::Warning,
@@ -197,7 +197,7 @@ impl<'a> Shelf<'a> {
         &mut self,
         mtl: Arc<PathBuf>,
         name: String,
-        place: Option<Place>,
+        place: Option<TextPosition>,
     ) -> Result<Option<Arc<Texture>>, Report> {
         let key = (mtl, name);
         if let Some(known) = self.pictures.get(&key) {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use crate::problem::{Place, Problem, Report, Severity};
+use crate::problem::{Problem, Report, Severity, TextPosition};
 
 /// How many errors, and how many warnings, are told one by one.
 const MAX_TOLD: usize = 20;
@@ -145,7 +145,7 @@ impl<'a> Findings<'a> {
     }
 
     /// Line and column of a byte of the text.
-    pub fn place(&self, offset: usize) -> Place {
+    pub fn place(&self, offset: usize) -> TextPosition {
         Walk::default().to(self.text, offset)
     }
 
@@ -171,7 +171,7 @@ impl<'a> Findings<'a> {
         self.push(Severity::Error, None, message.into(), mend);
     }
 
-    fn push(&mut self, severity: Severity, place: Option<Place>, message: String, mend: &str) {
+    fn push(&mut self, severity: Severity, place: Option<TextPosition>, message: String, mend: &str) {
         let path = self.path.to_owned();
         self.problems.push(Problem {
             severity,
@@ -211,7 +211,7 @@ pub(super) struct Walk {
 
 impl Walk {
     /// Line and column of a byte at or after the one asked for last.
-    pub fn to(&mut self, text: &[u8], offset: usize) -> Place {
+    pub fn to(&mut self, text: &[u8], offset: usize) -> TextPosition {
         let offset = offset.min(text.len());
         while self.at < offset {
             let byte = text[self.at];
@@ -224,6 +224,6 @@ impl Walk {
         }
         let is_char_start = |byte: &&u8| **byte & 0xc0 != 0x80;
         let column = text[self.line_start.min(offset)..offset].iter().filter(is_char_start).count() + 1;
-        Place { line: self.lines + 1, column }
+        TextPosition { line: self.lines + 1, column }
     }
 }

@@ -1,3 +1,5 @@
+//! Tests of presets and of resolved stroke settings.
+
 use super::*;
 use crate::document::{Camera, Direction, Edges, Region, Selector};
 

@@ -87,7 +87,7 @@ fn a_suns_icon_is_dragged_round_the_scene() {
 }
 
 #[test]
-fn what_cannot_be_done_to_a_light_is_said() {
+fn impossible_operations_on_a_light_are_refused_with_a_message() {
     let mut editor = with_lamp();
     for (name, action, words) in [
         ("lamp", Action::Scale, "A light has no size: its intensity is in the inspector"),
@@ -106,7 +106,7 @@ fn what_cannot_be_done_to_a_light_is_said() {
 }
 
 #[test]
-fn icons_are_there_in_arrange_alone() {
+fn icons_show_in_arrange_only() {
     let mut editor = with_lamp();
     let at_px = icon(&editor, "lamp");
     act(&mut editor, Action::Animate);

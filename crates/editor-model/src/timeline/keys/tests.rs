@@ -57,7 +57,7 @@ fn a_drag_of_three_points_snaps_to_frames_and_is_one_command() {
 }
 
 #[test]
-fn what_a_drag_would_replace_is_told_before_and_escape_leaves_no_trace() {
+fn keys_that_a_drag_would_replace_are_known_before_and_escape_leaves_no_trace() {
     let lanes = lanes(&scene());
     let mut hand = KeysHand::default();
     hand.take(press(Some(apple(60.0)), at(60.0, 1)), &lanes);
@@ -96,7 +96,7 @@ fn copies_follow_the_pointer_until_a_press() {
 }
 
 #[test]
-fn a_box_selects_across_lanes_and_a_click_beside_keys_does_what_it_says() {
+fn a_box_selects_across_lanes_and_a_click_between_keys_changes_the_ease() {
     let lanes = lanes(&scene());
     let mut hand = KeysHand::default();
     hand.take(press(None, at(110.0, 1)), &lanes);
@@ -122,7 +122,7 @@ fn a_box_selects_across_lanes_and_a_click_beside_keys_does_what_it_says() {
 }
 
 #[test]
-fn keys_stay_within_the_frames_that_there_are() {
+fn keys_stay_within_the_largest_frame_numbers() {
     let lanes = lanes(&scene());
     let mut hand = KeysHand::default();
     hand.take(KeysEvent::SelectAll, &lanes);

@@ -7,7 +7,7 @@ use crate::path::PathPoint;
 /// The most steps between two points.
 const MOST_STEPS: f64 = 64.0;
 
-/// Points at most `step` (model units) apart on a curve through all of `points`; `onto` lays a place with its normal onto the
+/// Points at most `step` (model units) apart on a curve through all of `points`; `onto` projects a point with its normal onto the
 /// surface.
 pub(super) fn through(
     points: &[PathPoint],

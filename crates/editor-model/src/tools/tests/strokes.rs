@@ -72,7 +72,7 @@ fn another_tool_drops_what_was_begun() {
 }
 
 #[test]
-fn what_cannot_be_painted_on_is_said() {
+fn painting_where_it_is_impossible_is_refused_with_a_message() {
     let mut world = World::new();
     let nothing = "Nothing to paint here: the ring must lie on an object";
     for tool in [

@@ -1,3 +1,5 @@
+//! Tests of loading an edited scene with files that are already loaded.
+
 use std::fs;
 use std::sync::Arc;
 

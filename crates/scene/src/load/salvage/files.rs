@@ -88,7 +88,7 @@ impl<'a> Held<'a> {
             let read = self.meshes.entry(name.to_owned()).or_insert_with(|| mesh(path, name, self.options));
             match read.clone() {
                 Ok((mesh, _)) => drop(found.real.insert(name.to_owned(), mesh)),
-                Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
+                Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }
         for (name, field_path) in textures(scene) {
@@ -98,7 +98,7 @@ impl<'a> Held<'a> {
                 .or_insert_with(|| read_texture(path, name, folders).map(super::super::shared));
             match read.clone() {
                 Ok((texture, _)) => drop(found.textures.insert(name.clone(), texture)),
-                Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
+                Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }
         for (name, field_path) in check::brush_pictures(scene).into_iter().take(limits::MAX_BRUSH_PICTURES) {
@@ -108,7 +108,7 @@ impl<'a> Held<'a> {
                 .or_insert_with(|| read_brush(path, name, folders).map(super::super::shared));
             match read.clone() {
                 Ok((brush, _)) => drop(found.brushes.insert(name.to_owned(), brush)),
-                Err(problem) => self.refuse(&mut found, problem, (name, &field_path, located)),
+                Err(problem) => self.refuse(&mut found, problem, name, &field_path, located),
             }
         }
         found
@@ -118,7 +118,9 @@ impl<'a> Held<'a> {
         &mut self,
         found: &mut Found,
         problem: Problem,
-        (name, field_path, located): (&str, &str, &Located),
+        name: &str,
+        field_path: &str,
+        located: &Located,
     ) {
         let fix = self.nearby_fix(name, &[field_path.to_owned()], located);
         found.refused.push((self.at(problem, field_path, located), field_path.to_owned(), fix));

@@ -1,3 +1,5 @@
+//! Tests of reading as much as possible of a scene with errors.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

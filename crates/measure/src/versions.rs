@@ -1,4 +1,4 @@
-//! Versions of a scene that are measured beside it, or in its place where something in it would hide what is measured.
+//! Altered versions of a scene: baselines to compare with, and scenes without what would hide the thing measured.
 
 use glam::DVec3;
 use impasto_scene::document::{
@@ -11,45 +11,45 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene.
+/// A version of a scene. *Board* is a smooth canvas: texture that stands still on the picture by design is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Look {
-    /// As it is.
-    Own,
-    /// On a smooth board: what stands still by design is left out.
+pub enum SceneVersion {
+    /// The scene as it is.
+    Unchanged,
+    /// On a board.
     Board,
     /// On a board, without relief and varnish.
     Bare,
-    /// By the source paper's rule, directions kept; on a board.
+    /// With the source paper's strokes in place of the scene's, directions kept; on a board.
     Paper,
-    /// On a board, without what would hide the target from a camera that goes round it.
+    /// On a board, without objects that would hide the target from a camera that goes round it.
     Orbit,
-    /// The paper's rule of that.
+    /// `Orbit` with the source paper's strokes.
     OrbitPaper,
-    /// The body layer alone, without contour, which follows the view.
-    Truth(TurnSolver),
-    /// The body layer alone, with all that the scene states for it.
+    /// The body layer alone, without strokes along the contour: those follow the view by design.
+    NoContour(TurnSolver),
+    /// The body layer alone, with everything that the scene states for it.
     Body,
-    /// As `Body`, all strokes of a layer as large as it says.
-    Sized,
-    /// As `Truth`, without chance and second families, as for `Orbit`.
-    Calm(TurnSolver),
-    /// The paper's rule of that.
-    CalmPaper,
-    /// On a board and unlit: light that stands still is no brushwork.
+    /// As `Body`, but without chance in the size of strokes.
+    EqualSizes,
+    /// As `NoContour`, but without chance in the angle and without second directions; objects as in `Orbit`.
+    NoChance(TurnSolver),
+    /// `NoChance` with the source paper's strokes.
+    NoChancePaper,
+    /// On a board and unlit: light that stands still is not brushwork.
     Unlit,
-    /// Each object has one flat colour, and nothing mixes colours.
+    /// Each object in one flat colour, and nothing that mixes colours.
     Flat,
-    /// Without chance in the angle.
-    Steady,
-    /// Likewise, with twice the particles.
-    SteadyTwice,
+    /// The body layer alone, without chance in the angle.
+    NoAngleChance,
+    /// As `NoAngleChance`, with twice the particles.
+    NoAngleChanceTwice,
 }
 
-/// How turns are found.
+/// How the turns of strokes are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TurnSolver {
-    /// As the scene says.
+    /// By the solver that the scene states.
     Own,
     /// Horn's estimate, baked.
     Horn,
@@ -57,13 +57,13 @@ pub enum TurnSolver {
     HornExact,
 }
 
-impl Look {
-    /// That version of a scene. `particles` are the counts of its objects' body layers.
+impl SceneVersion {
+    /// This version of a scene. `particles` are the counts of the objects' body layers, for `NoAngleChanceTwice`.
     pub fn of(self, loaded: &LoadedScene, particles: &[usize]) -> LoadedScene {
         let mut version = loaded.clone();
         let scene = &mut version.scene;
         match self {
-            Self::Own => {}
+            Self::Unchanged => {}
             Self::Board => board(scene),
             Self::Bare => {
                 board(scene);
@@ -78,23 +78,23 @@ impl Look {
                 paper(scene);
                 leave_out(&mut version, &orbit_blockers(loaded));
             }
-            Self::Truth(solver) => {
+            Self::NoContour(solver) => {
                 body_alone(scene);
                 each_settings(scene, |strokes| strokes.contour = Some(0.0));
                 turn_by(scene, solver);
             }
             Self::Body => body_alone(scene),
-            Self::Sized => {
+            Self::EqualSizes => {
                 body_alone(scene);
                 each_settings(scene, |strokes| strokes.size_jitter = Some(0.0));
             }
-            Self::Calm(solver) => {
+            Self::NoChance(solver) => {
                 body_alone(scene);
                 calm(scene);
                 turn_by(scene, solver);
                 leave_out(&mut version, &orbit_blockers(loaded));
             }
-            Self::CalmPaper => {
+            Self::NoChancePaper => {
                 paper(scene);
                 calm(scene);
                 leave_out(&mut version, &orbit_blockers(loaded));
@@ -106,8 +106,8 @@ impl Look {
                 }
             }
             Self::Flat => flat(scene),
-            Self::Steady => steady(scene),
-            Self::SteadyTwice => {
+            Self::NoAngleChance => steady(scene),
+            Self::NoAngleChanceTwice => {
                 steady(scene);
                 for (object, &count) in scene.objects.iter_mut().zip(particles) {
                     object.particles = Some(2 * count as u64);
@@ -194,7 +194,7 @@ fn calm(scene: &mut Scene) {
     }
 }
 
-/// Colours that lie far apart, as many as needed.
+/// A colour for each object, far from those of the others.
 pub fn flat_color(object: usize) -> Color {
     let level = |digit: usize| [0.15, 0.85, 0.5][digit % 3];
     // 0 is grey-black, 1 is red, ...
@@ -216,7 +216,7 @@ fn flat(scene: &mut Scene) {
         strokes.layers.extend(LayerKind::ALL.map(|kind| LayerSettings { pickup: Some(0.0), ..layer(kind) }));
     });
     for (index, object) in scene.objects.iter_mut().enumerate() {
-        // What moves the surface stays; what colours it goes.
+        // Noise that moves the surface stays; noise that colours it goes.
         let noise = object.material.take().and_then(|material| material.noise_displace);
         object.material = Some(MaterialOverride {
             noise_displace: noise.map(|noise| NoiseDisplace { surface: None, ..noise }),
@@ -228,8 +228,8 @@ fn flat(scene: &mut Scene) {
     }
 }
 
-/// Objects that a camera going round its target would meet, and that hide the target from it: walls and other backdrops.
-/// They are large against the camera's distance, and nobody's parents.
+/// Objects that would hide the target from a camera that goes round it, as walls and other backdrops do. Only objects that are
+/// large compared with the camera's distance and have no children count.
 pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
     let scene = &loaded.scene;
     let (camera, frame) = motion::referred_to(scene, &scene.reference);
@@ -244,7 +244,7 @@ pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
             Some(file?.mesh.corners(triangle).map(|corner| to_world * corner.as_dvec3() + from))
         })
     };
-    // What the reference camera sees in its middle is what it goes round.
+    // The object in the middle of the reference camera's picture is what the camera goes round.
     let first_hit = |index: &usize| {
         let hits = corners_of(*index).filter_map(|corners| segment_hit(camera.eye, camera.target, corners));
         hits.fold(f64::INFINITY, f64::min)
@@ -268,7 +268,7 @@ pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
         }
         (1..24).any(|step| {
             let eye = cameras::orbited(&camera, 15.0 * f64::from(step)).eye;
-            // What the target itself lies on is no blocker.
+            // A surface that the target itself lies on does not block it.
             let to = eye + (camera.target - eye) * 0.95;
             corners_of(index).any(|corners| segment_hit(eye, to, corners).is_some())
         })

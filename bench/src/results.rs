@@ -1,4 +1,4 @@
-//! Results as text, one file a machine: what they were measured on, then a line for each figure.
+//! Results as a text file, one per machine: the head of the table, then a line for each figure.
 //!
 //! ```text
 //! # processor: …
@@ -11,10 +11,10 @@ use anyhow::{Context as _, bail};
 
 use crate::table::{Figure, Table, Unit, shown};
 
-/// Figures move by less than this from run to run, whatever their spread within a run.
+/// Smaller changes from run to run are noise, whatever the spread within each run.
 const NOISE: f64 = 0.1;
 
-/// One figure.
+/// One figure of a row.
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {
     what: String,
@@ -28,7 +28,7 @@ struct Entry {
 
 /// The figures of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Kept {
+pub struct Results {
     head: Vec<(String, String)>,
     entries: Vec<Entry>,
 }
@@ -46,8 +46,8 @@ fn name_of(unit: Unit) -> &'static str {
     }
 }
 
-impl Kept {
-    /// Of a table: ours, peers' and floors that there are.
+impl Results {
+    /// The figures of a table that have a value: ours, the peers' and the floors.
     pub fn of(table: &Table) -> Self {
         let mut entries = Vec::new();
         for row in &table.rows {
@@ -68,7 +68,7 @@ impl Kept {
         Self { head: table.head.clone(), entries }
     }
 
-    /// As text.
+    /// The text of the file.
     fn text(&self) -> String {
         let mut text = String::new();
         for (name, value) in &self.head {
@@ -81,7 +81,7 @@ impl Kept {
         text
     }
 
-    /// Writes the file. Lines of it that were not measured this time stay.
+    /// Writes the file. Lines that were not measured this time stay.
     ///
     /// # Errors
     /// Where the file cannot be read or written.
@@ -107,8 +107,8 @@ impl Kept {
         self.head.iter().find(|(name, _)| name == "date").map_or("no date", |(_, value)| value)
     }
 
-    /// What is different in a later run, in words. On another machine times mean nothing, so there it is what others took over
-    /// what ours took that is compared.
+    /// The changes of a later run, in words. Times on different machines cannot be compared; there, the others' times over ours
+    /// are.
     pub fn moved(&self, later: &Self) -> String {
         let same_machine = self.machine() == later.machine();
         let mut text = format!(
@@ -146,7 +146,7 @@ impl Kept {
         text
     }
 
-    /// How many times ours a peer's or a floor's time is; `None` of ours.
+    /// A peer's or a floor's time over ours; `None` for ours.
     fn over_ours(&self, entry: &Entry) -> Option<Entry> {
         let ours =
             self.entries.iter().find(|other| other.what == entry.what && other.input == entry.input)?;
@@ -168,18 +168,18 @@ fn same(one: &Entry, other: &Entry) -> bool {
 /// Reads a file of results.
 ///
 /// # Errors
-/// Where it is none.
-pub fn read(path: &Path) -> anyhow::Result<Kept> {
+/// Where the file cannot be read or has another form.
+pub fn read(path: &Path) -> anyhow::Result<Results> {
     let text = std::fs::read_to_string(path).with_context(|| format!("{} cannot be read", path.display()))?;
     parse(&text).with_context(|| format!("{} is no file of results", path.display()))
 }
 
-fn parse(text: &str) -> anyhow::Result<Kept> {
-    let mut kept = Kept::default();
+fn parse(text: &str) -> anyhow::Result<Results> {
+    let mut results = Results::default();
     for (index, line) in text.lines().enumerate() {
         if let Some(head) = line.strip_prefix("# ") {
             let (name, value) = head.split_once(": ").unwrap_or((head, ""));
-            kept.head.push((name.to_owned(), value.to_owned()));
+            results.head.push((name.to_owned(), value.to_owned()));
             continue;
         }
         let fields: Vec<&str> = line.split('\t').collect();
@@ -187,7 +187,7 @@ fn parse(text: &str) -> anyhow::Result<Kept> {
             bail!("line {} has {} fields, not 7", index + 1, fields.len());
         };
         let number = |text: &str| text.parse::<f64>().with_context(|| format!("line {}: {text}", index + 1));
-        kept.entries.push(Entry {
+        results.entries.push(Entry {
             what: what.to_owned(),
             input: input.to_owned(),
             who: who.to_owned(),
@@ -197,7 +197,7 @@ fn parse(text: &str) -> anyhow::Result<Kept> {
             high: number(high)?,
         });
     }
-    Ok(kept)
+    Ok(results)
 }
 
 #[cfg(test)]
@@ -205,35 +205,35 @@ mod tests {
     use super::*;
     use crate::table::{Row, Spread};
 
-    fn run(processor: &str, secs: &[(&str, f64)]) -> Kept {
+    fn run(processor: &str, secs: &[(&str, f64)]) -> Results {
         let head =
             vec![("processor".to_owned(), processor.to_owned()), ("date".to_owned(), "today".to_owned())];
         let figure = |&(who, secs): &(&str, f64)| {
             Figure::new(who, Unit::Seconds, Spread::of(vec![0.99 * secs, secs, 1.01 * secs]))
         };
         let row = Row::of_race("task", "1,000", secs.iter().map(figure).collect(), false);
-        Kept::of(&Table { head, rows: vec![row] })
+        Results::of(&Table { head, rows: vec![row] })
     }
 
     #[test]
-    fn what_is_written_is_read() {
-        let kept = run("a chip", &[("Impasto", 0.5), ("tree", 2.0)]);
-        assert_eq!(parse(&kept.text()).unwrap(), kept);
+    fn written_results_are_read_back() {
+        let results = run("a chip", &[("Impasto", 0.5), ("tree", 2.0)]);
+        assert_eq!(parse(&results.text()).unwrap(), results);
         assert!(parse("what\tinput\n").is_err());
         assert!(parse("a\tb\tc\tparsecs\t1\t1\t1\n").is_err());
     }
 
     #[test]
-    fn only_what_moved_is_told_and_on_another_machine_only_ratios() {
+    fn only_changes_are_reported_and_between_machines_only_ratios() {
         let before = run("a chip", &[("Impasto", 0.5), ("tree", 2.0)]);
         let slower = run("a chip", &[("Impasto", 0.8), ("tree", 2.01)]);
-        let told = before.moved(&slower);
-        assert!(told.contains("Impasto: 500 ms → 800 ms (×1.60)"), "{told}");
-        assert!(!told.contains("tree:"), "{told}");
+        let report = before.moved(&slower);
+        assert!(report.contains("Impasto: 500 ms → 800 ms (×1.60)"), "{report}");
+        assert!(!report.contains("tree:"), "{report}");
         let elsewhere = run("another chip", &[("Impasto", 5.0), ("tree", 20.0)]);
         assert!(before.moved(&elsewhere).contains("0 of 2"), "{}", before.moved(&elsewhere));
         let elsewhere = run("another chip", &[("Impasto", 5.0), ("tree", 5.0)]);
-        let told = before.moved(&elsewhere);
-        assert!(told.contains("tree over Impasto: 4.000 → 1.000"), "{told}");
+        let report = before.moved(&elsewhere);
+        assert!(report.contains("tree over Impasto: 4.000 → 1.000"), "{report}");
     }
 }

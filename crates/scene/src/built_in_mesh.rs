@@ -1,4 +1,4 @@
-//! Meshes that come with Impasto and need no file. Their names begin with `impasto:`, which no file's does.
+//! Built-in meshes, which need no file. Their names begin with `impasto:`, as no file's name does.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -7,10 +7,10 @@ use impasto_core::TriangleMesh;
 
 use crate::mesh_file::{Material, MeshFile};
 
-/// What the names of these meshes begin with.
+/// The beginning of the names of built-in meshes.
 pub const PREFIX: &str = "impasto:";
 
-/// A floor that rises into a wall, as photographers use: 2 wide, its floor at height 0 from z = 1 back to −0.28, its wall
+/// A photographer's backdrop, a floor that bends up into a wall: 2 wide, the floor at height 0 from z = 1 back to −0.28, the wall
 /// 1.3 high.
 pub const BACKDROP: &str = "impasto:backdrop";
 
@@ -21,11 +21,11 @@ const HEIGHT: f32 = 1.3;
 /// Radius of the bend between floor and wall.
 const BEND: f32 = 0.12;
 
-/// Quads across, along the floor, in the bend, up the wall.
+/// Numbers of quads: across; and along the floor, in the bend and up the wall.
 const ACROSS: usize = 24;
 const ALONG: [usize; 3] = [16, 10, 14];
 
-/// The mesh of that name; `None` when there is no such one.
+/// The built-in mesh of this name, if there is one.
 pub fn of_name(name: &str) -> Option<MeshFile> {
     (name == BACKDROP).then(|| MeshFile {
         mesh: backdrop(),

@@ -1,24 +1,24 @@
-//! A particle's place alone, for keeping millions of them.
+//! Particles in 12 bytes each, since millions of them are held in memory.
 
 use glam::Vec3;
 
 use super::Particle;
 use crate::TriangleMesh;
 
-/// The bit of [`Place`] that says on which side of its triangle it is.
+/// The bit of `triangle_and_side` that is set for particles on the back of their triangle.
 const FLIPPED: u32 = 1 << 31;
 
-/// What of a [`Particle`] cannot be computed from its mesh, in 12 bytes.
+/// The part of a [`Particle`] that cannot be computed from its mesh, in 12 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct PackedParticle {
     /// Index of the triangle, with [`FLIPPED`].
     triangle_and_side: u32,
     /// Weights of the triangle's second and third corner.
     barycentric: [f32; 2],
 }
 
-impl Place {
-    /// Of a particle of a mesh with fewer than 2³¹ triangles.
+impl PackedParticle {
+    /// Packs a particle of a mesh with fewer than 2³¹ triangles.
     #[inline]
     pub fn of(particle: &Particle) -> Self {
         let side = if particle.flipped { FLIPPED } else { 0 };
@@ -37,12 +37,12 @@ impl Place {
         self.unplaced(Vec3::Y).on(mesh, &mesh.positions, &mesh.normals)
     }
 
-    /// The same after the mesh's vertices have moved, as [`Particle::on`] gives it.
+    /// The particle after the mesh's vertices have moved, as [`Particle::on`] gives it.
     #[inline]
     pub fn on_moved(self, mesh: &TriangleMesh, positions: &[Vec3], normals: &[Vec3]) -> Particle {
         let moved = self.unplaced(Vec3::NAN).on(mesh, positions, normals);
         if moved.normal.is_nan() {
-            // Where the triangle has shrunk to nothing, the normal that it had.
+            // A triangle that has shrunk to nothing keeps the normal that it had.
             return Particle { normal: self.on(mesh).normal, ..moved };
         }
         moved
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_is_its_particle_to_the_bit_however_the_mesh_moves() {
+    fn a_packed_particle_gives_the_same_bits_however_the_mesh_moves() {
         let mesh = TriangleMesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
             normals: vec![Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::Z],
@@ -74,17 +74,17 @@ mod tests {
         let shrunk = (vec![Vec3::ONE; 3], vec![Vec3::ZERO; 3]);
         let bent = (vec![Vec3::Z, Vec3::X, Vec3::Y], vec![Vec3::X, Vec3::Y, Vec3::Z]);
         for flipped in [false, true] {
-            let place = Particle {
+            let unplaced = Particle {
                 triangle: 0,
                 barycentric: [0.31, 0.17],
                 flipped,
                 position: Vec3::ZERO,
                 normal: Vec3::Y,
             };
-            let particle = place.on(&mesh, &mesh.positions, &mesh.normals);
-            assert_eq!(Place::of(&particle).on(&mesh), particle);
+            let particle = unplaced.on(&mesh, &mesh.positions, &mesh.normals);
+            assert_eq!(PackedParticle::of(&particle).on(&mesh), particle);
             for (positions, normals) in [&shrunk, &bent] {
-                let moved = Place::of(&particle).on_moved(&mesh, positions, normals);
+                let moved = PackedParticle::of(&particle).on_moved(&mesh, positions, normals);
                 assert_eq!(moved, particle.on(&mesh, positions, normals));
             }
         }

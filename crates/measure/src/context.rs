@@ -1,4 +1,4 @@
-//! Where measuring happens: versions of the scene, a renderer, and frames that have been drawn.
+//! What the protocols work with: the scene and its prepared versions, a renderer, and a cache of drawn frames.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -10,43 +10,43 @@ use impasto_painting::{Frame, FrameOptions, Painting, Preparer, Rotation};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::{self, CameraPose};
 
-use crate::looks::Look;
 use crate::options::{MeasureError, MeasureOptions};
 use crate::plane::Plane;
-use crate::strokes::{SeenStrokes, seen};
+use crate::strokes::{StrokesByKey, strokes_by_key};
+use crate::versions::SceneVersion;
 
-/// A frame that was drawn, with what was read back of it.
-pub struct Shown {
-    /// What was drawn.
+/// A drawn frame with what was read back from the renderer.
+pub struct DrawnFrame {
+    /// The frame.
     pub frame: Frame,
     /// The picture's luma.
     pub luma: Plane,
     /// Its strokes, as drawn.
-    pub strokes: SeenStrokes,
-    /// What is where.
+    pub strokes: StrokesByKey,
+    /// Body and depth per pixel.
     pub reference: ReferencePixels,
-    /// Alpha of the paint.
+    /// Alpha of the paint per pixel.
     pub paint_alpha: Vec<f32>,
 }
 
-/// A scene on the bench.
-pub struct Studio<'a> {
+/// A scene that is being measured.
+pub struct MeasureContext<'a> {
     /// The scene as it is.
     pub loaded: &'a Arc<LoadedScene>,
     /// Width and height of the pictures.
     pub size_px: [u32; 2],
-    /// How many pairs of frames are looked at.
+    /// How many pairs of frames are measured, at most.
     pub pairs_wanted: usize,
-    /// What a person should know.
+    /// Warnings about the scene.
     pub warnings: Vec<String>,
-    /// Draws.
+    /// The renderer that draws the frames.
     pub renderer: Renderer,
     preparer: Preparer,
-    paintings: HashMap<Look, Rc<Painting>>,
-    shown: HashMap<(Look, RotationKey, u64), Rc<Shown>>,
+    paintings: HashMap<SceneVersion, Rc<Painting>>,
+    drawn: HashMap<(SceneVersion, RotationKey, u64), Rc<DrawnFrame>>,
 }
 
-/// [`Rotation`] as a key.
+/// [`Rotation`] as part of a key.
 type RotationKey = u8;
 
 fn rotation_key(rotation: Rotation) -> RotationKey {
@@ -58,11 +58,11 @@ fn rotation_key(rotation: Rotation) -> RotationKey {
     }
 }
 
-impl<'a> Studio<'a> {
+impl<'a> MeasureContext<'a> {
     /// Opens a renderer for a scene.
     ///
     /// # Errors
-    /// Where there is no driver.
+    /// When no driver can be opened.
     pub fn open(loaded: &'a Arc<LoadedScene>, options: &MeasureOptions) -> Result<Self, MeasureError> {
         let renderer = Renderer::new(open(options.driver, &OpenOptions::default())?)?;
         let (width, height) = loaded.scene.size;
@@ -75,25 +75,25 @@ impl<'a> Studio<'a> {
             renderer,
             preparer: Preparer::default(),
             paintings: HashMap::new(),
-            shown: HashMap::new(),
+            drawn: HashMap::new(),
         })
     }
 
     /// The scene in this version, prepared.
     ///
     /// # Errors
-    /// Where that fails.
-    pub fn painting(&mut self, look: Look) -> Result<Rc<Painting>, MeasureError> {
-        if let Some(painting) = self.paintings.get(&look) {
+    /// When preparing fails.
+    pub fn painting(&mut self, version: SceneVersion) -> Result<Rc<Painting>, MeasureError> {
+        if let Some(painting) = self.paintings.get(&version) {
             return Ok(Rc::clone(painting));
         }
-        let counts = match look {
-            Look::SteadyTwice => self.painting(Look::Steady)?.particle_counts(),
+        let counts = match version {
+            SceneVersion::NoAngleChanceTwice => self.painting(SceneVersion::NoAngleChance)?.particle_counts(),
             _ => Vec::new(),
         };
-        let version = Arc::new(look.of(self.loaded, &counts));
-        let painting = Rc::new(self.preparer.prepare(version)?);
-        self.paintings.insert(look, Rc::clone(&painting));
+        let scene = Arc::new(version.of(self.loaded, &counts));
+        let painting = Rc::new(self.preparer.prepare(scene)?);
+        self.paintings.insert(version, Rc::clone(&painting));
         Ok(painting)
     }
 
@@ -107,7 +107,7 @@ impl<'a> Studio<'a> {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).0
     }
 
-    /// How frames are seen.
+    /// Options for frames of this size.
     pub fn frame_options(&self, rotation: Rotation) -> FrameOptions {
         FrameOptions { rotation, ..FrameOptions::new(self.size_px) }
     }
@@ -134,27 +134,36 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// A frame of the shot in this version, drawn; kept until [`Studio::forget`].
+    /// A drawn frame of the shot in this version; cached until [`MeasureContext::forget`].
     ///
     /// # Errors
-    /// Where it cannot be prepared or drawn.
-    pub fn show(&mut self, look: Look, frame: f64, rotation: Rotation) -> Result<Rc<Shown>, MeasureError> {
-        let key = (look, rotation_key(rotation), frame.to_bits());
-        if let Some(shown) = self.shown.get(&key) {
+    /// When it cannot be prepared or drawn.
+    pub fn drawn_frame(
+        &mut self,
+        version: SceneVersion,
+        frame: f64,
+        rotation: Rotation,
+    ) -> Result<Rc<DrawnFrame>, MeasureError> {
+        let key = (version, rotation_key(rotation), frame.to_bits());
+        if let Some(shown) = self.drawn.get(&key) {
             return Ok(Rc::clone(shown));
         }
-        let painting = self.painting(look)?;
+        let painting = self.painting(version)?;
         let shown = Rc::new(self.draw(painting.at(frame, &self.frame_options(rotation)))?);
-        self.shown.insert(key, Rc::clone(&shown));
+        self.drawn.insert(key, Rc::clone(&shown));
         Ok(shown)
     }
 
-    /// The reference pose in this version, seen by another camera and drawn.
+    /// The reference pose in this version, drawn as another camera sees it.
     ///
     /// # Errors
-    /// As [`Studio::show`].
-    pub fn show_from(&mut self, look: Look, camera: &CameraPose) -> Result<Shown, MeasureError> {
-        let painting = self.painting(look)?;
+    /// As [`MeasureContext::drawn_frame`].
+    pub fn drawn_view(
+        &mut self,
+        version: SceneVersion,
+        camera: &CameraPose,
+    ) -> Result<DrawnFrame, MeasureError> {
+        let painting = self.painting(version)?;
         let options = self.frame_options(Rotation::On);
         self.draw(painting.seen_by(camera, self.reference_frame(), &options))
     }
@@ -162,11 +171,11 @@ impl<'a> Studio<'a> {
     /// Draws a frame.
     ///
     /// # Errors
-    /// Where the driver refuses.
-    pub fn draw(&mut self, frame: Frame) -> Result<Shown, MeasureError> {
+    /// When drawing fails.
+    pub fn draw(&mut self, frame: Frame) -> Result<DrawnFrame, MeasureError> {
         let picture = self.renderer.render(&frame)?;
-        let strokes = seen(&frame, &self.renderer.resolved_strokes());
-        Ok(Shown {
+        let strokes = strokes_by_key(&frame, &self.renderer.resolved_strokes());
+        Ok(DrawnFrame {
             luma: Plane::luma(&picture),
             strokes,
             reference: self.renderer.read_reference(),
@@ -175,24 +184,24 @@ impl<'a> Studio<'a> {
         })
     }
 
-    /// The bytes of a frame.
+    /// The picture of a frame.
     ///
     /// # Errors
-    /// Where the driver refuses.
+    /// When drawing fails.
     pub fn picture(&mut self, frame: &Frame) -> Result<Picture, MeasureError> {
         Ok(self.renderer.render(frame)?)
     }
 
-    /// Where the surface points of one frame are in another.
+    /// Where the surface points in the pixels of one frame are in another.
     ///
     /// # Errors
-    /// Where the driver refuses.
+    /// When drawing fails.
     pub fn motion(&mut self, now: &Frame, then: &Frame) -> Result<MotionPixels, MeasureError> {
         Ok(self.renderer.motion(now, then)?)
     }
 
-    /// Lets go of drawn frames, except those of the shot on a board, which several metrics use.
+    /// Drops cached frames, except those of the shot on a board, which several metrics use.
     pub fn forget(&mut self) {
-        self.shown.retain(|(look, rotation, _), _| *look == Look::Board && *rotation == 0);
+        self.drawn.retain(|(version, rotation, _), _| *version == SceneVersion::Board && *rotation == 0);
     }
 }

@@ -1,4 +1,4 @@
-//! The two noises of the house: coloured Gaussian noise for vertices, grey Perlin noise for surfaces.
+//! The two built-in noise textures: coloured Gaussian noise for vertices, grey Perlin noise for surfaces.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, LazyLock};
@@ -12,21 +12,21 @@ use crate::hash;
 /// Side of the Gaussian noise, texels.
 const GAUSSIAN_SIDE: usize = 128;
 
-/// Deviation of the Gaussian that the white noise is smoothed by, texels.
+/// Deviation of the Gaussian that smooths the white noise, texels.
 const SMOOTHING: f64 = 4.0;
 
 /// Side of the Perlin noise, texels.
 const PERLIN_SIDE: usize = 256;
 
-/// Cells of the coarsest octave, and how many octaves there are.
+/// Cells per side of the coarsest octave, and how many octaves there are.
 const CELLS: f64 = 4.0;
 const OCTAVES: u32 = 5;
 
 /// Deviation of either noise; its mean is a half.
 const DEVIATION: f64 = 0.17;
 
-/// Coloured Gaussian noise: three channels that have nothing to do with each other, normally distributed about a half,
-/// smoothed so that neighbouring vertices move alike.
+/// Coloured Gaussian noise: three independent channels, normally distributed about a half, smoothed so that neighbouring vertices
+/// move alike.
 pub fn gaussian() -> Arc<Tile> {
     static TILE: LazyLock<Arc<Tile>> = LazyLock::new(|| {
         let channels = [0, 1, 2].map(|channel| levelled(smoothed(channel), |value| value));
@@ -41,7 +41,7 @@ pub fn gaussian() -> Arc<Tile> {
 pub fn perlin() -> Arc<Tile> {
     static TILE: LazyLock<Arc<Tile>> = LazyLock::new(|| {
         let octaves: Vec<Perlin> = (0..OCTAVES).map(|octave| Perlin::new(17 + octave)).collect();
-        // A torus in four dimensions has no seam.
+        // Taken on a torus in four dimensions, which has no seam.
         let value = |index: usize| {
             let angle = |at: usize| TAU * (at as f64 + 0.5) / PERLIN_SIDE as f64;
             let (u, v) = (angle(index % PERLIN_SIDE).sin_cos(), angle(index / PERLIN_SIDE).sin_cos());
@@ -53,7 +53,7 @@ pub fn perlin() -> Arc<Tile> {
             octaves.iter().enumerate().map(of_octave).sum::<f64>()
         };
         let values = (0..PERLIN_SIDE * PERLIN_SIDE).into_par_iter().map(value).collect();
-        // Nothing is quite black or white: a product of layers would stay so.
+        // Never quite black or white: a product of layers could not recover from either.
         let grey = levelled(values, |value| 0.5 * (2.0 * value).tanh());
         let texels = grey.into_iter().map(|grey| [grey, grey, grey, 1.0]).collect();
         Arc::new(Tile::new([PERLIN_SIDE; 2], texels))
@@ -83,12 +83,13 @@ fn smoothed(channel: u32) -> Vec<f64> {
     along(&along(&white, 1), side)
 }
 
-/// With a mean of a half and about the deviation of the house, within 0..=1; `bent` bends what lies about 0.
-fn levelled(values: Vec<f64>, bent: impl Fn(f64) -> f64) -> Vec<f32> {
+/// The values with a mean of a half and a deviation of about [`DEVIATION`], clamped to 0..=1; `curve` is applied to them while
+/// their mean is 0.
+fn levelled(values: Vec<f64>, curve: impl Fn(f64) -> f64) -> Vec<f32> {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let deviation = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
-    let level = |value: f64| (0.5 + bent((value - mean) / deviation * DEVIATION)).clamp(0.0, 1.0) as f32;
+    let level = |value: f64| (0.5 + curve((value - mean) / deviation * DEVIATION)).clamp(0.0, 1.0) as f32;
     values.into_iter().map(level).collect()
 }
 
@@ -104,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn noises_lie_about_a_half() {
+    fn noises_have_the_stated_mean_and_deviation() {
         for (tile, channels) in [(gaussian(), 3), (perlin(), 1)] {
             for channel in 0..channels {
                 let [mean, deviation] = moments(&tile, channel);
@@ -117,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn the_gaussian_noise_is_coloured_and_normal_and_the_perlin_noise_grey() {
+    fn gaussian_noise_has_independent_normal_channels_and_perlin_noise_is_grey() {
         let tile = gaussian();
         let count = tile.texels().len() as f64;
         let product = |texel: &[f32; 4]| f64::from(texel[0] - 0.5) * f64::from(texel[1] - 0.5);
