@@ -1,8 +1,9 @@
 //! The command line as a user meets it: exit codes, messages, files that are whole or not there.
 
 use std::collections::BTreeMap;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use impasto_tests::command::impasto;
 
@@ -394,17 +395,20 @@ fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {
         &["measure", "scene.ron", "--set", many, "--plot", "a.svg", "-q"],
     ] {
         let mut child = Command::new("sh")
-            .args(["-c", "trap '' INT; exec \"$@\"", "sh"])
+            .args(["-c", "trap '' INT; echo ready; exec \"$@\"", "sh"])
             .arg(impasto())
             .args(arguments)
             .current_dir(folder.0.path())
+            .stdout(Stdio::piped())
             .spawn()
             .unwrap();
+        let mut ready = [0; 5];
+        child.stdout.as_mut().unwrap().read_exact(&mut ready).unwrap();
         let status = loop {
             if let Some(status) = child.try_wait().unwrap() {
                 break status;
             }
-            // Early ones find the shell, which ignores them.
+            // Those that come before the command watches for them are ignored.
             let interrupt = format!("kill -INT {} 2>/dev/null", child.id());
             Command::new("sh").args(["-c", &interrupt]).status().unwrap();
             std::thread::sleep(std::time::Duration::from_millis(20));

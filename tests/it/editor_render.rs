@@ -14,12 +14,12 @@ use impasto_editor_model::render_settings::{
 use impasto_scene::load::LoadOptions;
 use impasto_tests::command::{impasto, root};
 
-/// A scene of two moving cubes, saved in a folder whose name a shell has to be told in quotes.
+/// A scene of two moving cubes, with frames enough for two painters, saved in a folder whose name a shell has to be told in quotes.
 fn document(folder: &Path) -> Document {
     std::fs::create_dir(folder).unwrap();
     std::fs::copy(root().join("scenes/meshes/cube.obj"), folder.join("cube.obj")).unwrap();
     let text = r#"(
-        version: 1, size: (160, 90), timeline: (first: -1, last: 4, fps: 12), seed: 5,
+        version: 1, size: (160, 90), timeline: (first: -1, last: 6, fps: 12), seed: 5,
         camera: (keys: [(frame: 0, eye: (0, 1, 5), target: (0, 0, 0))]),
         lights: [(name: "sun", kind: Sun, direction: (0.8, -0.8, -0.3))],
         objects: [
@@ -95,6 +95,8 @@ fn the_editors_frames_are_those_of_the_command_that_it_copies() {
                 "frame_0002.png",
                 "frame_0003.png",
                 "frame_0004.png",
+                "frame_0005.png",
+                "frame_0006.png",
             ],
         ),
         (listed, vec!["my 'best' -001.png", "my 'best' 001.png", "my 'best' 003.png", "my 'best' 004.png"]),
