@@ -121,11 +121,7 @@ impl Editor {
                 self.looking.free(&shot).toggle_orthographic();
             }
             Action::LookThrough => self.looking = Looking::Shot,
-            Action::CameraFromView => {
-                if self.place_shot(self.camera()) {
-                    self.looking = Looking::Shot;
-                }
-            }
+            Action::CameraFromView => self.bring_shot_to_view(),
             Action::SetKey => self.set_key(),
             Action::Render => self.requests.push(Request::Render),
             Action::Play => self.play_or_stop(),
@@ -274,6 +270,12 @@ impl Editor {
             Action::Hide => Edit::SetHidden(items, !hidden),
             _ => Edit::SetLocked(items, !locked),
         }));
+    }
+
+    fn bring_shot_to_view(&mut self) {
+        if self.place_shot(self.camera()) {
+            self.looking = Looking::Shot;
+        }
     }
 
     fn look_along(&mut self, axis: AxisView) {
