@@ -221,9 +221,11 @@ fn numbers<const COUNT: usize>(text: &[u8], mut at: usize) -> Option<([f64; COUN
     let mut values = [0.0; COUNT];
     for value in &mut values {
         at = skip_blanks(text, at);
-        let length = text[at..].iter().position(u8::is_ascii_whitespace)?;
-        *value = finite(&text[at..at + length])?;
-        at += length;
+        let start = at;
+        while !text.get(at)?.is_ascii_whitespace() {
+            at += 1;
+        }
+        *value = finite(&text[start..at])?;
     }
     Some((values, at))
 }

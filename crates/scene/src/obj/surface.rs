@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use foldhash::fast::RandomState;
 use glam::{DVec3, Vec2, Vec3};
 use impasto_core::TriangleMesh;
 use indexmap::IndexSet;
@@ -26,6 +27,9 @@ const NONE: u32 = u32::MAX;
 
 /// Triangles that one core takes at a time, at least.
 const SHARE: usize = 4096;
+
+/// Values that differ in their bits, numbered in the order of their first use.
+type Distinct<const N: usize> = IndexSet<[u32; N], RandomState>;
 
 /// What [`Builder`] made, beside the mesh.
 #[derive(Debug, Default)]
@@ -173,14 +177,18 @@ impl<'a> Builder<'a> {
         let made_normals = self.corner_normals();
         let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
         let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
-        let mut vertices: IndexSet<[u32; 8]> = IndexSet::with_capacity(positions.len());
+        let mut vertices = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
         // The number that each vertex of the file had last.
         let mut last: Vec<u32> = vec![NONE; positions.len()];
-        let mut number = |vertex: usize, made: Option<Vec3>| {
+        let mut number = |vertex: u32, made: Option<Vec3>| {
+            let vertex = vertex as usize;
+            let known = last[vertex];
+            if known != NONE && made.is_none() {
+                return known;
+            }
             let normal = bits(made.or(normals[vertex]).unwrap_or_default().to_array());
-            let number = last[vertex];
-            if number != NONE && (made.is_none() || vertices[number as usize][5..] == normal) {
-                return number;
+            if known != NONE && vertices[known as usize][5..] == normal {
+                return known;
             }
             let ([x, y, z], [nx, ny, nz]) = (bits(positions[vertex].to_array()), normal);
             let [u, v] = bits(uvs[vertex].unwrap_or_default().to_array());
@@ -191,11 +199,13 @@ impl<'a> Builder<'a> {
         let mut mesh = TriangleMesh::default();
         let (mut polygon, mut face) = (0, self.triangles.first().map_or(0, |first| first.face));
         for (at, triangle) in self.triangles.iter().enumerate() {
-            let made = made_normals.get(at);
-            mesh.triangles.push(
-                [0, 1, 2]
-                    .map(|corner| number(triangle.vertices[corner] as usize, made.map(|made| made[corner]))),
-            );
+            let [a, b, c] = triangle.vertices;
+            mesh.triangles.push(match made_normals.get(at) {
+                Some(&[of_a, of_b, of_c]) => {
+                    [number(a, Some(of_a)), number(b, Some(of_b)), number(c, Some(of_c))]
+                }
+                None => [number(a, None), number(b, None), number(c, None)],
+            });
             polygon += u32::from(triangle.face != face);
             face = triangle.face;
             mesh.polygon_of_triangle.push(polygon);
@@ -274,7 +284,7 @@ struct Around {
 impl Around {
     fn new(builder: &Builder<'_>) -> Self {
         let positions = &builder.geometry.positions;
-        let mut places: IndexSet<[u32; 3]> = IndexSet::with_capacity(positions.len());
+        let mut places = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
         let place_of_vertex: Vec<u32> =
             positions.iter().map(|at| places.insert_full(bits(at.to_array())).0 as u32).collect();
         let place = |vertex: u32| place_of_vertex[vertex as usize] as usize;
