@@ -64,7 +64,7 @@ fn good_files_have_the_polygons_that_tobj_reads() {
         let (models, _) = tobj::load_obj(&path, &options).expect("a shipped mesh is good");
         let mut theirs = Vec::new();
         for mesh in models.iter().map(|model| &model.mesh) {
-            let at = |index: u32| [0, 1, 2].map(|axis| mesh.positions[3 * index as usize + axis]);
+            let at = |index: u32| [0, 1, 2].map(|axis| mesh.positions[3 * index as usize + axis] as f32);
             // None stand there where all are triangles.
             let all_triangles = vec![3; mesh.indices.len() / 3];
             let arities = if mesh.face_arities.is_empty() { &all_triangles } else { &mesh.face_arities };

@@ -1,27 +1,16 @@
-//! The first pass over an OBJ text: every number and index is checked where it stands. Plain lines come in bulk from
-//! [`super::plain`], all others are looked at here one by one.
+//! The first pass over an OBJ text: every number and index is checked where it stands, every problem told with its place,
+//! and the text is cleaned for tobj. Plain lines come in bulk from [`super::scan`], all others are taken one by one.
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
-
-use super::number::finite;
+use super::cleaned::Cleaned;
 use super::oddities::Oddities;
-use super::plain::{self, Corner, Counts, NONE, Piece};
-use super::surface::SHARE;
-use super::text::{Findings, Lines, Word, name_of};
-
-/// Coordinates beyond this lose their squares and cross products in single precision.
-pub(super) const MAX_COORDINATE: f64 = 1e9;
-
-/// Texture coordinates from here on are of no use.
-pub(super) const MAX_UV: f64 = 1e30;
+use super::scan::{self, Counts, Indices, Kind, MAX_COORDINATE, MAX_UV, Piece, gives, unit};
+use super::text::{Findings, Lines, Word, finite, name_of};
 
 /// One face of at least three different corners.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
-    /// Where its corners end in [`Checked::corners`]; they begin where those of the face before it end.
-    pub end: u32,
     pub group: u32,
     pub material: u32,
     /// Where its line begins in the text.
@@ -56,15 +45,16 @@ impl Names {
     }
 }
 
-/// What an OBJ text says, checked. Every index is in range once [`check`] found no error.
-#[derive(Debug, Default)]
-pub(super) struct Checked {
-    pub positions: Vec<[f64; 3]>,
-    pub uvs: Vec<[f32; 2]>,
-    /// Of unit length; zero where the file's normal is of no use.
-    pub normals: Vec<[f32; 3]>,
-    pub corners: Vec<Corner>,
+/// What an OBJ text says beside its geometry. That is in `cleaned`: every index there is in range once [`check`] found no
+/// error.
+#[derive(Debug)]
+pub(super) struct Checked<'a> {
+    /// Vertices and faces, for tobj.
+    pub cleaned: Cleaned<'a>,
+    /// The faces of `cleaned`.
     pub faces: Vec<Face>,
+    /// For each corner of these faces, what it [`gives`].
+    pub corners: Vec<u8>,
     pub groups: Names,
     pub materials: Names,
     /// Where each material is first named.
@@ -73,89 +63,85 @@ pub(super) struct Checked {
 }
 
 struct Linter<'f, 'a> {
-    checked: Checked,
+    text: &'a [u8],
+    checked: Checked<'a>,
     odd: Oddities,
     findings: &'f mut Findings<'a>,
+    /// How many lines of each [`Kind`] there were so far.
+    counts: [usize; 3],
+    highest: Indices,
     object: Option<String>,
     group: Option<String>,
     group_number: Option<u32>,
     material_number: Option<u32>,
-    corners: Vec<Corner>,
 }
 
-/// Checks a whole text and keeps what a surface needs. Errors and warnings go to `findings`.
-pub(super) fn check(text: &[u8], findings: &mut Findings<'_>) -> Checked {
+/// Checks a whole text. Errors and warnings go to `findings`.
+pub(super) fn check<'a>(text: &'a [u8], findings: &mut Findings<'a>) -> Checked<'a> {
     let mut linter = Linter {
-        checked: Checked::default(),
+        text,
+        checked: Checked {
+            cleaned: Cleaned::new(text),
+            faces: Vec::new(),
+            corners: Vec::new(),
+            groups: Names::default(),
+            materials: Names::default(),
+            material_offsets: Vec::new(),
+            libraries: Vec::new(),
+        },
         odd: Oddities::default(),
         findings,
+        counts: [0; 3],
+        highest: Indices::default(),
         object: None,
         group: None,
         group_number: None,
         material_number: None,
-        corners: Vec::new(),
     };
-    let pieces = plain::read(text, plain::PIECE_BYTES);
-    linter.reserve(&pieces);
+    let pieces = scan::scan(text);
+    linter.checked.faces.reserve(pieces.iter().map(|piece| piece.faces.len()).sum());
+    linter.checked.corners.reserve(pieces.iter().map(|piece| piece.corners.len()).sum());
     for piece in pieces {
-        linter.piece(text, &piece);
+        linter.piece(&piece);
     }
     linter.finish()
 }
 
-/// A direction of unit length, if there is one.
-pub(super) fn unit(numbers: [f64; 3]) -> Option<[f32; 3]> {
-    let length = numbers.iter().map(|number| number * number).sum::<f64>().sqrt();
-    (length > 1e-30 && length.is_finite()).then(|| numbers.map(|number| (number / length) as f32))
-}
-
-impl Linter<'_, '_> {
-    /// Takes the memory for all plain lines at once.
-    fn reserve(&mut self, pieces: &[Piece]) {
-        let sum = |count: fn(&Piece) -> usize| pieces.iter().map(count).sum();
-        self.checked.positions.reserve(sum(|piece| piece.positions.len()));
-        self.checked.uvs.reserve(sum(|piece| piece.uvs.len()));
-        self.checked.normals.reserve(sum(|piece| piece.normals.len()));
-        self.checked.corners.reserve(sum(|piece| piece.corners.len()));
-        self.checked.faces.reserve(sum(|piece| piece.faces.len()));
-    }
-
+impl<'a> Linter<'_, 'a> {
     /// Takes the plain lines of a piece in bulk, and those between them one by one.
-    fn piece(&mut self, text: &[u8], piece: &Piece) {
+    fn piece(&mut self, piece: &Piece) {
+        for kind in 0..3 {
+            self.highest[kind] = self.highest[kind].max(piece.highest[kind]);
+        }
         let mut words = Vec::new();
-        let mut taken = Counts::default();
+        let (mut at, mut taken) = (piece.text.start, Counts::default());
         for rest in &piece.rest {
-            self.plain_lines(piece, taken, rest.before);
-            taken = rest.before;
-            let mut lines = Lines::between(text, rest.text.start as usize, rest.text.end as usize);
+            self.plain_lines(piece, at, rest.text.start, taken, rest.before);
+            (at, taken) = (rest.text.end, rest.before);
+            let mut lines = Lines::between(self.text, rest.text.start, rest.text.end);
             while lines.next_into(&mut words) {
-                let is_last = words.last().is_some_and(|word| word.offset + word.bytes.len() == text.len());
+                let is_last =
+                    words.last().is_some_and(|word| word.offset + word.bytes.len() == self.text.len());
                 if is_last && self.drop_cut_line(&words) {
                     break;
                 }
                 self.line(&words);
             }
         }
-        self.plain_lines(piece, taken, piece.counts());
+        self.plain_lines(piece, at, piece.text.end, taken, piece.counts);
     }
 
-    fn plain_lines(&mut self, piece: &Piece, from: Counts, to: Counts) {
-        let checked = &mut self.checked;
-        append(&mut checked.positions, &piece.positions[from.positions as usize..to.positions as usize]);
-        append(&mut checked.uvs, &piece.uvs[from.uvs as usize..to.uvs as usize]);
-        append(&mut checked.normals, &piece.normals[from.normals as usize..to.normals as usize]);
-        let faces = &piece.faces[from.faces as usize..to.faces as usize];
-        let Some(last) = faces.last() else { return };
-        let start = from.faces.checked_sub(1).map_or(0, |before| piece.faces[before as usize].end);
-        let base = checked.corners.len() as u32;
-        append(&mut checked.corners, &piece.corners[start as usize..last.end as usize]);
-        let (group, material) = self.numbers_of_next_face(faces[0].offset as usize);
-        self.checked.faces.extend(faces.iter().map(|face| Face {
-            end: base + (face.end - start),
-            group,
-            material,
-            offset: face.offset,
-        }));
+    /// Takes the lines of a piece from one byte to another; the counts are those before and behind them.
+    fn plain_lines(&mut self, piece: &Piece, start: usize, end: usize, from: Counts, to: Counts) {
+        self.checked.cleaned.keep(start..end);
+        for kind in 0..3 {
+            self.counts[kind] += (to.values[kind] - from.values[kind]) as usize;
+        }
+        let offsets = &piece.faces[from.faces as usize..to.faces as usize];
+        let Some(&first) = offsets.first() else { return };
+        let (group, material) = self.numbers_of_next_face(first as usize);
+        self.checked.corners.extend(&piece.corners[from.corners as usize..to.corners as usize]);
+        self.checked.faces.extend(offsets.iter().map(|&offset| Face { group, material, offset }));
     }
 
     fn line(&mut self, words: &[Word<'_>]) {
@@ -206,11 +192,11 @@ impl Linter<'_, '_> {
     /// Whether the last line, which has no line end, was cut short: then it is left out, with a warning. A face that only
     /// has fewer corners than the one before it may be whole: it is kept, with a warning.
     fn drop_cut_line(&mut self, words: &[Word<'_>]) -> bool {
-        let arity_before = match self.checked.faces[..] {
-            [.., before, last] => last.end - before.end,
-            [only] => only.end,
-            [] => 0,
-        };
+        let corners_before = self.checked.faces.last().map_or(0, |face| {
+            let mut words = Vec::new();
+            Lines::between(self.text, face.offset as usize, self.text.len()).next_into(&mut words);
+            words.len() - 1
+        });
         let rest = &words[1..];
         let ends_early = rest.last().is_some_and(|word| is_cut_number(*word));
         let is_cut = match words[0].bytes {
@@ -221,7 +207,7 @@ impl Linter<'_, '_> {
         if is_cut {
             let message = "the last line has no end and too few numbers: the file seems cut short";
             self.findings.warning(words[0].offset, message, "the line is left out; get the whole file");
-        } else if words[0].bytes == b"f" && rest.len() < arity_before as usize {
+        } else if words[0].bytes == b"f" && rest.len() < corners_before {
             let message =
                 "the last line has no end and fewer corners than the one before: the file may be cut short";
             self.findings.warning(words[0].offset, message, "end the file with a line end if it is whole");
@@ -230,14 +216,12 @@ impl Linter<'_, '_> {
     }
 
     fn position(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
-        let mut position = [0.0; 3];
         if rest.len() < 3 {
             let message = format!("a vertex needs 3 numbers and this one has {}", rest.len());
             self.findings.error(keyword.offset, message, "write v x y z");
         }
-        for (value, word) in position.iter_mut().zip(rest) {
-            *value = self.number(*word);
-            if value.abs() > MAX_COORDINATE {
+        for word in rest.iter().take(3) {
+            if self.number(*word).abs() > MAX_COORDINATE {
                 let message = format!("the coordinate {} is beyond 1e9: areas would overflow", word.quoted());
                 self.findings.error(word.offset, message, "scale the model down");
             }
@@ -250,31 +234,35 @@ impl Linter<'_, '_> {
             3 | 4 => self.odd.color.add(keyword.offset),
             _ => self.odd.extra.add(keyword.offset),
         }
-        self.checked.positions.push(position);
+        self.value(Kind::Position, rest.iter().take(3).map(|word| word.bytes));
+    }
+
+    /// A line that tobj reads as a position, texture coordinate or normal.
+    fn value<'w>(&mut self, kind: Kind, numbers: impl Iterator<Item = &'w [u8]>) {
+        let keyword: &[u8] = [b"v".as_slice(), b"vt", b"vn"][kind as usize];
+        self.counts[kind as usize] += 1;
+        self.checked.cleaned.write([keyword].into_iter().chain(numbers));
     }
 
     fn uv(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
-        let mut uv = [0.0; 2];
-        let mut is_bad = rest.is_empty();
-        for (value, word) in uv.iter_mut().zip(rest) {
-            match finite(word.bytes).filter(|number| number.abs() < MAX_UV) {
-                Some(number) => *value = number as f32,
-                None => is_bad = true,
-            }
-        }
-        if is_bad {
+        let is_good = |word: &Word<'_>| finite(word.bytes).is_some_and(|number| number.abs() < MAX_UV);
+        if rest.is_empty() || !rest.iter().take(2).all(is_good) {
             self.odd.bad_uv.add(keyword.offset);
         }
-        self.checked.uvs.push(uv);
+        let number =
+            |at: usize| rest.get(at).filter(|word| is_good(word)).map_or(b"0".as_slice(), |word| word.bytes);
+        self.value(Kind::Uv, [number(0), number(1)].into_iter());
     }
 
+    /// Where the normal is of no use, one without direction stands in for it.
     fn normal(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
         let numbers: Vec<f64> = rest.iter().take(3).filter_map(|word| finite(word.bytes)).collect();
-        let normal = <[f64; 3]>::try_from(numbers).ok().and_then(unit);
-        if normal.is_none() {
+        if <[f64; 3]>::try_from(numbers).ok().and_then(unit).is_some() {
+            self.value(Kind::Normal, rest.iter().take(3).map(|word| word.bytes));
+        } else {
             self.odd.bad_normal.add(keyword.offset);
+            self.value(Kind::Normal, [b"0".as_slice(); 3].into_iter());
         }
-        self.checked.normals.push(normal.unwrap_or_default());
     }
 
     /// A finite number; anything else is an error where it stands.
@@ -297,29 +285,35 @@ impl Linter<'_, '_> {
     }
 
     fn face(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
-        self.corners.clear();
+        let mut corners: Vec<Indices> = Vec::new();
         for word in rest {
             let Some(corner) = self.corner(*word) else { return };
-            self.corners.push(corner);
+            corners.push(corner);
         }
-        if self.corners.len() < 3 {
+        if corners.len() < 3 {
             self.odd.too_few.add(keyword.offset);
             return;
         }
-        self.corners.dedup_by_key(|corner| corner.position);
-        while self.corners.len() > 1
-            && self.corners.first().map(|c| c.position) == self.corners.last().map(|c| c.position)
-        {
-            self.corners.pop();
+        corners.dedup_by_key(|corner| corner[0]);
+        while corners.len() > 1 && corners.first().map(|c| c[0]) == corners.last().map(|c| c[0]) {
+            corners.pop();
         }
-        if self.corners.len() < 3 {
+        if corners.len() < 3 {
             self.odd.degenerate.add(keyword.offset);
             return;
         }
         let (group, material) = self.numbers_of_next_face(keyword.offset);
-        self.checked.corners.append(&mut self.corners);
-        let end = self.checked.corners.len() as u32;
-        self.checked.faces.push(Face { end, group, material, offset: keyword.offset as u32 });
+        self.checked.faces.push(Face { group, material, offset: keyword.offset as u32 });
+        let mut words = vec!["f".to_owned()];
+        for corner in corners {
+            for kind in 0..3 {
+                self.highest[kind] = self.highest[kind].max(corner[kind]);
+            }
+            self.checked.corners.push(gives(corner));
+            let part = |kind: usize| if corner[kind] == 0 { String::new() } else { corner[kind].to_string() };
+            words.push(format!("{}/{}/{}", part(0), part(1), part(2)));
+        }
+        self.checked.cleaned.write(words.iter().map(String::as_bytes));
     }
 
     /// The group and the material of a face that stands here.
@@ -346,25 +340,24 @@ impl Linter<'_, '_> {
     }
 
     /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. Positive indices may point ahead, so their upper end is checked last.
-    fn corner(&mut self, word: Word<'_>) -> Option<Corner> {
+    fn corner(&mut self, word: Word<'_>) -> Option<Indices> {
         let mut parts = word.bytes.split(|&byte| byte == b'/');
-        let counts = [self.checked.positions.len(), self.checked.uvs.len(), self.checked.normals.len()];
-        let mut indices = [NONE; 3];
-        for (slot, (part, count)) in parts.by_ref().take(3).zip(counts).enumerate() {
-            if part.is_empty() && slot > 0 {
-                continue;
+        let mut corner = Indices::default();
+        for (kind, part) in parts.by_ref().take(3).enumerate() {
+            if !part.is_empty() || kind == 0 {
+                corner[kind] = self.index(word, part, kind)?;
             }
-            indices[slot] = self.index(word, part, count)?;
         }
         if parts.next().is_some() {
             let message = format!("the corner {} has more than three indices", word.quoted());
             self.findings.error(word.offset, message, "write v, v/vt, v//vn or v/vt/vn");
             return None;
         }
-        Some(Corner { position: indices[0], uv: indices[1], normal: indices[2], offset: word.offset as u32 })
+        Some(corner)
     }
 
-    fn index(&mut self, word: Word<'_>, part: &[u8], count: usize) -> Option<u32> {
+    fn index(&mut self, word: Word<'_>, part: &[u8], kind: usize) -> Option<u32> {
+        let count = self.counts[kind];
         let digits = part.strip_prefix(b"-").or_else(|| part.strip_prefix(b"+")).unwrap_or(part);
         if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
             let message = format!("the corner {} does not hold a whole number as index", word.quoted());
@@ -381,12 +374,17 @@ impl Linter<'_, '_> {
                 self.findings.error(word.offset, message, "indices count from 1 (or from -1 backwards)");
                 return None;
             }
-            Some(size) if part[0] == b'-' => {
-                count.checked_sub(size as usize).and_then(|at| u32::try_from(at).ok())
+            // Counted backwards: there may be none of the kind in the whole file.
+            Some(_) if part[0] == b'-' && kind > 0 && count == 0 => {
+                self.odd.absent[kind].add(word.offset);
+                return Some(0);
             }
-            Some(size) if size != NONE => Some(size - 1),
-            _ => None,
+            Some(size) if part[0] == b'-' => {
+                (count + 1).checked_sub(size as usize).filter(|&index| index > 0)
+            }
+            size => size.map(|size| size as usize),
         };
+        let index = index.and_then(|index| u32::try_from(index).ok());
         if index.is_none() {
             let message = format!("the corner {} is out of range: there are {count} so far", word.quoted());
             self.findings.error(word.offset, message, "use an index that the file has");
@@ -394,40 +392,50 @@ impl Linter<'_, '_> {
         index
     }
 
+    /// Tells of indices beyond what the whole file has. Where it has no texture coordinate or no normal at all, faces do
+    /// without.
     fn check_upper_ends(&mut self) {
-        let limits = [
-            ("vertex", self.checked.positions.len()),
-            ("texture coordinate", self.checked.uvs.len()),
-            ("normal", self.checked.normals.len()),
-        ];
-        let is_beyond = |corner: &Corner| {
-            let indices = [corner.position, corner.uv, corner.normal];
-            indices
-                .into_iter()
-                .zip(limits)
-                .any(|(index, (_, count))| index != NONE && index as usize >= count)
+        let counts = self.counts;
+        let mut beyond = |offset: usize, kind: usize, index: &str| {
+            if kind > 0 && counts[kind] == 0 {
+                self.odd.absent[kind].add(offset);
+            } else {
+                let (what, count) = (["vertex", "texture coordinate", "normal"][kind], counts[kind]);
+                let message = format!("there is no {what} {index}: the file has {count}");
+                self.findings.error(offset, message, "use an index that the file has");
+            }
         };
-        if !self.checked.corners.par_iter().with_min_len(SHARE).any(is_beyond) {
-            return;
-        }
-        for corner in &self.checked.corners {
-            for (index, (what, count)) in [corner.position, corner.uv, corner.normal].into_iter().zip(limits)
-            {
-                if index != NONE && index as usize >= count {
-                    let message =
-                        format!("there is no {what} {}: the file has {count}", u64::from(index) + 1);
-                    self.findings.error(corner.offset as usize, message, "use an index that the file has");
+        let is_beyond = |kind: usize, index: u32| index as usize > counts[kind];
+        if (0..3).any(|kind| is_beyond(kind, self.highest[kind])) {
+            let mut lines = Lines::new(self.text);
+            let mut words = Vec::new();
+            while lines.next_into(&mut words) {
+                let rest = if matches!(words[0].bytes, b"f" | b"fo") { &words[1..] } else { &[] };
+                for word in rest {
+                    for (kind, part) in word.text().split('/').take(3).enumerate() {
+                        if part.parse().is_ok_and(|index| is_beyond(kind, index)) {
+                            beyond(word.offset, kind, part);
+                        }
+                    }
                 }
             }
         }
     }
 
-    fn finish(mut self) -> Checked {
+    fn finish(mut self) -> Checked<'a> {
         self.check_upper_ends();
+        for kind in 1..3 {
+            if self.counts[kind] > 0
+                && let Some(offset) = self.odd.absent[kind].take()
+            {
+                let message = "this corner counts backwards beyond the first line of its kind";
+                self.findings.error(offset, message, "use an index that the file has");
+            }
+        }
         let findings = &mut *self.findings;
         self.odd.tell(findings);
         if self.checked.faces.is_empty() && !findings.has_errors() {
-            let message = match (self.checked.positions.len(), self.odd.lines_and_points) {
+            let message = match (self.counts[0], self.odd.lines_and_points) {
                 (0, 0) => "the file has no vertex and no face".to_owned(),
                 (points, 0) => format!("the file has {points} vertices, but no face to paint on"),
                 (points, lines) => format!(
@@ -437,15 +445,6 @@ impl Linter<'_, '_> {
             findings.error_of_file(message, "export the model as polygons");
         }
         self.checked
-    }
-}
-
-/// Copies on all cores what is long enough for it.
-fn append<T: Copy + Send + Sync>(to: &mut Vec<T>, from: &[T]) {
-    if from.len() < SHARE {
-        to.extend_from_slice(from);
-    } else {
-        to.par_extend(from.par_iter().with_min_len(SHARE).copied());
     }
 }
 

@@ -1,42 +1,35 @@
-//! OBJ files with their materials, made safe: every line is checked and located here.
+//! OBJ files with their materials: every line is checked and located here, then tobj reads the geometry.
 //!
 //! Groups: faces belong to the last `g` line (its whole text), or to the last `o` where no `g` followed it, or to
 //! `default`. The same name is the same group. Smoothing groups are not used: see `surface::CREASE_ANGLE_DEG`.
 
+mod cleaned;
+mod geometry;
 mod lint;
+mod material_library;
 mod materials;
-mod number;
 mod oddities;
-mod plain;
 mod polygon;
-mod shelf;
+mod scan;
 mod surface;
 mod text;
-mod weld;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
-
 use crate::assets::{self, AssetError, AssetFolders};
 use crate::mesh_file::MeshFile;
 use crate::problem::{Problem, Report, Severity};
-use lint::Checked;
-use plain::NONE;
-use shelf::Shelf;
-use surface::{Builder, SHARE, Values};
+use lint::{Checked, Face};
+use material_library::MaterialLibrary;
+use surface::Builder;
 use text::Findings;
-use weld::weld;
 
 /// The largest OBJ file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 512 << 20;
 
 /// The largest MTL file that is read, in bytes.
 pub const MAX_MTL_BYTES: u64 = 64 << 20;
-
-/// Models smaller than this across are scaled to 1: their areas would vanish in single precision.
-const LEAST_EXTENT: f64 = 1e-6;
 
 /// Reads an OBJ file with the materials and pictures that it names.
 ///
@@ -58,12 +51,11 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     if findings.has_errors() {
         return Err(findings.finish().err().unwrap_or(Report(Vec::new())));
     }
-    enlarge_tiny(&mut checked, &mut findings);
     let mesh = build(&mut checked, &mut findings);
     let place_of = |offset: usize| findings.place(offset);
-    let mut shelf = Shelf::new(path, root, folders);
-    let materials = if mesh.is_some() { shelf.materials(&checked, &place_of)? } else { Vec::new() };
-    let more = shelf.finish();
+    let mut library = MaterialLibrary::new(path, root, folders);
+    let materials = if mesh.is_some() { library.materials(&checked, &place_of)? } else { Vec::new() };
+    let more = library.finish();
     let mut warnings = findings.finish()?;
     warnings.extend(more);
     let mesh = mesh.ok_or(Report(Vec::new()))?;
@@ -82,7 +74,8 @@ pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report>
     let mut findings = Findings::new(path, &text);
     let checked = lint::check(&text, &mut findings);
     let folders = AssetFolders::default();
-    let found = Shelf::new(path, root, &folders).files(&checked.libraries, &|offset| findings.place(offset));
+    let found = MaterialLibrary::new(path, root, &folders)
+        .files(&checked.libraries, &|offset| findings.place(offset));
     findings.finish().map(|_| found)
 }
 
@@ -96,45 +89,20 @@ fn unread(path: &Path, error: &AssetError) -> Problem {
     problem
 }
 
-fn enlarge_tiny(checked: &mut Checked, findings: &mut Findings<'_>) {
-    let used = || checked.corners.iter().map(|corner| checked.positions[corner.position as usize]);
-    let Some(first) = used().next() else { return };
-    // Nearly every model shows at its second corner that it is not tiny.
-    if used().any(|at| (0..3).any(|axis| (at[axis] - first[axis]).abs() >= LEAST_EXTENT)) {
-        return;
-    }
-    let extent = (0..3)
-        .map(|axis| {
-            let (low, high) =
-                used().fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at[axis]), high.max(at[axis])));
-            high - low
-        })
-        .fold(0.0, f64::max);
-    if extent > 0.0 && extent < LEAST_EXTENT {
-        checked.positions.iter_mut().flatten().for_each(|value| *value /= extent);
-        let message = format!("the model is only {extent:e} across, too small for single precision");
-        let offset = checked.faces.first().map_or(0, |face| face.offset as usize);
-        findings.warning(offset, message, "it is scaled to a size of 1; export it in other units");
-    }
-}
-
-/// The faces through the builder; `None` after an error.
-fn build(checked: &mut Checked, findings: &mut Findings<'_>) -> Option<impasto_core::TriangleMesh> {
-    let (places, place_of_position) = weld(&checked.positions);
-    let normals = &checked.normals;
-    checked.corners.par_iter_mut().with_min_len(SHARE).for_each(|corner| {
-        corner.position = place_of_position[corner.position as usize];
-        if corner.normal != NONE && normals[corner.normal as usize] == [0.0; 3] {
-            corner.normal = NONE;
+/// The mesh; `None` after an error.
+fn build(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Option<impasto_core::TriangleMesh> {
+    let geometry = match geometry::read(checked, findings) {
+        Ok(geometry) => geometry,
+        Err(error) => {
+            findings.error_of_file(format!("tobj can not read the file: {error}"), "export the model again");
+            return None;
         }
-    });
-    let values =
-        Values { places: &places, uvs: &checked.uvs, normals: &checked.normals, corners: &checked.corners };
-    let builder = Builder::new(values, &checked.faces);
+    };
+    let builder = Builder::new(&geometry);
     let (mut mesh, faces) = builder.finish();
     mesh.group_of_triangle = faces.iter().map(|&face| checked.faces[face as usize].group).collect();
     mesh.material_of_triangle = faces.iter().map(|&face| checked.faces[face as usize].material).collect();
-    tell(&builder.odd, checked, findings);
+    tell(&builder.odd, &checked.faces, findings);
     if mesh.triangles.is_empty() {
         findings.error_of_file(
             "the faces have no area: all their corners lie on lines or points",
@@ -145,7 +113,7 @@ fn build(checked: &mut Checked, findings: &mut Findings<'_>) -> Option<impasto_c
     Some(mesh)
 }
 
-fn tell(odd: &surface::Oddities, checked: &Checked, findings: &mut Findings<'_>) {
+fn tell(odd: &surface::Oddities, faces: &[Face], findings: &mut Findings<'_>) {
     let told = [
         (odd.flat_faces, "this face has no area", "it is left out"),
         (
@@ -158,7 +126,7 @@ fn tell(odd: &surface::Oddities, checked: &Checked, findings: &mut Findings<'_>)
     for ((count, first), what, mend) in told {
         if count > 0 {
             let more = if count == 1 { String::new() } else { format!(" ({count} such faces)") };
-            findings.warning(checked.faces[first as usize].offset as usize, format!("{what}{more}"), mend);
+            findings.warning(faces[first as usize].offset as usize, format!("{what}{more}"), mend);
         }
     }
 }

@@ -19,6 +19,11 @@ impl Tally {
         self.count += 1;
     }
 
+    /// Where the first stands, if there is any; then none is left to tell.
+    pub fn take(&mut self) -> Option<usize> {
+        (std::mem::take(&mut self.count) > 0).then_some(self.first)
+    }
+
     fn tell(&self, findings: &mut Findings<'_>, what: &str, mend: &str) {
         if self.count > 0 {
             let more = if self.count == 1 { String::new() } else { format!(" ({} in all)", self.count) };
@@ -36,6 +41,8 @@ pub(super) struct Oddities {
     pub zero_w: Tally,
     pub bad_normal: Tally,
     pub bad_uv: Tally,
+    /// By [`super::scan::Kind`]: indices of a kind of which the file has none.
+    pub absent: [Tally; 3],
     pub color: Tally,
     pub extra: Tally,
     pub free_form: Tally,
@@ -69,6 +76,16 @@ impl Oddities {
             findings,
             "this texture coordinate is not made of finite numbers",
             "0 is used in its place",
+        );
+        self.absent[1].tell(
+            findings,
+            "this corner refers to texture coordinates, and the file has none",
+            "export them too; pictures are not shown on these faces",
+        );
+        self.absent[2].tell(
+            findings,
+            "this corner refers to normals, and the file has none",
+            "export them too; they are worked out from the surface",
         );
         self.color.tell(
             findings,

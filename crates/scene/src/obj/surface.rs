@@ -1,15 +1,15 @@
-//! The second pass: faces cut into triangles, vertices shared, normals made good.
+//! Faces cut into triangles, vertices shared, normals made good.
 
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use foldhash::fast::RandomState;
 use glam::{DVec3, Vec2, Vec3};
 use impasto_core::TriangleMesh;
+use indexmap::IndexSet;
 use rayon::prelude::*;
 
-use super::lint::Face;
-use super::plain::{Corner, NONE};
+use super::geometry::Geometry;
 use super::polygon;
 
 /// Faces that meet at more than this angle keep the crease between them, where the file gives no normals: a low
@@ -22,22 +22,14 @@ const DEGENERATE: f64 = 1e-12;
 /// Round a corner with more triangles than this, the crease is judged against the mean normal, not pair by pair.
 const MANY_TRIANGLES: usize = 256;
 
-/// So many vertices of one place are looked through one by one; further ones are looked up.
-const MANY_VERTICES: usize = 8;
+/// No number of a vertex.
+const NONE: u32 = u32::MAX;
 
-/// Triangles or corners that one core takes at a time, at least.
-pub(super) const SHARE: usize = 4096;
+/// Triangles that one core takes at a time, at least.
+const SHARE: usize = 4096;
 
-/// What the corners of faces mean.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Values<'a> {
-    pub places: &'a [Vec3],
-    pub uvs: &'a [[f32; 2]],
-    /// Of unit length, from the file.
-    pub normals: &'a [[f32; 3]],
-    /// `position` is the number of a place: corners at one place have one number.
-    pub corners: &'a [Corner],
-}
+/// Values that differ in their bits, numbered in the order of their first use.
+type Distinct<const N: usize> = IndexSet<[u32; N], RandomState>;
 
 /// What [`Builder`] made, beside the mesh.
 #[derive(Debug, Default)]
@@ -64,13 +56,14 @@ impl Oddities {
 }
 
 struct Triangle {
-    corners: [u32; 3],
+    /// Vertices of the [`Geometry`].
+    vertices: [u32; 3],
     face: u32,
 }
 
 /// Faces, one after the other, that become a mesh.
 pub(super) struct Builder<'a> {
-    values: Values<'a>,
+    geometry: &'a Geometry,
     triangles: Vec<Triangle>,
     tests_left: u64,
     pub odd: Oddities,
@@ -83,21 +76,33 @@ fn count(tally: &mut (usize, u32), face: u32) {
     tally.0 += 1;
 }
 
+/// The values' bits: equal only for values that are the same to the bit.
+fn bits<const N: usize>(values: [f32; N]) -> [u32; N] {
+    values.map(f32::to_bits)
+}
+
 impl<'a> Builder<'a> {
     /// Cuts all faces.
-    pub fn new(values: Values<'a>, faces: &[Face]) -> Self {
-        let share = faces.len().div_ceil(rayon::current_num_threads() * 4).max(SHARE);
+    pub fn new(geometry: &'a Geometry) -> Self {
+        let empty = || Self {
+            geometry,
+            triangles: Vec::new(),
+            tests_left: polygon::MAX_TESTS,
+            odd: Oddities::default(),
+        };
+        let count = geometry.ends.len();
+        let share = count.div_ceil(rayon::current_num_threads() * 4).max(SHARE);
         let spent = AtomicU64::new(0);
-        let cut = |at: usize| Self::cut(values, faces, at..(at + share).min(faces.len()), &spent);
-        let parts: Vec<Self> =
-            (0..faces.len().div_ceil(share)).into_par_iter().map(|part| cut(part * share)).collect();
+        let parts: Vec<Self> = (0..count.div_ceil(share))
+            .into_par_iter()
+            .map(|part| empty().cut(part * share..((part + 1) * share).min(count), &spent))
+            .collect();
         if spent.into_inner() >= polygon::MAX_TESTS {
             // Which polygons are cut without care then depends on those before them.
-            return Self::cut(values, faces, 0..faces.len(), &AtomicU64::new(0));
+            return empty().cut(0..count, &AtomicU64::new(0));
         }
-        let mut parts = parts.into_iter();
-        let mut whole = parts.next().unwrap_or_else(|| Self::empty(values));
-        whole.triangles.reserve_exact(parts.as_slice().iter().map(|part| part.triangles.len()).sum());
+        let mut whole = empty();
+        whole.triangles.reserve_exact(parts.iter().map(|part| part.triangles.len()).sum());
         for part in parts {
             whole.triangles.extend(part.triangles);
             whole.odd.join(&part.odd);
@@ -105,51 +110,46 @@ impl<'a> Builder<'a> {
         whole
     }
 
-    fn empty(values: Values<'a>) -> Self {
-        Self { values, triangles: Vec::new(), tests_left: polygon::MAX_TESTS, odd: Oddities::default() }
-    }
-
     /// Cuts some of the faces, unless too many tests are `spent` by all cores together.
-    fn cut(values: Values<'a>, faces: &[Face], range: Range<usize>, spent: &AtomicU64) -> Self {
-        let mut part = Self::empty(values);
-        part.triangles.reserve(range.len());
-        let is_alone = range.len() == faces.len();
-        let mut start = range.start.checked_sub(1).map_or(0, |before| faces[before].end);
-        for number in range {
+    fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
+        self.triangles.reserve(faces.len());
+        let ends = &self.geometry.ends;
+        let is_alone = faces.len() == ends.len();
+        let mut start = faces.start.checked_sub(1).map_or(0, |before| ends[before]);
+        for face in faces {
             if spent.load(Ordering::Relaxed) >= polygon::MAX_TESTS {
                 break;
             }
-            let end = faces[number].end;
-            let before = part.tests_left;
-            part.add(number as u32, start..end);
-            start = end;
-            if !is_alone && part.tests_left < before {
-                spent.fetch_add(before - part.tests_left, Ordering::Relaxed);
+            let before = self.tests_left;
+            self.add(face as u32, &self.geometry.corners[start as usize..ends[face] as usize]);
+            start = ends[face];
+            if !is_alone && self.tests_left < before {
+                spent.fetch_add(before - self.tests_left, Ordering::Relaxed);
             }
         }
-        part
+        self
     }
 
     #[inline]
-    fn at(&self, corner: u32) -> DVec3 {
-        self.values.places[self.values.corners[corner as usize].position as usize].as_dvec3()
+    fn at(&self, vertex: u32) -> DVec3 {
+        self.geometry.positions[vertex as usize].as_dvec3()
     }
 
     /// Cuts one face of at least three corners.
-    fn add(&mut self, face: u32, corners: Range<u32>) {
+    fn add(&mut self, face: u32, corners: &[u32]) {
         let before = self.triangles.len();
         let mut is_rough = false;
-        if corners.len() == 3 {
-            self.add_triangle(face, [0, 1, 2].map(|step| corners.start + step));
+        if let &[a, b, c] = corners {
+            self.add_triangle(face, [a, b, c]);
         } else {
-            let points: Vec<DVec3> = corners.clone().map(|corner| self.at(corner)).collect();
+            let points: Vec<DVec3> = corners.iter().map(|&vertex| self.at(vertex)).collect();
             let cut = polygon::cut(&points, &mut self.tests_left);
             is_rough = cut.is_rough;
             if points.len() > 1000 {
                 count(&mut self.odd.large_faces, face);
             }
             for numbers in cut.triangles {
-                self.add_triangle(face, numbers.map(|number| corners.start + number as u32));
+                self.add_triangle(face, numbers.map(|number| corners[number]));
             }
         }
         if self.triangles.len() == before {
@@ -161,68 +161,83 @@ impl<'a> Builder<'a> {
 
     /// Keeps a triangle that has any area.
     #[inline]
-    fn add_triangle(&mut self, face: u32, corners: [u32; 3]) {
-        let (a, b, c) = (self.at(corners[0]), self.at(corners[1]), self.at(corners[2]));
+    fn add_triangle(&mut self, face: u32, vertices: [u32; 3]) {
+        let [a, b, c] = vertices.map(|vertex| self.at(vertex));
         let cross = (b - a).cross(c - a);
         let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
         if cross.length() > DEGENERATE * longest {
-            self.triangles.push(Triangle { corners, face });
+            self.triangles.push(Triangle { vertices, face });
         }
     }
 
-    /// The mesh, and for each triangle the number of the face that it was cut from.
+    /// The mesh, and for each triangle the number of the face that it was cut from. Corners that agree in all values are
+    /// one vertex; vertices are numbered in the order of their first use.
     pub fn finish(&self) -> (TriangleMesh, Vec<u32>) {
-        let normals = self.corner_normals();
-        let corners_of = |triangle: &Triangle| triangle.corners.map(|at| self.values.corners[at as usize]);
-        let has_uvs =
-            self.triangles.iter().any(|triangle| corners_of(triangle).iter().any(|at| at.uv != NONE));
-        let mut vertices = Vertices::new(self.values.places, has_uvs);
-        let mut triangles = Vec::with_capacity(self.triangles.len());
-        let mut polygon_of_triangle = Vec::with_capacity(self.triangles.len());
+        let Geometry { positions, uvs, normals, .. } = self.geometry;
+        let made_normals = self.corner_normals();
+        let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
+        let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
+        let mut vertices = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
+        // The number that each vertex of the file had last.
+        let mut last: Vec<u32> = vec![NONE; positions.len()];
+        let mut number = |vertex: u32, made: Option<Vec3>| {
+            let vertex = vertex as usize;
+            let known = last[vertex];
+            if known != NONE && made.is_none() {
+                return known;
+            }
+            let normal = bits(made.or(normals[vertex]).unwrap_or_default().to_array());
+            if known != NONE && vertices[known as usize][5..] == normal {
+                return known;
+            }
+            let ([x, y, z], [nx, ny, nz]) = (bits(positions[vertex].to_array()), normal);
+            let [u, v] = bits(uvs[vertex].unwrap_or_default().to_array());
+            let number = vertices.insert_full([x, y, z, u, v, nx, ny, nz]).0 as u32;
+            last[vertex] = number;
+            number
+        };
+        let mut mesh = TriangleMesh::default();
         let (mut polygon, mut face) = (0, self.triangles.first().map_or(0, |first| first.face));
-        for (number, triangle) in self.triangles.iter().enumerate() {
-            let corners = corners_of(triangle);
-            let normals = match normals.get(number) {
-                Some(normals) => *normals,
-                None => corners.map(|corner| Vec3::from_array(self.values.normals[corner.normal as usize])),
-            };
-            let mut vertex = |at: usize| {
-                let uv = self.values.uvs.get(corners[at].uv as usize).copied().unwrap_or_default();
-                vertices.number(corners[at].position, Vec2::from_array(uv), normals[at])
-            };
-            triangles.push([vertex(0), vertex(1), vertex(2)]);
+        for (at, triangle) in self.triangles.iter().enumerate() {
+            let [a, b, c] = triangle.vertices;
+            mesh.triangles.push(match made_normals.get(at) {
+                Some(&[of_a, of_b, of_c]) => {
+                    [number(a, Some(of_a)), number(b, Some(of_b)), number(c, Some(of_c))]
+                }
+                None => [number(a, None), number(b, None), number(c, None)],
+            });
             polygon += u32::from(triangle.face != face);
             face = triangle.face;
-            polygon_of_triangle.push(polygon);
+            mesh.polygon_of_triangle.push(polygon);
         }
-        let Vertices { positions, normals, uvs, .. } = vertices;
-        let mesh = TriangleMesh {
-            positions,
-            normals,
-            uvs,
-            triangles,
-            polygon_of_triangle,
-            ..TriangleMesh::default()
-        };
+        let value = |vertex: &[u32; 8], at: usize| f32::from_bits(vertex[at]);
+        let vector = |vertex, at| Vec3::new(value(vertex, at), value(vertex, at + 1), value(vertex, at + 2));
+        mesh.positions = vertices.iter().map(|vertex| vector(vertex, 0)).collect();
+        mesh.normals = vertices.iter().map(|vertex| vector(vertex, 5)).collect();
+        if has_uvs {
+            mesh.uvs = vertices.iter().map(|vertex| Vec2::new(value(vertex, 3), value(vertex, 4))).collect();
+        }
         (mesh, self.triangles.iter().map(|triangle| triangle.face).collect())
     }
 
-    /// Whether the file's normals are used for a triangle: all three corners have one.
-    fn has_normals(&self, triangle: &Triangle) -> bool {
-        triangle.corners.iter().all(|&corner| self.values.corners[corner as usize].normal != NONE)
+    /// The file's normals for a triangle, where all three corners have one.
+    fn file_normals(&self, triangle: &Triangle) -> Option<[Vec3; 3]> {
+        let [a, b, c] = triangle.vertices.map(|vertex| self.geometry.normals[vertex as usize]);
+        Some([a?, b?, c?])
     }
 
     /// A unit normal for each corner: the file's where all three corners of the triangle have one, else the mean of the
     /// faces round the corner's place that meet this one below the crease angle, weighted by their angles there
     /// (Thürmer and Wüthrich 1998). None at all where every triangle has the file's.
     fn corner_normals(&self) -> Vec<[Vec3; 3]> {
-        if self.triangles.par_iter().with_min_len(SHARE).all(|triangle| self.has_normals(triangle)) {
+        if self.triangles.par_iter().with_min_len(SHARE).all(|triangle| self.file_normals(triangle).is_some())
+        {
             return Vec::new();
         }
         let around = Around::new(self);
         let least_dot = CREASE_ANGLE_DEG.to_radians().cos();
         let is_near = |a: DVec3, b: DVec3| a.dot(b) >= least_dot;
-        let mean_of_all: Vec<DVec3> = (0..self.values.places.len() as u32)
+        let mean_of_all: Vec<DVec3> = (0..around.first.len() as u32 - 1)
             .into_par_iter()
             .with_min_len(SHARE)
             .map(|place| around.mean(place, |_| true))
@@ -245,19 +260,17 @@ impl<'a> Builder<'a> {
             .zip(&around.normals)
             .with_min_len(SHARE)
             .map(|(triangle, &own)| {
-                let corners = triangle.corners.map(|corner| self.values.corners[corner as usize]);
-                if self.has_normals(triangle) {
-                    corners.map(|corner| Vec3::from_array(self.values.normals[corner.normal as usize]))
-                } else {
-                    corners.map(|corner| normal(own, corner.position))
-                }
+                let places = triangle.vertices.map(|vertex| around.place_of_vertex[vertex as usize]);
+                self.file_normals(triangle).unwrap_or_else(|| places.map(|place| normal(own, place)))
             })
             .collect()
     }
 }
 
-/// The triangles round each place.
+/// The triangles round each place. Vertices with equal positions are at one place, so that seams of the file's vertices do
+/// not show as creases.
 struct Around {
+    place_of_vertex: Vec<u32>,
     /// Where those of each place begin in `list`; one more, for the end.
     first: Vec<u32>,
     /// Triangle times three, plus the number of its corner there.
@@ -270,16 +283,20 @@ struct Around {
 
 impl Around {
     fn new(builder: &Builder<'_>) -> Self {
-        let place = |corner: u32| builder.values.corners[corner as usize].position as usize;
-        let mut first = vec![0; builder.values.places.len() + 2];
-        for corner in builder.triangles.iter().flat_map(|triangle| triangle.corners) {
+        let positions = &builder.geometry.positions;
+        let mut places = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
+        let place_of_vertex: Vec<u32> =
+            positions.iter().map(|at| places.insert_full(bits(at.to_array())).0 as u32).collect();
+        let place = |vertex: u32| place_of_vertex[vertex as usize] as usize;
+        let mut first = vec![0; places.len() + 2];
+        for corner in builder.triangles.iter().flat_map(|triangle| triangle.vertices) {
             first[place(corner) + 2] += 1;
         }
         for place in 1..first.len() {
             first[place] += first[place - 1];
         }
         let mut list = vec![0; builder.triangles.len() * 3];
-        for (number, corner) in builder.triangles.iter().flat_map(|triangle| triangle.corners).enumerate() {
+        for (number, corner) in builder.triangles.iter().flat_map(|triangle| triangle.vertices).enumerate() {
             let slot = &mut first[place(corner) + 1];
             list[*slot as usize] = number as u32;
             *slot += 1;
@@ -290,7 +307,7 @@ impl Around {
             .par_iter()
             .with_min_len(SHARE)
             .map(|triangle| {
-                let points = triangle.corners.map(|corner| builder.at(corner));
+                let points = triangle.vertices.map(|vertex| builder.at(vertex));
                 let [a, b, c] = points;
                 let angles = [0, 1, 2].map(|corner| {
                     let [at, next, last] = [0, 1, 2].map(|step| points[(corner + step) % 3]);
@@ -299,7 +316,7 @@ impl Around {
                 ((b - a).cross(c - a).normalize(), angles)
             })
             .unzip();
-        Self { first, list, normals, angles }
+        Self { place_of_vertex, first, list, normals, angles }
     }
 
     #[inline]
@@ -319,70 +336,5 @@ impl Around {
             .map(|(other, corner)| self.normals[other] * self.angles[other][corner])
             .sum::<DVec3>()
             .normalize_or_zero()
-    }
-}
-
-/// Vertices numbered in the order of their first use; corners that agree in all values are one vertex.
-struct Vertices<'a> {
-    places: &'a [Vec3],
-    has_uvs: bool,
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    uvs: Vec<Vec2>,
-    /// The first vertex of each place, and for each vertex the next of its place ([`NONE`] where there is none).
-    first: Vec<u32>,
-    next: Vec<u32>,
-    /// Those of places that have more than [`MANY_VERTICES`].
-    others: HashMap<(u32, [u32; 2], [u32; 3]), u32>,
-}
-
-impl<'a> Vertices<'a> {
-    fn new(places: &'a [Vec3], has_uvs: bool) -> Self {
-        let count = places.len();
-        Self {
-            places,
-            has_uvs,
-            positions: Vec::with_capacity(count),
-            normals: Vec::with_capacity(count),
-            uvs: Vec::with_capacity(if has_uvs { count } else { 0 }),
-            first: vec![NONE; count],
-            next: Vec::with_capacity(count),
-            others: HashMap::new(),
-        }
-    }
-
-    #[inline]
-    fn number(&mut self, place: u32, uv: Vec2, normal: Vec3) -> u32 {
-        let (uv_bits, normal_bits) = (uv.to_array().map(f32::to_bits), normal.to_array().map(f32::to_bits));
-        let mut end = NONE;
-        let mut vertex = self.first[place as usize];
-        let mut steps = 0;
-        while vertex != NONE {
-            let at = vertex as usize;
-            if self.normals[at].to_array().map(f32::to_bits) == normal_bits
-                && (!self.has_uvs || self.uvs[at].to_array().map(f32::to_bits) == uv_bits)
-            {
-                return vertex;
-            }
-            (end, vertex, steps) = (vertex, self.next[at], steps + 1);
-        }
-        let new = self.positions.len() as u32;
-        if steps >= MANY_VERTICES {
-            let number = *self.others.entry((place, uv_bits, normal_bits)).or_insert(new);
-            if number != new {
-                return number;
-            }
-        } else if end == NONE {
-            self.first[place as usize] = new;
-        } else {
-            self.next[end as usize] = new;
-        }
-        self.positions.push(self.places[place as usize]);
-        self.normals.push(normal);
-        if self.has_uvs {
-            self.uvs.push(uv);
-        }
-        self.next.push(NONE);
-        new
     }
 }

@@ -34,18 +34,32 @@ impl<'a> Word<'a> {
     }
 }
 
-/// A file's bytes as text that the reader can walk: UTF-16 turned into UTF-8, a byte order mark blanked out.
+/// A word as a finite number.
+pub(super) fn finite(word: &[u8]) -> Option<f64> {
+    std::str::from_utf8(word).ok()?.parse::<f64>().ok().filter(|number| number.is_finite())
+}
+
+/// A file's bytes as text that the readers can walk, and whether it was UTF-16: that becomes UTF-8, a byte order mark is
+/// left out, and every line ends in a line feed.
 pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     let wide = |to_unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| to_unit([pair[0], pair[1]])).collect();
         String::from_utf16_lossy(&units).into_bytes()
     };
-    match bytes.get(..2) {
+    let (mut text, was_utf16) = match bytes.get(..2) {
         Some([0xff, 0xfe]) => (wide(u16::from_le_bytes), true),
         Some([0xfe, 0xff]) => (wide(u16::from_be_bytes), true),
         _ if bytes.starts_with(&[0xef, 0xbb, 0xbf]) => (bytes[3..].to_vec(), false),
         _ => (bytes, false),
+    };
+    if text.contains(&b'\r') {
+        for at in 0..text.len() {
+            if text[at] == b'\r' && text.get(at + 1) != Some(&b'\n') {
+                text[at] = b'\n';
+            }
+        }
     }
+    (text, was_utf16)
 }
 
 /// Lines that end in a name: a `#` in it belongs to the name.
@@ -78,7 +92,7 @@ impl<'a> Lines<'a> {
         words.clear();
         while self.at < self.text.len() {
             let byte = self.text[self.at];
-            if byte == b'\n' || byte == b'\r' {
+            if byte == b'\n' {
                 self.at += 1;
                 if !words.is_empty() {
                     return true;
@@ -97,7 +111,7 @@ impl<'a> Lines<'a> {
     }
 
     fn skip_comment(&mut self) {
-        while self.at < self.text.len() && !matches!(self.text[self.at], b'\n' | b'\r') {
+        while self.at < self.text.len() && self.text[self.at] != b'\n' {
             self.at += 1;
         }
     }
@@ -119,7 +133,7 @@ impl<'a> Lines<'a> {
 fn joint(text: &[u8]) -> Option<usize> {
     match text {
         [b'\\', b'\r', b'\n', ..] => Some(3),
-        [b'\\', b'\r' | b'\n', ..] => Some(2),
+        [b'\\', b'\n', ..] => Some(2),
         _ => None,
     }
 }
@@ -215,9 +229,8 @@ impl Walk {
         let offset = offset.min(text.len());
         while self.at < offset {
             let byte = text[self.at];
-            let is_pair = byte == b'\r' && text.get(self.at + 1) == Some(&b'\n');
             self.at += 1;
-            if (byte == b'\n' || byte == b'\r') && !is_pair {
+            if byte == b'\n' {
                 self.lines += 1;
                 self.line_start = self.at;
             }

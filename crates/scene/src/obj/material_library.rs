@@ -25,7 +25,7 @@ const MAX_TOLD: usize = 20;
 type PlaceOf<'a> = &'a dyn Fn(usize) -> TextPosition;
 
 /// Where materials and pictures are looked for, and what was found so far.
-pub(super) struct Shelf<'a> {
+pub(super) struct MaterialLibrary<'a> {
     path: &'a Path,
     root: &'a Path,
     folders: &'a AssetFolders,
@@ -40,7 +40,7 @@ pub(super) struct Shelf<'a> {
     kept_pixels: usize,
 }
 
-impl<'a> Shelf<'a> {
+impl<'a> MaterialLibrary<'a> {
     pub fn new(path: &'a Path, root: &'a Path, folders: &'a AssetFolders) -> Self {
         Self {
             path,
@@ -69,7 +69,11 @@ impl<'a> Shelf<'a> {
     ///
     /// # Errors
     /// A [`Report`] when a picture claims more than the limits; everything else is a warning and a grey material.
-    pub fn materials(&mut self, checked: &Checked, place_of: PlaceOf<'_>) -> Result<Vec<Material>, Report> {
+    pub fn materials(
+        &mut self,
+        checked: &Checked<'_>,
+        place_of: PlaceOf<'_>,
+    ) -> Result<Vec<Material>, Report> {
         self.read_libraries(&checked.libraries, place_of);
         self.tell_of_unknown(checked, place_of);
         let mut materials = Vec::new();
@@ -158,7 +162,7 @@ impl<'a> Shelf<'a> {
     }
 
     /// One warning for all the materials that no file describes, where every named file was found.
-    fn tell_of_unknown(&mut self, checked: &Checked, place_of: PlaceOf<'_>) {
+    fn tell_of_unknown(&mut self, checked: &Checked<'_>, place_of: PlaceOf<'_>) {
         if self.unfound > 0 {
             return;
         }

@@ -1,0 +1,64 @@
+//! What tobj gets to read of an OBJ file: its plain lines as they stand, others written anew, the rest left out.
+
+use std::collections::VecDeque;
+use std::io::{self, BufRead, Read};
+use std::ops::Range;
+
+/// Stretches of the file's text and of lines written anew, in order.
+#[derive(Debug)]
+pub(super) struct Cleaned<'a> {
+    file: &'a [u8],
+    written: Vec<u8>,
+    /// Whether each stretch is of the written lines, and where it stands.
+    stretches: VecDeque<(bool, Range<usize>)>,
+}
+
+impl<'a> Cleaned<'a> {
+    pub fn new(file: &'a [u8]) -> Self {
+        Self { file, written: Vec::new(), stretches: VecDeque::new() }
+    }
+
+    /// Whole lines of the file follow.
+    pub fn keep(&mut self, lines: Range<usize>) {
+        self.stretches.push_back((false, lines));
+    }
+
+    /// A line of these words follows.
+    pub fn write<'w>(&mut self, words: impl IntoIterator<Item = &'w [u8]>) {
+        let start = self.written.len();
+        for word in words {
+            self.written.extend_from_slice(word);
+            self.written.push(b' ');
+        }
+        self.written.push(b'\n');
+        match self.stretches.back_mut() {
+            Some((true, last)) => last.end = self.written.len(),
+            _ => self.stretches.push_back((true, start..self.written.len())),
+        }
+    }
+}
+
+impl Read for Cleaned<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.fill_buf()?.read(buffer)?;
+        self.consume(count);
+        Ok(count)
+    }
+}
+
+impl BufRead for Cleaned<'_> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        while self.stretches.front().is_some_and(|(_, stretch)| stretch.is_empty()) {
+            self.stretches.pop_front();
+        }
+        let Some((is_written, stretch)) = self.stretches.front() else { return Ok(&[]) };
+        let source = if *is_written { self.written.as_slice() } else { self.file };
+        Ok(&source[stretch.clone()])
+    }
+
+    fn consume(&mut self, amount: usize) {
+        if let Some((_, stretch)) = self.stretches.front_mut() {
+            stretch.start += amount;
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! The geometry of an OBJ text, read by tobj from what the linter has cleaned.
+
+use std::iter::repeat_n;
+
+use glam::{DVec3, Vec2, Vec3};
+use tobj::{LoadError, LoadOptions};
+
+use super::lint::Checked;
+use super::scan::{Kind, unit};
+use super::text::Findings;
+
+/// Models smaller than this across are scaled to 1: their areas would vanish in single precision.
+const LEAST_EXTENT: f64 = 1e-6;
+
+/// Vertices, one for each triple of indices that corners have; and the faces, one after the other.
+#[derive(Debug)]
+pub(super) struct Geometry {
+    /// For each vertex; 0 is never negative.
+    pub positions: Vec<Vec3>,
+    /// For each vertex; `None` where the file gives none.
+    pub uvs: Vec<Option<Vec2>>,
+    /// For each vertex, of unit length; `None` where the file gives none that can be used.
+    pub normals: Vec<Option<Vec3>>,
+    /// The vertex of each corner.
+    pub corners: Vec<u32>,
+    /// Where the corners of each face end; they begin where those of the face before it end.
+    pub ends: Vec<u32>,
+}
+
+/// Reads what is cleaned in `checked`: only where the linter found no error.
+///
+/// # Errors
+/// Those of tobj; none is known that the linter does not find before.
+pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Result<Geometry, LoadError> {
+    // The linter keeps names and materials to itself, so all the faces are one model.
+    let options = LoadOptions { single_index: true, ..LoadOptions::default() };
+    let (models, _) = tobj::load_obj_buf(&mut checked.cleaned, &options, |_| Err(LoadError::OpenFileFailed))?;
+    let mut mesh = models.into_iter().next().ok_or(LoadError::GenericFailure)?.mesh;
+
+    // tobj has no place for a vertex without: its lists are shorter then. A vertex is new at the first corner that has it.
+    let mut listed_uvs = mesh.texcoords.as_chunks::<2>().0.iter();
+    let mut listed_normals = mesh.normals.as_chunks::<3>().0.iter();
+    let count = mesh.positions.len() / 3;
+    let (mut uvs, mut normals) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    for (&vertex, gives) in mesh.indices.iter().zip(&checked.corners) {
+        if vertex as usize == uvs.len() {
+            let has = |kind: Kind| gives >> kind as u8 & 1 == 1;
+            let uv = if has(Kind::Uv) { listed_uvs.next() } else { None };
+            let normal = if has(Kind::Normal) { listed_normals.next() } else { None };
+            uvs.push(uv.map(|uv| Vec2::from_array(uv.map(|value| value as f32))));
+            normals.push(normal.and_then(|&normal| unit(normal)).map(Vec3::from_array));
+        }
+    }
+    let triangles = repeat_n(&3, mesh.indices.len() / 3);
+    let sum = |end: &mut u32, arity: &u32| {
+        *end += arity;
+        Some(*end)
+    };
+    let ends = if mesh.face_arities.is_empty() {
+        triangles.scan(0, sum).collect()
+    } else {
+        mesh.face_arities.iter().scan(0, sum).collect()
+    };
+    let positions = mesh.positions.as_chunks_mut::<3>().0;
+    if let Some(extent) = enlarge_tiny(positions) {
+        let message = format!("the model is only {extent:e} across, too small for single precision");
+        let place = checked.faces.first().map_or(0, |face| face.offset as usize);
+        findings.warning(place, message, "it is scaled to a size of 1; export it in other units");
+    }
+    // Adding 0 makes -0 and 0 the same.
+    let positions = positions.iter().map(|at| Vec3::from_array(at.map(|value| value as f32 + 0.0))).collect();
+    Ok(Geometry { positions, uvs, normals, corners: mesh.indices, ends })
+}
+
+/// Scales a model up whose areas would vanish, and tells how large it was.
+fn enlarge_tiny(positions: &mut [[f64; 3]]) -> Option<f64> {
+    let points = positions.iter().map(|&at| DVec3::from_array(at));
+    let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)));
+    let extent = (high - low).max_element();
+    let is_tiny = extent > 0.0 && extent < LEAST_EXTENT;
+    is_tiny.then(|| positions.as_flattened_mut().iter_mut().for_each(|value| *value /= extent))?;
+    Some(extent)
+}
