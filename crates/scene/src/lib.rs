@@ -1,4 +1,4 @@
-//! The document: what a `.ron` scene file means, mesh files, keyframes, located errors.
+//! The document and everything that reads files: scenes, meshes, pictures, keyframes, presets, saving, and located problems.
 
 pub mod assets;
 pub mod built_in_mesh;

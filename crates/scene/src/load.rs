@@ -1,4 +1,4 @@
-//! Reading a scene with everything that it names.
+//! Loads a scene with all files that it names.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ mod parse;
 pub mod salvage;
 mod source;
 
-use files::{Files, Readers, retold};
+use files::{Files, Readers, as_scene_problem};
 use overrides::Applied;
 use parse::Parsed;
 use source::error_in;
@@ -38,12 +38,12 @@ pub struct LoadOptions {
 
 /// Reads a document from its text; `path` is for messages only, no file is opened. A byte order mark is skipped.
 ///
-/// This finds what is no scene at all: text that is no RON, unknown fields, values of the wrong kind. Whether the
-/// values make sense together is [`crate::check`]'s to say.
+/// This finds text that is not RON, unknown fields, and values of the wrong kind. Whether the values make sense together is
+/// checked by [`crate::check`].
 ///
 /// # Errors
 ///
-/// Every unknown field, or the first fault of another kind, each with its place.
+/// Every unknown field, or the first error of another kind, each with its position.
 pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     parse::parse(path, text).map(|parsed| parsed.scene)
@@ -67,7 +67,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     }
 }
 
-/// Reads a picture that is to serve as a brush, as a scene beside it would.
+/// Reads a picture as a brush, as a scene in the same folder would.
 ///
 /// # Errors
 /// Where the file cannot be used, or holds no mark.
@@ -96,8 +96,8 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
     finish(path, parsed, options, None)
 }
 
-/// The made scene goes through its text, so that `--set` finds what it would find in the file that `impasto new`
-/// writes, and so that both are painted alike.
+/// Loads a mesh in a new scene. The scene is written as text and read again, so that `--set` works as on a file that `impasto new`
+/// writes, and both are painted alike.
 fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     let (mesh, warnings) = load_mesh(path, &options.folders)?;
     let scene = crate::new_scene::for_mesh(path, &mesh);
@@ -105,7 +105,7 @@ fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
     finish(path, parsed, options, Some((mesh, warnings)))
 }
 
-/// Overrides, checks, files. `known_mesh` is the mesh of a scene that was made for it.
+/// Applies overrides, checks, and reads files. `known_mesh` is the mesh of a scene that was made for it.
 fn finish(
     path: &Path,
     parsed: Parsed,
@@ -114,9 +114,9 @@ fn finish(
 ) -> Result<LoadedScene, Report> {
     let written = known_mesh.is_none().then(|| parsed.located.clone());
     let (Parsed { scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
-    let told = Told { path, written: written.as_ref(), applied: &applied, edited: None };
+    let locator = FieldLocator { path, written: written.as_ref(), applied: &applied, edited: None };
     let mut problems: Vec<Problem> =
-        check::check(&scene).into_iter().map(|finding| told.problem(finding)).collect();
+        check::check(&scene).into_iter().map(|finding| locator.problem(finding)).collect();
     let known_name =
         known_mesh.is_some().then(|| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
     let known_mesh = std::cell::RefCell::new(known_mesh);
@@ -132,9 +132,9 @@ fn finish(
         texture: &|name| read_texture(path, name, &options.folders).map(shared),
         brush: &|name| read_brush(path, name, &options.folders).map(shared),
     };
-    let files = Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
+    let files = Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
     let in_meshes = check::check_with_meshes(&scene, &files.meshes);
-    problems.extend(in_meshes.into_iter().map(|finding| told.problem(finding)));
+    problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
     sort_and_cap(path, &mut problems, files.problems);
     if problems.iter().any(|problem| problem.severity.is_fatal()) {
         return Err(Report(problems));
@@ -143,22 +143,22 @@ fn finish(
     Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, brushes, warnings: problems })
 }
 
-/// As scenes hold what they have read.
+/// What was read, behind an `Arc` as scenes hold it.
 fn shared<T>((read, warnings): (T, Vec<Problem>)) -> (Arc<T>, Vec<Problem>) {
     (Arc::new(read), warnings)
 }
 
-/// Gives findings their place: in the file, or on the command line where that set the field.
-struct Told<'a> {
+/// Gives findings their position: in the file, or on the command line where that set the field.
+struct FieldLocator<'a> {
     path: &'a Path,
-    /// The file as it was written; none for a scene that was made.
+    /// The file as it was written; `None` for a generated scene.
     written: Option<&'a Located>,
     applied: &'a [Applied],
     /// A document that was edited in memory: there is no text, so messages begin with their field.
     edited: Option<&'a Scene>,
 }
 
-impl Told<'_> {
+impl FieldLocator<'_> {
     fn problem(&self, finding: Finding) -> Problem {
         let Finding { severity, field_path, message, mend } = finding;
         let problem = Problem {
@@ -173,7 +173,7 @@ impl Told<'_> {
     }
 
     fn of_file(&self, problem: Problem, field_path: &str) -> Problem {
-        self.at_field(retold(problem, self.path, None), field_path)
+        self.at_field(as_scene_problem(problem, self.path, None), field_path)
     }
 
     fn at_field(&self, problem: Problem, field_path: &str) -> Problem {
@@ -194,8 +194,8 @@ impl Told<'_> {
     }
 }
 
-/// The scene's problems by place, then those of its files in the order of use; at most
-/// [`limits::MAX_PROBLEMS`] of either, with a last one that counts the rest.
+/// Sorts the scene's problems by position, then those of its files in the order of use; at most [`limits::MAX_PROBLEMS`] of either,
+/// with a last one that counts the rest.
 fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Problem>) {
     let is_of_scene = |problem: &Problem| problem.path == path;
     problems.extend(of_files.extract_if(.., |problem| is_of_scene(problem)));
@@ -216,7 +216,7 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
 #[cfg(test)]
 mod tests;
 
-/// A mesh that the scene names.
+/// Reads a mesh that the scene names.
 fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
     if name.starts_with(built_in_mesh::PREFIX) {
         let unknown = || {
@@ -240,7 +240,7 @@ fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFi
 
 type PictureRead = Result<(Texture, Vec<Problem>), Problem>;
 
-/// A texture that the scene names. One that cannot be used is an error here: the scene asks for it by name.
+/// Reads a texture that the scene names. One that cannot be used is an error, since the scene asks for it by name.
 fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
     let max_bytes = crate::texture::MAX_FILE_BYTES;
     let request = AssetRequest { name, beside: scene, root: folder_of(scene), max_bytes };
@@ -250,7 +250,7 @@ fn read_texture(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead
     }
 }
 
-/// A picture that serves as a brush: one that cannot be used is an error, and so is one without a mark.
+/// Reads a picture that is a brush. One that cannot be used, or holds no mark, is an error.
 fn read_brush(scene: &Path, name: &str, folders: &AssetFolders) -> PictureRead {
     let (texture, warnings) = read_texture(scene, name, folders).map_err(|problem| {
         let mend = problem.mend.replace("it is left out; ", "");

@@ -1,8 +1,8 @@
-//! Where things stand in the text of a scene file: a tolerant scan of RON into a tree of places.
+//! Finds values in the text of a scene file: a tolerant scan of RON into a tree of positions.
 //!
-//! The scan knows brackets, names, strings and comments, but no types. It serves three ends: problems get a line and
-//! a column, text that would harm or mislead the real parser is refused beforehand (brackets nested without end,
-//! numbers of a million digits), and `--set` finds the text that it replaces.
+//! The scan knows brackets, names, strings and comments, but no types. It has three uses: problems get a line and a column; text
+//! that would harm the real parser is refused beforehand (endless nesting, numbers of a million digits); and `--set` finds the
+//! text that it replaces.
 
 use crate::limits;
 use crate::problem::TextPosition;
@@ -18,7 +18,7 @@ pub struct Located {
     root: Node,
 }
 
-/// One value: where it stands, and what is in it. Offsets are bytes.
+/// One value: its range in the text, and its contents. Offsets are in bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) start: u32,
@@ -46,7 +46,7 @@ pub(crate) struct Field {
     pub(crate) value: Node,
 }
 
-/// What the scan refuses: where, what, the mend, and whether a limit was passed.
+/// Why the scan refuses a text: where, what, the mend, and whether a limit was exceeded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refused {
     pub(crate) offset: usize,
@@ -96,8 +96,8 @@ impl Located {
         rest.char_indices().nth(column.saturating_sub(1)).map_or(text.len(), |(at, _)| start + at)
     }
 
-    /// Where a field stands, such as `objects[2].keys[1].frame`. Where the file leaves it out (it has a default, or a
-    /// variant has no such field), the nearest value around it that the file does have.
+    /// The position of a field such as `objects[2].keys[1].frame`. If the file leaves it out (it has a default, or a variant has no
+    /// such field), that of the nearest value around it.
     pub fn place_of(&self, field_path: &str) -> TextPosition {
         let mut node = &self.root;
         for step in Step::split(field_path) {
@@ -142,7 +142,7 @@ impl Located {
             let next = match &node.inside {
                 Inside::Nothing => None,
                 Inside::Items(items) => {
-                    // A place between two values belongs to the later one only if it starts there.
+                    // An offset between two values belongs to the later one only if that starts there.
                     let index = items.partition_point(|item| (item.end as usize) < offset);
                     items.get(index).filter(|item| holds(item)).inspect(|_| {
                         let is_payload = node.name_bytes > 0;

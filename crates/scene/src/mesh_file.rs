@@ -1,4 +1,4 @@
-//! Mesh files as the rest of the house sees them, whatever format they came from.
+//! Mesh files after reading, the same for every format: the mesh, group names, materials and their textures.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub struct MeshFile {
     pub materials: Vec<Material>,
 }
 
-/// What a surface looks like before it is painted.
+/// A material of a mesh file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name in the mesh file; empty for the default.
@@ -28,7 +28,7 @@ pub struct Material {
     pub gloss: f32,
 }
 
-/// A decoded picture: 8 bits a channel, sRGB, straight alpha, first row on top.
+/// A decoded picture: 8 bits per channel, sRGB, straight alpha, first row on top.
 #[derive(Debug, PartialEq)]
 pub struct Texture {
     /// Width and height in pixels, each from 1 to [`Texture::MAX_SIDE_PX`].

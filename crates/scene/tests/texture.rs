@@ -1,4 +1,4 @@
-//! Pictures that lie: refused by their claim, or left out with a warning.
+//! Hostile pictures are refused for the size they claim, or left out with a warning.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Groups and materials that the document names in its meshes.
+//! Checks that groups and materials which the document names exist in its meshes.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;

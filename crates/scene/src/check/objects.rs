@@ -1,4 +1,4 @@
-//! Objects: names, parents, particles, scales, keys.
+//! Checks objects: names, parents, particles, scales, keys.
 
 use std::collections::HashMap;
 
@@ -130,7 +130,7 @@ fn first_of_each_cycle(parents: &[Option<usize>]) -> Vec<usize> {
             walk_of[index] = Some(start);
             at = parents[index];
         }
-        // A walk that ends on its own trail has gone round a cycle; on an older trail, it is known already.
+        // A walk that meets its own trail has gone round a cycle; one that meets an older trail finds nothing new.
         if let Some(index) = at.filter(|&index| walk_of[index] == Some(start)) {
             let round = std::iter::successors(parents[index], |&inner| parents[inner]);
             firsts.push(round.take_while(|&inner| inner != index).fold(index, usize::min));

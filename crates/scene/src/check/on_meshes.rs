@@ -1,4 +1,4 @@
-//! Guides on surfaces, groups without triangles, morphs of equal topology.
+//! Checks the document against its meshes: guides on surfaces, groups without triangles, morphs of equal topology.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::document::{Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
 
-/// Distances of guides to triangles that are measured at most; past that, the rest is taken on trust.
+/// The most distances from guides to triangles that are measured; further guides are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -63,7 +63,7 @@ fn quoted(object: &Object) -> String {
 fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings: &mut Findings) {
     let mesh = &file.mesh;
     if mesh.triangles.is_empty() {
-        return; // Whoever read it has said so.
+        return; // Reported when it was read.
     }
     let used = |names: &[u32], name: usize| names.iter().any(|&used| used as usize == name);
     let (word, name, is_empty) = match patch {
@@ -104,7 +104,7 @@ fn check_guide(
         let corners = mesh.corners(triangle).map(|corner| model_from_file * corner.as_dvec3());
         (at - nearest_point(at, corners)).length()
     };
-    // Points of a guide lie near each other, so the search begins where the last one ended; first cheaply, by corners.
+    // Points of a guide are near each other, so the search begins where the last one ended; first by corners, which is cheap.
     let mut last = 0;
     let mut is_near = |at: DVec3| {
         let corner = |triangle: usize| mesh.positions[mesh.triangles[triangle][0] as usize].as_dvec3();

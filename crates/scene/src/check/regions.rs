@@ -1,4 +1,4 @@
-//! Regions: what they cover, their directions, their guides.
+//! Checks regions: what they cover, their directions, their guides.
 
 use std::collections::{HashMap, HashSet};
 
@@ -165,7 +165,7 @@ fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
     }
 }
 
-/// A region that a later one covers whole is never seen.
+/// Warns of regions that a later one covers completely.
 fn check_covered(scene: &Scene, findings: &mut Findings) {
     let mut last_of: HashMap<String, usize> = HashMap::new();
     let mut cover = |key: String, index: usize| last_of.insert(key, index);

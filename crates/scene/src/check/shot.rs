@@ -1,4 +1,4 @@
-//! The picture, the frames, the camera and the lights.
+//! Checks the picture size, the frames, the camera and the lights.
 
 use glam::DVec3;
 

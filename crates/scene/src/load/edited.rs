@@ -1,10 +1,10 @@
-//! A document that was edited in memory, with the files that are held already.
+//! Checks an edited document in memory; files that are already loaded are shared, not read again.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::files::{Files, Readers};
-use super::{Told, read_brush, read_mesh, read_texture, shared, sort_and_cap};
+use super::{FieldLocator, read_brush, read_mesh, read_texture, shared, sort_and_cap};
 use crate::assets::AssetFolders;
 use crate::check;
 use crate::document::{Object, Scene};
@@ -12,17 +12,17 @@ use crate::loaded::LoadedScene;
 use crate::problem::{Problem, Report};
 
 impl LoadedScene {
-    /// Another document in place of this one, checked as if it had been read from the same path. Files that are held already
-    /// are shared, others that it names are read, and what it no longer names is dropped.
+    /// This scene with another document, checked as if it had been read from the same path. Files that are already loaded are
+    /// shared, others that it names are read, and files that it no longer names are dropped.
     ///
     /// # Errors
     /// All problems, warnings included; at least one is fatal. There is no text, so they have no line: each has its
     /// `field_path`, and its message begins with it, by names where things have them (`objects.apple.keys[1].scale: …`).
     pub fn with_scene(&self, scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
-        let told = Told { path, written: None, applied: &[], edited: Some(&scene) };
+        let locator = FieldLocator { path, written: None, applied: &[], edited: Some(&scene) };
         let mut problems: Vec<Problem> =
-            check::check(&scene).into_iter().map(|finding| told.problem(finding)).collect();
+            check::check(&scene).into_iter().map(|finding| locator.problem(finding)).collect();
         let readers = Readers {
             mesh: &|name| match self.meshes.get(name) {
                 Some(mesh) => Ok((Arc::clone(mesh), Vec::new())),
@@ -38,9 +38,9 @@ impl LoadedScene {
             },
         };
         let mut files =
-            Files::read(&scene, &readers, |problem, field_path| told.of_file(problem, field_path));
+            Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
         let in_meshes = check::check_anew(&scene, &files.meshes, &self.known_in(&scene));
-        problems.extend(in_meshes.into_iter().map(|finding| told.problem(finding)));
+        problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
         files.problems.splice(..0, self.warnings_of_files(&files.meshes));
         sort_and_cap(path, &mut problems, files.problems);
         if problems.iter().any(|problem| problem.severity.is_fatal()) {
@@ -50,8 +50,8 @@ impl LoadedScene {
         Ok(Self { path: path.clone(), scene, meshes, textures, brushes, warnings: problems })
     }
 
-    /// What of another document was checked in this one already, and was well: this one stands, so its morphs fit, and its
-    /// guides lie well where no warning names them.
+    /// The parts of another document that are equal to parts of this one and need no check again. This document has passed: its
+    /// morphs fit, and guides that no warning names lie on their surfaces.
     fn known_in(&self, scene: &Scene) -> check::Known {
         let old = &self.scene;
         let same_surface = |old: &Object, new: &Object| {
@@ -71,7 +71,7 @@ impl LoadedScene {
             }
         }
         let doubted: Vec<&str> = self.warnings.iter().map(|warning| &*warning.field_path).collect();
-        // Not all that was found is listed.
+        // The list of warnings was cut off.
         let is_cut = self.warnings.iter().any(|warning| {
             warning.field_path.is_empty() && warning.path == self.path && warning.place.is_none()
         });
@@ -86,7 +86,7 @@ impl LoadedScene {
                 if object != old_object || !object.is_some_and(|object| kept.contains(object)) {
                     continue;
                 }
-                // Where it was, or one place on: a guide before it was added or removed.
+                // The same index or one next to it: a guide before it may have been added or removed.
                 let places = [guide_index, guide_index + 1, guide_index.wrapping_sub(1)];
                 let was = places.into_iter().find(|&place| old_region.guides.get(place) == Some(guide));
                 let is_well = |place: usize| {
@@ -101,13 +101,13 @@ impl LoadedScene {
         known
     }
 
-    /// What was odd in files that are still in use: it is not read again, so it is not said again.
+    /// The old warnings about files that are still in use: these are not read again, so the warnings would be lost.
     fn warnings_of_files<T>(&self, still_named: &BTreeMap<String, T>) -> Vec<Problem> {
         let is_dropped = |problem: &Problem| {
             let mut dropped = self.meshes.keys().filter(|name| !still_named.contains_key(*name));
             dropped.any(|name| problem.path.ends_with(name))
         };
-        // What is about the document has a field, and was found anew.
+        // Warnings about the document have a field path; they were found again.
         let of_files = self.warnings.iter().filter(|problem| problem.field_path.is_empty());
         let of_files = of_files.filter(|problem| problem.path != self.path || problem.place.is_some());
         of_files.filter(|problem| !is_dropped(problem)).cloned().collect()

@@ -1,4 +1,4 @@
-//! The meshes and textures that a document names.
+//! Reads the meshes and pictures that a document names.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub(super) struct Readers<'a> {
     pub(super) brush: &'a dyn Fn(&str) -> TextureRead,
 }
 
-/// What was read, and what there was to say.
+/// The files that were read, and the problems with them.
 #[derive(Debug, Default)]
 pub(super) struct Files {
     pub(super) meshes: BTreeMap<String, Arc<MeshFile>>,
@@ -30,7 +30,7 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// Reads every file once, however many objects name it. `at` gives a problem the place of a field of the document.
+    /// Reads every file once, however many objects name it. `at` gives a problem the position of a field of the document.
     pub(super) fn read(scene: &Scene, readers: &Readers<'_>, at: impl Fn(Problem, &str) -> Problem) -> Self {
         let mut files = Self::default();
         let meshes = first_uses(scene, |object| Some(&object.mesh), "mesh");
@@ -99,8 +99,8 @@ pub(super) fn first_uses<'a>(
     uses
 }
 
-/// The problem as one of the scene file, keeping the words about the file that it was about.
-pub(super) fn retold(
+/// Turns a problem of another file into one of the scene file, with a message that names the other file.
+pub(super) fn as_scene_problem(
     problem: Problem,
     scene_path: &Path,
     place: Option<crate::problem::TextPosition>,

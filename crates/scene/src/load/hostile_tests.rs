@@ -1,4 +1,4 @@
-//! Thousands of broken scenes, the same in every run: whatever the text, there is a scene, or a located complaint.
+//! Reads thousands of broken scenes, the same in every run: each gives a scene, or a problem with its position.
 
 use super::*;
 
@@ -122,7 +122,7 @@ fn mutate(dice: &mut Dice) -> String {
 fn assert_handled(text: &str) -> bool {
     let path = Path::new("s.ron");
     let lines = text.matches('\n').count() + 1;
-    let assert_told = |problem: &Problem| {
+    let assert_complete = |problem: &Problem| {
         let place = problem.place.unwrap_or_else(|| panic!("no place: {problem}\n{text}"));
         let is_inside = place.line <= lines && place.column <= text.len() + 1;
         assert!(is_inside, "a place outside the text: {problem}\n{text}");
@@ -133,15 +133,15 @@ fn assert_handled(text: &str) -> bool {
         Ok(parsed) => parsed,
         Err(Report(problems)) => {
             assert!(problems.iter().any(|problem| problem.severity.is_fatal()), "nothing fatal\n{text}");
-            problems.iter().for_each(assert_told);
+            problems.iter().for_each(assert_complete);
             return false;
         }
     };
     let Parsed { scene, located } = parsed;
     let findings = check::check(&scene);
     let is_good = !findings.iter().any(|finding| finding.severity.is_fatal());
-    let told = Told { path, written: Some(&located), applied: &[], edited: None };
-    findings.into_iter().for_each(|finding| assert_told(&told.problem(finding)));
+    let locator = FieldLocator { path, written: Some(&located), applied: &[], edited: None };
+    findings.into_iter().for_each(|finding| assert_complete(&locator.problem(finding)));
     if is_good {
         let saved = crate::save::to_ron(&scene);
         assert_eq!(parse(path, &saved).as_ref(), Ok(&scene), "{saved}");

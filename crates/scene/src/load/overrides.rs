@@ -1,7 +1,7 @@
 //! `--set PATH=VALUE`: values of the command line in place of those of the file.
 //!
-//! A value is put into the text, and the text is parsed anew; so it may be whatever a file may hold there, and what
-//! the parser says of it is said of the command line.
+//! A value is put into the text, and the text is parsed again. So it may be anything that a file may hold there, and errors of the
+//! parser are reported for the command line.
 
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,7 @@ fn put_in(parsed: &Parsed, field_path: &str, value: &str, option: &Path) -> Resu
         }
     }
     let problems = first_report.map_or_else(Vec::new, |report| report.0);
-    // A line and a column in the command line mean nothing to anybody.
+    // A line and a column make no sense for the command line.
     Err(Report(problems.into_iter().map(|problem| Problem { place: None, ..problem }).collect()))
 }
 
@@ -71,7 +71,7 @@ fn candidates(value: &str) -> Vec<String> {
     as_it_is.into_iter().chain([quoted]).collect()
 }
 
-/// What is wrong, and the mend.
+/// An error message, and the mend.
 type Fault = (String, String);
 
 /// Where a value goes: the bytes that it replaces, and what is written around it.
@@ -181,7 +181,7 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
     Ok(spot)
 }
 
-/// What stands in a field whose fields can be set although the file leaves it out.
+/// The variants of fields whose inner fields can be set although the file leaves them out.
 const DEFAULT_VARIANTS: [(&str, &str); 2] = [("style", "RotatingStrokes"), ("lens", "Perspective")];
 
 /// A segment with a capital names a variant, as `RotatingStrokes` in `style.RotatingStrokes.solver`.

@@ -1,4 +1,4 @@
-//! From text to the document, with every complaint of the RON parser said in the words of a scene.
+//! Parses text into the document, and explains errors of the RON parser in terms of the scene.
 
 use std::ops::Range;
 use std::path::Path;

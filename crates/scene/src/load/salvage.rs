@@ -1,12 +1,12 @@
-//! Reading what can be read of a scene that has errors, with everything that could not, and what would mend it.
+//! Reads as much as possible of a scene with errors, and lists what could not be read, with fixes.
 //!
 //! ```text
-//! text ─▶ brackets ─▶ values ─▶ sense ─▶ files ─▶ a scene that is well
+//! text ─▶ brackets ─▶ values ─▶ checks ─▶ files ─▶ a valid scene
 //!    ▲        │ cut      │ field or item overwritten with spaces
-//!    └────────┴──────────┴────────┘ and once more; places hold, for nothing before them moves
+//!    └────────┴──────────┴─────────┘ and again; positions stay valid, since no text moves
 //! ```
 //!
-//! What is given passed the same checks as any scene. The file is only read.
+//! The result has passed the same checks as any scene. The file itself is not changed.
 
 mod cut;
 mod files;
@@ -20,7 +20,7 @@ use super::parse::{
     self, blank_out, blank_range, enclosing_path, enclosing_struct_path, explain, field_before,
 };
 use super::source::{self, error_in};
-use super::{LoadOptions, Told};
+use super::{FieldLocator, LoadOptions};
 use crate::check::{self, Finding};
 use crate::document::Scene;
 use crate::limits;
@@ -28,7 +28,7 @@ use crate::loaded::LoadedScene;
 use crate::locate::{Inside, Located, Step};
 use crate::problem::{Problem, Report, Severity, TextPosition};
 
-use files::Held;
+use files::FileCache;
 pub use fix::{Fix, mended};
 
 /// Bytes that are scanned and parsed at most in all passes over one text.
@@ -53,7 +53,7 @@ pub struct Salvaged {
 pub struct Loss {
     /// What is wrong, and where.
     pub problem: Problem,
-    /// What serves until it is mended, as a sentence.
+    /// What is used until it is mended, as a sentence.
     pub instead: String,
     /// The mesh that a box stands in for, as the document writes it; none where the loss is one of the text.
     pub mesh: Option<String>,
@@ -83,10 +83,10 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
     }
     let mut reading =
         Reading { path, left: text.to_owned(), losses: Vec::new(), blanked: Vec::new(), unlisted: 0 };
-    let mut held = Held::new(path, options);
+    let mut cache = FileCache::new(path, options);
     let most_passes = (MOST_PARSED_BYTES / text.len().max(1)).clamp(2, MOST_PASSES);
     for _ in 0..most_passes {
-        if let Some(loaded) = reading.pass(&mut held)? {
+        if let Some(loaded) = reading.pass(&mut cache)? {
             let mut losses = reading.losses;
             losses.sort_by_key(|loss| (loss.problem.place.is_none(), loss.problem.place));
             if reading.unlisted > 0 {
@@ -100,21 +100,20 @@ pub fn salvage_text(path: &Path, text: &str, options: &LoadOptions) -> Result<Sa
     Err(reading.given_up())
 }
 
-/// One text while what is wrong with it is taken out.
+/// A text from which errors are removed pass by pass.
 struct Reading<'a> {
     path: &'a Path,
-    /// The text with spaces where something was wrong. Up to the first thing that was added at its end, every byte stands
-    /// where it stood.
+    /// The text with spaces in place of errors. Bytes keep their offsets; fields may have been added at the end.
     left: String,
     losses: Vec<Loss>,
-    /// What was overwritten, and for which loss.
+    /// The ranges that were overwritten, with the index of the loss.
     blanked: Vec<(std::ops::Range<usize>, usize)>,
     unlisted: usize,
 }
 
 impl Reading<'_> {
-    /// One pass: the scene where all is well, none where something was taken out.
-    fn pass(&mut self, held: &mut Held<'_>) -> Result<Option<LoadedScene>, Report> {
+    /// One pass: the scene if it is valid, `None` if something was removed.
+    fn pass(&mut self, cache: &mut FileCache<'_>) -> Result<Option<LoadedScene>, Report> {
         let alone = |problem| Report(vec![problem]);
         let located = match source::scan_refusing(&self.left) {
             Ok(located) => located,
@@ -145,7 +144,7 @@ impl Reading<'_> {
         if self.take_out_found(&located, &findings)? {
             return Ok(None);
         }
-        let mut files = held.read(&scene, &located);
+        let mut files = cache.read(&scene, &located);
         if !files.refused.is_empty() {
             for (problem, field_path, fix) in std::mem::take(&mut files.refused) {
                 let index = self.lose(problem, "Left out until then.".to_owned());
@@ -158,9 +157,9 @@ impl Reading<'_> {
         if self.take_out_found(&located, &on_meshes)? {
             return Ok(None);
         }
-        let told = Told { path: self.path, written: Some(&located), applied: &[], edited: None };
+        let locator = FieldLocator { path: self.path, written: Some(&located), applied: &[], edited: None };
         let mut warnings: Vec<Problem> =
-            findings.into_iter().chain(on_meshes).map(|finding| told.problem(finding)).collect();
+            findings.into_iter().chain(on_meshes).map(|finding| locator.problem(finding)).collect();
         super::sort_and_cap(self.path, &mut warnings, files.warnings);
         for loss in files.missing {
             self.add(loss);
@@ -176,7 +175,7 @@ impl Reading<'_> {
         }))
     }
 
-    /// Writes a loss down; where it is in the list.
+    /// Adds a loss; returns its index.
     fn lose(&mut self, problem: Problem, instead: String) -> usize {
         self.add(Loss { problem, instead, mesh: None, fix: None })
     }
@@ -219,7 +218,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Takes out what the parser stumbled over.
+    /// Removes the part at which the parser failed.
     fn take_out(&mut self, located: &Located, error: &ron::error::SpannedError) -> Result<(), Report> {
         let offset = |at: ron::error::Position| located.offset_in(&self.left, at.line, at.col);
         let span = (offset(error.span.start), offset(error.span.end));
@@ -258,7 +257,7 @@ impl Reading<'_> {
         };
         let node = located.node_at(&field_path);
         let within = node.map_or(at..at, |node| node.start as usize..node.end as usize);
-        // What is missing because it was taken out is no loss of its own.
+        // A field that is missing because it was removed is not a loss of its own.
         let cause = self.blanked.iter().rev().find(|(range, _)| within.contains(&range.start));
         let index = match cause {
             Some(&(_, index)) => {
@@ -271,7 +270,7 @@ impl Reading<'_> {
         self.blank_for(located, &field_path, index)
     }
 
-    /// A field of the scene that must be there and is not.
+    /// Adds a required field of the scene that is missing.
     fn add_missing(&mut self, located: &Located, field: &str, problem: Problem) -> Result<(), Report> {
         let written = match field {
             "version" => "version: 1",
@@ -279,7 +278,7 @@ impl Reading<'_> {
             "camera" => "camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
             _ => return Err(Report(vec![problem])),
         };
-        // Taken out by a cut, or mistyped: said already.
+        // Removed by a cut, or mistyped: reported already.
         if self.losses.is_empty() {
             self.lose(problem, "A usual one stands in for it.".to_owned());
         }
@@ -287,21 +286,21 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Takes out everything that makes no sense; whether there was anything.
+    /// Removes everything that the checks found; whether there was anything.
     fn take_out_found(&mut self, located: &Located, findings: &[Finding]) -> Result<bool, Report> {
         let fatal: Vec<&Finding> = findings.iter().filter(|finding| finding.severity.is_fatal()).collect();
-        let told = Told { path: self.path, written: Some(located), applied: &[], edited: None };
+        let locator = FieldLocator { path: self.path, written: Some(located), applied: &[], edited: None };
         let before = self.left.clone();
         for finding in &fatal {
             if finding.field_path.is_empty() {
                 continue;
             }
             let instead = format!("{} is left out until then.", described(&finding.field_path));
-            let index = self.lose(told.problem((*finding).clone()), instead);
+            let index = self.lose(locator.problem((*finding).clone()), instead);
             self.blank_for(located, &finding.field_path, index)?;
         }
         if !fatal.is_empty() && self.left == before {
-            return Err(self.given_up_with(fatal.iter().map(|finding| told.problem((*finding).clone()))));
+            return Err(self.given_up_with(fatal.iter().map(|finding| locator.problem((*finding).clone()))));
         }
         Ok(!fatal.is_empty())
     }
@@ -312,7 +311,7 @@ impl Reading<'_> {
         true
     }
 
-    /// Overwrites a field or an item of a list, or what is round it where it is overwritten already.
+    /// Overwrites a field or an item of a list; if it is overwritten already, the value round it.
     fn blank_for(&mut self, located: &Located, field_path: &str, loss: usize) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {
@@ -353,7 +352,7 @@ impl Reading<'_> {
     }
 }
 
-/// What of the text goes for a field: with its comma; none where nothing is left to take.
+/// The range of text to overwrite for a field, with its comma; `None` where nothing is left.
 fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
     let mut node = located.root();
     let mut range = None;
@@ -369,7 +368,7 @@ fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops:
             }
             (Inside::Items(items), Step::Index(index)) => {
                 let Some(item) = items.get(index) else { break };
-                // One of several numbers is nothing without the others.
+                // One number of a tuple cannot be left out alone.
                 if located.text_of(outer).starts_with('[') {
                     range = Some(item.start as usize..item.end as usize);
                 }
@@ -383,7 +382,7 @@ fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops:
     is_left.then_some(range)
 }
 
-/// *The object*, *The key*: what an item of a list is called.
+/// The name of an item of a list for messages: *The object*, *The key*.
 fn described(field_path: &str) -> String {
     let last = field_path.rsplit('.').next().unwrap_or(field_path);
     match last.split_once('[') {

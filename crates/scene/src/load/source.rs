@@ -1,4 +1,4 @@
-//! From bytes to text: everything that makes a file no scene at all, before its first value is looked at.
+//! From bytes to scanned text: refuses files that are not scenes at all, before any value is parsed.
 
 use std::io::Read;
 use std::path::Path;

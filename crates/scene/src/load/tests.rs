@@ -25,7 +25,7 @@ fn after_edit(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn every_kind_of_fault_is_said_at_its_place_with_a_mend() {
+fn every_kind_of_error_has_its_position_and_a_mend() {
     let cases = [
         ("parent:", "parnt:", "s.ron:6:43: error: unknown field `parnt`; did you mean `parent`?"),
         ("10)", "10.5)", "s.ron:6:70: error: `10.5` does not fit `objects[1].particles`"),
@@ -100,7 +100,7 @@ fn an_unknown_field_is_found_again_where_a_known_one_of_its_name_stands_elsewher
 }
 
 #[test]
-fn text_that_is_no_scene_is_named_as_what_it_is() {
+fn text_that_is_not_a_scene_is_identified() {
     let deep = format!("(version: 1, a: {}", "[".repeat(100_000));
     let deep_comment = "/*".repeat(100_000);
     let long_number = format!("(version: 1, seed: {})", "7".repeat(1_000_000));
@@ -143,7 +143,7 @@ fn byte_order_mark_line_ends_comments_and_raw_text_are_no_fault() {
 }
 
 #[test]
-fn bytes_that_are_no_utf8_are_said_with_their_place() {
+fn bytes_that_are_not_utf8_are_reported_with_their_position() {
     let path = Path::new("s.ron");
     let place = |bytes: &[u8]| source::decode(path, bytes).expect_err("taken").to_string();
     assert!(place(b"(\n a: \"\xe4\")").starts_with("s.ron:2:6: error: this file is not UTF-8"));
@@ -185,7 +185,7 @@ fn values_of_the_command_line_replace_and_add_fields() {
 }
 
 #[test]
-fn faults_of_the_command_line_are_said_of_the_command_line() {
+fn errors_in_set_options_are_reported_for_the_command_line() {
     let cases = [
         ("objects.whel.particles", "9", "`objects` has no item `whel`; did you mean `wheel`?"),
         ("objects[7].scale", "2", "`objects` has no item `7`; it has 2, counted from 0"),

@@ -1,4 +1,4 @@
-//! The scan itself: one pass over the bytes, at most [`limits::MAX_NESTING`] calls deep.
+//! The scanner: one pass over the bytes, at most [`limits::MAX_NESTING`] calls deep.
 
 use super::{Field, Inside, Node, Refused};
 use crate::limits;
@@ -122,7 +122,7 @@ impl<'a> Scanner<'a> {
                 items.push(key);
             }
         }
-        // A mix is no valid RON; the parser says so, and the fields are what can be found by name.
+        // A mix of both is not valid RON, which the parser will report; the fields can be found by name.
         Ok(if fields.is_empty() { Inside::Items(items) } else { Inside::Fields(fields) })
     }
 

@@ -35,7 +35,7 @@ fn edited(loaded: &LoadedScene, edit: impl FnOnce(&mut Scene)) -> Result<LoadedS
 }
 
 #[test]
-fn files_are_shared_read_and_dropped_as_the_document_names_them() {
+fn loaded_files_are_shared_new_ones_read_and_unused_ones_dropped() {
     let (folder, loaded) = folder();
     let of =
         |loaded: &LoadedScene, name: &str| loaded.warnings.iter().filter(|w| w.path.ends_with(name)).count();
@@ -85,7 +85,7 @@ fn problems_name_their_field() {
 }
 
 #[test]
-fn what_is_loaded_has_its_field_too_and_warnings_of_edits_come_and_go() {
+fn loaded_problems_have_fields_and_warnings_follow_the_edits() {
     let (_folder, loaded) = folder();
     let off = |scene: &mut Scene| {
         let text = SCENE.replace("(\n    version", "(regions: [(name: \"r\", on: Object(\"apple\"), guides: [(points: [(at: (0, 0, 3), normal: (0, 0, 1)), (at: (1, 0, 3), normal: (0, 0, 1))], radius: 0.2)])], version");

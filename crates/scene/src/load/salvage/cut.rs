@@ -1,12 +1,12 @@
-//! Ending a text before a fault of its brackets, so that what stands before it can be read.
+//! Ends a text before an error in its brackets, so that everything before it can be read.
 
 /// A text that was ended early.
 pub(super) struct Cut {
-    /// What stands before the fault, with every bracket closed.
+    /// The text before the error, with every bracket closed.
     pub(super) text: String,
-    /// Up to where it was read, bytes.
+    /// Offset up to which it was read, bytes.
     pub(super) read_to: usize,
-    /// About how many objects stand behind.
+    /// About how many objects come after it.
     pub(super) objects_behind: usize,
 }
 
@@ -21,8 +21,8 @@ struct Open {
     has_colon: bool,
 }
 
-/// Ends a text before `fault`, or before an earlier place where a bracket must have been forgotten. None where nothing
-/// stands before it.
+/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten. `None` where nothing comes before
+/// it.
 pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     let bytes = text.as_bytes();
     // A bracket that is never closed is found at its opening; the text may be good to its end.
@@ -97,7 +97,7 @@ pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     }
     let read_to = if text.is_char_boundary(read_to) { read_to } else { at };
     let inner = open.last()?;
-    // What was begun last goes, unless its bracket is what is missing.
+    // The last item is dropped, unless only its closing bracket is missing.
     let is_whole = match inner.byte {
         b'(' => inner.has_colon && !text[..end].trim_end().ends_with(':'),
         _ => true,

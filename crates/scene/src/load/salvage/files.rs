@@ -1,4 +1,4 @@
-//! The files of a scene with errors: those that are there, and what stands in for the others.
+//! Reads the files of a scene with errors; boxes stand in for meshes that are missing.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,22 +9,22 @@ use super::{LoadOptions, Loss};
 use crate::check;
 use crate::document::{PatchRef, Scene};
 use crate::limits;
-use crate::load::files::{first_uses, retold, textures};
+use crate::load::files::{as_scene_problem, first_uses, textures};
 use crate::load::{folder_of, read_brush, read_mesh, read_texture};
 use crate::locate::Located;
 use crate::mesh_file::{Material, MeshFile, Texture};
 use crate::problem::{Problem, Severity};
 
-/// Files that are looked through at most for one that is missing.
+/// The most files among which a missing one is searched.
 const MOST_ENTRIES: usize = 4000;
 
-/// Folders inside each other that are looked through for it.
+/// The depth of folders in which it is searched.
 const DEEPEST: usize = 4;
 
 type Read<T> = Result<(Arc<T>, Vec<Problem>), Problem>;
 
-/// Files that were read, or could not be: once, however many passes there are.
-pub(super) struct Held<'a> {
+/// A cache of files that were read or failed, so that each is read once over all passes.
+pub(super) struct FileCache<'a> {
     path: &'a Path,
     options: &'a LoadOptions,
     meshes: BTreeMap<String, Read<MeshFile>>,
@@ -44,11 +44,11 @@ pub(super) struct Found {
     pub(super) warnings: Vec<Problem>,
     /// Meshes that boxes stand in for.
     pub(super) missing: Vec<Loss>,
-    /// What nothing can stand in for: the problem, its field, and what would mend it.
+    /// Files that nothing can stand in for: the problem, its field, and a fix.
     pub(super) refused: Vec<(Problem, String, Option<Fix>)>,
 }
 
-impl<'a> Held<'a> {
+impl<'a> FileCache<'a> {
     pub(super) fn new(path: &'a Path, options: &'a LoadOptions) -> Self {
         let (meshes, textures, brushes) = Default::default();
         Self { path, options, meshes, textures, brushes, nearby: None }
@@ -127,7 +127,7 @@ impl<'a> Held<'a> {
     }
 
     fn at(&self, problem: Problem, field_path: &str, located: &Located) -> Problem {
-        // A fault within the mesh file keeps its line in the words.
+        // The line of an error within the mesh file is kept in the message.
         let words = match problem.place {
             Some(place) if problem.path != self.path => format!("line {}: {}", place.line, problem.message),
             _ => problem.message.clone(),
@@ -135,7 +135,7 @@ impl<'a> Held<'a> {
         let place = Some(located.place_of(field_path));
         let severity = problem.severity.max(Severity::Error);
         let problem = Problem { message: words, field_path: field_path.into(), severity, ..problem };
-        retold(problem, self.path, place)
+        as_scene_problem(problem, self.path, place)
     }
 
     /// The one file of that name elsewhere in the scene's folder, or the one of nearly that name.
@@ -196,7 +196,7 @@ fn files_below(root: &Path) -> Vec<PathBuf> {
         for entry in entries.filter_map(Result::ok) {
             seen += 1;
             if seen > MOST_ENTRIES {
-                // Of a part one cannot say that a name is the only one.
+                // With an incomplete list one cannot tell whether a name is the only one.
                 return Vec::new();
             }
             let Ok(kind) = entry.file_type() else { continue };

@@ -1,10 +1,10 @@
-//! What would mend a loss: words for a button, and what to write in place of what.
+//! Fixes for losses: the text of a button, and the edits of the file's text.
 
 use std::ops::Range;
 
 use crate::locate::{Field, Inside, Located, Node};
 
-/// Letters in which a mistyped name may differ from the one that was meant.
+/// The most letters in which a mistyped name may differ from the one that was meant.
 const NEAR: usize = 2;
 
 /// A change of the text that mends a loss.
@@ -14,11 +14,11 @@ pub struct Fix {
     pub verb: String,
     /// Whether nothing else can have been meant.
     pub is_certain: bool,
-    /// What is written instead of which bytes.
+    /// The ranges to replace, with the new text.
     pub(super) edits: Vec<(Range<usize>, String)>,
 }
 
-/// A text with fixes carried out. Fixes of other texts do nothing where they do not fit.
+/// A text with fixes applied. Fixes of another text are skipped where they do not fit.
 pub fn mended(text: &str, fixes: &[&Fix]) -> String {
     let mut edits: Vec<&(Range<usize>, String)> = fixes.iter().flat_map(|fix| &fix.edits).collect();
     edits.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));

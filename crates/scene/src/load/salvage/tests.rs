@@ -120,7 +120,7 @@ fn a_box_stands_in_for_a_mesh_and_all_else_of_the_object_is_kept() {
 }
 
 #[test]
-fn a_broken_bracket_ends_the_reading_and_what_stands_before_it_is_open() {
+fn everything_before_a_broken_bracket_is_read() {
     let folder = Folder::new();
     let objects = "    (name: \"a\", mesh: \"meshes/apple.obj\", particles: 100),\n    (name: \"b\", mesh: \"meshes/leaf.obj\",\n    (name: \"c\", mesh: \"meshes/leaf.obj\"),\n    (name: \"d\", mesh: \"meshes/leaf.obj\"),";
     let salvaged = folder.read(&scene(objects, "  strokes: (length_px: 40),"));
@@ -137,7 +137,7 @@ fn a_broken_bracket_ends_the_reading_and_what_stands_before_it_is_open() {
 }
 
 #[test]
-fn a_value_that_makes_no_sense_goes_with_the_least_that_holds_it() {
+fn an_invalid_value_is_removed_with_as_little_else_as_possible() {
     let folder = Folder::new();
     let object = r#"    (name: "a", mesh: "meshes/apple.obj", parent: "nobody", keys: [(frame: 0), (frame: "x"), (frame: 5, scale: -1)]),
     (name: "b", mesh: 7),"#;
@@ -169,7 +169,7 @@ fn a_scene_without_camera_objects_or_version_gets_usual_ones() {
 }
 
 #[test]
-fn what_is_no_scene_is_refused_whole() {
+fn text_that_is_not_a_scene_is_refused() {
     let folder = Folder::new();
     for text in ["", "// only words", "(version: 2, camera: ())", "{\"version\": 1}", "\0"] {
         fs::write(folder.path(), text).expect("written");
