@@ -142,6 +142,10 @@ impl Piece {
             }
             [b'f', b' ' | b'\t', _] => self.face(text, at),
             [b'\n', ..] | [b'\r', b'\n', _] => line_end(text, at),
+            [b'#', ..] => {
+                let length = text[at..].iter().position(|byte| *byte == b'\n')?;
+                text[at..at + length].is_ascii().then_some(at + length + 1)
+            }
             _ => None,
         }
     }
