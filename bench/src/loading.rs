@@ -1,10 +1,11 @@
-//! Reading a mesh file of a million triangles: our reader, which checks and locates every line, beside tobj alone.
+//! A mesh file of a million triangles: our reader, which checks every line before tobj reads it, beside tobj alone. Ours is
+//! meant to take at most 1.4 times as long.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::obj;
@@ -76,8 +77,9 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
         mesh.triangles.len()
     );
     let our_area = area((0..TRIANGLES).map(|triangle| mesh.corners(triangle)));
-    let vertex =
-        |model: &tobj::Model, index: u32| Vec3::from_slice(&model.mesh.positions[3 * index as usize..]);
+    let vertex = |model: &tobj::Model, index: u32| {
+        DVec3::from_slice(&model.mesh.positions[3 * index as usize..]).as_vec3()
+    };
     let their_area: f64 = models
         .iter()
         .map(|model| {
@@ -96,7 +98,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let mesh_bytes = 32 * mesh.positions.len() + 24 * TRIANGLES;
     drop((mesh, models));
     let contenders = vec![
-        Contender::here("Impasto", "every line checked and located", || ours(&path)),
+        Contender::here("Impasto", "every line checked, then read by tobj", || ours(&path)),
         Contender::here("tobj 4", "alone; 1 thread", || theirs(&path)),
         Streams::of_bytes(file_bytes, mesh_bytes).contender(),
     ];

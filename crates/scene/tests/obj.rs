@@ -104,6 +104,43 @@ fn errors_stand_where_they_are() {
 }
 
 #[test]
+fn faces_do_without_texture_coordinates_and_normals_that_the_file_does_not_have() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = read(folder.path(), format!("{SQUARE}f 1 2 3 4\n").as_bytes()).unwrap().0;
+    for (face, warned) in [
+        ("f 1/1 2/2 3/3 4/4", 1),
+        ("f 1//1 2//2 3//3 4//4", 1),
+        ("f 1/1/1 2/2/2 3/3/3 4/4/4", 2),
+        ("f 1/-1 2 3 4", 1),
+    ] {
+        let (file, warnings) = read(folder.path(), format!("{SQUARE}{face}\n").as_bytes()).unwrap();
+        assert_eq!((&file, warnings.len()), (&plain, warned), "{face}");
+        assert_eq!(warnings[0].place, Some(Place { line: 5, column: 3 }), "{face}");
+    }
+    // Where there are some, an index beyond them is a mistake.
+    for face in ["f 1/1 2/2 3/1", "f 1/-2 2/1 3/1"] {
+        assert!(read(folder.path(), format!("vt 0 0\n{SQUARE}{face}\n").as_bytes()).is_err(), "{face}");
+    }
+    let ahead = read(folder.path(), format!("{SQUARE}f 1/-1 2/1 3/1\nvt 0 0\n").as_bytes());
+    assert_eq!(first_place(ahead), Some(Place { line: 5, column: 3 }));
+}
+
+/// tobj lists no texture coordinate for a corner that has none: those behind it must stay with their corners.
+#[test]
+fn corners_with_and_without_texture_coordinates_and_normals_go_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let values = "vt 0.25 0\nvt 0.5 0\nvt 0.75 0\nvn 0 0.6 0.8\n";
+    let faces = "f 1 2 3\nf 2/1 3//1 4/2/1\nf 1/3/1 2/2/1 4/1/1\n";
+    let (file, _) = read(folder.path(), format!("{SQUARE}{values}{faces}").as_bytes()).unwrap();
+    let corners = file.mesh.triangles.iter().flatten().map(|&vertex| vertex as usize);
+    let found: Vec<(f32, bool)> =
+        corners.map(|vertex| (file.mesh.uvs[vertex].x, file.mesh.normals[vertex].y != 0.0)).collect();
+    let uvs = [0.0, 0.0, 0.0, 0.25, 0.0, 0.5, 0.75, 0.5, 0.25];
+    let expected: Vec<(f32, bool)> = uvs.into_iter().zip((0..9).map(|corner| corner > 5)).collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
 fn a_concave_polygon_keeps_its_area() {
     let folder = tempfile::tempdir().unwrap();
     let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n";

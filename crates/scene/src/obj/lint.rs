@@ -2,10 +2,11 @@
 //! and the text is cleaned for tobj. Plain lines come in bulk from [`super::scan`], all others are taken one by one.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::cleaned::Cleaned;
 use super::oddities::Oddities;
-use super::scan::{self, Counts, Indices, Kind, MAX_COORDINATE, MAX_UV, Piece, gives, unit};
+use super::scan::{self, Counts, Indices, Kind, MAX_COORDINATE, MAX_UV, Piece, gives, raise, unit};
 use super::text::{Findings, Lines, Word, finite, name_of};
 
 /// One face of at least three different corners.
@@ -110,13 +111,11 @@ pub(super) fn check<'a>(text: &'a [u8], findings: &mut Findings<'a>) -> Checked<
 impl<'a> Linter<'_, 'a> {
     /// Takes the plain lines of a piece in bulk, and those between them one by one.
     fn piece(&mut self, piece: &Piece) {
-        for kind in 0..3 {
-            self.highest[kind] = self.highest[kind].max(piece.highest[kind]);
-        }
+        raise(&mut self.highest, piece.highest);
         let mut words = Vec::new();
         let (mut at, mut taken) = (piece.text.start, Counts::default());
         for rest in &piece.rest {
-            self.plain_lines(piece, at, rest.text.start, taken, rest.before);
+            self.plain_lines(piece, at..rest.text.start, taken, rest.before);
             (at, taken) = (rest.text.end, rest.before);
             let mut lines = Lines::between(self.text, rest.text.start, rest.text.end);
             while lines.next_into(&mut words) {
@@ -128,12 +127,12 @@ impl<'a> Linter<'_, 'a> {
                 self.line(&words);
             }
         }
-        self.plain_lines(piece, at, piece.text.end, taken, piece.counts);
+        self.plain_lines(piece, at..piece.text.end, taken, piece.counts);
     }
 
-    /// Takes the lines of a piece from one byte to another; the counts are those before and behind them.
-    fn plain_lines(&mut self, piece: &Piece, start: usize, end: usize, from: Counts, to: Counts) {
-        self.checked.cleaned.keep(start..end);
+    /// Takes lines of a piece that are all plain; the counts are those before and behind them.
+    fn plain_lines(&mut self, piece: &Piece, lines: Range<usize>, from: Counts, to: Counts) {
+        self.checked.cleaned.keep(lines);
         for kind in 0..3 {
             self.counts[kind] += (to.values[kind] - from.values[kind]) as usize;
         }
@@ -306,9 +305,7 @@ impl<'a> Linter<'_, 'a> {
         self.checked.faces.push(Face { group, material, offset: keyword.offset as u32 });
         let mut words = vec!["f".to_owned()];
         for corner in corners {
-            for kind in 0..3 {
-                self.highest[kind] = self.highest[kind].max(corner[kind]);
-            }
+            raise(&mut self.highest, corner);
             self.checked.corners.push(gives(corner));
             let part = |kind: usize| if corner[kind] == 0 { String::new() } else { corner[kind].to_string() };
             words.push(format!("{}/{}/{}", part(0), part(1), part(2)));

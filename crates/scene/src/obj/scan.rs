@@ -72,6 +72,14 @@ pub(super) fn unit(numbers: [f64; 3]) -> Option<[f32; 3]> {
     (length > 1e-30 && length.is_finite()).then(|| numbers.map(|number| (number / length) as f32))
 }
 
+/// Raises the highest indices to those of a corner.
+#[inline]
+pub(super) fn raise(highest: &mut Indices, corner: Indices) {
+    for (highest, index) in highest.iter_mut().zip(corner) {
+        *highest = (*highest).max(index);
+    }
+}
+
 /// Scans a whole text; the pieces come in its order.
 pub(super) fn scan(text: &[u8]) -> Vec<Piece> {
     let most = rayon::current_num_threads() * 4;
@@ -142,6 +150,10 @@ impl Piece {
             }
             [b'f', b' ' | b'\t', _] => self.face(text, at),
             [b'\n', ..] | [b'\r', b'\n', _] => line_end(text, at),
+            [b'#', ..] => {
+                let length = text[at..].iter().position(|byte| *byte == b'\n')?;
+                text[at..at + length].is_ascii().then_some(at + length + 1)
+            }
             _ => None,
         }
     }
@@ -177,12 +189,13 @@ impl Piece {
             }
             let mut corner = Indices::default();
             (corner[0], at) = index(text, at)?;
-            for kind in 1..3 {
+            if text.get(at)? == &b'/' {
+                at += 1;
+                if text.get(at)? != &b'/' {
+                    (corner[1], at) = index(text, at)?;
+                }
                 if text.get(at)? == &b'/' {
-                    at += 1;
-                    if kind == 2 || text.get(at)? != &b'/' {
-                        (corner[kind], at) = index(text, at)?;
-                    }
+                    (corner[2], at) = index(text, at + 1)?;
                 }
             }
             if corner[0] == last || !matches!(text.get(at)?, b' ' | b'\t' | b'\n' | b'\r') {
@@ -190,9 +203,7 @@ impl Piece {
             }
             first = if count == 0 { corner[0] } else { first };
             (last, count) = (corner[0], count + 1);
-            for kind in 0..3 {
-                highest[kind] = highest[kind].max(corner[kind]);
-            }
+            raise(&mut highest, corner);
             self.corners.push(gives(corner));
         }
     }
