@@ -78,7 +78,7 @@ fn a_region_shows_all_that_can_be_set() {
 
 /// Turns the wheel over a field by one step towards the hand or away from it.
 fn turn_the_wheel(harness: &mut Harness<'_, Column>, name: &str, by: f32, modifiers: Modifiers) {
-    harness.hover_at(harness.get_by_label(name).rect().center());
+    harness.hover_at(harness.get_by_role_and_label(Role::SpinButton, name).rect().center());
     harness.run();
     let event = egui::Event::MouseWheel {
         unit: egui::MouseWheelUnit::Line,
@@ -99,7 +99,9 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
     let mut column = Column::open("still_life.ron");
     column.document.select(region("apple").into_iter().collect());
     let mut harness = super::harness_of(column, impasto_editor::theme::Theme::Dark, super::SIZE);
-    let top = |harness: &Harness<'_, Column>| harness.get_by_label("Length").rect().top();
+    let top = |harness: &Harness<'_, Column>| {
+        harness.get_by_role_and_label(Role::SpinButton, "Length").rect().top()
+    };
     let length = |harness: &Harness<'_, Column>| harness.state().region("apple").strokes.length_px;
     let before = (top(&harness), length(&harness));
     turn_the_wheel(&mut harness, "Length", -1.0, Modifiers::NONE);
@@ -109,7 +111,7 @@ fn the_wheel_scrolls_the_column_and_steps_only_a_field_with_the_focus_or_with_ct
     turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::COMMAND);
     let by_ctrl = length(&harness).expect("a step");
     assert_eq!(harness.state().log, ["merged Length 65 px"]);
-    harness.get_by_label("Length").focus();
+    harness.get_by_role_and_label(Role::SpinButton, "Length").focus();
     harness.run();
     let place = top(&harness);
     turn_the_wheel(&mut harness, "Length", 1.0, Modifiers::NONE);
