@@ -140,6 +140,7 @@ fn style(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         let number = Number {
             range: 0.0..=3.0,
             limits: Some(of.limits.clone()),
+            scene_decides: false,
             step: (0.05, 2),
             default: Some(usual),
             ..Number::new(&name, of.effect)
