@@ -115,14 +115,14 @@ fn faces_do_without_texture_coordinates_and_normals_that_the_file_does_not_have(
     ] {
         let (file, warnings) = read(folder.path(), format!("{SQUARE}{face}\n").as_bytes()).unwrap();
         assert_eq!((&file, warnings.len()), (&plain, warned), "{face}");
-        assert_eq!(warnings[0].place, Some(Place { line: 5, column: 3 }), "{face}");
+        assert_eq!(warnings[0].place, Some(TextPosition { line: 5, column: 3 }), "{face}");
     }
     // Where there are some, an index beyond them is a mistake.
     for face in ["f 1/1 2/2 3/1", "f 1/-2 2/1 3/1"] {
         assert!(read(folder.path(), format!("vt 0 0\n{SQUARE}{face}\n").as_bytes()).is_err(), "{face}");
     }
     let ahead = read(folder.path(), format!("{SQUARE}f 1/-1 2/1 3/1\nvt 0 0\n").as_bytes());
-    assert_eq!(first_place(ahead), Some(Place { line: 5, column: 3 }));
+    assert_eq!(first_place(ahead), Some(TextPosition { line: 5, column: 3 }));
 }
 
 /// tobj lists no texture coordinate for a corner that has none: those behind it must stay with their corners.

@@ -1,6 +1,8 @@
 //! `docs/scene_file.md` is kept by the declarations that it is about: its tables are made from their fields, defaults and
 //! comments and from the tables of numbers, and its examples are read. `IMPASTO_BLESS=1` writes the tables anew.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by it")]
+
 #[path = "scene_file_page/declared.rs"]
 mod declared;
 

@@ -41,7 +41,7 @@ pub struct Shown {
 }
 
 /// Where a number stands in the inspector, counted from the top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum InspectorPlace {
     /// Seen at once.
     Main(u8),
@@ -64,15 +64,16 @@ const PERCENT: Shown = Shown { unit: "%", file_per_shown: 0.01, step: 5.0, ..PIX
 const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 1, ..PIXELS };
 
 // A row has
-// - what the number does, for the inspector and for the page of the file format: a comment of a sentence or two;
-// - its field in a scene file => its field once resolved, as `plain` or as an `angle` (degrees in the file, radians once
-//   resolved);
-// - `usual`: its value in the default preset, and in all that say nothing else (`presets/table.rs`);
+// - a comment of a sentence or two: what the number does, for the inspector and for the page of the file format;
+// - its field in a scene file => its field in `ResolvedStrokes`, as `plain` (the same number) or as an `angle` (degrees
+//   in the file, radians once resolved);
+// - `usual`: its value in the default preset, and in every preset that says nothing else (`presets/table.rs`);
 // - `limits`: what a scene file may say;
-// - `shown`: how the inspector shows it.
+// - `shown`: how the inspector shows it. `place` is where it stands there: `Main(3)` is third from the top, `Advanced(3)`
+//   third under Advanced.
 //
 // `body` holds the sizes of the body layer, which `presets.rs` resolves by hand; `form` what a stroke does on its
-// surface; `color` what its colour does.
+// surface; `color` what its colour does. `CONTRIBUTING.md` says what else a new row needs.
 stroke_numbers! {
     body {
         /// How long strokes are in the picture, pixels at the scene's size; other layers keep their proportion.

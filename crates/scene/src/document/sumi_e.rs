@@ -20,7 +20,7 @@ usual_fields! {
         pub to_light: [f64; 3] = [0.96, 0.64, 1.08],
         /// The four tones, from the darkest ink to the thinnest; 0 black, 1 the paper.
         pub tones: [f64; 4] = [0.07, 0.36, 0.68, 0.96],
-        /// How much ink there is: 0 none, 1 as ground.
+        /// How much ink there is: 0 none, 1 as much as usual.
         pub density: f64 = 1.0; within 0.0..=2.0,
         /// How dark the silhouette is.
         pub silhouette: f64 = 0.7; within 0.0..=1.0,

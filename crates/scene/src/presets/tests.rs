@@ -1,7 +1,8 @@
 //! Tests of presets and of resolved stroke settings.
+use std::collections::HashSet;
 
 use super::*;
-use crate::document::{Camera, Direction, Edges, Region, Selector};
+use crate::document::{Camera, Direction, Edges, Region, STROKE_NUMBERS, Selector};
 
 fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
     Scene {
@@ -134,4 +135,30 @@ fn the_ground_is_the_last_that_is_stated() {
     let found = super::ground(&scene(settings, StrokeSettings::default()));
     assert_eq!(found, ResolvedGround { color: Color([0.5, 0.25, 0.0]), opacity: 0.75 });
     assert!(super::ground(&scene(StrokeSettings::default(), StrokeSettings::default())).opacity < 0.5);
+}
+
+#[test]
+fn every_row_of_the_table_of_stroke_numbers_is_sound() {
+    let (mut fields, mut places) = (HashSet::new(), HashSet::new());
+    for row in STROKE_NUMBERS {
+        let number = &row.number;
+        assert!(fields.insert(number.field), "{} is there twice", number.field);
+        assert!(places.insert(row.shown.place), "{}: another stands at {:?}", number.field, row.shown.place);
+        assert!(number.effect.ends_with('.') && !row.shown.label.is_empty(), "{row:?}");
+        for preset in &PRESETS {
+            let value = (row.resolved)(&ResolvedStrokes::of_preset(preset, 1.0));
+            assert!(number.limits.contains(&value), "{} {value} in {}", number.field, preset.name);
+        }
+    }
+}
+
+#[test]
+fn what_a_row_states_is_what_its_row_resolves() {
+    for row in STROKE_NUMBERS.iter().filter(|row| row.number.field != "scale") {
+        let stated = (row.number.limits.end().min(90.0) * 0.5).max(0.5);
+        let mut settings = StrokeSettings::default();
+        *(row.number.of)(&mut settings) = Some(stated);
+        let strokes = resolve(&scene(settings, StrokeSettings::default()), None);
+        assert!(((row.resolved)(&strokes) - stated).abs() < 1e-5, "{}", row.number.field);
+    }
 }

@@ -115,6 +115,7 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &Of<SumiE>, [shown, st
         unit,
         range: limits.clone(),
         limits: Some(limits),
+        scene_decides: false,
         step,
         default: Some(usual),
         ..Number::new(&name, of.effect)
@@ -136,6 +137,7 @@ fn tone(ui: &mut Ui, asker: &mut Asker<'_, '_>, index: usize, [shown, stored]: [
     let number = Number {
         range: below..=above,
         limits: Some(below..=above),
+        scene_decides: false,
         step: (0.05, 2),
         default: (below..=above).contains(&usual).then_some(usual),
         ..Number::new(&name, "From the darkest ink, 1, to the thinnest, 4: 0 is black, 1 the paper.")

@@ -35,7 +35,14 @@ struct Choice<T> {
 fn number(name: &'static str, effect: &'static str, default: f64, range: [f64; 2]) -> Number<'static> {
     let step = if range[1] > 4.0 { (0.1, 2) } else { (0.01, 3) };
     let (range, default) = (range[0]..=range[1], Some(default));
-    Number { range, limits: Some(NOISE_RATE), step, default, ..Number::new(name, effect) }
+    Number {
+        range,
+        limits: Some(NOISE_RATE),
+        scene_decides: false,
+        step,
+        default,
+        ..Number::new(name, effect)
+    }
 }
 
 pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {

@@ -50,6 +50,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&Ro
         let number = Number {
             range: 0.0..=3.0,
             limits: Some(of.limits.clone()),
+            scene_decides: false,
             step: (0.05, 2),
             default: Some(usual),
             ..Number::new(&name, of.effect)

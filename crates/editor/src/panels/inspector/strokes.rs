@@ -5,7 +5,7 @@ use impasto_core::brush;
 use impasto_editor_model::command::{Command, Regions, SceneEdit, StrokeChange};
 use impasto_editor_model::stroke_fields::{FieldValue, field_values};
 use impasto_scene::document::{BrushMix, Edges, InspectorPlace};
-use impasto_scene::limits::MAX_LAYER;
+use impasto_scene::limits::{MAX_LAYER, MAX_STROKE_PX};
 use impasto_scene::presets;
 
 use super::edited_strokes::EditedStrokes;
@@ -38,6 +38,7 @@ pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&s
     let layer = Number {
         range: 0.0..=8.0,
         limits: Some(-most..=most),
+        scene_decides: false,
         default: place.own[0].layer.map(|_| f64::from(usual)),
         ..Number::new("Layer", "Higher layers are painted over lower ones.")
     };
@@ -204,7 +205,8 @@ fn edges(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
             let number = Number {
                 unit: "px",
                 range: 0.0..=20.0,
-                limits: Some(0.0..=f64::INFINITY),
+                limits: Some(0.0..=MAX_STROKE_PX),
+                scene_decides: false,
                 step: (0.5, 1),
                 unlabelled: Some(58.0),
                 ..Number::new("Overrun", "How far paint goes past the border, at most.")
