@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::{Context as _, bail, ensure};
 
 use crate::packages::{self, Install};
-use crate::steps::{self, build_release, cargo, step};
+use crate::steps::{self, Profile, build, cargo, step};
 use crate::{layers, test, tidy};
 
 /// Runs every check, each with its seconds; stops at the first that fails.
@@ -26,7 +26,7 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     })?;
     step("licences", || licences(root))?;
     step("tests", || test::run(root, Install::Yes, &[]))?;
-    let binary = step("release build", || build_release(root))?;
+    let binary = step("release build", || build(root, Profile::Release))?;
     let impasto = binary.to_string_lossy().into_owned();
     step("doctor", || steps::run(root, &impasto, &["doctor"]))?;
     step("render", || smoke_render(root, &impasto))?;
