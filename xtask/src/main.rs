@@ -8,7 +8,6 @@ mod demo;
 mod gallery;
 mod layers;
 mod measure;
-mod meshes;
 mod packages;
 mod same;
 mod steps;
@@ -76,7 +75,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "measure" => measure::run(&root, own),
         "same" => same::run(&root, keep),
         "bench" => bench::run(&root, passed_on),
-        "meshes" => meshes::run(&root),
+        "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(())
