@@ -71,7 +71,8 @@ pub fn build(root: &Path, profile: Profile) -> anyhow::Result<PathBuf> {
     Ok(binary)
 }
 
-fn target_folder(root: &Path) -> anyhow::Result<PathBuf> {
+/// Where cargo puts what it builds.
+pub fn target_folder(root: &Path) -> anyhow::Result<PathBuf> {
     let metadata = output(root, &cargo(), &["metadata", "--format-version", "1", "--no-deps"])?;
     let metadata: serde_json::Value = serde_json::from_str(&metadata)?;
     let folder = metadata["target_directory"].as_str().context("cargo metadata names no target folder")?;
