@@ -1,30 +1,61 @@
-//! A corpus of real and hostile files, where `IMPASTO_CORPUS` names one: every file is checked by the real command, with
-//! little memory and little time, against what its list expects.
+//! Good and hostile files: those of a small corpus made here, always; those of the large one where `IMPASTO_CORPUS` names it.
+//! The real command checks them with little memory and little time.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 use impasto_scene::assets::AssetFolders;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::obj;
 use impasto_tests::command::impasto;
+use impasto_tests::corpus::{self, Outcome};
 
-/// Address space and time for one file.
+/// Address space and time for all files of one kind.
 const MEMORY_KIB: u32 = 1 << 20;
-const SECONDS: u32 = 10;
+const SECONDS: u32 = 120;
 
-fn corpus() -> Option<PathBuf> {
-    let folder = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from);
-    if folder.is_none() {
-        eprintln!("not run: IMPASTO_CORPUS names no folder");
-    }
-    folder
+/// What `impasto check` says of a file.
+struct Checked {
+    /// Its problems, a line each.
+    said: String,
+    is_good: bool,
 }
 
-/// `impasto check FILE` with limits; 124 when it took too long.
-fn check(file: &Path) -> Output {
-    let script = format!("ulimit -v {MEMORY_KIB} && exec timeout {SECONDS} \"$0\" check \"$1\"");
-    Command::new("sh").arg("-c").arg(script).arg(impasto()).arg(file).output().expect("sh runs")
+impl Checked {
+    fn outcome(&self) -> Outcome {
+        let says = |kind: &str| self.said.contains(&format!(": {kind}: "));
+        match self.is_good {
+            true if says("warning") => Outcome::Warned,
+            true => Outcome::Taken,
+            false if says("limit") => Outcome::TooMuch,
+            false => Outcome::Refused,
+        }
+    }
+}
+
+/// What one run of `impasto check FILE …`, within its limits, says of each file.
+fn check(files: &[PathBuf]) -> Vec<Checked> {
+    let script = format!("ulimit -v {MEMORY_KIB} && exec timeout {SECONDS} \"$0\" check \"$@\" 2>&1");
+    let output =
+        Command::new("sh").arg("-c").arg(script).arg(impasto()).args(files).output().expect("sh runs");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let (mut checked, mut said) = (Vec::new(), String::new());
+    for line in text.lines() {
+        let Some(file) = files.get(checked.len()) else { panic!("more verdicts than files: {line}") };
+        match line.strip_prefix(&format!("{}: ", file.display())) {
+            Some(verdict) if verdict.starts_with("good, ") || verdict.starts_with("bad, ") => {
+                let is_good = verdict.starts_with("good");
+                checked.push(Checked { said: std::mem::take(&mut said), is_good });
+            }
+            _ => said += &format!("{line}\n"),
+        }
+    }
+    let code = output.status.code();
+    let stopped = files.get(checked.len());
+    assert!(stopped.is_none(), "{stopped:?} ends the command, exit code {code:?}: {said}");
+    let expected = if checked.iter().all(|file| file.is_good) { 0 } else { 3 };
+    assert_eq!(code, Some(expected), "{said}");
+    checked
 }
 
 /// Rows of a CSV file with a header, as (header, value) look-ups; quoted fields may hold commas and doubled quotes.
@@ -63,132 +94,176 @@ fn fields(line: &str) -> Vec<String> {
 
 #[test]
 fn hostile_files_end_as_their_list_says() {
-    let Some(corpus) = corpus() else { return };
-    let (mut failures, mut count) = (Vec::new(), 0);
-    for row in rows(&corpus.join("hostile.csv")) {
-        if !["obj", "mtl", "tex", "ron"].contains(&row("kind").as_str()) {
-            continue;
-        }
-        count += 1;
-        let output = check(&corpus.join(row("file")));
-        let said = String::from_utf8_lossy(&output.stderr);
-        let code = output.status.code();
-        let as_expected = match row("expect").as_str() {
-            "OK" => code == Some(0),
-            "WARN" => code == Some(0) && said.contains(": warning: "),
-            "REJECT" => code == Some(3) && said.contains(": error: "),
-            "LIMIT" => code == Some(3) && said.contains(": limit: "),
+    let folder = tempfile::tempdir().unwrap();
+    assert_ends_as_expected(&corpus::made(folder.path()));
+    let Some(corpus) = corpus::shared("hostile_files_end_as_their_list_says") else { return };
+    let rows = rows(&corpus.join("hostile.csv")).into_iter();
+    let ours = rows.filter(|row| ["obj", "mtl", "tex", "ron"].contains(&row("kind").as_str()));
+    let case = |row: &dyn Fn(&str) -> String| corpus::Case {
+        name: row("id"),
+        file: corpus.join(row("file")),
+        expected: match row("expect").as_str() {
+            "OK" => Outcome::Taken,
+            "WARN" => Outcome::Warned,
+            "REJECT" => Outcome::Refused,
+            "LIMIT" => Outcome::TooMuch,
             other => panic!("the list expects {other:?}"),
-        };
-        if !as_expected {
-            failures.push(format!("{} expects {}, got {code:?}: {said}", row("id"), row("expect")));
+        },
+    };
+    assert_ends_as_expected(&ours.map(|row| case(&row)).collect::<Vec<_>>());
+}
+
+fn assert_ends_as_expected(cases: &[corpus::Case]) {
+    assert!(cases.len() > 50, "{} cases", cases.len());
+    let files: Vec<PathBuf> = cases.iter().map(|case| case.file.clone()).collect();
+    let mut failures = Vec::new();
+    for (case, checked) in cases.iter().zip(check(&files)) {
+        let found = checked.outcome();
+        // A warning is no harm to what is good.
+        let is_fine = found == case.expected || (case.expected, found) == (Outcome::Taken, Outcome::Warned);
+        if !is_fine {
+            failures.push(format!("{}: {:?}, not {:?}: {}", case.name, found, case.expected, checked.said));
         }
     }
-    assert!(count > 50, "{count} rows");
-    assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
+    assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), cases.len(), failures.join("\n"));
 }
 
 #[test]
 fn real_models_are_read_or_refused_with_a_reason() {
-    let Some(corpus) = corpus() else { return };
-    let (mut failures, mut count) = (Vec::new(), 0);
-    for row in rows(&corpus.join("models.csv")) {
-        let file = corpus.join(row("file"));
-        // Some models of the list may not be passed on, and so are not there.
-        if file.extension().is_none_or(|extension| extension != "obj") || !file.exists() {
-            continue;
-        }
-        count += 1;
-        let output = check(&file);
-        let said = String::from_utf8_lossy(&output.stderr);
-        let fine = match (row("verdict").as_str(), output.status.code()) {
-            ("good", code) => code == Some(0),
-            (_, Some(0)) => row("verdict") == "odd" || said.contains(": warning: "),
-            (_, Some(3)) => said.contains(": error: "),
-            _ => false,
+    let Some(corpus) = corpus::shared("real_models_are_read_or_refused_with_a_reason") else { return };
+    // Some models of the list may not be passed on, and so are not there.
+    let is_here = |file: &Path| file.extension().is_some_and(|extension| extension == "obj") && file.exists();
+    let models: Vec<_> = rows(&corpus.join("models.csv"))
+        .into_iter()
+        .filter(|row| is_here(&corpus.join(row("file"))))
+        .collect();
+    let files: Vec<PathBuf> = models.iter().map(|row| corpus.join(row("file"))).collect();
+    let mut failures = Vec::new();
+    for (row, checked) in models.iter().zip(check(&files)) {
+        let fine = match row("verdict").as_str() {
+            "good" => checked.is_good,
+            "odd" if checked.is_good => true,
+            _ if checked.is_good => checked.said.contains(": warning: "),
+            _ => checked.said.contains(": error: "),
         };
         if !fine {
-            failures.push(format!(
-                "{} ({}): {:?}: {said}",
-                row("name"),
-                row("verdict"),
-                output.status.code()
-            ));
+            failures.push(format!("{} ({}): {}", row("name"), row("verdict"), checked.said));
         }
     }
-    assert!(count > 30, "{count} models");
-    assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
+    assert!(models.len() > 30, "{} models", models.len());
+    assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), models.len(), failures.join("\n"));
 }
 
+/// Models of the small corpus with bytes changed, lost and doubled by a fixed chance; of the large one what a fuzzer left.
 #[test]
 fn fuzzed_files_neither_crash_nor_hang() {
-    let Some(corpus) = corpus() else { return };
     let scratch = tempfile::tempdir().unwrap();
-    let mut count = 0;
-    for kind in ["obj", "mtl"] {
-        let folder = corpus.join("models/fuzz-ufbx").join(kind);
-        let mut files: Vec<PathBuf> =
-            std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-        files.sort();
-        for file in files {
-            let mesh = scratch.path().join("case.obj");
-            if kind == "obj" {
-                std::fs::copy(&file, &mesh).unwrap();
-            } else {
-                std::fs::copy(&file, scratch.path().join("case.mtl")).unwrap();
-                std::fs::write(&mesh, "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n")
-                    .unwrap();
+    let mut files = changed_models(scratch.path());
+    if let Some(corpus) = corpus::shared("fuzzed_files_neither_crash_nor_hang") {
+        let before = files.len();
+        for kind in ["obj", "mtl"] {
+            let folder = corpus.join("models/fuzz-ufbx").join(kind);
+            for entry in std::fs::read_dir(&folder).unwrap() {
+                let own = scratch.path().join(files.len().to_string());
+                std::fs::create_dir(&own).unwrap();
+                std::fs::copy(entry.unwrap().path(), own.join(format!("case.{kind}"))).unwrap();
+                if kind == "mtl" {
+                    std::fs::write(own.join("case.obj"), WORN).unwrap();
+                }
+                files.push(own.join("case.obj"));
             }
-            let code = check(&mesh).status.code();
-            assert!(matches!(code, Some(0 | 3)), "{}: exit code {code:?}", file.display());
-            count += 1;
         }
+        assert!(files.len() > before + 50, "{} files", files.len() - before);
     }
-    assert!(count > 50, "{count} files");
+    check(&files);
+}
+
+/// Wears the material `a` of `case.mtl`.
+const WORN: &str = "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+
+/// Two hundred changed copies of the small corpus's good models, each in a folder of its own.
+fn changed_models(folder: &Path) -> Vec<PathBuf> {
+    let originals = corpus::made(&folder.join("originals"));
+    let good: Vec<Vec<u8>> = originals
+        .iter()
+        .filter(|case| case.expected == Outcome::Taken && case.file.ends_with("case.obj"))
+        .map(|case| std::fs::read(&case.file).unwrap())
+        .collect();
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = |below: usize| {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        (random % below as u64) as usize
+    };
+    let mut files = Vec::new();
+    for index in 0..200 {
+        let mut bytes = good[index % good.len()].clone();
+        for _ in 0..=next(4) {
+            let at = next(bytes.len());
+            match next(3) {
+                0 => bytes[at] = b"vf/-.e0 \n\\#"[next(11)],
+                1 => drop(bytes.drain(at..(at + next(40)).min(bytes.len()))),
+                _ => bytes.extend_from_within(at..(at + next(40)).min(bytes.len())),
+            }
+        }
+        let own = folder.join(index.to_string());
+        std::fs::create_dir(&own).unwrap();
+        std::fs::write(own.join("case.obj"), bytes).unwrap();
+        files.push(own.join("case.obj"));
+    }
+    files
 }
 
 /// Pictures are wrapped in a triangle that wears them: a good one is taken, a bad one is left out with a warning.
 #[test]
 fn real_pictures_are_worn_or_left_out() {
-    let Some(corpus) = corpus() else { return };
     let scratch = tempfile::tempdir().unwrap();
-    let mesh = scratch.path().join("case.obj");
-    std::fs::write(&mesh, "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n").unwrap();
-    std::fs::write(scratch.path().join("case.mtl"), "newmtl a\nmap_Kd picture.png\n").unwrap();
-    let mut count = 0;
-    for row in rows(&corpus.join("models.csv")) {
-        if row("class") != "tex" {
-            continue;
+    let made = corpus::made(scratch.path()).into_iter().filter(|case| case.name.starts_with("picture_"));
+    // One that claims too much is refused with its model.
+    let made = made.filter(|case| case.expected != Outcome::TooMuch);
+    let mut pictures: Vec<(String, PathBuf, bool)> =
+        made.map(|case| (case.name, case.file, case.expected == Outcome::Warned)).collect();
+    assert!(pictures.len() >= 4, "{} pictures", pictures.len());
+    if let Some(corpus) = corpus::shared("real_pictures_are_worn_or_left_out") {
+        let before = pictures.len();
+        for row in rows(&corpus.join("models.csv")).into_iter().filter(|row| row("class") == "tex") {
+            let own = scratch.path().join(row("name"));
+            std::fs::create_dir(&own).unwrap();
+            std::fs::write(own.join("case.obj"), WORN).unwrap();
+            std::fs::write(own.join("case.mtl"), "newmtl a\nmap_Kd picture.png\n").unwrap();
+            std::fs::copy(corpus.join(row("file")), own.join("picture.png")).unwrap();
+            pictures.push((row("name"), own.join("case.obj"), row("verdict") == "bad"));
         }
-        count += 1;
-        let picture = std::fs::read(corpus.join(row("file"))).unwrap();
-        std::fs::write(scratch.path().join("picture.png"), picture).unwrap();
-        let output = check(&mesh);
-        let said = String::from_utf8_lossy(&output.stderr);
-        let is_bad = row("verdict") == "bad";
-        assert!(
-            output.status.success() && (!is_bad || said.contains(": warning: ")),
-            "{}: {said}",
-            row("name")
-        );
-        let (file, _) = obj::read(&mesh, scratch.path(), &AssetFolders::default()).unwrap();
-        assert_eq!(file.materials[0].texture.is_none(), is_bad, "{}", row("name"));
+        assert!(pictures.len() > before, "no picture");
     }
-    assert!(count > 0, "no picture");
+    let files: Vec<PathBuf> = pictures.iter().map(|(_, file, _)| file.clone()).collect();
+    for ((name, file, is_bad), checked) in pictures.iter().zip(check(&files)) {
+        assert!(checked.is_good, "{name}: {}", checked.said);
+        assert!(!is_bad || checked.said.contains(": warning: "), "{name}: {}", checked.said);
+        let (read, _) = obj::read(file, file.parent().unwrap(), &AssetFolders::default()).unwrap();
+        assert_eq!(read.materials[0].texture.is_none(), *is_bad, "{name}");
+    }
 }
 
 /// Whatever mesh is taken keeps every promise of the type.
 #[test]
 fn meshes_that_are_read_are_sound() {
-    let Some(corpus) = corpus() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let mut files: Vec<PathBuf> = corpus::made(scratch.path()).into_iter().map(|case| case.file).collect();
+    let changed = scratch.path().join("changed");
+    std::fs::create_dir(&changed).unwrap();
+    files.extend(changed_models(&changed));
+    if let Some(corpus) = corpus::shared("meshes_that_are_read_are_sound") {
+        let lists = ["hostile.csv", "models.csv"].map(|list| rows(&corpus.join(list)));
+        files.extend(lists.iter().flatten().map(|row| corpus.join(row("file"))));
+    }
     let mut count = 0;
-    let lists = ["hostile.csv", "models.csv"].map(|list| rows(&corpus.join(list)));
-    let files = lists.iter().flatten().map(|row| corpus.join(row("file")));
-    for path in files.filter(|file| file.extension().is_some_and(|extension| extension == "obj")) {
+    for path in files.iter().filter(|file| file.extension().is_some_and(|extension| extension == "obj")) {
         let folder = path.parent().unwrap();
-        if let Ok((file, _)) = obj::read(&path, folder, &AssetFolders::default()) {
+        if let Ok((file, _)) = obj::read(path, folder, &AssetFolders::default()) {
             count += 1;
-            assert_sound(&file, &path);
+            assert_sound(&file, path);
         }
     }
     assert!(count > 50, "{count} meshes");

@@ -1,13 +1,10 @@
 //! Quads are cut to where their marks have paint: the picture is that of whole quads but for roundings, in fewer pixels.
 
-use std::path::Path;
-use std::sync::Arc;
-
 use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
-use impasto_painting::{FrameOptions, Quality, prepare};
-use impasto_scene::load::{LoadOptions, load};
+use impasto_painting::{FrameOptions, Quality};
 use impasto_tests::pictures::renderer;
+use impasto_tests::scenes;
 
 const PAINT: &str = include_str!("../../shaders/rotating_strokes/paint.vert");
 const FRAGMENTS: &str = include_str!("../../shaders/rotating_strokes/paint.frag");
@@ -20,8 +17,7 @@ fn cut_quads_look_as_whole_ones_do() {
     assert!(whole_quads.put("rotating_strokes/paint.vert", PAINT.replace(CUT, "if (true)")));
     let (mut cut, mut whole) = (renderer(Driver::Egl), renderer(Driver::Egl));
     whole.replace_shaders(&whole_quads).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/roll.ron");
-    let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap();
+    let painting = scenes::painting("roll");
     // Near, and from afar with the marks in coarse levels.
     for (size_px, quality) in
         [([320, 180], Quality::Exact), ([96, 54], Quality::Exact), ([96, 54], Quality::Draft)]
@@ -50,8 +46,7 @@ fn fewer_pixels_are_asked_for_paint() {
     assert!(counted.put("rotating_strokes/paint.frag", FRAGMENTS.replace(NOTHING, "")));
     let mut renderer = renderer(Driver::Egl);
     renderer.replace_shaders(&counted).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/roll.ron");
-    let painting = prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap();
+    let painting = scenes::painting("roll");
     let frame = painting.at(0.0, &FrameOptions::new([320, 180]));
     let (_, cost) = renderer.render_timed(&frame).unwrap();
     let quads_px: f32 = renderer

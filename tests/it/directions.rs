@@ -58,6 +58,7 @@ fn seen_by(painting: &Painting, camera: &CameraPose) -> BTreeMap<u32, Seen> {
 fn combed(direction: Direction, guides: Vec<Guide>, particles: u64) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("thing", particles)]);
     scene.strokes.contour = Some(0.0);
+    scene.strokes.layers = shapes::body_layer_alone();
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(8.0), Some(2.6));
     scene.regions =
         vec![Region { direction, guides, ..Region::new("combed", Selector::Object("thing".to_owned())) }];

@@ -21,6 +21,7 @@ fn straight_on() -> CameraPose {
 fn painted(direction: Direction, sense: Sense, guides: Vec<Guide>) -> Painting {
     let mut scene = shapes::scene(vec![shapes::object("thing", 20_000)]);
     scene.strokes.contour = Some(0.0);
+    scene.strokes.layers = shapes::body_layer_alone();
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(8.0), Some(2.6));
     let on = Selector::Object("thing".to_owned());
     scene.regions = vec![Region { direction, sense, guides, ..Region::new("combed", on) }];

@@ -7,6 +7,7 @@ use impasto_editor_model::Document;
 use impasto_scene::load::{self, LoadOptions};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::{Report, Severity};
+use impasto_tests::corpus;
 
 /// A cube with outward faces.
 const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
@@ -371,15 +372,39 @@ fn a_bare_mesh_is_a_scene() {
     assert!(report.to_string().starts_with("--set size=(0, 0): error: "), "{report}");
 }
 
+/// As the window would: what cannot be read at all is refused with a reason, what can be read in part is not saved over.
+#[test]
+fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut refused, mut losses) = (0, 0);
+    for case in corpus::made(folder.path()) {
+        let before = fs::read(&case.file).unwrap();
+        match Document::open_with_problems(&case.file, &LoadOptions::default()) {
+            Err(report) => {
+                refused += 1;
+                assert!(report.0.iter().any(|problem| problem.severity.is_fatal()), "{}", case.name);
+            }
+            Ok(mut document) => {
+                let loaded = document.loaded();
+                let again = loaded.with_scene(loaded.scene.clone(), &Default::default());
+                assert!(again.is_ok(), "{}: {:?}", case.name, again.map(drop));
+                if document.loss_count() > 0 {
+                    losses += 1;
+                    assert!(document.save().is_err(), "{}: saved over what it could not read", case.name);
+                }
+            }
+        }
+        assert!(fs::read(&case.file).unwrap() == before, "{} was touched", case.name);
+    }
+    assert!(refused > 5 && losses > 3, "{refused} refused, {losses} opened with losses");
+}
+
 /// With `IMPASTO_CORPUS`, the folder of the shared cases: every hostile RON file is refused with a place, and the
 /// table above has every case of the list.
 #[test]
 fn the_corpus_of_hostile_scenes_is_covered() {
-    let Some(corpus) = std::env::var_os("IMPASTO_CORPUS") else {
-        println!("IMPASTO_CORPUS is not set: the shared corpus is not run");
-        return;
-    };
-    let hostile = Path::new(&corpus).join("hostile");
+    let Some(corpus) = corpus::shared("the_corpus_of_hostile_scenes_is_covered") else { return };
+    let hostile = corpus.join("hostile");
     let names_in = |folder: &str| -> Vec<String> {
         let entries = fs::read_dir(hostile.join(folder)).unwrap();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()

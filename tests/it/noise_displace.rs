@@ -2,6 +2,7 @@
 //! goes beyond it.
 
 mod material;
+mod normals;
 mod pictures;
 mod ride;
 mod seed;

@@ -6,15 +6,14 @@ use std::sync::Arc;
 
 use impasto_gl_render::context::{Driver, OpenOptions, open};
 use impasto_gl_render::{Renderer, ShaderTexts};
-use impasto_painting::{Frame, FrameOptions, Painting, Quality, prepare};
-use impasto_scene::load::{LoadOptions, load};
+use impasto_painting::{Frame, FrameOptions, Painting, Quality};
 use impasto_tests::command::impasto;
+use impasto_tests::scenes;
 
 const ENCODE: &str = include_str!("../../shaders/shared/encode.glsl");
 
-fn painting() -> Painting {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/roll.ron");
-    prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap()
+fn painting() -> Arc<Painting> {
+    scenes::painting("roll")
 }
 
 fn frame(painting: &Painting, quality: Quality) -> Frame {

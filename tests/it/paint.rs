@@ -11,6 +11,7 @@ use impasto_scene::document::Scene;
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
+use impasto_tests::scenes;
 use impasto_tests::shapes;
 
 fn options(size_px: [u32; 2]) -> FrameOptions {
@@ -18,23 +19,18 @@ fn options(size_px: [u32; 2]) -> FrameOptions {
 }
 
 /// A shipped scene with some of its values replaced.
-fn painting(name: &str, set: &[(&str, &str)]) -> Painting {
-    let overrides = set.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let path = root().join("scenes").join(format!("{name}.ron"));
-    prepare(load(&path, &LoadOptions { overrides, ..Default::default() }).unwrap().into()).unwrap()
-}
-
 fn strokes_of(frame: &Frame, kind: LayerKind) -> usize {
     frame.layers.iter().filter(|run| run.kind == kind).map(|run| run.count as usize).sum()
 }
 
 #[test]
 fn each_layer_can_be_turned_down_to_nothing() {
-    let all = painting("apple", &[]).at(0.0, &options([320, 180]));
+    let all = scenes::painting("apple").at(0.0, &options([320, 180]));
     for kind in LayerKind::ALL {
         assert!(strokes_of(&all, kind) > 0, "{kind:?} has no strokes");
         let without = format!("[(name: \"{}\", coverage: 0)]", kind.name());
-        let frame = painting("apple", &[("strokes.layers", &without)]).at(0.0, &options([320, 180]));
+        let frame =
+            scenes::painting_with("apple", &[("strokes.layers", &without)]).at(0.0, &options([320, 180]));
         for other in LayerKind::ALL {
             let expected = if other == kind { 0 } else { strokes_of(&all, other) };
             assert_eq!(strokes_of(&frame, other), expected, "{other:?} without {kind:?}");
@@ -55,7 +51,7 @@ fn relief_canvas_and_varnish_each_show_and_each_go() {
     let bare = [("style.relief", "0"), ("style.weave", "0"), ("style.varnish", "0")];
     let mut picture = |set: &[(&str, &str)]| {
         // Large enough that threads of the canvas are more than a pixel apart.
-        let frame = painting("apple", set).at(0.0, &options([960, 540]));
+        let frame = scenes::painting_with("apple", set).at(0.0, &options([960, 540]));
         renderer.render(&frame).unwrap().rgba8
     };
     let flat = picture(&bare);
@@ -74,7 +70,7 @@ fn a_palette_keeps_values_and_takes_its_hues_only() {
     let mut renderer = renderer(Driver::Egl);
     let mut hues = |palette: &str| {
         let set = [("strokes.palette", palette), ("strokes.color_jitter", "0"), ("strokes.temperature", "0")];
-        let frame = painting("apple", &set).at(0.0, &options([320, 180]));
+        let frame = scenes::painting_with("apple", &set).at(0.0, &options([320, 180]));
         renderer.render(&frame).unwrap();
         let resolved = renderer.resolved_strokes();
         let shown: Vec<[f32; 3]> = resolved
@@ -135,7 +131,7 @@ fn a_picture_of_ones_own_is_a_brush() {
     let mut renderer = renderer(Driver::Egl);
     let frame = painting.at(0.0, &options([320, 180]));
     let own = renderer.render(&frame).unwrap();
-    let usual = renderer.render(&self::painting("apple", &[]).at(0.0, &options([320, 180]))).unwrap();
+    let usual = renderer.render(&scenes::painting("apple").at(0.0, &options([320, 180]))).unwrap();
     let difference = mean_difference(&own.rgba8, &usual.rgba8);
     assert!((0.3..20.0).contains(&difference), "another brush changes the picture by {difference}");
 }
@@ -232,7 +228,7 @@ fn reduced(renderer: &mut Renderer, painting: &Painting, size_px: [u32; 2], smal
 #[test]
 fn the_same_painting_at_any_size() {
     let mut renderer = renderer(Driver::Egl);
-    let painting = painting("still_life", &[]);
+    let painting = scenes::painting("still_life");
     let small = [320, 180];
     let middle = reduced(&mut renderer, &painting, [1280, 720], small);
     for size_px in [[640, 360], [1920, 1080]] {

@@ -4,15 +4,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use impasto_painting::frame::LayerKind;
-use impasto_painting::{Frame, FrameOptions, Painting, Quality, Recall, prepare};
-use impasto_scene::load::{LoadOptions, load};
+use impasto_painting::{Frame, FrameOptions, Painting, Quality, Recall};
 use impasto_scene::motion;
+use impasto_tests::scenes;
 
 const DRAFT: FrameOptions = FrameOptions { quality: Quality::Draft, ..FrameOptions::new([320, 180]) };
 
-fn still_life() -> Painting {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/still_life.ron");
-    prepare(Arc::new(load(&path, &LoadOptions::default()).unwrap())).unwrap()
+fn still_life() -> Arc<Painting> {
+    scenes::painting("still_life")
 }
 
 fn seen(painting: &Painting, recall: Option<&Recall>) -> Frame {

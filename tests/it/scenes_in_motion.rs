@@ -1,7 +1,6 @@
 //! The shipped scenes in motion: facets, popping as drawn, stillness of what does not move, hostile viewpoints.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use glam::{DAffine3, DMat4, DVec3, Vec3};
 use impasto_core::lift::Lift;
@@ -11,21 +10,13 @@ use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
 use impasto_measure::popping::of_moving_bodies;
 use impasto_measure::strokes::strokes_by_key;
-use impasto_painting::{FrameOptions, Painting, prepare};
-use impasto_scene::load::{LoadOptions, load};
+use impasto_painting::{FrameOptions, Painting};
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
+use impasto_tests::scenes;
 use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
-
-fn painting(scene: &str, overrides: &[(&str, &str)]) -> Painting {
-    let overrides = overrides.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    let options = LoadOptions { overrides, ..LoadOptions::default() };
-    let path = root().join("scenes").join(format!("{scene}.ron"));
-    let loaded = load(&path, &options).unwrap_or_else(|report| panic!("{report}"));
-    prepare(Arc::new(loaded)).unwrap()
-}
 
 fn view(yaw_deg: f64) -> ScreenMap {
     let turn = DAffine3::from_rotation_y(yaw_deg.to_radians());
@@ -116,12 +107,12 @@ fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
 #[test]
 fn strokes_of_the_turntable_do_not_pop_as_drawn() {
     let mut renderer = renderer(Driver::Egl);
-    let ours = painting("turntable", &[]);
+    let ours = scenes::painting("turntable");
     let mut worst = 0.0f64;
     for frame in [0.0, 57.0, 130.0, 201.0, 303.0] {
         worst = worst.max(popping(&mut renderer, &ours, frame));
     }
-    let paper = painting("turntable", &[("strokes.preset", "paper")]);
+    let paper = scenes::painting_with("turntable", &[("strokes.preset", "paper")]);
     let papers = popping(&mut renderer, &paper, 57.0);
     println!(
         "turntable: ours pops {:.3} %, the paper's rule {:.2} % a degree",
@@ -134,7 +125,7 @@ fn strokes_of_the_turntable_do_not_pop_as_drawn() {
 
 #[test]
 fn the_cube_beside_a_turning_one_stays_as_it_is() {
-    let painting = painting("touching_cubes", &[]);
+    let painting = scenes::painting("touching_cubes");
     let scene = painting.scene();
     let turns = |object: &impasto_scene::document::Object| {
         object.keys.iter().any(|key| key.rotation_deg != object.keys[0].rotation_deg)
@@ -167,7 +158,7 @@ fn every_scene_gives_finite_strokes_at_every_time() {
             continue;
         }
         let name = path.file_stem().and_then(|name: &std::ffi::OsStr| name.to_str()).unwrap().to_owned();
-        let painting = painting(&name, &[]);
+        let painting = scenes::painting(&name);
         let timeline = &painting.scene().timeline;
         for step in 0..=6 {
             let frame =
@@ -190,7 +181,7 @@ fn every_scene_gives_finite_strokes_at_every_time() {
 #[test]
 fn a_closed_path_of_the_camera_closes_the_picture() {
     let mut renderer = renderer(Driver::Egl);
-    let painting = painting("free_camera", &[]);
+    let painting = scenes::painting("free_camera");
     let timeline = &painting.scene().timeline;
     let (first, last) = (timeline.first as f64, timeline.last as f64);
     let small = FrameOptions { size_px: [320, 180], ..OPTIONS };
@@ -209,7 +200,10 @@ fn a_closed_path_of_the_camera_closes_the_picture() {
 #[test]
 fn grain_stays_along_the_falling_log() {
     // Without chance, which has nothing to do with how the grain is kept.
-    let painting = painting("falling_log", &[("strokes.angle_jitter_deg", "0"), ("strokes.swing_deg", "0")]);
+    let painting = scenes::painting_with(
+        "falling_log",
+        &[("strokes.angle_jitter_deg", "0"), ("strokes.swing_deg", "0")],
+    );
     let scene = painting.scene();
     let log = scene.objects.iter().position(|object| object.keys.len() > 1).expect("something falls");
     let timeline = &scene.timeline;

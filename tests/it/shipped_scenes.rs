@@ -1,12 +1,11 @@
 //! The scenes that are shipped: good, complete, and those of the paper's counts.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use impasto_painting::prepare;
 use impasto_scene::load::{LoadOptions, load, parse};
 use impasto_scene::save::to_ron;
 use impasto_tests::command::root;
+use impasto_tests::scenes as shared;
 
 fn scenes(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -51,11 +50,10 @@ fn the_papers_three_scenes_have_the_papers_counts() {
     for (name, polygons, particles) in
         [("apple", 550, 45_658), ("fish", 8_618, 90_213), ("simple_objects", 3_978, 355_467)]
     {
-        let path = root().join(format!("scenes/{name}.ron"));
-        let loaded = Arc::new(load(&path, &LoadOptions::default()).unwrap());
+        let painting = shared::painting(name);
+        let loaded = painting.loaded();
         let mesh = format!("meshes/{name}.obj");
         assert_eq!(loaded.meshes[&mesh].mesh.polygon_count(), polygons, "{name}");
-        let painting = prepare(Arc::clone(&loaded)).unwrap();
         let objects = loaded.scene.objects.iter().zip(painting.particle_counts());
         let sum: usize = objects.filter(|(object, _)| object.mesh == mesh).map(|(_, count)| count).sum();
         assert_eq!(sum, particles, "{name}");

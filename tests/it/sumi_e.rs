@@ -11,6 +11,7 @@ use impasto_scene::document::{
 use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
+use impasto_tests::scenes;
 use impasto_tests::shapes;
 
 const SIZE_PX: [u32; 2] = [320, 180];
@@ -373,19 +374,12 @@ fn row_7_targets_are_white_and_of_the_pictures_size() {
     }
 }
 
-/// A shipped scene in ink.
-fn shipped(name: &str, set: &[(&str, &str)]) -> Painting {
-    let overrides = set.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let path = root().join(format!("scenes/{name}.ron"));
-    prepare(load(&path, &LoadOptions { overrides, ..Default::default() }).unwrap().into()).unwrap()
-}
-
 #[test]
 fn row_8_any_model_can_be_drawn() {
     let mut renderer = renderer(Driver::Egl);
     for name in ["apple", "fish", "turntable"] {
         for style in ["SumiE(rule: Source)", "SumiE(accent: 0)"] {
-            let painting = shipped(name, &[("style", style)]);
+            let painting = scenes::painting_with(name, &[("style", style)]);
             let picture = renderer.render(&painting.at(0.0, &FrameOptions::new(SIZE_PX))).unwrap();
             let dark = picture.rgba8.chunks_exact(4).filter(|pixel| pixel[0] < 110).count();
             assert!(dark > 100, "{name} in {style}: {dark} dark pixels");

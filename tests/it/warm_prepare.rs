@@ -1,9 +1,9 @@
 //! A painting prepared after an edit is, to the bit, the one that is prepared from nothing.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
-use impasto_painting::{Frame, FrameOptions, PrepareError, PrepareOptions, Preparer, prepare};
+use impasto_painting::{Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
     Bend, Color, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector,
     Solver, Style,
@@ -118,21 +118,38 @@ fn edits() -> Vec<Edit> {
     ]
 }
 
+/// An edited scene, and what is prepared from it and nothing else.
+struct Version {
+    name: &'static str,
+    loaded: Arc<LoadedScene>,
+    cold: Painting,
+}
+
+/// The scene after each edit, prepared once for all tests.
+fn versions() -> &'static [Version] {
+    static VERSIONS: OnceLock<Vec<Version>> = OnceLock::new();
+    VERSIONS.get_or_init(|| {
+        let mut loaded = start();
+        let edited = |(name, edit): Edit| {
+            let mut next = (*loaded).clone();
+            edit(&mut next.scene);
+            loaded = Arc::new(next);
+            Version { name, loaded: Arc::clone(&loaded), cold: prepare(Arc::clone(&loaded)).unwrap() }
+        };
+        edits().into_iter().map(edited).collect()
+    })
+}
+
 #[test]
 fn a_warm_prepare_gives_the_bits_of_a_cold_one() {
     let mut preparer = Preparer::default();
-    let mut loaded = start();
     let mut counts = Vec::new();
-    preparer.prepare(Arc::clone(&loaded)).unwrap();
-    for (name, edit) in edits() {
-        let mut next = (*loaded).clone();
-        edit(&mut next.scene);
-        loaded = Arc::new(next);
-        let warm = preparer.prepare(Arc::clone(&loaded)).unwrap();
-        let cold = prepare(Arc::clone(&loaded)).unwrap();
+    preparer.prepare(start()).unwrap();
+    for Version { name, loaded, cold } in versions() {
+        let warm = preparer.prepare(Arc::clone(loaded)).unwrap();
         assert_eq!(warm.particle_counts(), cold.particle_counts(), "{name}");
         for frame in [0.0, 7.5] {
-            let [a, b]: [Frame; 2] = [&warm, &cold].map(|painting| painting.at(frame, &OPTIONS));
+            let [a, b]: [Frame; 2] = [&warm, cold].map(|painting| painting.at(frame, &OPTIONS));
             assert!(a.strokes.len() > 100, "{name} at {frame}: only {} strokes", a.strokes.len());
             assert!(a.strokes == b.strokes, "{name} at {frame}: strokes differ");
             assert!(a.sources == b.sources && a.layers == b.layers, "{name} at {frame}: sources differ");
@@ -148,22 +165,17 @@ fn a_warm_prepare_gives_the_bits_of_a_cold_one() {
 #[test]
 fn what_was_given_up_half_way_is_prepared_to_the_same_bits_after() {
     let mut preparer = Preparer::default();
-    let mut loaded = start();
-    preparer.prepare(Arc::clone(&loaded)).unwrap();
+    preparer.prepare(start()).unwrap();
     let mut given_up = 0;
-    for (index, (name, edit)) in edits().into_iter().enumerate() {
-        let mut next = (*loaded).clone();
-        edit(&mut next.scene);
-        loaded = Arc::new(next);
+    for (index, Version { name, loaded, cold }) in versions().iter().enumerate() {
         // Each edit is given up at another step.
         let asked = AtomicUsize::new(0);
         let give_up = || asked.fetch_add(1, Ordering::Relaxed) >= index % 5;
         let options = PrepareOptions { give_up: &give_up, ..PrepareOptions::default() };
-        let result = preparer.prepare_with(Arc::clone(&loaded), &options);
+        let result = preparer.prepare_with(Arc::clone(loaded), &options);
         given_up += usize::from(result.err() == Some(PrepareError::GivenUp));
-        let warm = preparer.prepare(Arc::clone(&loaded)).unwrap();
-        let cold = prepare(Arc::clone(&loaded)).unwrap();
-        let [a, b]: [Frame; 2] = [&warm, &cold].map(|painting| painting.at(7.5, &OPTIONS));
+        let warm = preparer.prepare(Arc::clone(loaded)).unwrap();
+        let [a, b]: [Frame; 2] = [&warm, cold].map(|painting| painting.at(7.5, &OPTIONS));
         assert!(a.strokes == b.strokes && a.sources == b.sources, "{name}: strokes differ");
     }
     assert!(given_up > 15, "only {given_up} were given up");

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The binary beside the running tests; built first, so that it is never an old one.
+/// The binary beside the running tests. `cargo test --workspace` has built it already; for a run of fewer packages it is built
+/// now, as the whole workspace would build it, so that it is never an old one and nothing is compiled twice.
 ///
 /// # Panics
 /// When it cannot be built.
@@ -15,7 +16,8 @@ pub fn impasto() -> &'static Path {
         // target/debug/deps/it-… -> target/debug
         let folder = here.parent().and_then(Path::parent).expect("tests are two folders down").to_path_buf();
         let mut build = Command::new(env!("CARGO"));
-        build.args(["build", "--quiet", "--package", "impasto-cli"]).arg("--target-dir");
+        // The test `binary` of the command line needs the command.
+        build.args(["test", "--quiet", "--no-run", "--workspace", "--test", "binary"]).arg("--target-dir");
         build.arg(folder.parent().expect("a profile's folder lies in the target folder"));
         build.current_dir(root());
         assert!(build.status().expect("cargo runs").success(), "impasto does not build");

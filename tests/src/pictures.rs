@@ -1,7 +1,9 @@
 //! Drawing frames in tests, and reading what was drawn.
 
 use impasto_gl_render::context::{Driver, OpenOptions, open};
-use impasto_gl_render::{Picture, Renderer};
+use impasto_gl_render::{Picture, Renderer, ShaderTexts};
+
+use crate::command::root;
 
 /// A renderer that fails where the driver complains.
 ///
@@ -10,6 +12,20 @@ use impasto_gl_render::{Picture, Renderer};
 pub fn renderer(driver: Driver) -> Renderer {
     let context = open(driver, &OpenOptions { debug: true }).unwrap_or_else(|error| panic!("{error}"));
     Renderer::new(context).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A renderer with a fault planted in a shader file: `from` stands there as `to`.
+///
+/// # Panics
+/// When `from` is not in the file, or the faulty shader does not compile.
+pub fn faulty_renderer(path: &str, from: &str, to: &str) -> Renderer {
+    let text = std::fs::read_to_string(root().join("shaders").join(path)).expect("a shader file");
+    assert!(text.contains(from), "{path} has no `{from}`");
+    let mut texts = ShaderTexts::default();
+    assert!(texts.put(path, text.replace(from, to)));
+    let mut renderer = renderer(Driver::Egl);
+    renderer.replace_shaders(&texts).unwrap_or_else(|error| panic!("{error}"));
+    renderer
 }
 
 /// One number per pixel, top row first.

@@ -8,11 +8,12 @@ use crate::command::root;
 use glam::{Vec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_scene::document::{
-    Camera, CameraKey, Color, Direction, Ease, Lens, Object, Reference, Region, Scene, Selector,
-    StrokeSettings, Style, Timeline,
+    Camera, CameraKey, Color, Direction, Ease, LayerSettings, Lens, Object, Reference, Region, Scene,
+    Selector, StrokeSettings, Style, Timeline,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::{Material, MeshFile, Texture};
+use impasto_scene::presets::LayerKind;
 
 /// A unit sphere of `columns` × `rows` quads (triangles at the poles), with its analytic normals.
 pub fn sphere(columns: u32, rows: u32) -> TriangleMesh {
@@ -161,6 +162,18 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         }],
         style: Style::default(),
     }
+}
+
+/// Settings of the layers that leave out all but the body layer, for tests that look at no other: the layers have particles of
+/// their own, and those of small strokes are many.
+pub fn body_layer_alone() -> Vec<LayerSettings> {
+    let others = LayerKind::ALL.into_iter().filter(|kind| *kind != LayerKind::Body);
+    let absent = |kind: LayerKind| LayerSettings {
+        name: kind.name().to_owned(),
+        coverage: Some(0.0),
+        ..Default::default()
+    };
+    others.map(absent).collect()
 }
 
 /// Puts meshes under the names of a scene's objects, in their order, as if they had been read from files.

@@ -8,7 +8,7 @@ use anyhow::{Context as _, bail};
 use serde_json::Value;
 
 use crate::packages::{self, Install};
-use crate::steps::{build_release, step};
+use crate::steps::{Profile, build, step};
 
 const SCENE: &str = "scenes/still_life.ron";
 const FRAMES: usize = 24;
@@ -16,7 +16,7 @@ const FRAMES: usize = 24;
 /// Installs what rendering needs, builds in release, paints [`FRAMES`] frames into `out/`, and says what came out.
 pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
     packages::ensure(root, &[packages::RENDERING], install)?;
-    let impasto = step("build", || build_release(root))?;
+    let impasto = step("build", || build(root, Profile::Release))?;
     let start = Instant::now();
     let events = step("paint", || paint(root, &impasto))?;
     let named =

@@ -8,8 +8,8 @@ mod demo;
 mod gallery;
 mod layers;
 mod measure;
-mod meshes;
 mod packages;
+mod same;
 mod steps;
 mod test;
 mod tidy;
@@ -30,6 +30,7 @@ cargo xtask <command>
   tidy                        long files, empty names, half a technique, big pictures, unfinished work
   gallery [NAME …]            render the pictures of the README and the docs into docs/pictures/
   measure [SCENE …]           measure the shipped scenes and write the table of docs/techniques/rotating_strokes.md
+  same [--keep]               pictures and strokes are, byte for byte, those of the last `same --keep`
   bench [-- …]                the benchmarks of bench/
   meshes                      write the meshes of scenes/meshes/ anew";
 
@@ -52,9 +53,11 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         None => (rest, &[][..]),
     };
     let mut install = Install::Yes;
+    let mut keep = false;
     for flag in own {
         match (command.as_str(), flag.as_str()) {
             ("test" | "demo", "--no-install") => install = Install::PrintOnly,
+            ("same", "--keep") => keep = true,
             ("gallery" | "measure", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }
@@ -70,8 +73,9 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         "tidy" => tidy::run(&root),
         "gallery" => gallery::run(&root, own),
         "measure" => measure::run(&root, own),
+        "same" => same::run(&root, keep),
         "bench" => bench::run(&root, passed_on),
-        "meshes" => meshes::run(&root),
+        "meshes" => steps::run(&root, &steps::cargo(), &["run", "--locked", "--package", "impasto-meshes"]),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(())

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, bail};
 use serde_json::Value;
 
-use crate::steps::{build_release, step};
+use crate::steps::{Profile, build, step};
 
 const PAGE: &str = "docs/techniques/rotating_strokes.md";
 const BEGIN: &str = "<!-- measured:begin -->";
@@ -117,7 +117,7 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
     if let Some(unknown) = only.iter().find(|name| !scenes.contains(name)) {
         bail!("there is no scene `{unknown}`; known are {}", scenes.join(", "));
     }
-    let impasto = step("build", || build_release(root))?;
+    let impasto = step("build", || build(root, Profile::Release))?;
     let folder = root.join("out/measure");
     std::fs::create_dir_all(&folder)?;
     for scene in scenes.iter().filter(|scene| only.is_empty() || only.contains(scene)) {

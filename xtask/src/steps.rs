@@ -47,18 +47,32 @@ pub fn cargo() -> String {
     std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
 }
 
-/// Builds `impasto` in release mode and gives back where the binary lies.
-pub fn build_release(root: &Path) -> anyhow::Result<PathBuf> {
-    run(root, &cargo(), &["build", "--release", "--locked", "--package", "impasto-cli"])?;
+/// How `impasto` is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// As the tests build it: nothing is compiled twice.
+    Dev,
+    /// As it is installed.
+    Release,
+}
+
+/// Builds `impasto` and gives back where the binary lies.
+pub fn build(root: &Path, profile: Profile) -> anyhow::Result<PathBuf> {
+    let (cargo_profile, folder) = match profile {
+        Profile::Dev => ("dev", "debug"),
+        Profile::Release => ("release", "release"),
+    };
+    run(root, &cargo(), &["build", "--profile", cargo_profile, "--locked", "--package", "impasto-cli"])?;
     let name = format!("impasto{}", std::env::consts::EXE_SUFFIX);
-    let binary = target_folder(root)?.join("release").join(name);
+    let binary = target_folder(root)?.join(folder).join(name);
     if !binary.is_file() {
         bail!("the build left no binary at {}", binary.display());
     }
     Ok(binary)
 }
 
-fn target_folder(root: &Path) -> anyhow::Result<PathBuf> {
+/// Where cargo puts what it builds.
+pub fn target_folder(root: &Path) -> anyhow::Result<PathBuf> {
     let metadata = output(root, &cargo(), &["metadata", "--format-version", "1", "--no-deps"])?;
     let metadata: serde_json::Value = serde_json::from_str(&metadata)?;
     let folder = metadata["target_directory"].as_str().context("cargo metadata names no target folder")?;

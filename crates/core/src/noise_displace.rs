@@ -182,4 +182,32 @@ mod tests {
             assert!(worst < 2.0, "{along:?}: off by {worst} degrees");
         }
     }
+
+    /// Noise that is a ramp shears everything alike, so that the normal is known in closed form.
+    #[test]
+    fn displaced_normals_of_a_ramp_hold_along_every_axis() {
+        const SIDE: usize = 64;
+        let rise = [[0.9, -0.3, 0.7], [0.2, 0.8, -0.6]];
+        let texel = |index: usize| {
+            let at = [index % SIDE, index / SIDE].map(|texel| (texel as f64 + 0.5) / SIDE as f64 - 0.5);
+            let channel = |channel: usize| 0.5 + (rise[0][channel] * at[0] + rise[1][channel] * at[1]) * 0.6;
+            [channel(0) as f32, channel(1) as f32, channel(2) as f32, 1.0]
+        };
+        let tile = Arc::new(Tile::new([SIDE; 2], (0..SIDE * SIDE).map(texel).collect()));
+        let noise = VertexNoise { tile, scale: 1.5, along: Along::Channels, moves_normals: true };
+        // Turned, so that all three axes of the model look along the texture; in its middle, away from its border.
+        let turned = DAffine3::from_rotation_x(0.7) * DAffine3::from_rotation_y(-0.5);
+        let lookup = Lookup::new([0.3, 0.4], Some(turned), DVec2::splat(0.5));
+        let moved = |at: DVec3| noise.displaced(at, DVec3::Z, &lookup);
+        for normal in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.6, -0.3, 0.8).normalize()] {
+            let along = normal.any_orthonormal_vector();
+            let across = normal.cross(along);
+            let edge = |axis: DVec3| moved(axis * 0.3) - moved(axis * -0.3);
+            let expected = edge(along).cross(edge(across)).normalize();
+            let found = noise.displaced_normal(DVec3::splat(0.02), normal, &lookup);
+            let off = expected.angle_between(found).to_degrees();
+            assert!(off < 0.01, "the displaced normal of {normal} is off by {off} degrees");
+            assert!(normal.angle_between(found) > 0.1, "{normal} is not turned: nothing is tested");
+        }
+    }
 }

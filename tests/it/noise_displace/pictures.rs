@@ -5,18 +5,15 @@ use std::sync::Arc;
 
 use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, prepare};
-use impasto_scene::load::{LoadOptions, load};
-use impasto_tests::command::root;
 use impasto_tests::pictures::renderer;
+use impasto_tests::scenes;
 
 use crate::hostile_scenes::{load_in_folder, scene_text};
 
 #[test]
 fn row_10_every_body_of_the_shipped_scenes_is_seen() {
     for (scene, frame) in [("noise_displace", 12.0), ("explosion", 30.0)] {
-        let path = root().join(format!("scenes/{scene}.ron"));
-        let loaded = load(&path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
-        let painting = prepare(Arc::new(loaded)).unwrap();
+        let painting = scenes::painting(scene);
         let mut renderer = renderer(Driver::Egl);
         renderer.render(&painting.at(frame, &FrameOptions::new([192, 108]))).unwrap();
         let bodies: BTreeSet<u32> = renderer.read_reference().body_id.into_iter().collect();

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 
-use crate::steps::{self, build_release, step};
+use crate::steps::{self, Profile, build, step};
 use crate::tidy::pictures::DOCS_LIMIT_BYTES;
 
 use list::{Picture, View};
@@ -23,7 +23,7 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
     if let Some(unknown) = only.iter().find(|name| pictures().all(|picture| picture.name != **name)) {
         bail!("there is no picture `{unknown}`; the lists are in xtask/src/gallery");
     }
-    let impasto = step("build", || build_release(root))?;
+    let impasto = step("build", || build(root, Profile::Release))?;
     let work =
         Work { root, impasto: impasto.to_string_lossy().into_owned(), folder: root.join("out/gallery") };
     std::fs::create_dir_all(&work.folder)?;

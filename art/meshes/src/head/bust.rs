@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::{PIVOT, turn};
-use crate::meshes::curve::{bump, noise, smoothstep};
-use crate::meshes::poly_mesh::{Look, PolyMesh};
+use crate::curve::{bump, noise, smoothstep};
+use crate::poly_mesh::{Look, PolyMesh};
 
 /// From the neck's opening over the shoulders down: front (y, z), side (x, y, z), back (y, z).
 const JACKET: [[f64; 7]; 12] = [

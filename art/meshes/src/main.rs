@@ -1,4 +1,4 @@
-//! The shipped meshes, made by code: `cargo xtask meshes` writes them to `scenes/meshes`.
+//! The shipped meshes, modelled in code: `cargo xtask meshes` writes them to `scenes/meshes`.
 
 mod apple;
 mod apple_fine;
@@ -31,7 +31,7 @@ mod tree;
 mod valley;
 mod walker;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 
@@ -40,12 +40,9 @@ use poly_mesh::PolyMesh;
 /// Where the meshes are kept, from the repository's root.
 const FOLDER: &str = "scenes/meshes";
 
-/// Writes every shipped mesh, an OBJ and its MTL, under `root`.
-///
-/// # Errors
-/// When a mesh came out wrong, or a file cannot be written.
-pub fn run(root: &Path) -> anyhow::Result<()> {
-    let folder = root.join(FOLDER);
+/// Writes every shipped mesh, an OBJ and its MTL.
+fn main() -> anyhow::Result<()> {
+    let folder = folder();
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
     for mesh in shipped() {
         for (name, text) in files(&mesh)? {
@@ -54,6 +51,11 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
         }
     }
     Ok(())
+}
+
+/// The folder of the meshes in the repository that this package lies in.
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(FOLDER)
 }
 
 /// Every shipped mesh.
@@ -115,7 +117,7 @@ mod tests {
 
     #[test]
     fn committed_files_are_what_the_code_writes() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(FOLDER);
+        let folder = folder();
         for mesh in shipped() {
             for (name, text) in files(&mesh).unwrap() {
                 let committed = std::fs::read_to_string(folder.join(&name)).unwrap();

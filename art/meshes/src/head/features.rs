@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::loft::Skin;
-use crate::meshes::curve::{bump, smoothstep};
-use crate::meshes::poly_mesh::{Look, PolyMesh};
+use crate::curve::{bump, smoothstep};
+use crate::poly_mesh::{Look, PolyMesh};
 
 /// Where the +X eye turns.
 const EYE: DVec3 = DVec3::new(0.133, 0.498, 0.266);

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use crate::meshes::curve::smoothstep;
-use crate::meshes::poly_mesh::{Look, PolyMesh};
+use crate::curve::smoothstep;
+use crate::poly_mesh::{Look, PolyMesh};
 
 use super::form::Form;
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::meshes::curve::smoothstep;
-use crate::meshes::limb::{Limb, blend};
+use crate::curve::smoothstep;
+use crate::limb::{Limb, blend};
 
 /// From the buttocks to the breast: x, y, z, half the depth, half the width.
 const TORSO: [[f64; 5]; 9] = [

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 
 use super::loft::form;
-use crate::meshes::curve::{Profile, bump, smoothstep};
-use crate::meshes::poly_mesh::{Look, PolyMesh};
+use crate::curve::{Profile, bump, smoothstep};
+use crate::poly_mesh::{Look, PolyMesh};
 
 /// Down to which ring of the head the hair reaches: angle from the front, ring.
 const HAIRLINE: [[f64; 2]; 9] = [

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::meshes::curve::{bump, noise, smoothstep};
-use crate::meshes::poly_mesh::Look;
+use crate::curve::{bump, noise, smoothstep};
+use crate::poly_mesh::Look;
 
 /// The coat from the dark line along the back to the white of the rump: so many steps that no border shows.
 pub const COAT: [&str; 20] = [

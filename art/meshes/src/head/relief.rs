@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::meshes::curve::{Profile, smoothstep};
+use crate::curve::{Profile, smoothstep};
 
 /// How far the nose's ridge stands out over the face: height on the face, distance.
 const RIDGE: [[f64; 2]; 13] = [

@@ -1,0 +1,12 @@
+//! The command itself, once. That there is a test here has cargo build it before any test runs, with the features that the
+//! whole workspace shares: tests in `tests/` run it.
+
+use std::process::Command;
+
+#[test]
+fn it_tells_its_version() {
+    let output = Command::new(env!("CARGO_BIN_EXE_impasto")).arg("--version").output().expect("it starts");
+    assert!(output.status.success());
+    let expected = format!("impasto {}\n", env!("CARGO_PKG_VERSION"));
+    assert_eq!(String::from_utf8_lossy(&output.stdout), expected);
+}

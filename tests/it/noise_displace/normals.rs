@@ -1,0 +1,152 @@
+//! Light on displaced surfaces. Noise that is a ramp shears a sheet as a whole, so its picture is that of a sheet which was
+//! modelled sheared.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use impasto_core::TriangleMesh;
+use impasto_gl_render::context::Driver;
+use impasto_gl_render::{Picture, Renderer};
+use impasto_painting::{FrameOptions, prepare};
+use impasto_scene::document::{
+    Color, Lens, Light, LightKind, NoiseNormals, NoiseSpace, ObjectKey, Scene, Style, VertexNoise,
+};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::mesh_file::Texture;
+use impasto_tests::pictures::{faulty_renderer, renderer};
+use impasto_tests::shapes;
+
+use super::{material, moved_by};
+
+const SIDE: u32 = 200;
+const TEXELS: u32 = 64;
+/// Textures per unit along X and Y, and the displacement from the least noise to the greatest.
+const VALUE: [f64; 2] = [0.20, 0.16];
+const SCALE: f64 = 4.0;
+/// Bytes that each channel of the noise rises by from texel to texel along U and along V, and where it begins.
+const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [2.0, 2.0, -1.0]];
+const BEGIN: [f64; 3] = [0.0, 60.0, 90.0];
+
+/// The sheet's place: in the middle of the texture, so that no ramp is torn.
+fn key() -> ObjectKey {
+    ObjectKey { translation: [2.5, 3.1, 0.0], rotation_deg: [14.0, -22.0, 9.0], ..ObjectKey::at(0.0) }
+}
+
+/// A sheet under a red, a green and a blue sun, which tell every turn of its normal.
+fn scene() -> Scene {
+    let mut scene = shapes::scene(vec![shapes::object("sheet", 100)]);
+    scene.style = Style::Reference;
+    let [x, y, _] = key().translation;
+    scene.camera.keys = vec![shapes::camera_key(0.0, [x, y, 6.0], [x, y, 0.0])];
+    scene.camera.lens = Lens::Orthographic { height: 3.0, near: 0.1, far: 20.0 };
+    scene.objects[0].keys = vec![key()];
+    let suns = [[-1.0, 0.0, -1.2], [0.6, -0.9, -1.2], [0.6, 0.9, -1.2]];
+    let sun = |(index, travels): (usize, [f64; 3])| {
+        let mut color = [0.0; 3];
+        color[index] = 1.0;
+        Light {
+            name: format!("sun {index}"),
+            kind: LightKind::Sun,
+            direction: Some(travels),
+            position: None,
+            color: Color(color),
+            ground: None,
+            intensity: 1.0,
+        }
+    };
+    scene.lights = suns.into_iter().enumerate().map(sun).collect();
+    scene
+}
+
+/// Displaced by the ramp, with these normals.
+fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
+    let mut scene = scene();
+    let noise = VertexNoise {
+        texture: Some("ramp.png".to_owned()),
+        space: NoiseSpace::World,
+        value: VALUE,
+        scale: SCALE,
+        normals,
+        ..Default::default()
+    };
+    scene.objects[0].material = material(moved_by(noise));
+    let mut loaded = LoadedScene::clone(&shapes::loaded(scene, [shapes::sheet(4)]));
+    let texel = |index: u32| {
+        // Top row first; V goes up.
+        let (u, v) = (index % TEXELS, TEXELS - 1 - index / TEXELS);
+        let byte = |channel: usize| {
+            BEGIN[channel] + RISE[0][channel] * f64::from(u) + RISE[1][channel] * f64::from(v)
+        };
+        [byte(0) as u8, byte(1) as u8, byte(2) as u8, 255]
+    };
+    let rgba8 = (0..TEXELS * TEXELS).map(texel).collect();
+    let ramp = Texture { size_px: [TEXELS; 2], rgba8 };
+    loaded.textures.insert("ramp.png".to_owned(), Arc::new(ramp));
+    Arc::new(loaded)
+}
+
+/// A sheet that was modelled as the ramp shears it.
+fn modelled() -> Arc<LoadedScene> {
+    let scene = scene();
+    let world_from_model = impasto_scene::motion::poses_at(&scene, 0.0)[0];
+    // Noise at a place of the model, and how it rises there along each axis.
+    let byte = |at: DVec3| {
+        let world = world_from_model.transform_point3(at);
+        let texels = [world.x * VALUE[0], world.y * VALUE[1]].map(|length| length * f64::from(TEXELS) - 0.5);
+        DVec3::from(BEGIN) + DVec3::from(RISE[0]) * texels[0] + DVec3::from(RISE[1]) * texels[1]
+    };
+    let moved = |at: DVec3| at + (byte(at) / 255.0 - 0.5) * SCALE;
+    let edge = |axis: DVec3| moved(axis) - moved(DVec3::ZERO);
+    let normal = edge(DVec3::X).cross(edge(DVec3::Y)).normalize().as_vec3();
+    let mut mesh: TriangleMesh = shapes::sheet(4);
+    for (position, own) in mesh.positions.iter_mut().zip(&mut mesh.normals) {
+        (*position, *own) = (moved(position.as_dvec3()).as_vec3(), normal);
+    }
+    shapes::loaded(scene, [mesh])
+}
+
+fn drawn(renderer: &mut Renderer, loaded: Arc<LoadedScene>) -> (Picture, Vec<u32>) {
+    let painting = prepare(loaded).unwrap();
+    let picture = renderer.render(&painting.at(0.0, &FrameOptions::new([SIDE; 2]))).unwrap();
+    (picture, renderer.read_reference().body_id)
+}
+
+/// The largest difference of a channel where both show the sheet.
+fn largest_difference((a, a_ids): &(Picture, Vec<u32>), (b, b_ids): &(Picture, Vec<u32>)) -> u8 {
+    let both: Vec<usize> = (0..a_ids.len()).filter(|&pixel| a_ids[pixel] == 1 && b_ids[pixel] == 1).collect();
+    assert!(both.len() > 4000, "{} pixels of the sheet", both.len());
+    let channels = both.iter().flat_map(|pixel| (0..3).map(move |channel| 4 * pixel + channel));
+    channels.map(|index| a.rgba8[index].abs_diff(b.rgba8[index])).max().unwrap_or(0)
+}
+
+#[test]
+fn light_falls_on_a_displaced_sheet_as_on_one_that_was_modelled_so() {
+    for driver in [Driver::Egl, Driver::Osmesa] {
+        let mut renderer = renderer(driver);
+        let found = drawn(&mut renderer, displaced(NoiseNormals::Displaced));
+        let modelled = drawn(&mut renderer, modelled());
+        let off = largest_difference(&found, &modelled);
+        assert!(off <= 2, "{driver:?}: displaced normals are wrong: light differs by {off} of 255");
+        let at_rest = drawn(&mut renderer, displaced(NoiseNormals::Kept));
+        let off = largest_difference(&at_rest, &modelled);
+        assert!(off > 10, "the test does not notice normals at rest: {off} of 255");
+    }
+}
+
+/// A slope that is a third too small, along either axis of the noise or of the model.
+#[test]
+fn a_fault_of_displaced_normals_is_seen_in_the_light() {
+    let modelled = drawn(&mut renderer(Driver::Egl), modelled());
+    let u = "outerProduct(along_u, lookup[0].xyz)";
+    let v = "outerProduct(along_v, lookup[1].xyz)";
+    for (from, to) in [
+        (u, "outerProduct(along_u * 0.667, lookup[0].xyz)"),
+        (v, "outerProduct(along_v * 0.667, lookup[1].xyz)"),
+        (u, "outerProduct(along_u, lookup[0].xyz * vec3(0.667, 1.0, 1.0))"),
+        (v, "outerProduct(along_v, lookup[1].xyz * vec3(1.0, 0.667, 1.0))"),
+    ] {
+        let mut faulty = faulty_renderer("noise_displace/displace.glsl", from, to);
+        let off = largest_difference(&drawn(&mut faulty, displaced(NoiseNormals::Displaced)), &modelled);
+        assert!(off > 3, "the test does not notice `{to}`: {off} of 255");
+    }
+}

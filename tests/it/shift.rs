@@ -1,0 +1,89 @@
+//! Strokes near the border of their body are shifted along themselves, so that they lie on it as far as they can.
+
+use impasto_gl_render::Renderer;
+use impasto_gl_render::context::Driver;
+use impasto_painting::frame::LayerKind;
+use impasto_painting::{Frame, FrameOptions, prepare};
+use impasto_scene::document::{Direction, Edges, Lens};
+use impasto_tests::pictures::{faulty_renderer, renderer};
+use impasto_tests::shapes;
+
+const SIZE_PX: [u32; 2] = [640, 360];
+/// Borders of the sheet in the picture: 120 pixels a unit.
+const LEFT_PX: f32 = 200.0;
+const RIGHT_PX: f32 = 440.0;
+const BOTTOM_PX: f32 = 60.0;
+const TOP_PX: f32 = 300.0;
+
+/// The shift along a level stroke whose centre lies so many pixels inside of an upright border. An end may lie past the
+/// border by a fifth of the length; a half that reaches farther pushes by half of what is too much.
+fn expected_px(inside_px: f32, length_px: f32) -> f32 {
+    let half_px = 0.5 * length_px;
+    let on_body = (inside_px / half_px).min(1.0);
+    0.5 * half_px * (1.0 - (on_body + 0.4).min(1.0))
+}
+
+/// How far strokes are from where they should be.
+#[derive(Debug, Default)]
+struct Errors {
+    at_border: Vec<f32>,
+    inside: Vec<f32>,
+    across: f32,
+}
+
+fn errors(frame: &Frame, renderer: &mut Renderer) -> Errors {
+    renderer.render(frame).unwrap();
+    let resolved = renderer.resolved_strokes();
+    let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
+    let mut errors = Errors::default();
+    let of_body = frame.strokes.iter().zip(&resolved).skip(body.first as usize).take(body.count as usize);
+    for (stroke, drawn) in of_body {
+        let [x, y] = stroke.center_px;
+        let from_end = (y - BOTTOM_PX).min(TOP_PX - y);
+        // Level strokes that show, away from the corners.
+        if drawn.alpha <= 0.0 || stroke.angle_rad.abs() > 1e-3 || from_end < stroke.width_px {
+            continue;
+        }
+        let [from_left, from_right] = [x - LEFT_PX, RIGHT_PX - x].map(|inside_px| inside_px.max(0.0));
+        let expected = expected_px(from_left, stroke.length_px) - expected_px(from_right, stroke.length_px);
+        let error = (drawn.center_px[0] - x - expected).abs();
+        if expected.abs() > 3.0 {
+            errors.at_border.push(error);
+        } else if from_left.min(from_right) > 0.5 * stroke.length_px {
+            errors.inside.push(error);
+        }
+        errors.across = errors.across.max((drawn.center_px[1] - y).abs());
+    }
+    let [at_border, inside] = [&errors.at_border, &errors.inside].map(Vec::len);
+    assert!(at_border > 20 && inside > 100, "{at_border} strokes at the border, {inside} inside");
+    errors
+}
+
+fn largest(errors: &[f32]) -> f32 {
+    errors.iter().copied().fold(0.0, f32::max)
+}
+
+#[test]
+fn strokes_at_the_border_are_shifted_onto_their_body() {
+    let mut scene = shapes::scene(vec![shapes::object("sheet", 3000)]);
+    scene.camera.lens = Lens::Orthographic { height: 3.0, near: 0.05, far: 100.0 };
+    scene.strokes.contour = Some(0.0);
+    scene.strokes.layers = shapes::body_layer_alone();
+    scene.strokes.edges = Some(Edges::Clip);
+    (scene.strokes.length_px, scene.strokes.width_px) = (Some(60.0), Some(10.0));
+    scene.regions[0].direction = Direction::Angle(0.0);
+    let painting = prepare(shapes::loaded(scene, [shapes::sheet(1)])).unwrap();
+    let frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));
+    let found = errors(&frame, &mut renderer(Driver::Egl));
+    // A tap is a twenty-fourth of the half of a stroke.
+    let off = largest(&found.at_border);
+    assert!(off < 2.0, "strokes at the border are not shifted onto their body: off by {off} px");
+    let off = largest(&found.inside);
+    assert!(off < 0.01, "strokes that lie on their body are shifted by {off} px");
+    assert!(found.across < 0.05, "level strokes are shifted across themselves by {} px", found.across);
+    let (file, shift) = ("rotating_strokes/resolve.vert", "return 0.25 * size.x * (forward - back);");
+    for (fault, least) in [("return 0.0;", 5.0), ("return 0.12 * size.x * (forward - back);", 2.5)] {
+        let off = largest(&errors(&frame, &mut faulty_renderer(file, shift, fault)).at_border);
+        assert!(off > least, "the test does not notice `{fault}`: off by {off} px");
+    }
+}
