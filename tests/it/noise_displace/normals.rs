@@ -21,11 +21,11 @@ use super::{material, moved_by};
 const SIDE: u32 = 200;
 const TEXELS: u32 = 64;
 /// Textures per unit along X and Y, and the displacement from the least noise to the greatest.
-const VALUE: [f64; 2] = [0.20, 0.16];
+const VALUE: [f64; 2] = [0.20, 0.22];
 const SCALE: f64 = 4.0;
 /// Bytes that each channel of the noise rises by from texel to texel along U and along V, and where it begins.
-const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [2.0, 2.0, -1.0]];
-const BEGIN: [f64; 3] = [0.0, 60.0, 90.0];
+const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
+const BEGIN: [f64; 3] = [60.0, 60.0, 128.0];
 
 /// The sheet's place: in the middle of the texture, so that no ramp is torn.
 fn key() -> ObjectKey {
@@ -51,7 +51,7 @@ fn scene() -> Scene {
             position: None,
             color: Color(color),
             ground: None,
-            intensity: 1.0,
+            intensity: 3.0,
         }
     };
     scene.lights = suns.into_iter().enumerate().map(sun).collect();
