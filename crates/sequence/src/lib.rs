@@ -9,20 +9,20 @@
 
 mod in_order;
 mod painter;
+mod shot;
 
 use std::collections::HashSet;
-use std::io;
 use std::path::PathBuf;
 
 use impasto_frame_files::FrameList;
-use impasto_frame_files::picture_file::Provenance;
-use impasto_gl_render::context::Driver;
-use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
-use impasto_painting::{FrameOptions, Painting};
+use impasto_gl_render::Renderer;
 use impasto_scene::whole_file;
 
 use in_order::{Workers, in_order};
 use painter::Painter;
+use shot::{Job, Painted};
+
+pub use shot::{Drawn, FrameError, Sequence, Wanted};
 
 /// A painter more than these would only wait for the others in the driver.
 const MAX_PAINTERS: u64 = 4;
@@ -34,53 +34,6 @@ const FRAMES_PER_PAINTER: u64 = 4;
 const TARGET_BYTES_PER_PIXEL: u64 = 128;
 const MAX_TARGET_BYTES: u64 = 1 << 30;
 
-/// What is made of each frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
-    /// Its pixels.
-    Picture,
-    /// Its PNG file.
-    Png,
-    /// Both.
-    PngAndPicture,
-}
-
-/// What is rendered, and how.
-pub struct Sequence {
-    /// The scene as prepared.
-    pub painting: Painting,
-    /// Size and variant of the frames.
-    pub options: FrameOptions,
-    /// The scene's file name, which is noted in each PNG file.
-    pub scene_name: String,
-    /// Where further painters take OpenGL from.
-    pub driver: Driver,
-    /// Shaders that stand in for the program's own; none to use those.
-    pub shaders: ShaderTexts,
-    /// What is made of each frame.
-    pub wanted: Wanted,
-    /// Times each pass. That slows frames down, and a single painter is at work.
-    pub timed: bool,
-    /// Counts the strokes that were painted.
-    pub counted: bool,
-}
-
-/// A frame that was drawn.
-pub struct Drawn {
-    /// Its pixels, where they are wanted.
-    pub picture: Option<Picture>,
-    /// The bytes of its PNG file, where that is wanted.
-    pub png: Vec<u8>,
-    /// How many strokes the frame has, painted or too faint to be.
-    pub strokes: usize,
-    /// How many strokes were painted, where they are counted.
-    pub painted_strokes: Option<usize>,
-    /// What each pass took, where that is timed.
-    pub cost: Option<Cost>,
-    /// How long the frame took, in seconds.
-    pub seconds: f64,
-}
-
 /// What became of a frame's file.
 pub enum FileOutcome {
     /// It was written.
@@ -89,20 +42,6 @@ pub enum FileOutcome {
     Kept,
     /// It was not written.
     Failed(FrameError),
-}
-
-/// Why a frame was not rendered.
-#[derive(Debug, thiserror::Error)]
-pub enum FrameError {
-    /// It was not drawn.
-    #[error(transparent)]
-    Render(#[from] RenderError),
-    /// Its PNG file could not be made.
-    #[error("the PNG file cannot be made: {0}")]
-    Encode(anyhow::Error),
-    /// Its file was not written.
-    #[error(transparent)]
-    Write(#[from] io::Error),
 }
 
 /// The files of a sequence.
@@ -124,22 +63,11 @@ pub enum Ending {
     Stopped,
 }
 
-/// A frame of the list.
-#[derive(Clone, Copy)]
-struct Job {
-    frame_number: i64,
-    /// False where its file is there and stays.
-    must_draw: bool,
-}
-
 /// Why [`Sequence::each`] ended early.
 enum Early<E> {
     Stopped,
     Caller(E),
 }
-
-/// What a painter makes of a job: nothing where it need not be drawn, or was given up.
-type Painted = Result<Option<Drawn>, FrameError>;
 
 impl Sequence {
     /// Draws the frames and hands each over in its turn, on this thread. The first failure ends it, whether of a frame or of
@@ -244,11 +172,5 @@ impl Sequence {
             .min(frames / FRAMES_PER_PAINTER)
             .min(MAX_TARGET_BYTES / (width * height * TARGET_BYTES_PER_PIXEL).max(1));
         painters.saturating_sub(1) as usize
-    }
-
-    /// What the PNG file of a frame, or of anything else of this sequence, says of itself.
-    pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
-        let driver = renderer.report().renderer.clone();
-        Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }
     }
 }

@@ -7,7 +7,7 @@ use impasto_gl_render::context::{OpenOptions, open};
 use impasto_gl_render::{PassTime, Renderer};
 
 use crate::in_order::Worker;
-use crate::{Drawn, FrameError, Job, Painted, Sequence, Wanted};
+use crate::shot::{Drawn, FrameError, Job, Painted, Sequence, Wanted};
 
 /// A stroke with less alpha than this is not counted as painted.
 const MIN_PAINTED_ALPHA: f32 = 0.004;

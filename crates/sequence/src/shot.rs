@@ -1,0 +1,88 @@
+//! What a sequence is asked for, and what a painter makes of one of its frames.
+
+use std::io;
+
+use impasto_frame_files::picture_file::Provenance;
+use impasto_gl_render::context::Driver;
+use impasto_gl_render::{Cost, Picture, RenderError, Renderer, ShaderTexts};
+use impasto_painting::{FrameOptions, Painting};
+
+/// What is made of each frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Its pixels.
+    Picture,
+    /// Its PNG file.
+    Png,
+    /// Both.
+    PngAndPicture,
+}
+
+/// What is rendered, and how.
+pub struct Sequence {
+    /// The scene as prepared.
+    pub painting: Painting,
+    /// Size and variant of the frames.
+    pub options: FrameOptions,
+    /// The scene's file name, which is noted in each PNG file.
+    pub scene_name: String,
+    /// Where further painters take OpenGL from.
+    pub driver: Driver,
+    /// Shaders that stand in for the program's own; none to use those.
+    pub shaders: ShaderTexts,
+    /// What is made of each frame.
+    pub wanted: Wanted,
+    /// Times each pass. That slows frames down, and a single painter is at work.
+    pub timed: bool,
+    /// Counts the strokes that were painted.
+    pub counted: bool,
+}
+
+/// A frame that was drawn.
+pub struct Drawn {
+    /// Its pixels, where they are wanted.
+    pub picture: Option<Picture>,
+    /// The bytes of its PNG file, where that is wanted.
+    pub png: Vec<u8>,
+    /// How many strokes the frame has, painted or too faint to be.
+    pub strokes: usize,
+    /// How many strokes were painted, where they are counted.
+    pub painted_strokes: Option<usize>,
+    /// What each pass took, where that is timed.
+    pub cost: Option<Cost>,
+    /// How long the frame took, in seconds.
+    pub seconds: f64,
+}
+
+/// Why a frame was not rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum FrameError {
+    /// It was not drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// Its PNG file could not be made.
+    #[error("the PNG file cannot be made: {0}")]
+    Encode(anyhow::Error),
+    /// Its file was not written.
+    #[error(transparent)]
+    Write(#[from] io::Error),
+}
+
+/// A frame of the list.
+#[derive(Clone, Copy)]
+pub(crate) struct Job {
+    pub(crate) frame_number: i64,
+    /// False where its file is there and stays.
+    pub(crate) must_draw: bool,
+}
+
+/// What a painter makes of a job: nothing where it need not be drawn, or was given up.
+pub(crate) type Painted = Result<Option<Drawn>, FrameError>;
+
+impl Sequence {
+    /// What the PNG file of a frame, or of anything else of this sequence, says of itself.
+    pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
+        let driver = renderer.report().renderer.clone();
+        Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }
+    }
+}
