@@ -1,5 +1,5 @@
-//! The areas of the window, which `F6` walks through: each has a place in front of its first control that can take the focus, so
-//! that `Tab` goes on into it.
+//! The areas of the window, which `F6` steps through. Each has a focus stop before its first control, so that `Tab` goes on
+//! into the area.
 
 use egui::{Context, Id, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 
@@ -31,7 +31,7 @@ pub enum Area {
     Tree,
     /// Settings of what is selected.
     Inspector,
-    /// Frames.
+    /// The timeline.
     Strip,
 }
 
@@ -50,7 +50,7 @@ fn places_id() -> Id {
     Id::unique("areas of the window")
 }
 
-/// Shows an area. One that has the focus itself, not a control in it, has a ring round it.
+/// Shows an area, with a ring round it while the area itself has the focus and not one of its controls.
 pub fn area<R>(ui: &mut Ui, area: Area, show: impl FnOnce(&mut Ui) -> R) -> R {
     let before = ui.available_rect_before_wrap();
     let corner = Rect::from_min_size(before.min, egui::Vec2::ZERO);
@@ -74,7 +74,7 @@ pub fn area<R>(ui: &mut Ui, area: Area, show: impl FnOnce(&mut Ui) -> R) -> R {
     shown
 }
 
-/// What a panel took off the `Ui`: a strip at one side, else all.
+/// The part of the `Ui` that a panel took: a strip at one side, or else all of it.
 fn taken(before: Rect, after: Rect) -> Rect {
     let mut rect = before;
     if after.top() > before.top() {
@@ -89,7 +89,7 @@ fn taken(before: Rect, after: Rect) -> Rect {
     rect
 }
 
-/// The focus goes to the area after the one that it is in; from nowhere, to the first.
+/// Moves the focus to the area after the one it is in, or to the first where nothing has the focus.
 pub fn next_area(ctx: &Context) {
     let places: Places = ctx.data(|data| data.get_temp(places_id())).unwrap_or_default();
     let shown: Vec<(Area, Rect)> = ORDER
@@ -117,7 +117,7 @@ mod tests {
 
     use super::*;
 
-    /// A window with a bar, a column and what is left, each with a button.
+    /// A window with a bar, a column and the rest, each with a button.
     fn pass(ctx: &Context, events: Vec<Event>) {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)));
         let output = ctx.run_ui(RawInput { events, screen_rect, ..RawInput::default() }, |ui| {

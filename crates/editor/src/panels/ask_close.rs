@@ -1,80 +1,80 @@
-//! Questions that must be answered before something goes on.
+//! The questions that the editor asks before it goes on: unsaved edits, changed files, frames that would be replaced.
 
 use crate::widgets::{Dialog, dialog};
 
 /// A question over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// The window closes, or another scene opens, and there are edits.
+    /// The window is closing, or another scene is opening, and there are unsaved edits.
     SaveChanges {
         /// The document's name.
         name: String,
-        /// Since when it is edited, minutes.
+        /// How long it has had unsaved edits, in minutes.
         minutes: u64,
     },
-    /// The window closes, or another scene opens, and the text of the scene was edited and not read.
+    /// The window is closing, or another scene is opening, and the scene's text was edited but not read into the scene.
     UnreadText {
         /// The document's name.
         name: String,
     },
-    /// Another frame becomes the reference.
+    /// Another frame is to become the reference.
     Recapture {
         /// The frame.
         frame: i64,
     },
-    /// A scene is saved into another folder, where the files that it names are not.
+    /// A scene is being saved into another folder, which lacks the files that the scene names.
     TakeAlong {
-        /// How many they are.
+        /// How many files.
         count: usize,
         /// The folder.
         folder: String,
     },
-    /// The file on disk is another than the one that was opened.
+    /// Another program changed the file on disk after it was opened.
     ChangedOutside {
         /// The document's name.
         name: String,
     },
-    /// There is a copy of unsaved work from a session that broke off.
+    /// The editor closed unexpectedly last time, and left a copy of unsaved work.
     Recovered {
-        /// What it is a copy of.
+        /// The document that it is a copy of.
         name: String,
         /// How old it is: *5 minutes ago*.
         age: String,
-        /// How many entries of the history the file does not have.
+        /// How many entries of the copy's history the file lacks.
         changes: usize,
-        /// The file is another one than the copy was made from.
+        /// Whether the file has changed since the copy was made.
         of_another: bool,
     },
-    /// The file on disk is another than the one that was opened, and would be saved over.
+    /// Saving would overwrite a file that another program changed after it was opened.
     SaveOver {
         /// The document's name.
         name: String,
     },
-    /// Files of frames that are to be rendered are there already.
+    /// Some of the frames to be rendered have files already.
     FramesThere {
-        /// How many of them.
+        /// How many of them have files.
         there: u64,
-        /// How many frames there are.
+        /// How many frames are to be rendered.
         total: u64,
     },
-    /// The window closes while frames are rendered.
+    /// The window is closing while frames are being rendered.
     StopRendering {
         /// How many are finished: *47 of 120*.
         count: String,
     },
-    /// The file was read with losses, so that saving over it would make them last.
+    /// Parts of the file could not be read; saving over it would lose them for good.
     Problems {
-        /// How many are left.
+        /// How many problems are left.
         count: usize,
         /// The line of the first one.
         line: usize,
     },
 }
 
-/// The verb that was chosen.
+/// The answer that was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Nothing happens, and nothing goes on.
+    /// Do nothing, and do not go on.
     Cancel,
     /// Save, then go on.
     Save,
@@ -92,23 +92,23 @@ pub enum Answer {
     SaveAs,
     /// Leave everything as it is.
     KeepWorking,
-    /// Save in the place of what somebody else wrote.
+    /// Overwrite what the other program wrote.
     SaveOver,
     /// Open the copy.
     OpenCopy,
-    /// Go to what is wrong.
+    /// Go to the problem.
     ShowProblem,
-    /// Save beside the file.
+    /// Save a copy, and leave the file as it is.
     SaveCopy,
-    /// Render all frames, in the place of those that are there.
+    /// Render all frames, and replace existing files.
     ReplaceFrames,
-    /// Render the frames that are not there.
+    /// Render only the frames that have no file.
     KeepFrames,
-    /// End rendering.
+    /// Stop rendering.
     StopRendering,
 }
 
-/// Asks over everything else. The answer, once there is one; `Enter` is the safe verb.
+/// Shows the question over everything else. Returns the answer once there is one; `Enter` chooses the safe verb.
 pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
     let (title, words, verbs): (_, _, &[(&str, Answer)]) = match question {
         Question::SaveChanges { name, minutes } => (
@@ -191,7 +191,7 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
         ),
     };
     let names: Vec<_> = verbs.iter().map(|(words, _)| *words).collect();
-    // Where nothing is called Cancel, the last verb leaves everything as it is.
+    // Without a Cancel, the last verb is the one that changes nothing.
     let cancel = verbs.iter().position(|(_, answer)| *answer == Answer::Cancel).unwrap_or(names.len() - 1);
     let chosen = dialog(ctx, &Dialog { title: &title, words: &words, verbs: &names, cancel })?;
     verbs.get(chosen).map(|(_, answer)| *answer)

@@ -1,4 +1,4 @@
-//! Pictures of brushes: one stroke of each, white on nothing, as a control tints it.
+//! Thumbnails of brushes: one stroke of each, white on transparent, so that a control can tint it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,22 +8,22 @@ use impasto_core::brush::{self, Mark, SIZE};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::Texture;
 
-/// Texels of a thumbnail, two for a point.
+/// The size of a thumbnail in texels, two per point.
 const WIDTH: usize = 80;
 const HEIGHT: usize = 60;
-/// How far a stroke is turned, radians, and how much of the thumbnail's width it is long.
+/// How far the stroke is turned, in radians, and its length as a share of the thumbnail's width.
 const TURN_RAD: f32 = -0.3;
 const LENGTH: f32 = 0.9;
-/// Paint that is fainter than this leaves holes, as a brush that is not quite full.
+/// Texels with no more paint than this stay empty, which leaves holes as from a brush that is not quite full.
 const LEAST_PAINT: u8 = 24;
 
 type Known = BTreeMap<String, (usize, TextureHandle)>;
 
-/// A picture of a brush, by its name in a scene; made once. None where neither the house nor the scene has the brush.
+/// The thumbnail of a brush, by its name in a scene; cached. None where the brush is neither built in nor the scene's own.
 pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<TextureHandle> {
     let known: Arc<Known> = ctx.data_mut(|data| data.get_temp(key())).unwrap_or_default();
     let picture = loaded.brushes.get(name);
-    // A file that was read again is another picture.
+    // A brush whose file was read again has another address, and gets a new thumbnail.
     let version = picture.map_or(0, |picture| Arc::as_ptr(picture).addr());
     if let Some((_, handle)) = known.get(name).filter(|(of, _)| *of == version) {
         return Some(handle.clone());

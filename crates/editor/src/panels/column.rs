@@ -5,7 +5,7 @@ use egui::{CentralPanel, Frame, Panel, Ui};
 use super::{Area, Ask, PanelInput, area, inspector, tree};
 use crate::theme::Tokens;
 
-/// A window at least so wide has a wider column.
+/// From this window width on, in points, the column is wider.
 const WIDE: f32 = 1600.0;
 
 /// Whether the column leaves enough of the window for the picture, or for both pictures of a comparison.
@@ -18,7 +18,7 @@ pub fn column_fits(ui: &Ui, shown: &PanelInput<'_>) -> bool {
 pub fn column(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let is_wide = ui.ctx().content_rect().width() >= WIDE;
     let (width, tree_height) = if is_wide { (336.0, 330.0) } else { (280.0, 252.0) };
-    // Each of the two keeps what its lines were dragged to.
+    // The wide and the narrow column each remember where their lines were dragged to.
     let (whole, top) = if is_wide { ("wide column", "wide tree") } else { ("column", "tree") };
     let frame = Frame::new().fill(Tokens::of(ui).panel);
     Panel::right(whole).default_size(width).size_range(240.0..=480.0).frame(frame).show(ui, |ui| {

@@ -1,4 +1,4 @@
-//! What the right column remembers between passes and no document holds: what is open, searched, renamed, copied.
+//! What the right column remembers between passes and is not part of the document: what is open, searched, renamed, copied.
 
 use std::collections::BTreeMap;
 
@@ -13,9 +13,9 @@ pub(super) struct ColumnState {
     pub(super) sections: BTreeMap<String, bool>,
     /// Objects whose rows were opened or folded, by name.
     pub(super) rows: BTreeMap<String, bool>,
-    /// What is searched in the tree; none while the search is shut.
+    /// The text that is searched for in the tree; none while the search is closed.
     pub(super) search: Option<String>,
-    /// What gets another name, and that name as it is typed.
+    /// What is being renamed, and the new name as typed so far.
     pub(super) renaming: Option<(Item, String)>,
     /// Whether the menu of what can be added opens in the next pass.
     pub(super) opens_add_menu: bool,
@@ -23,7 +23,7 @@ pub(super) struct ColumnState {
     pub(super) copied_strokes: Option<StrokeSettings>,
     /// The layer of paint that Advanced shows.
     pub(super) paint_layer: usize,
-    /// What was active in the pass before, so that the tree goes there when that changes.
+    /// What was active in the previous pass: when that changes, the tree scrolls to the new one.
     pub(super) active: Option<Item>,
 }
 
@@ -39,7 +39,7 @@ pub fn open_add_menu(ctx: &Context) {
     ColumnState::with(ctx, |state| state.opens_add_menu = true);
 }
 
-/// Begins to rename what is active, in its row of the tree. Says whether that has a name of its own.
+/// Begins to rename the active item in its row of the tree. Returns whether its name can be changed.
 pub fn rename(ctx: &Context, document: &Document) -> bool {
     let active = document.selection().active();
     let named = active.filter(|item| matches!(item, Item::Object(_) | Item::Region(_) | Item::Light(_)));

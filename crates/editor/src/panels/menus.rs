@@ -1,4 +1,4 @@
-//! The menus of the top bar: which commands stand in them, and in which order.
+//! The menus of the top bar: their commands, in order.
 
 use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
@@ -221,7 +221,7 @@ fn words_of(line: Line) -> &'static str {
     }
 }
 
-/// A row that says why where it cannot be done. Whether it was clicked.
+/// A row; with a `reason`, it is disabled and the reason is its tooltip. Returns whether it was clicked.
 fn usable(ui: &mut Ui, reason: Option<&str>, row: MenuRow<'_>) -> bool {
     let response = ui.add_enabled_ui(reason.is_none(), |ui| row.show(ui)).inner;
     match reason {
@@ -258,7 +258,7 @@ fn recent(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// Whether what an action switches is on.
+/// Whether the thing that an action switches is on.
 fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
     let session = shown.session;
     match action {
@@ -272,7 +272,7 @@ fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
     }
 }
 
-/// What renders a scene from a shell; a path may hold anything.
+/// The shell command that renders a scene, with the special characters of the path escaped.
 fn render_command(path: &str) -> String {
     let mut quoted = String::new();
     for letter in path.chars() {

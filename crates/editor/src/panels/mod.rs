@@ -1,7 +1,7 @@
 //! The panels round the viewport. Each is a function from what is shown to what is asked for; none changes anything itself.
 //!
-//! The bars take their own strip off the `Ui` that they are handed, so their order is the window's: top bar, status line, strip,
-//! right column, options bar, rail; what is left is the viewport.
+//! Each bar takes its strip off the `Ui` that it is handed, so the order of the calls lays out the window: top bar, status
+//! line, strip, right column, options bar, rail; the rest is the viewport.
 
 mod areas;
 pub mod ask_close;
@@ -51,17 +51,17 @@ pub struct PanelInput<'a> {
     pub session: &'a Session,
     /// Playback and selected keys.
     pub time: &'a TimeHand,
-    /// The painting as it was prepared last, perhaps of an earlier version; none before the first.
+    /// The painting as it was last prepared, perhaps from an earlier version of the document; none before the first.
     pub painting: Option<&'a Painting>,
-    /// Whose habits the keys follow.
+    /// Whose key bindings are used.
     pub keys: Preset,
     /// What the mouse would do now, with keys: `[Drag] comb  [Shift] smooth`.
     pub status: &'a str,
     /// Numbers for the status line.
     pub numbers: Numbers<'a>,
-    /// Files that were open lately, the latest first.
+    /// Recently opened files, the latest first.
     pub recent: &'a [PathBuf],
-    /// For each mesh that is not there, the one of the scene's folder that is likely meant.
+    /// For each missing mesh, the file in the scene's folder that is likely meant.
     pub likely_meshes: &'a [(String, String)],
 }
 
@@ -103,7 +103,7 @@ impl PanelInput<'_> {
         }
     }
 
-    /// The session after a change: what a panel asks for.
+    /// Asks for the session with a change.
     fn session_with(&self, change: impl FnOnce(&mut Session)) -> Ask {
         let mut session = self.session.clone();
         change(&mut session);
@@ -116,13 +116,13 @@ impl PanelInput<'_> {
 pub struct Numbers<'a> {
     /// Strokes in the last exact picture.
     pub strokes: usize,
-    /// Of them, those of each region, by its name.
+    /// The strokes of each region in that picture, by the region's name.
     pub strokes_of: &'a [(String, usize)],
-    /// Pictures a second, while something moves.
+    /// Pictures per second, while something moves.
     pub pictures_per_second: Option<f64>,
-    /// Who draws: *llvmpipe*.
+    /// The graphics driver: *llvmpipe*.
     pub driver: &'a str,
-    /// What runs beside the window.
+    /// Work that runs in the background.
     pub works: &'a [work::Work],
 }
 
@@ -131,9 +131,9 @@ pub struct Numbers<'a> {
 pub enum Ask {
     /// Carry this out: one entry of the history.
     Do(Command),
-    /// As `Do`; steps of one key within a second are one entry (the wheel over a field).
+    /// As `Do`, but commands with the same key within a second are one entry (the wheel over a field).
     DoMerged(Command, String),
-    /// Show the document as this would leave it (a slider under the hand); `Do` or `EndPreview` follows.
+    /// Show the document as this would leave it (while a slider is dragged); `Do` or `EndPreview` follows.
     Preview(Command),
     /// Show the document as it is again.
     EndPreview,
@@ -141,13 +141,13 @@ pub enum Ask {
     Select(Selection),
     /// Ask for a mesh file and give it to this object.
     ChooseMesh(String),
-    /// Do something about what is wrong with the document.
+    /// Repair a problem of the document, or read it again.
     Mend(Mend),
     /// Ask for a file, and write a copy of the scene there.
     SaveCopy,
     /// Do what a key would do.
     Act(Action),
-    /// Mode, tools, overlays and frame as they are in this session.
+    /// Take over this session: mode, tools, overlays and frame.
     Session(Box<Session>),
     /// Do this on the timeline.
     Timeline(TimelineEvent),
@@ -157,23 +157,23 @@ pub enum Ask {
     Copy(String),
     /// Ask whether this frame becomes the reference.
     Recapture(i64),
-    /// Stop what takes its time.
+    /// Stop this work in the background.
     StopWork(work::WorkKind),
     /// Show the first-run sheet.
     Welcome,
 }
 
-/// A file's name for people, without its folder.
+/// A file's name to show, without its folder.
 fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// How wide some text stands, points.
+/// The width of some text, in points.
 fn text_width(ui: &egui::Ui, text: &str, font: egui::FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size().x
 }
 
-/// Puts something at a place of its own; what comes after it in `ui` stands where it would without it.
+/// Shows something in `rect` without using room in `ui`: what follows is laid out as if it were not there.
 fn within<R>(
     ui: &mut egui::Ui,
     rect: egui::Rect,

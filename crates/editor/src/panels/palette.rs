@@ -1,4 +1,4 @@
-//! The command search: every command by its words.
+//! The command search: finds any command by its name.
 
 use egui::{Id, Key, RichText, Role, ScrollArea, TextEdit, WidgetInfo};
 use impasto_editor_model::keymap::Action;
@@ -96,7 +96,7 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
     escape || run.is_some()
 }
 
-/// The commands that what was typed may mean, the likeliest first.
+/// The commands that may be meant by what was typed, the likeliest first.
 fn found(typed: &str) -> Vec<Action> {
     let mut found: Vec<_> = menus::actions()
         .into_iter()
@@ -107,8 +107,8 @@ fn found(typed: &str) -> Vec<Action> {
     found.into_iter().map(|(_, action)| action).collect()
 }
 
-/// How far a name is from what was typed: at its start, at a word's start, within it, letters in order; none where not even
-/// that.
+/// How far a name is from what was typed: 0 at the name's start, 1 at a word's start, 2 anywhere, 3 only the letters in order;
+/// none for no match.
 fn distance(typed: &str, name: &str) -> Option<u8> {
     let (typed, name) = (typed.trim().to_lowercase(), name.to_lowercase());
     if name.starts_with(&typed) {

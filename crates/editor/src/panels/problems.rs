@@ -1,4 +1,4 @@
-//! The problems of a scene that could not be read whole: a list with what mends each, and the text beside it.
+//! The problems of a scene that could not be read completely: a list with the repairs for each, and the text beside it.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ const ROW: f32 = 44.0;
 const LINE: f32 = 18.0;
 /// The list's share of the width.
 const LIST: f32 = 0.6;
-/// A longer text is shown round its problem only, and edited elsewhere.
+/// A longer text is shown only around its problem, and cannot be edited here.
 const MAX_EDITED_BYTES: usize = 256 << 10;
 /// Lines that are shown of a longer text.
 const LINES_AROUND: usize = 40;
@@ -34,7 +34,7 @@ const LINES_AROUND: usize = 40;
 #[derive(Clone, Default)]
 struct Memory {
     selected: usize,
-    /// The text under the hand, and the source that it was begun from.
+    /// The text being edited, and the source that it began as.
     typed: String,
     begun_from: Option<Arc<Source>>,
     /// The line to scroll to in the next pass.
@@ -45,7 +45,7 @@ fn memory_id() -> Id {
     Id::unique("problems panel")
 }
 
-/// The text as it was edited beside the list, where it has not been read yet.
+/// The text as it was edited beside the list, if it has not been read into the scene yet.
 pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     let source = document.source()?;
     let memory: Memory = ctx.data(|data| data.get_temp(memory_id()))?;
@@ -53,7 +53,7 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     (is_of_source && memory.typed != source.text).then_some(memory.typed)
 }
 
-/// Takes 232 points at the bottom of `ui`. False once it is closed or nothing is wrong any more.
+/// Takes 232 points at the bottom of `ui`. Returns false once it is closed or no problem is left.
 pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let rows = shown.document.problems();
     if rows.is_empty() {
@@ -100,7 +100,7 @@ pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> boo
     stays
 }
 
-/// False where it is closed.
+/// Returns false when the panel is closed.
 fn head(ui: &mut Ui, shown: &PanelInput<'_>, count: usize, asks: &mut Vec<Ask>) -> bool {
     let tokens = Tokens::of(ui);
     let is_lossy = shown.document.loss_count() > 0;
@@ -161,7 +161,7 @@ fn list(ui: &mut Ui, rows: &[ProblemRow], memory: &mut Memory, asks: &mut Vec<As
     );
 }
 
-/// What a problem is of, where that can be selected.
+/// The item that a problem is about, where it can be selected.
 fn concerned(row: &ProblemRow) -> Option<Item> {
     row.repairs.iter().find_map(|repair| match repair {
         Repair::Locate { object } => Some(Item::Object(object.clone())),
@@ -170,7 +170,7 @@ fn concerned(row: &ProblemRow) -> Option<Item> {
     })
 }
 
-/// One problem: its place, its words, what mends it.
+/// One problem: its place, its words, its repairs.
 fn line(
     ui: &mut Ui,
     rect: Rect,
@@ -223,7 +223,7 @@ fn line(
     let second = match (instead.is_empty(), problem.mend.is_empty()) {
         (false, true) => instead.clone(),
         (true, _) => sentence(&problem.mend),
-        // The names that are known are for the tooltip.
+        // The list of known names is left to the tooltip.
         (false, false) => {
             let mend = problem.mend.split(" Known here").next().unwrap_or_default();
             let mend = mend.split("known here").next().unwrap_or_default();
@@ -232,7 +232,7 @@ fn line(
     };
     let wide = (right - words_left).max(40.0);
     for (words, font, colour, y) in [
-        // Where it was looked for stands in the tooltip.
+        // Where a file was looked for is left to the tooltip.
         (
             sentence(problem.message.split(" (tried ").next().unwrap_or_default()),
             type_face::body(),
@@ -277,7 +277,7 @@ fn repair_button(ui: &mut Ui, repair: &Repair, asks: &mut Vec<Ask>) {
     }
 }
 
-/// One line, with what stands between backticks in the type of the source.
+/// One line, with text between backticks in the font of the source.
 fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     let mut job = LayoutJob { break_on_newline: false, ..LayoutJob::default() };
     for (index, part) in words.split('`').enumerate() {
@@ -287,7 +287,7 @@ fn with_code(words: &str, font: FontId, colour: Color32) -> LayoutJob {
     job
 }
 
-/// With a capital and a full stop.
+/// The words with a capital and a full stop.
 fn sentence(words: &str) -> String {
     let mut characters = words.trim().chars();
     let Some(first) = characters.next() else { return String::new() };
@@ -312,7 +312,7 @@ fn source(
         return;
     };
     if !memory.begun_from.as_ref().is_some_and(|before| Arc::ptr_eq(before, source)) {
-        // What was typed stays while the text behind it does.
+        // What was typed stays unless the source's text has changed.
         if memory.begun_from.as_ref().is_none_or(|before| before.text != source.text) {
             memory.typed.clone_from(&source.text);
         }
@@ -364,7 +364,7 @@ fn source(
     }
 }
 
-/// A line of the source.
+/// The format of a line of the source.
 fn code(colour: Color32) -> TextFormat {
     TextFormat { line_height: Some(LINE), ..TextFormat::simple(type_face::number(), colour) }
 }
@@ -390,7 +390,7 @@ fn coloured(text: &str, marked: Option<TextPosition>, tokens: &Tokens) -> Layout
     job
 }
 
-/// A line before, in and behind the word or the quoted text that begins at a column.
+/// Splits a line into what comes before, in and after the word or quoted text that begins at `column`, from 1.
 fn word_at(line: &str, column: usize) -> [&str; 3] {
     let start = line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at);
     let (before, rest) = line.split_at(start);
@@ -402,7 +402,7 @@ fn word_at(line: &str, column: usize) -> [&str; 3] {
     [before, word, after]
 }
 
-/// Of a long text the lines round one, to be read only.
+/// Shows the lines of a long text around the problem, read-only.
 fn excerpt(ui: &mut Ui, text: &str, place: Option<TextPosition>) {
     let tokens = Tokens::of(ui);
     let line = place.map_or(1, |place| place.line);
@@ -411,7 +411,7 @@ fn excerpt(ui: &mut Ui, text: &str, place: Option<TextPosition>) {
     let lines: String = numbered
         .map(|(index, line)| format!("{:>6} {}\n", index + 1, line.chars().take(200).collect::<String>()))
         .collect();
-    // Each line has its number before it.
+    // Each line begins with its number, in 7 characters.
     let marked = place.map(|place| TextPosition { line: line - first, column: place.column + 7 });
     ScrollArea::both().id_salt("excerpt").auto_shrink(false).show(ui, |ui| {
         let label = ui.add(egui::Label::new(coloured(&lines, marked, tokens)).selectable(false));

@@ -1,4 +1,4 @@
-//! The sheet that renders: which frames, how large, where to; and while they come, how far it is.
+//! The sheet for rendering: which frames, their size and files; and the progress while they are rendered.
 
 mod progress;
 
@@ -22,26 +22,26 @@ pub struct RenderShown<'a> {
     pub document: &'a Document,
     /// The frame that is shown.
     pub frame: f64,
-    /// The driver that *Automatic* came to in this window: *llvmpipe*. Empty where that is not known.
+    /// The driver that *Automatic* chose in this window: *llvmpipe*. Empty where it is not known.
     pub driver: &'a str,
-    /// What runs, or has run; none before.
+    /// The progress of the current or last rendering; none before the first.
     pub progress: Option<&'a RenderProgress>,
-    /// The last frame.
+    /// The picture of the last rendered frame.
     pub picture: Option<&'a TextureHandle>,
 }
 
 /// What the sheet asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RenderAsk {
-    /// Begin.
+    /// Start rendering.
     Render,
-    /// End it; what is finished stays.
+    /// Stop rendering; finished frames stay.
     Stop,
-    /// Fold the sheet away while it goes on.
+    /// Close the sheet while rendering goes on.
     WorkOn,
     /// Close the sheet.
     Close,
-    /// Show the files in the desktop's way.
+    /// Show the files in the desktop's file manager.
     OpenFolder,
     /// Put the command on the clipboard.
     CopyCommand,
@@ -56,7 +56,7 @@ const NUMBER: f32 = 76.0;
 const PRESETS: [(&str, &str); 4] =
     [("50 %", "Size 50 %"), ("100 %", "Size 100 %"), ("150 %", "Size 150 %"), ("4K", "Size 4K")];
 
-/// Shows the sheet over everything. What it asks for, once it asks.
+/// Shows the sheet over everything. Returns what it asks for, if anything.
 pub fn render_sheet(
     ctx: &egui::Context,
     shown: &RenderShown<'_>,
@@ -114,7 +114,7 @@ fn head(ui: &mut Ui, runs: bool) -> Option<RenderAsk> {
 /// A row with its label at the left.
 fn labelled<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-    // The control itself is found by its name.
+    // Only painted: the control has a name of its own.
     let colour = Tokens::of(ui).weak;
     ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, label, type_face::body(), colour);
     within(ui, rect.with_min_x(rect.left() + LABEL), row(), |ui| {
@@ -139,7 +139,7 @@ fn told(ui: &mut Ui, fault: Option<&Fault>, field: Field) {
     }
 }
 
-/// A field of text; changed with every letter.
+/// A field of text, whose response is changed with every letter.
 fn text(ui: &mut Ui, name: &str, wide: f32, typed: &mut String, wrong: bool) -> egui::Response {
     let tokens = Tokens::of(ui);
     let mut frame = egui::Frame::new().fill(tokens.field).corner_radius(measure::CORNER);

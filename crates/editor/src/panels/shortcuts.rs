@@ -11,7 +11,7 @@ use crate::widgets::{self, sheet};
 const COLUMN: f32 = 256.0;
 const ROW: f32 = 20.0;
 
-/// Keys that hold in one place.
+/// The keys that hold in one part of the editor.
 struct Group {
     name: &'static str,
     rows: Vec<(&'static str, String)>,
@@ -38,7 +38,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
         });
         ui.add_space(measure::GAP);
         let lines = lines(groups(&shown.keymap()));
-        // One more, since no column ends with a head.
+        // One more line, because no column may end with a head.
         let high = lines.len().div_ceil(columns) + 1;
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;
         ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, |ui| {
@@ -72,7 +72,7 @@ fn lines(groups: Vec<Group>) -> Vec<Line> {
     lines
 }
 
-/// Columns of at most `high` lines; none ends with a head or begins with nothing.
+/// Columns of at most `high` lines; none ends with a head or begins with a space.
 fn in_columns(mut lines: &[Line], high: usize) -> Vec<&[Line]> {
     let mut columns = Vec::new();
     loop {
@@ -153,7 +153,7 @@ fn mouse(keymap: &Keymap) -> Vec<(&'static str, String)> {
         for (name, button) in buttons {
             let bare = keymap.navigation(button, none) == Some(does);
             for (prefix, modifiers) in held {
-                // What a button does alone it also does with keys that change nothing.
+                // Where a button alone does this, its combinations with modifiers are not listed too.
                 let said = bare && modifiers != none;
                 if keymap.navigation(button, modifiers) == Some(does) && !said {
                     ways.push(format!("{prefix}{name}"));

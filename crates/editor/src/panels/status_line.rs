@@ -58,7 +58,7 @@ fn note(ui: &mut egui::Ui, words: &str) {
     ui.label(RichText::new(words).font(type_face::small()).color(Tokens::of(ui).weak));
 }
 
-/// The numbers, the rightmost first.
+/// The numbers as words, the rightmost first.
 fn numbers(numbers: &Numbers<'_>) -> Vec<String> {
     let mut words = Vec::new();
     if !numbers.driver.is_empty() {
@@ -71,7 +71,7 @@ fn numbers(numbers: &Numbers<'_>) -> Vec<String> {
     words
 }
 
-/// *5,774*.
+/// A count with commas between thousands: *5,774*.
 pub(super) fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut text = String::new();
@@ -84,7 +84,7 @@ pub(super) fn grouped(count: usize) -> String {
     text
 }
 
-/// `[Key] words` and plain words; two spaces part them.
+/// Splits a status text into pieces of `[Key] words` and of plain words, which two spaces separate.
 fn parts(mut text: &str) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     loop {

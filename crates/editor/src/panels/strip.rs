@@ -14,7 +14,7 @@ use crate::widgets::{Button, Tip};
 
 /// From the strip's top to the ruler's line, points.
 const LINE: f32 = 35.0;
-/// Labels stand at least so far apart, points.
+/// The least distance between labels, in points.
 const LABELS: f32 = 128.0;
 
 /// Takes the lowest 44 points of `ui`, or as much as the lanes need.
@@ -38,7 +38,7 @@ pub fn strip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-/// From the right end.
+/// The controls at the right end, from right to left.
 fn range(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);
@@ -59,7 +59,7 @@ fn ruler(ui: &mut Ui, rect: Rect, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let scene = shown.document.scene();
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
     let across = Across { left: rect.left(), right: rect.right(), first, last };
-    // The first and the last key can be hit from outside too.
+    // Wider than the ruler, so that the first and the last frame can be hit from outside too.
     let response =
         ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());
     across::scrub(ui, &response, across, shown, asks);

@@ -9,7 +9,7 @@ use crate::icons::{self, Icon};
 pub(super) struct ToolFace {
     pub(super) name: &'static str,
     pub(super) icon: Icon,
-    /// What takes it up by a key.
+    /// The action whose key selects it.
     pub(super) action: Option<Action>,
     /// One sentence on what it does.
     pub(super) effect: &'static str,

@@ -9,9 +9,9 @@ use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, Tip};
 
-/// From this width on, the bars show what otherwise stands behind a button, points.
+/// From this window width on, in points, the bars show what is otherwise behind a button.
 pub(super) const WIDE: f32 = 1600.0;
-/// The mode switch never begins before this, so that it stands still whatever the document is called, points.
+/// The mode switch never begins left of this, in points, so that the document's name does not move it.
 const SWITCH_LEFT: f32 = 525.0;
 const SWITCH: f32 = 278.0;
 const MODES: [Mode; 3] = [Mode::Arrange, Mode::Paint, Mode::Animate];
@@ -53,7 +53,7 @@ fn left(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     document(ui, shown);
 }
 
-/// Undo or redo; the tooltip names the entry.
+/// The button for undo or redo; its tooltip names the entry of the history.
 fn travel(ui: &mut Ui, shown: &PanelInput<'_>, action: Action, icon: Icon, entry: Option<&str>) -> Response {
     let response =
         ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
@@ -67,7 +67,7 @@ fn travel(ui: &mut Ui, shown: &PanelInput<'_>, action: Action, icon: Icon, entry
     }
 }
 
-/// The document's name, which ends in an ellipsis where it would push the modes.
+/// The document's name; it ends in an ellipsis where it would reach the mode switch.
 fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let (name, edited) = (shown.document.name(), shown.document.is_edited());
@@ -114,7 +114,7 @@ fn modes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// From the right end.
+/// The controls at the right end, from right to left.
 fn right(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(measure::GAP);
@@ -137,7 +137,7 @@ fn right(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// What looks like a field and opens the search, 220 points wide.
+/// A button that looks like a field, 220 points wide, and opens the search.
 fn search_field(ui: &mut Ui, keys: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(220.0, measure::BUTTON), Sense::click());

@@ -8,29 +8,29 @@ use crate::icons::{self, Icon};
 use crate::theme::{Theme, Tokens, measure, type_face};
 use crate::widgets::{self, Button, sheet};
 
-/// What the sheet lets one choose; it shows at once.
+/// The choices on the sheet; each takes effect at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choices {
-    /// Whose habits the keys follow.
+    /// Whose key bindings are used.
     pub keys: Preset,
     /// Dark or light.
     pub theme: Theme,
-    /// Everything is drawn so many times as large.
+    /// The scale of the interface; 1 is 100 %.
     pub scale: f32,
-    /// The sheet shows when the editor starts.
+    /// Whether the sheet shows when the editor starts.
     pub at_start: bool,
 }
 
 /// How the sheet was left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// For a mesh to open.
+    /// To open a mesh.
     OpenMesh,
-    /// For the still life that comes with Impasto.
+    /// To open the still life that comes with Impasto.
     StillLife,
-    /// For a scene to open.
+    /// To open a scene.
     OpenScene,
-    /// For the empty scene behind it.
+    /// To work on the empty scene behind it.
     Closed,
 }
 
@@ -44,7 +44,7 @@ const SIZES: [(f32, &str, &str); 4] = [
     (1.5, "150 %", "Interface size 150 %"),
 ];
 
-/// Shows the sheet over everything. How it was left, once it is.
+/// Shows the sheet over everything. Returns how it was left, once it is.
 pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
     sheet(ctx, "Welcome", WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;

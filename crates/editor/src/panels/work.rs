@@ -1,4 +1,4 @@
-//! What takes its time, in the status line: a thin bar, words, and a way to stop it.
+//! Background work in the status line: a thin bar, words, and a way to stop it.
 
 use egui::{Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 use impasto_editor_model::keymap::Action;
@@ -6,18 +6,18 @@ use impasto_editor_model::keymap::Action;
 use super::{Ask, text_width};
 use crate::theme::{Tokens, measure, type_face};
 
-/// Something that runs beside the window.
+/// Work that runs in the background.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Work {
     /// What it is: *Preparing bunny…*, *Rendering 47 of 120*.
     pub words: String,
-    /// How much of it is done, 0 to 1; none where nobody knows.
+    /// How much of it is done, 0 to 1; none where that is unknown.
     pub share: Option<f32>,
-    /// Which it is.
+    /// The kind of work.
     pub kind: WorkKind,
 }
 
-/// Which work.
+/// The kinds of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkKind {
     /// Frames are written; a click opens their sheet.
@@ -30,7 +30,7 @@ pub enum WorkKind {
 
 const BAR: f32 = 72.0;
 
-/// Shows one; stands in a row that goes from right to left.
+/// Shows one, in a row that is laid out from right to left.
 pub(super) fn show(ui: &mut Ui, work: &Work, asks: &mut Vec<Ask>) {
     if work.kind == WorkKind::Rendering {
         if chip(ui, work, Sense::click()).clicked() {
@@ -64,7 +64,7 @@ fn chip(ui: &mut Ui, work: &Work, sense: Sense) -> egui::Response {
     let done = match work.share {
         Some(share) => whole.with_max_x(whole.left() + BAR * share.clamp(0.0, 1.0)),
         None => {
-            // It goes to and fro while nobody knows how long it takes.
+            // It goes to and fro while the share is unknown.
             let time = ui.input(|input| input.time);
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
             let at = (time * 0.8).fract() as f32;

@@ -9,11 +9,11 @@ use super::type_face::{ICONS, SEMIBOLD};
 const INTER: &[u8] = include_bytes!("../../fonts/Inter-Regular.otf");
 const INTER_SEMIBOLD: &[u8] = include_bytes!("../../fonts/Inter-SemiBold.otf");
 
-/// Inter before egui's own fonts, which stay behind it for what it lacks.
+/// Inter, with egui's own fonts as a fallback for glyphs that it lacks.
 pub(super) fn definitions() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let mut icons = egui_material_icons::font_insert().data;
-    // The icon fills its em square. Nothing else may push it off the line it is centred on.
+    // The icon fills its em square; an offset would push it off the line that it is centred on.
     icons.tweak.y_offset_factor = 0.0;
     for (name, data) in [
         ("Inter", FontData::from_static(INTER)),

@@ -1,4 +1,4 @@
-//! Lengths of the window in points. The grid is 4.
+//! Lengths of the window, in points, with a grid of 4.
 
 /// Height of the top bar.
 pub const TOP_BAR: f32 = 40.0;

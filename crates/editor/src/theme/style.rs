@@ -4,7 +4,7 @@ use egui::{Color32, Context, CornerRadius, Margin, Shadow, Stroke, Style, TextSt
 
 use super::{Theme, Tokens, fonts, measure, type_face};
 
-/// Gives `ctx` the house's fonts, measures and colours, and draws everything `scale` times as large (1 is 100 %).
+/// Gives `ctx` the editor's fonts, measures and colours, and draws everything `scale` times as large (1 is 100 %).
 pub fn apply(ctx: &Context, theme: Theme, scale: f32) {
     let first_time = ctx.data_mut(|data| {
         let seen = data.get_temp_mut_or_insert_with(egui::Id::unique("impasto fonts"), || false);
@@ -55,7 +55,7 @@ fn style(theme: Theme) -> Style {
     spacing.icon_width = 16.0;
     spacing.icon_spacing = measure::GAP;
     spacing.tooltip_width = 260.0;
-    // The bar lies over the padding of the rows, so that they reach the edge whether there is one or not.
+    // The scroll bar lies over the padding of the rows, so that they reach the edge with or without one.
     spacing.scroll = egui::style::ScrollStyle {
         floating_allocated_width: 0.0,
         floating_width: 3.0,
@@ -74,7 +74,7 @@ fn visuals(theme: Theme) -> Visuals {
         Theme::Dark => Visuals::dark(),
         Theme::Light => Visuals::light(),
     };
-    // egui thickens light text; Inter is drawn as it was cut, in both themes.
+    // egui would thicken light text; Inter is drawn as designed, in both themes.
     visuals.text_options.color_transfer_function = egui::epaint::FontColorTransferFunction::Off;
     visuals.panel_fill = tokens.panel;
     visuals.window_fill = tokens.panel;

@@ -57,15 +57,15 @@ pub struct Tokens {
     pub accent_text: Color32,
     /// Text on `accent`.
     pub on_accent: Color32,
-    /// Edited, warned, late.
+    /// Unsaved edits, warnings, dropped frames.
     pub ochre: Color32,
     /// Keys on the timeline.
     pub key: Color32,
     /// Errors.
     pub vermilion: Color32,
-    /// The reference, and what is done.
+    /// The reference, and what is finished.
     pub viridian: Color32,
-    /// Hairs that the reference does not vouch for.
+    /// Direction lines where the trust in the reference is low.
     pub pink: Color32,
     /// Under everything while a dialog is open.
     pub scrim: Color32,
@@ -199,7 +199,7 @@ mod tests {
             assert!(contrast(tokens.out, tokens.panel) >= 3.0, "{theme}: a control's outline");
             assert!(contrast(tokens.key, tokens.panel) >= 3.0, "{theme}: a key is a shape");
         }
-        // Neither stands on `app` in the light theme: only the picture and its chips do.
+        // Neither of these texts stands on `app` in the light theme: only the picture and its chips do.
         assert_eq!(weak_pairs, ["light ochre on app: 4.50", "light vermilion on app: 4.42"]);
     }
 }

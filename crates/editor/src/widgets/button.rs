@@ -12,7 +12,7 @@ enum Weight {
     /// Only its words, until the pointer is over it.
     Plain,
     Usual,
-    /// The verb that most want. One in a group.
+    /// The verb that most users want; one in a group.
     Primary,
     /// A verb that takes something away.
     Danger,
@@ -34,7 +34,7 @@ impl<'a> Button<'a> {
         Self { words, name: words, icon: None, weight: Weight::Usual, on: None, height: measure::BUTTON }
     }
 
-    /// The name, where the words end in an ellipsis or do not say it.
+    /// The name, where it differs from the words.
     pub fn name(self, name: &'a str) -> Self {
         Self { name, ..self }
     }
@@ -44,7 +44,7 @@ impl<'a> Button<'a> {
         Self { icon: Some(icon), ..self }
     }
 
-    /// Filled with the accent: the verb that most want.
+    /// Filled with the accent: the verb that most users want.
     pub fn primary(self) -> Self {
         Self { weight: Weight::Primary, ..self }
     }
@@ -112,7 +112,7 @@ impl<'a> Button<'a> {
     }
 }
 
-/// The verb that most want, filled with the accent.
+/// The verb that most users want, filled with the accent.
 pub fn primary_button(ui: &mut Ui, words: &str) -> Response {
     Button::new(words).primary().show(ui)
 }
@@ -124,7 +124,7 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     response
 }
 
-/// As [`icon_button`], on the ground of a field: it stands for one.
+/// As [`icon_button`], filled like the field that it stands in for.
 pub fn field_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     let ground = Tokens::of(ui).field;
     let response = square(ui, icon, None, ground);

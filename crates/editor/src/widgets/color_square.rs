@@ -6,12 +6,12 @@ use egui::{Color32, Popup, PopupCloseBehavior, Response, Role, Sense, StrokeKind
 use super::draw;
 use crate::theme::{Tokens, measure};
 
-/// A square of a region's colour; a click opens egui's colour picker. Changed while the user picks.
+/// A square of a region's colour; a click opens egui's colour picker. The response is changed while the user picks.
 pub fn color_square(ui: &mut Ui, name: &str, colour: &mut Color32) -> Response {
     let (rect, mut response) = ui.allocate_exact_size(vec2(measure::HIT, measure::HIT), Sense::click());
     let seen = egui::Rect::from_center_size(rect.center(), vec2(16.0, 16.0));
     ui.painter().rect_filled(seen, 3.0, *colour);
-    // A colour near the panel's own has an edge too.
+    // The edge shows even a colour close to the panel's own.
     let edge = if response.hovered() { Tokens::of(ui).text } else { Tokens::of(ui).out };
     ui.painter().rect_stroke(seen, 3.0, (1.0, edge), StrokeKind::Outside);
     draw::focus_ring(ui, &response, seen, 3.0);

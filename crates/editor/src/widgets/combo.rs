@@ -8,7 +8,7 @@ use crate::theme::{Tokens, measure, type_face};
 
 /// Picks one of `choices` from a menu; `chosen` is its place in them. With an icon it has no fill at rest, as on a chip.
 ///
-/// Changed where another was picked.
+/// The response is changed when another one is picked.
 pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chosen: &mut usize) -> Response {
     let tokens = Tokens::of(ui);
     let shown = choices.get(*chosen).copied().unwrap_or_default();

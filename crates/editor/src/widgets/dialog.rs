@@ -1,11 +1,11 @@
-//! Questions that must be answered first.
+//! Questions that must be answered before anything else, and the sheets that they stand on.
 
 use egui::{Area, Color32, Context, CornerRadius, Frame, Id, Key, Margin, Modal, RichText, Ui};
 
 use super::Button;
 use crate::theme::{Theme, Tokens, measure, type_face};
 
-/// A question that must be answered first.
+/// A question that must be answered before anything else.
 #[derive(Clone, Copy, Debug)]
 pub struct Dialog<'a> {
     /// The question.
@@ -18,7 +18,7 @@ pub struct Dialog<'a> {
     pub cancel: usize,
 }
 
-/// What came of a [`dialog`] in this pass.
+/// The verb that was chosen in this pass of a [`dialog`], if any.
 pub type DialogResponse = Option<usize>;
 
 /// Shows a question over everything. Returns the verb that was chosen.

@@ -1,4 +1,4 @@
-//! What widgets draw alike: fills, focus rings, icons, words, names.
+//! What all widgets draw in the same way: fills, focus rings, icons, words, names.
 
 use egui::{
     Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui,
@@ -19,7 +19,7 @@ pub(super) fn fill(tokens: &Tokens, response: &Response, rest: Color32) -> Color
     }
 }
 
-/// The ring around the control that the keyboard stands on.
+/// The ring around a control that has the keyboard's focus.
 pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect, corner: f32) {
     if response.has_focus() {
         let ring = Stroke::new(2.0, Tokens::of(ui).accent_text);
@@ -31,7 +31,7 @@ pub(super) fn icon(painter: &Painter, centre: Pos2, icon: Icon, size: f32, colou
     words(painter, centre, Align2::CENTER_CENTER, icon.glyph(), type_face::icon(size), colour);
 }
 
-/// Text whose box stands at `at` by `align`. Returns the box.
+/// Draws text with its box anchored at `at` by `align`. Returns the box.
 pub(super) fn words(
     painter: &Painter,
     at: Pos2,
@@ -46,7 +46,7 @@ pub(super) fn words(
     rect
 }
 
-/// Text in one line that ends with an ellipsis where it would pass `width`.
+/// Draws text in one line that ends with an ellipsis where it would pass `width`. Returns its box.
 pub(super) fn words_within(ui: &Ui, at: Pos2, text: &str, font: FontId, colour: Color32, width: f32) -> Rect {
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = egui::text::TextWrapping::truncate_at_width(width.max(0.0));

@@ -17,8 +17,8 @@ use crate::theme::{Tokens, measure, type_face};
 
 /// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`, or
 /// stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held. Otherwise the
-/// wheel scrolls what the field stands in. A double click brings the default back. What is typed beyond the limits, or is no
-/// number, is marked and not taken.
+/// wheel scrolls what the field stands in. A double click brings the default back. Typed text that is no number, or beyond
+/// the limits, is marked and rejected.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
@@ -47,7 +47,7 @@ type Read<'a> = &'a dyn Fn(&str) -> Option<f64>;
 pub struct FieldResponse {
     /// The box.
     pub response: Response,
-    /// The value is another than before.
+    /// The value has changed.
     pub changed: bool,
     /// A drag, a typed number or a step began in this pass.
     pub began: bool,
@@ -114,7 +114,7 @@ impl<'a> NumberField<'a> {
         Self { unit, ..self }
     }
 
-    /// How far the wheel and the arrows go, and how many decimals are shown.
+    /// How far one step of the wheel or an arrow key goes, and how many decimals are shown.
     pub fn step(self, step: f64, decimals: usize) -> Self {
         Self { step, decimals, ..self }
     }
@@ -129,12 +129,12 @@ impl<'a> NumberField<'a> {
         Self { error, ..self }
     }
 
-    /// Why a number within the limits is refused nevertheless; asked while one is typed.
+    /// Says why a number within the limits is refused nevertheless; called for each number that is typed.
     pub fn refused(self, why: &'a dyn Fn(f64) -> Option<String>) -> Self {
         Self { refused: Some(why), ..self }
     }
 
-    /// Reads what is typed in its own way: more units than one.
+    /// Reads what is typed with `reads`, where a field accepts more than one unit.
     pub fn reading(self, reads: &'a dyn Fn(&str) -> Option<f64>) -> Self {
         Self { reads: Some(reads), ..self }
     }
@@ -144,7 +144,7 @@ impl<'a> NumberField<'a> {
         Self { centred: true, ..self }
     }
 
-    /// The number stands in ochre: it is not kept as it is.
+    /// The number stands in ochre, because it will be lost: a pose that is not keyed.
     pub fn warn(self, warns: bool) -> Self {
         Self { warns, ..self }
     }
@@ -220,7 +220,7 @@ impl<'a> NumberField<'a> {
         frame.min.x += measure::LABEL;
         frame.max.x = (frame.max.x - measure::ROW_END).max(frame.min.x + 48.0);
         let room = measure::LABEL - measure::GAP;
-        // A unit stands in the box: it is not said twice.
+        // The unit stands in the box, so the label leaves it out.
         let label = self.name.strip_suffix(self.unit).map_or(self.name, str::trim_end);
         draw::words_within(ui, row.left_center(), label, type_face::body(), tokens.weak, room);
         if let Some(error) = self.error {
@@ -293,7 +293,7 @@ impl<'a> NumberField<'a> {
             let per_point =
                 if span.is_finite() { span / f64::from(response.rect.width()) } else { self.step };
             *raw += f64::from(response.drag_delta().x) * per_point * fine;
-            // What was typed beyond the range stays until the drag brings it back.
+            // A value typed beyond the range stays until the drag brings it back.
             *raw = raw.clamp(self.range.start().min(*from), self.range.end().max(*from));
             let (from, raw) = (*from, *raw);
             self.set(raw);
@@ -428,12 +428,12 @@ impl<'a> NumberField<'a> {
     }
 }
 
-/// By how many points the wheel turned for the field; none where the turn is for what the field stands in.
+/// How far the wheel turned for the field, in points; none where the turn scrolls what the field stands in.
 fn scrolled(input: &mut InputState, has_focus: bool) -> Option<f32> {
     if input.modifiers.command {
         // With Ctrl, egui reads the wheel as a zoom by this much for each point.
         return Some(input.zoom_delta().ln() / egui::InputOptions::default().scroll_zoom_speed);
     }
-    // Taken away, so that what the field stands in does not scroll as well.
+    // Consumed, so that what the field stands in does not scroll as well.
     has_focus.then(|| std::mem::take(&mut input.smooth_scroll_delta).y)
 }

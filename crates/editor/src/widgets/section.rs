@@ -7,7 +7,7 @@ use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 
 /// The head of a part of the inspector, as wide as the panel, with a line above it and `note` at its right end.
-/// A click opens or folds it; returns whether it is open.
+/// A click opens or folds it and sets `open`.
 pub fn section(ui: &mut Ui, name: &str, note: &str, open: &mut bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, mut response) =

@@ -1,18 +1,18 @@
-//! Lines that come up at the bottom and go by themselves.
+//! Short messages that come up at the bottom and go by themselves.
 
 use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
 
 use super::{Button, draw};
 use crate::theme::{Tokens, measure, type_face};
 
-/// A line that comes up at the bottom and goes by itself.
+/// A short message that comes up at the bottom and goes by itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Toast {
     /// What happened.
     pub words: String,
-    /// A verb that answers it, empty for none.
+    /// The verb of its button, empty for none.
     pub action: String,
-    /// It tells of an error.
+    /// Whether it reports an error.
     pub error: bool,
 }
 

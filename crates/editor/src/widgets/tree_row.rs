@@ -25,7 +25,7 @@ pub struct TreeRow<'a> {
     pub spoken: &'a str,
     /// What stands before the name.
     pub mark: RowMark,
-    /// How deep it lies; 0 for the scene's own things.
+    /// How deep it lies; 0 at the top level.
     pub depth: usize,
     /// Whether it is open, for a row with rows under it.
     pub expanded: Option<bool>,
@@ -60,7 +60,7 @@ impl TreeRow<'_> {
         self.draw(ui, true)
     }
 
-    /// Draws it without eye and lock: what it stands for is always seen.
+    /// Draws it without eye and lock.
     pub fn show_bare(&self, ui: &mut Ui) -> RowResponse {
         self.draw(ui, false)
     }
@@ -86,7 +86,7 @@ impl TreeRow<'_> {
 
         let mut end = rect.right() - measure::GAP;
         let mut clicks = [false; 2];
-        // Each has its own place, so that none moves from under the pointer as the other comes and goes.
+        // Each button has a fixed place, so that it does not move from under the pointer as the other comes and goes.
         let wanted = over || self.selected;
         let buttons = [
             (icons::LOCKED, icons::UNLOCKED, "Lock", self.locked),

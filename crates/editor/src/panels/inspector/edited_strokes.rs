@@ -6,12 +6,12 @@ use impasto_scene::presets::{self, ResolvedStrokes};
 
 use super::Asker;
 
-/// The stroke settings of one place, as they are shown and as they are stored.
+/// The stroke settings of a region or of the scene; in the pairs, first as they are shown, then as they are stored.
 pub(super) struct EditedStrokes<'a> {
     pub(super) of: StrokesOf,
     pub(super) own: [&'a StrokeSettings; 2],
     pub(super) resolved: [ResolvedStrokes; 2],
-    /// The region's place in the scene as it is shown; none for the scene's own settings.
+    /// The region's index in the scene as it is shown; none for the scene's own settings.
     pub(super) index: Option<usize>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> EditedStrokes<'a> {
         })
     }
 
-    /// What would hold with other settings here.
+    /// The settings that would be resolved with `own` in this place.
     pub(super) fn resolve(&self, scene: &Scene, own: &StrokeSettings) -> ResolvedStrokes {
         match self.index {
             Some(_) => presets::resolve_with(scene, &scene.strokes, Some(own)),

@@ -1,4 +1,4 @@
-//! A region's guides: what was combed and drawn, the last one over the others.
+//! A region's guides, combed or drawn; a later guide lies over earlier ones.
 
 use egui::{Align2, Color32, DragAndDrop, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 use impasto_editor_model::command::{Command, Directions, Edit, GuideSettings};
@@ -19,7 +19,7 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
         _ => None,
     };
     let count = region.guides.len().to_string();
-    // A guide that was picked in the picture is to be seen here.
+    // Opens for a guide that was picked in the picture, so that it is seen here.
     let open = is_wide(ui) || active.is_some();
     section(ui, "Guides", &count, open, |ui| {
         if region.guides.is_empty() {
@@ -39,7 +39,7 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
     });
 }
 
-/// Shows where a dragged guide would go, and asks for it when it is let go.
+/// Shows where a dragged guide would go, and asks for the move when it is released.
 fn reorder(ui: &Ui, asker: &mut Asker<'_, '_>, region: &str, placed: &[Rect]) {
     let Some(item) = DragAndDrop::payload::<Item>(ui.ctx()) else { return };
     let Item::Guide(of, from) = &*item else { return };

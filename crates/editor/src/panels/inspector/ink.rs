@@ -1,4 +1,4 @@
-//! The ink of a scene that is drawn in it.
+//! The settings of a scene that is drawn in ink (sumi-e).
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
@@ -11,10 +11,10 @@ use super::number::Number;
 use super::parts::{reset, row, seen};
 use crate::widgets;
 
-/// How close the ends of what must rise may come to each other.
+/// The least distance between `silhouette_from` and `silhouette_to`, which must rise.
 const APART: f64 = 0.01;
 
-/// All of it; `shown` with what is tried out, `stored` without.
+/// All settings; `shown` includes the change being previewed, `stored` does not.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     choices(ui, asker, [shown, stored]);
     let ours = shown.rule == InkRule::Painter;
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&Su
     }
 }
 
-/// What is one of a few words.
+/// The settings that are a choice of a few words.
 fn choices(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     row(ui, "Rule", |ui| {
         let mut chosen = usize::from(shown.rule == InkRule::Source);
@@ -88,7 +88,7 @@ fn choices(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2])
     });
 }
 
-/// Whether the source's rule knows of a number.
+/// Whether a number has an effect under `InkRule::Source`.
 fn is_of_source(number: &Of<SumiE>) -> bool {
     ["silhouette_from", "silhouette_to", "softness", "fibres"].contains(&number.field)
 }
@@ -128,7 +128,7 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &Of<SumiE>, [shown, st
     });
 }
 
-/// One of the four tones, between those beside it.
+/// One of the four tones; it stays between its neighbours.
 fn tone(ui: &mut Ui, asker: &mut Asker<'_, '_>, index: usize, [shown, stored]: [&SumiE; 2]) {
     let name = format!("Tone {}", index + 1);
     let below = if index > 0 { stored.tones[index - 1] } else { 0.0 };
@@ -149,7 +149,7 @@ fn tone(ui: &mut Ui, asker: &mut Asker<'_, '_>, index: usize, [shown, stored]: [
     });
 }
 
-/// A field's name as words that begin large.
+/// A field's name as words, with a capital.
 pub(super) fn sentence(field: &str) -> String {
     let words = field.replace('_', " ");
     let mut letters = words.chars();

@@ -1,4 +1,4 @@
-//! A light.
+//! A light: its kind, colour, intensity, and direction or place.
 
 use egui::Ui;
 use impasto_editor_model::Item;
@@ -87,12 +87,12 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
     }
 }
 
-/// About what comes from below where nothing is said: the colour, dim.
+/// About the light from below where no ground colour is set: the light's own colour, dimmed.
 fn dim(Color(channels): Color) -> Color {
     Color(channels.map(|channel| channel * 0.4))
 }
 
-/// The light as one of another kind, with what that kind needs.
+/// The light as another kind, with defaults for what that kind needs.
 fn of_kind(light: &Light, kind: LightKind) -> Light {
     let mut light = Light { kind, direction: None, position: None, ground: None, ..light.clone() };
     match kind {

@@ -1,4 +1,4 @@
-//! The inspector: the settings of what is selected, or of the scene.
+//! The inspector: the settings of the active item, or of the scene where nothing is selected.
 
 mod camera;
 mod edited_strokes;
@@ -28,7 +28,7 @@ pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let active = shown.document.selection().active().cloned();
     let mut asker = Asker { shown, asks };
-    // One scroll position for each thing.
+    // Each item has its own scroll position; a guide shares that of its region.
     let salt = match &active {
         Some(Item::Guide(region, _)) => Some(Item::Region(region.clone())),
         other => other.clone(),
@@ -46,19 +46,19 @@ pub fn inspector(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-/// What is shown, and where a part of the inspector asks for changes.
+/// What is shown, and the list that takes the inspector's requests for changes.
 struct Asker<'a, 'b> {
     shown: &'a PanelInput<'a>,
     asks: &'b mut Vec<Ask>,
 }
 
 impl<'a> Asker<'a, '_> {
-    /// The scene as it is shown, with what is under the hand.
+    /// The scene as it is shown, with the change being previewed.
     fn scene(&self) -> &'a Scene {
         &self.shown.document.shown().scene
     }
 
-    /// The scene as the history has it, with poses that are not keyed.
+    /// The scene as the history has it, with poses that are not keyed yet.
     fn stored(&self) -> &'a Scene {
         let loose = self.shown.time.loose_scene().map(|loaded| &loaded.scene);
         loose.unwrap_or(self.shown.document.scene())

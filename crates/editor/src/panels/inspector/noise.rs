@@ -13,16 +13,16 @@ use super::number::Number;
 use super::parts::{FieldStyle, pick, reset, row, seen, text};
 use crate::widgets::{self, Tip};
 
-/// A number of a part of the noise: how it is shown, read and set.
+/// A number of one part of the noise (vertex or surface): how it is shown, and access to its value.
 struct Setting<T> {
     number: Number<'static>,
     of: fn(&mut T) -> &mut f64,
 }
 
-/// The picture that a part of the noise names.
+/// Gives access to the name of a part's picture.
 type NameOf<T> = fn(&mut T) -> &mut Option<String>;
 
-/// A choice of a part of the noise: its label, name and effect, the words, which one is chosen, how it is set.
+/// A choice of one part of the noise: its label, name and effect, its words, which of them is chosen, and how to set it.
 struct Choice<T> {
     label: &'static str,
     name: &'static str,
@@ -86,7 +86,7 @@ pub(super) fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&O
     period(ui, asker, [&shown, &stored_noise], &set);
 }
 
-/// A picture in place of the noise of the house; an empty name brings that back.
+/// The picture used in place of the built-in noise; an empty name brings the built-in noise back.
 fn texture<T: Clone>(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,

@@ -1,4 +1,4 @@
-//! Numbers of the inspector: a drag is shown as it goes and is one entry; steps in quick succession are one entry.
+//! Number fields of the inspector. A drag is previewed and makes one entry of the history; so do steps in quick succession.
 
 use std::ops::RangeInclusive;
 
@@ -9,30 +9,30 @@ use super::Asker;
 use crate::panels::Ask;
 use crate::widgets::NumberField;
 
-/// A number as it is shown.
+/// How a number is shown and edited.
 #[derive(Clone, Debug)]
 pub(super) struct Number<'a> {
-    /// The label, and the name that is spoken.
+    /// The label, which is also the name for screen readers.
     pub(super) name: &'a str,
     /// What it does, one sentence.
     pub(super) effect: &'a str,
-    /// Behind the value.
+    /// Shown after the value.
     pub(super) unit: &'a str,
-    /// Before the value: X, Y, Z.
+    /// Shown before the value: X, Y, Z.
     pub(super) letter: &'a str,
     /// How far a drag goes.
     pub(super) range: RangeInclusive<f64>,
-    /// How far typing goes; none as far as a drag.
+    /// How far typing goes; none for the range of a drag.
     pub(super) limits: Option<RangeInclusive<f64>>,
-    /// Whether the scene may refuse a number within these limits; it is then asked while one is typed.
+    /// Whether the scene may refuse a number within these limits; a typed number is then checked against the scene.
     pub(super) scene_decides: bool,
-    /// One step, and digits behind the point.
+    /// The size of a step, and the digits after the decimal point.
     pub(super) step: (f64, usize),
     /// What the reset icon brings back.
     pub(super) default: Option<f64>,
-    /// The box alone, this wide.
+    /// The width of the box in points, where it has no label.
     pub(super) unlabelled: Option<f32>,
-    /// In ochre: it is not kept.
+    /// Shown in ochre, because it will be lost: a pose that is not keyed.
     pub(super) warns: bool,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Number<'a> {
 pub(super) const ANY: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 
 impl<'a> Number<'a> {
-    /// A number without unit or end.
+    /// A number without a unit or limits.
     pub(super) fn new(name: &'a str, effect: &'a str) -> Self {
         Self {
             name,
@@ -57,14 +57,14 @@ impl<'a> Number<'a> {
         }
     }
 
-    /// A share of 1.
+    /// A number from 0 to 1.
     pub(super) fn share(name: &'a str, effect: &'a str) -> Self {
         Self { range: 0.0..=1.0, step: (0.05, 2), ..Self::new(name, effect) }
     }
 }
 
 impl Asker<'_, '_> {
-    /// Draws a number that is `shown` now and `stored` in the history, and asks for what is done to it. `command` is given
+    /// Draws a number that is `shown` now and `stored` in the history, and asks for what the user does to it. `command` gets
     /// the new value, or none for the reset icon.
     pub(super) fn number(
         &mut self,
@@ -103,7 +103,7 @@ impl Asker<'_, '_> {
                 self.asks.push(Ask::DoMerged(command(Some(value)), key));
             }
         } else if answer.ended {
-            // What is typed or dragged back to where it was leaves nothing to undo.
+            // Back at the stored value, there is nothing to undo.
             self.asks.push(if value == stored { Ask::EndPreview } else { Ask::Do(command(Some(value))) });
         } else if answer.changed {
             self.asks.push(Ask::Preview(command(Some(value))));

@@ -59,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
     section(ui, "Regions", &count.to_string(), false, |ui| regions(ui, asker, name));
 }
 
-/// What is said of an object whose file is not there.
+/// Shown for an object whose mesh file is missing.
 fn missing(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
     body(ui, |ui| {
         let name = &object.name;
@@ -200,7 +200,7 @@ fn parent_row(ui: &mut Ui, asker: &mut Asker<'_, '_>, object: &Object) {
     });
 }
 
-/// Whether an object is `name`, or stands on it.
+/// Whether an object is `name`, or a descendant of it.
 fn is_under(scene: &Scene, object: &Object, name: &str) -> bool {
     let mut next = Some(object);
     for _ in 0..=scene.objects.len() {

@@ -1,4 +1,4 @@
-//! What differs in single layers of paint, from the underpainting to the lights.
+//! The settings of a single layer of paint, from the underpainting to the lights.
 
 use egui::Ui;
 use impasto_editor_model::command::StrokeChange;
@@ -12,12 +12,12 @@ use super::parts::{pick, row};
 use crate::panels::column_state::ColumnState;
 use crate::widgets::Tip;
 
-/// Takes off what only the step from 32 to 64 bits put there.
+/// Rounds away the digits that only the conversion from 32 to 64 bits added.
 fn tidy(value: f32) -> f64 {
     (f64::from(value) * 1e6).round() / 1e6
 }
 
-/// The numbers of a layer that are shown, and how; its size keeps its proportion to the body's.
+/// The numbers of a layer that are shown, and how. Its size is not: it keeps its proportion to that of the body layer.
 fn shown() -> impl Iterator<Item = (&'static LayerNumber, Number<'static>)> {
     LayerSettings::NUMBERS.iter().filter_map(|of| {
         let share = |name| Number::share(name, of.number.effect);
@@ -49,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes
         }
     });
     let kind = LayerKind::ALL[chosen];
-    // The strokes' own coverage is that of the body.
+    // The body layer's coverage is already shown, as that of the strokes.
     let is_twin = |name: &str| kind == LayerKind::Body && name == "Layer coverage";
     for (of, number) in shown().filter(|(_, number)| !is_twin(number.name)) {
         let known = place.own[1].layers.iter().find(|layer| layer.name == kind.name());

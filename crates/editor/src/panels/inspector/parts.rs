@@ -1,4 +1,4 @@
-//! What every part of the inspector is made of: sections, labelled rows, names, colours, the eye and the lock.
+//! The pieces that the inspector is built from: sections, labelled rows, names, colours, the eye and the lock.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
@@ -15,17 +15,17 @@ use crate::panels::column_state::ColumnState;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
 
-/// A window at least this wide has room for what is folded at first in a small one.
+/// From this window width on, in points, there is room for sections that start folded in a smaller window.
 const WIDE: f32 = 1600.0;
 /// Room for the eye and the lock at a head's end.
 const HEAD_END: f32 = 64.0;
 
-/// Whether the window has room for what is folded at first in a small one.
+/// Whether the window has room for sections that start folded in a smaller one.
 pub(super) fn is_wide(ui: &Ui) -> bool {
     ui.ctx().content_rect().width() >= WIDE
 }
 
-/// A part that opens and folds; `note` stands at its head's right end.
+/// A section that opens and folds; `note` stands at its head's right end.
 pub(super) fn section(
     ui: &mut Ui,
     name: &str,
@@ -33,7 +33,7 @@ pub(super) fn section(
     open_at_first: bool,
     contents: impl FnOnce(&mut Ui),
 ) {
-    // *Pose at frame 37* stays open or folded at every frame.
+    // *Pose at frame 37* is one section for all frames: it stays open or folded when the frame changes.
     let key = name.split(" at ").next().unwrap_or(name);
     let known = ColumnState::with(ui.ctx(), |state| state.sections.get(key).copied());
     let mut open = known.unwrap_or(open_at_first);
@@ -53,7 +53,7 @@ pub(super) fn body(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// A row with a label at its left, as numbers have it.
+/// A row with a label at its left, like that of a number.
 pub(super) fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     row_with(ui, label, measure::LABEL, contents)
 }
@@ -70,7 +70,7 @@ pub(super) fn row_with<R>(ui: &mut Ui, label: &str, wide: f32, contents: impl Fn
     .inner
 }
 
-/// Painted, not a node: the control beside it says its own name.
+/// Only painted, without an accessibility node: the control beside it says its own name.
 fn paint_label(ui: &Ui, rect: Rect, label: &str) {
     let weak = Tokens::of(ui).weak;
     let mut job = LayoutJob::simple_singleline(label.to_owned(), type_face::body(), weak);
@@ -97,7 +97,7 @@ pub(super) fn head(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// What stands at the right end of a head, from the right.
+/// Lays out the right end of a head, from right to left.
 pub(super) fn at_end(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(6.0);
@@ -122,7 +122,7 @@ pub(super) fn head_icon(ui: &mut Ui, icon: Icon, colour: Color32) {
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, icon.glyph(), font, colour);
 }
 
-/// One line of text to edit, as wide as its words where it is a `head`. Returns what was typed, once it is done.
+/// One line of text to edit, as wide as its words in a head. Returns what was typed, once it is done and differs.
 pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: FieldStyle) -> Option<String> {
     let id = key.with(name);
     let draft: Option<String> = ui.data(|data| data.get_temp(id.with("draft")));
@@ -183,7 +183,7 @@ pub(super) enum FieldStyle {
     Wrong,
 }
 
-/// A small icon that brings back what the scene or the preset says.
+/// A small icon that resets a setting to that of the scene or the preset. Returns whether it was clicked.
 pub(super) fn reset(ui: &mut Ui, name: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(measure::ROW_END, measure::HIT), Sense::click());
     let tokens = Tokens::of(ui);
@@ -195,7 +195,7 @@ pub(super) fn reset(ui: &mut Ui, name: &str) -> bool {
     response.clicked()
 }
 
-/// A combo with a tooltip; returns the choice where another was picked.
+/// A combo with a tooltip; returns the choice if another one was picked.
 pub(super) fn pick(ui: &mut Ui, tip: Tip<'_>, choices: &[&str], chosen: usize) -> Option<usize> {
     let mut picked = chosen;
     let response = widgets::combo(ui, tip.name, None, choices, &mut picked);
@@ -203,14 +203,15 @@ pub(super) fn pick(ui: &mut Ui, tip: Tip<'_>, choices: &[&str], chosen: usize) -
     (picked != chosen).then_some(picked)
 }
 
-/// As an egui colour.
+/// A scene's colour as one of egui.
 pub(super) fn seen(Color(channels): Color) -> Color32 {
     let [r, g, b] = channels.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
     Color32::from_rgb(r, g, b)
 }
 
 impl Asker<'_, '_> {
-    /// A square of colour with its picker: shown while the pointer is down, one entry when it is let go.
+    /// A square of colour with its picker. The colour is previewed while the pointer is down, and one entry of the history
+    /// once it is released.
     pub(super) fn colour(
         &mut self,
         ui: &mut Ui,
@@ -239,7 +240,7 @@ impl Asker<'_, '_> {
         response
     }
 
-    /// The eye and the lock of a head, from the right: *Region hidden*, *Region locked*.
+    /// The eye and the lock of a head, from right to left; named *Region hidden*, *Region locked*.
     pub(super) fn eye_and_lock(&mut self, ui: &mut Ui, item: &Item, kind: &str, [hidden, locked]: [bool; 2]) {
         let icon = if locked { icons::LOCKED } else { icons::UNLOCKED };
         if small_toggle(ui, icon, &format!("{kind} locked"), locked) {
@@ -251,7 +252,7 @@ impl Asker<'_, '_> {
         }
     }
 
-    /// The name at the head; what is typed renames the thing.
+    /// The name in the head; typing another one renames the item.
     pub(super) fn name(&mut self, ui: &mut Ui, label: &str, item: &Item) {
         let key = Id::unique(("name", item));
         if let Some(name) = text(ui, label, key, item.name(), FieldStyle::Head) {
@@ -260,7 +261,7 @@ impl Asker<'_, '_> {
     }
 }
 
-/// A small icon that says a state by its shape; clicked turns it round.
+/// A small icon whose shape shows a state. Returns whether it was clicked, to toggle the state.
 fn small_toggle(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(measure::HIT, measure::HIT), Sense::click());
     let tokens = Tokens::of(ui);

@@ -1,4 +1,4 @@
-//! Where an object or the camera stands at the frame that is shown, and the key that is there.
+//! The pose of an object at the frame that is shown, and the key of an object or the camera at that frame.
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command, KeyOf, Pose, PoseField, Time};
@@ -113,13 +113,13 @@ pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Op
         asker.number(ui, &number, [frame, frame], |to| {
             Command::Time(Time::MoveKeys(vec![(of.clone(), frame)], to.unwrap_or(frame) - frame))
         });
-        // A key under the hand would leave the frame that this part shows: it moves when it is let go.
+        // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves on release.
         asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
         if let Some(Ask::Do(Command::Time(Time::MoveKeys(_, by)))) = asker.asks.get(before) {
             let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
             asker.asks.push(Ask::Session(Box::new(session)));
         }
-        // The label leaves the column its width.
+        // The label is narrow, so that the three choices fit the column.
         super::parts::row_with(ui, "Ease out", EASE_LABEL, |ui| {
             let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
             let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);

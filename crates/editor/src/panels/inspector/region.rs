@@ -15,7 +15,7 @@ use crate::widgets::{self, Tip};
 /// Width of the label before three fields.
 const NARROW_LABEL: f32 = 54.0;
 
-/// What [`kinds`] calls each base direction.
+/// The names of the base directions, in the order of [`kind`].
 const BASES: [&str; 8] = ["Automatic", "Angle", "Crossing", "Along", "Around", "Up", "Toward", "Curvature"];
 
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
@@ -154,7 +154,7 @@ fn base(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored]: [&Region; 2]) 
     }
 }
 
-/// Three numbers, named by the label and the axis.
+/// A vector as three numbers, each named by the label and its axis.
 pub(super) fn vector(
     ui: &mut Ui,
     asker: &mut Asker<'_, '_>,
@@ -179,7 +179,7 @@ pub(super) fn vector(
     });
 }
 
-/// Digits behind the point that a narrow field has room for.
+/// The digits after the decimal point that a narrow field has room for.
 pub(super) fn decimals(value: f64) -> usize {
     match value.abs() {
         ..10.0 => 3,
@@ -201,7 +201,7 @@ fn kind(direction: &Direction) -> usize {
     }
 }
 
-/// Where a base direction of a kind begins.
+/// The initial value of a base direction of this kind.
 fn of_kind(kind: usize) -> Direction {
     match kind {
         1 => Direction::Angle(0.0),

@@ -1,4 +1,4 @@
-//! The settings of brush strokes that hold for the whole scene: how they turn, and the paint as a body.
+//! The settings of brush strokes that hold for the whole scene: how they turn, the canvas, how the paint stands up.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
@@ -10,7 +10,7 @@ use super::number::Number;
 use super::parts::{pick, row};
 use crate::widgets::{self, Tip};
 
-/// All of them; `shown` with what is tried out, `stored` without.
+/// All settings; `shown` includes the change being previewed, `stored` does not.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&RotatingStrokes; 2]) {
     let set = |style: RotatingStrokes, words: String| {
         Command::Scene(SceneEdit::SetStyle(Style::RotatingStrokes(style), words))

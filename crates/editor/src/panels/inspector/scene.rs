@@ -1,4 +1,4 @@
-//! The scene: size and time, style, backdrop, strokes for everything, reference.
+//! The scene: size and background of the picture, time, style, strokes of all regions, reference.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit, Time};

@@ -77,7 +77,7 @@ fn number(
     });
 }
 
-/// One radio for each brush; with Shift or Ctrl a brush is taken into the mix, or out of it.
+/// One radio button for each brush; with Shift or Ctrl, a click adds a brush to the mix or takes it out.
 fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let loaded = asker.shown.document.shown();
     let mix = &place.resolved[0].body().brushes;
@@ -143,7 +143,7 @@ fn effect_of(brush: &str) -> &'static str {
 
 fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     let is_region = place.index.is_some();
-    // The paper's rule holds for a whole scene.
+    // The source paper's rule holds only for a whole scene.
     let mut names: Vec<&str> =
         presets::names().filter(|name| !is_region || *name != presets::PAPER_PRESET).collect();
     if is_region {
@@ -168,7 +168,7 @@ fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     });
 }
 
-/// What is seldom set: more numbers, edges, layers of paint, preset, seed; and strokes to copy and paste.
+/// What is seldom set: more numbers, edges, layers of paint, preset, seed; and buttons to copy and paste strokes.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     section(ui, "Advanced", "edges, layers, seed", false, |ui| {

@@ -1,5 +1,5 @@
-//! The settings of the tool in hand. What has no room stands behind the button at the bar's end, so that no word is ever cut
-//! and the bar is always one row.
+//! The settings of the current tool. Those that have no room are in a menu at the bar's end, so that no word is ever cut and
+//! the bar is always one row.
 
 mod settings;
 #[cfg(test)]
@@ -17,12 +17,12 @@ use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
 
-/// The line between groups, with the space on either side.
+/// The width of the line between groups, with the space on either side.
 const DIVIDER: f32 = 9.0 + measure::GAP;
-/// The button at the bar's end, with its space.
+/// The width of the button at the bar's end, with its space.
 const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 
-/// How words are said; tests say longer ones.
+/// Translates words; tests put in longer ones.
 type Say = fn(&'static str) -> &'static str;
 
 /// Takes the top 40 points of `ui`.
@@ -35,7 +35,7 @@ pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-/// The bar's contents. The settings, where one was changed.
+/// The bar's contents. Returns the options if one was changed.
 fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Say) -> Option<ToolOptions> {
     let mut options = shown.session.options.clone();
     let tool = shown.session.tool();
@@ -142,7 +142,7 @@ fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) 
     }
 }
 
-/// What one should know about a tool or a mode, where there is room.
+/// A hint about the tool or the mode, where there is room.
 fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Say) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
         (Tool::Pick | Tool::ShotCamera, _) => [
@@ -178,7 +178,7 @@ fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Say) {
     }
 }
 
-/// The button at the bar's end, and what stands behind it.
+/// The button at the bar's end, with the menu that it opens.
 fn more(ui: &mut Ui, behind: &[&Setting], options: &mut ToolOptions, say: Say) {
     let name = "More tool options";
     let response =

@@ -3,7 +3,7 @@
 use impasto_editor_model::session::{Axes, FillKind, RegionBy, RegionDoes, Tool, ToolOptions};
 use impasto_scene::document::LightKind;
 
-/// When a setting stands on the bar; else, and where there is no room, it stands behind the button at the bar's end.
+/// When a setting is on the bar. Otherwise, or where there is no room, it is in the menu at the bar's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BarPlace {
     Always,
@@ -20,7 +20,7 @@ pub(super) struct Setting {
     /// Before the control; empty for none.
     pub(super) label: &'static str,
     pub(super) control: Control,
-    /// A line parts it from what stands before.
+    /// Whether a line separates it from the setting before.
     pub(super) apart: bool,
 }
 
@@ -33,7 +33,7 @@ pub(super) enum Control {
 
 /// A few words, one of them on.
 pub(super) struct Choice {
-    /// What each says, and the name that it is found by.
+    /// The words of each choice, and its name for screen readers and tests.
     pub(super) words: &'static [(&'static str, &'static str)],
     pub(super) get: fn(&ToolOptions) -> usize,
     pub(super) set: fn(&mut ToolOptions, usize),
@@ -44,7 +44,7 @@ pub(super) struct Number {
     pub(super) unit: &'static str,
     pub(super) range: (f64, f64),
     pub(super) width: f32,
-    /// What is shown is so many times what is kept.
+    /// The shown value is this many times the stored one (100 for a percentage).
     pub(super) times: f64,
     pub(super) get: fn(&mut ToolOptions) -> &mut f64,
     pub(super) effect: &'static str,
@@ -58,7 +58,7 @@ fn apart(setting: Setting) -> Setting {
     Setting { apart: true, ..setting }
 }
 
-/// A choice between the values of a type, by their order.
+/// A choice between the listed values of an option, in their order.
 macro_rules! choice {
     ($field:ident: [$($value:expr => $words:literal, $name:literal;)*]) => {
         Control::Choice(Choice {

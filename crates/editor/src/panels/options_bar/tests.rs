@@ -9,7 +9,7 @@ use super::*;
 use crate::panels::Numbers;
 use crate::theme::{self, Theme};
 
-/// As long as German says it, or longer.
+/// German translations, which are as long as words get, or longer.
 fn german(words: &'static str) -> &'static str {
     match words {
         "Along" => "Entlang",

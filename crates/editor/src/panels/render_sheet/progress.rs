@@ -1,4 +1,4 @@
-//! How far rendering is, with the last frame beside it.
+//! The progress of rendering, with the last frame beside it.
 
 use egui::{Align2, Color32, Rect, Role, Sense, TextureHandle, Ui, WidgetInfo, pos2, vec2};
 use impasto_editor_model::render_settings::{Outcome, RenderProgress, Stage};
@@ -63,7 +63,7 @@ fn bar(ui: &Ui, words: Rect, progress: &RenderProgress) {
     });
 }
 
-/// What it is at, or how it ended.
+/// The current stage, or how rendering ended.
 fn state(ui: &Ui, at: egui::Pos2, right: f32, progress: &RenderProgress) {
     let tokens = Tokens::of(ui);
     let (icon, colour) = match (&progress.outcome, progress.stage) {

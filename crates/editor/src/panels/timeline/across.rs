@@ -1,4 +1,4 @@
-//! Where frames stand on a ruler.
+//! Where frames lie on a ruler, and what both rulers draw alike.
 
 use egui::{Align2, Pos2, Rect, Response, Role, Shape, Ui, WidgetInfo, accesskit, pos2, vec2};
 use impasto_editor_model::timeline::TimelineEvent;
@@ -6,10 +6,10 @@ use impasto_editor_model::timeline::TimelineEvent;
 use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, type_face};
 
-/// Half the width of a key.
+/// Half the width of a key, in points.
 pub(in crate::panels) const KEY: f32 = 5.5;
 
-/// Frames from left to right.
+/// Maps the frames from `first` to `last` onto the points from `left` to `right`.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::panels) struct Across {
     pub(in crate::panels) left: f32,
@@ -27,7 +27,7 @@ impl Across {
         self.left + (self.right - self.left) * ((frame - self.first) / self.span()) as f32
     }
 
-    /// What is under `x`, between two frames and beyond the ends.
+    /// The frame under `x`, not rounded, and perhaps beyond the ends.
     pub(in crate::panels) fn place(self, x: f32) -> f64 {
         self.first + f64::from((x - self.left) / (self.right - self.left)) * self.span()
     }
@@ -37,7 +37,7 @@ impl Across {
         self.place(x).round().clamp(self.first, self.last)
     }
 
-    /// Frames between labels that stand at least so far apart: 1, 2 or 5 times a power of ten.
+    /// How many frames lie between labels that are at least `points` apart: 1, 2 or 5 times a power of ten.
     pub(in crate::panels) fn label_step(self, points: f32) -> f64 {
         let least = self.span() / f64::from((self.right - self.left).max(1.0)) * f64::from(points);
         let power = 10_f64.powf(least.max(1.0).log10().floor());
@@ -45,7 +45,7 @@ impl Across {
         steps.into_iter().find(|step| *step >= least).unwrap_or(steps[3])
     }
 
-    /// Frames that are multiples of half a step, and whether each is one of a whole.
+    /// The frames at multiples of half a step, each with whether it is a multiple of the whole step.
     pub(in crate::panels) fn ticks(self, step: f64) -> impl Iterator<Item = (f64, bool)> {
         let half = step / 2.0;
         let begin = (self.first / half).ceil();
@@ -57,7 +57,7 @@ impl Across {
     }
 }
 
-/// A press or a drag shows the frame under the pointer, and what plays waits; a screen reader may name one.
+/// A press or a drag shows the frame under the pointer and pauses playback meanwhile; a screen reader may set the frame.
 pub(in crate::panels) fn scrub(
     ui: &Ui,
     response: &Response,
@@ -103,7 +103,7 @@ pub(in crate::panels) fn scrub(
     }
 }
 
-/// Numbers of a ruler, at the right of their ticks or over them.
+/// Draws the number of a tick, beside or above the tick.
 pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
     ui.painter().text(at, align, format!("{frame}"), type_face::ruler(), Tokens::of(ui).weak);
 }

@@ -11,16 +11,16 @@ use crate::panels::{Ask, PanelInput};
 use crate::theme::measure;
 use crate::widgets::MenuRow;
 
-/// The lanes as they lie in the window.
+/// Where the lanes lie in the window.
 #[derive(Clone, Copy)]
 pub(super) struct Lying<'a> {
-    /// What is seen of them.
+    /// The visible part of the lanes.
     pub(super) area: Rect,
     /// Top of the first lane.
     pub(super) top: f32,
-    /// Height of one.
+    /// Height of a lane.
     pub(super) lane: f32,
-    /// Frames.
+    /// Where the frames lie.
     pub(super) across: Across,
     /// The lanes.
     pub(super) lanes: &'a [Lane],
@@ -29,12 +29,12 @@ pub(super) struct Lying<'a> {
 impl Lying<'_> {
     fn place(&self, at: Pos2) -> LanePosition {
         let y = at.y - self.top;
-        // Above the first lane there is the first.
+        // Above the first lane counts as the first.
         let lane = (y / self.lane).floor().max(0.0) as usize;
         LanePosition { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
     }
 
-    /// The key under the pointer: the nearest of its lane.
+    /// The key under the pointer: the nearest of the lane, if it is near enough.
     fn key(&self, at: Pos2) -> Option<KeyAt> {
         let lane = self.lanes.get(self.place(at).lane)?;
         let distance = |frame: f64| (self.across.x(frame) - at.x).abs();
@@ -48,11 +48,11 @@ impl Lying<'_> {
 #[derive(Clone, Debug, Default)]
 struct Memory {
     down: bool,
-    /// What a menu is open for: keys, whether they were hit, and the place.
+    /// What the menu is open for: the keys, whether one was hit (or only the space after it), and the place.
     menu: Option<(Vec<KeyAt>, bool, Pos2)>,
 }
 
-/// Hands the pointer's events on.
+/// Turns the pointer's events into events of the timeline.
 pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let id = ui.scope_id().with("lanes hand");
     let layer = ui.layer_id();
@@ -108,14 +108,14 @@ pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks:
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// The key that a place between two keys belongs to.
+/// The key that a place between two keys belongs to: the left one.
 fn between(lying: &Lying<'_>, at: Pos2) -> Option<KeyAt> {
     let place = lying.place(at);
     let lane = lying.lanes.get(place.lane)?;
     Some((lane.of.clone(), lane.left_of(place.frame)?.frame))
 }
 
-/// Eases, and for keys their end.
+/// The menu of eases, with *Delete* where a key was hit.
 fn menu(ui: &Ui, id: Id, at: Pos2, keys: &[KeyAt], hit: bool, asks: &mut Vec<Ask>) {
     let anchor = PopupAnchor::Position(at);
     let popup = Popup::new(id, ui.ctx().clone(), anchor, ui.layer_id());

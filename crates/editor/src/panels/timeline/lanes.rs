@@ -1,4 +1,4 @@
-//! The lanes: names at the left, keys and the ways between them at the right.
+//! The lanes: names at the left, keys and the curves between them at the right.
 
 use egui::{
     Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
@@ -15,7 +15,7 @@ use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
 
-/// How far the way between two keys swings, points.
+/// How far the curve between two keys reaches above and below the middle, in points.
 const SWING: f32 = 3.0;
 
 /// Where a lane is drawn.
@@ -25,11 +25,11 @@ pub(super) struct LaneRow {
     pub(super) rect: Rect,
     /// Where its name ends.
     pub(super) names: f32,
-    /// Frames.
+    /// Where the frames lie.
     pub(super) across: Across,
 }
 
-/// The thing whose keys they are.
+/// The item whose keys these are.
 pub(super) fn item(of: &KeyOf) -> Item {
     match of {
         KeyOf::Camera => Item::Camera,
@@ -37,7 +37,7 @@ pub(super) fn item(of: &KeyOf) -> Item {
     }
 }
 
-/// What stands before the keys: a click selects; the camera can be locked to the view.
+/// The name before the keys: a click selects the item; the camera can be locked to the view.
 pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.max.x = row.names;
@@ -83,7 +83,7 @@ pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     }
 }
 
-/// The keys of a lane, the ways between them, and what a drag would do.
+/// The keys of a lane, the curves between them, and what a drag would do.
 pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.min.x = row.names;
@@ -140,7 +140,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     }
 }
 
-/// What a screen reader finds of a key, and what a click of its does.
+/// The accessibility node of a key; a click by a screen reader selects the key.
 fn node(
     ui: &mut Ui,
     lane: &Lane,
@@ -174,9 +174,9 @@ fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
     }
 }
 
-/// The way from one key to the next.
+/// The curve from one key to the next, in the shape of the ease.
 fn way([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
-    // A short way is no steeper than a long one.
+    // A short curve is no steeper than a long one.
     let swing = SWING.min((to - from) / 12.0);
     let (low, high) = (middle + swing, middle - swing);
     match ease {

@@ -25,12 +25,12 @@ fn measures(wide: f32) -> (f32, f32, f32) {
     if wide < 1600.0 { (224.0, 32.0, 168.0) } else { (256.0, 34.0, 200.0) }
 }
 
-/// How high the timeline stands in a window of this width.
+/// The height of the timeline in a window of this width.
 pub fn height(session: &Session, window_width: f32) -> f32 {
     if session.shows_lanes() { measures(window_width).0 } else { measure::STRIP }
 }
 
-/// Takes the lowest part of `ui`, with lanes.
+/// The timeline with its lanes; takes the lowest part of `ui`.
 pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let (height, lane_height, names) = measures(ui.ctx().content_rect().width());
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
@@ -89,10 +89,10 @@ fn rows_of(
     asks: &mut Vec<Ask>,
 ) -> f32 {
     ui.spacing_mut().item_spacing.y = 0.0;
-    // Below the rows there is room for the reference's pin, which would hide a key.
+    // The reference's pin has room below the rows, where it hides no key.
     let high = ui.available_height() - ruler::PIN;
     let area = ScrollArea::vertical().id_salt("lanes").auto_shrink(false).max_height(high);
-    // Whatever is selected anew is brought into view.
+    // A newly selected item is scrolled into view.
     let active = shown.document.selection().active().cloned();
     let id = ui.scope_id().with("selected lane");
     let is_new = ui.data_mut(|data| {

@@ -16,10 +16,10 @@ pub(super) const PIN: f32 = 24.0;
 
 /// Height of the ruler.
 pub(super) const HEIGHT: f32 = 28.0;
-/// Labels stand at least so far apart, points.
+/// The least distance between labels, in points.
 const LABELS: f32 = 90.0;
 
-/// The frames of the range and of all keys, from left to right.
+/// Where the frames lie: the range and all keys fit.
 pub(super) fn across(scene: &Scene, rect: Rect) -> Across {
     let keys = keyed_frames(scene);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
@@ -31,7 +31,7 @@ pub(super) fn across(scene: &Scene, rect: Rect) -> Across {
     }
 }
 
-/// Draws the ground of ruler and lanes: the range is lit.
+/// Fills the area behind ruler and lanes; the range is lighter.
 pub(super) fn ground(ui: &Ui, rect: Rect, across: Across, scene: &Scene) {
     let tokens = Tokens::of(ui);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| across.x(frame as f64));
@@ -42,7 +42,7 @@ pub(super) fn ground(ui: &Ui, rect: Rect, across: Across, scene: &Scene) {
     }
 }
 
-/// The ruler, which scrubs; at the ends of the range, its grips.
+/// The ruler, on which a drag scrubs, with grips at the ends of the range.
 pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     let is_gripped = grips(ui, rect, across, shown, asks);
@@ -66,7 +66,7 @@ pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<
     }
 }
 
-/// The ends of the range can be dragged. Returns whether a hand is on one.
+/// The grips that drag the ends of the range. Returns whether one is held.
 fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let timeline = &shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;
@@ -98,7 +98,7 @@ fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: 
             }
             continue;
         };
-        // The ruler itself stays as it was at the press, else the end would run away under the hand.
+        // The scale of the ruler stays as it was at the press; otherwise the end would run away from the pointer.
         let to = across.place(pointer.x - side * 8.0).round() as i64;
         let range = match side < 0.0 {
             true => Time::SetRange(to.min(timeline.last), timeline.last),
@@ -109,7 +109,7 @@ fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: 
     is_gripped
 }
 
-/// What stands over ruler and lanes: the reference's pin, and the playhead with its flag.
+/// What is drawn over ruler and lanes: the reference's pin, and the playhead with its flag.
 pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let scene = shown.document.scene();

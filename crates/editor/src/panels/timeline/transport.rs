@@ -13,10 +13,10 @@ use crate::panels::{Ask, PanelInput, divider, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, FieldResponse, NumberField, Tip};
 
-/// Frames a second that can be typed.
+/// The frames per second that can be typed.
 const FPS: std::ops::RangeInclusive<f64> = 0.001..=1e6;
 
-/// To the ends, a step, play; and the frame that is shown.
+/// The buttons that go to the ends, step and play; and the field of the frame that is shown.
 pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = 1.0;
     ui.add_space(7.0);
@@ -54,7 +54,7 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &m
     }
 }
 
-/// Behind the transport, where there is room: the time, Auto key and Set key.
+/// After the transport, while the lanes are open: the time, Auto key and Set key.
 pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.add_space(8.0);
     let seconds = shown.session.frame / shown.document.scene().timeline.fps;
@@ -90,7 +90,7 @@ pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     }
 }
 
-/// From the right end: fold, loop, rate and range as fields, and how it is played.
+/// The controls at the right end, from right to left: fold, loop, fields for rate and range, pacing.
 pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.spacing_mut().item_spacing.x = measure::GAP;
     ui.add_space(6.0);
@@ -134,7 +134,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<A
     }
 }
 
-/// Whether playing begins again.
+/// The toggle for playing in a loop.
 pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut looped = shown.session.looped;
     let response = widgets::icon_toggle(ui, icons::LOOP, "Loop", &mut looped);
@@ -144,7 +144,7 @@ pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut 
     }
 }
 
-/// What was dropped since the last play, or how fast every frame comes.
+/// How many frames were dropped since playback began, or the rate at which every frame is shown.
 pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &PanelInput<'_>) {
     let playback = &shown.time.playback;
     let words = match (shown.session.pacing, playback.dropped(), playback.rate()) {
@@ -161,7 +161,7 @@ pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &PanelInput<'_>) {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(accesskit::Live::Off));
 }
 
-/// What a field asks for: a drag shows as it goes and is one entry.
+/// What a field asks for: a drag is previewed and makes one entry of the history.
 fn asked(
     answer: &FieldResponse,
     value: f64,

@@ -4,10 +4,10 @@ use egui::{Id, Rect, Ui};
 
 use super::across::Across;
 
-/// No fewer frames than these are spread over the ruler.
+/// The ruler shows at least this many frames.
 const FEWEST: f64 = 8.0;
 
-/// What is seen of the frames, and the frame that was shown last.
+/// The first and last visible frame (none for all frames), and the frame that was shown last.
 #[derive(Clone, Copy, Default)]
 struct VisibleFrames {
     frames: Option<[f64; 2]>,
@@ -15,7 +15,7 @@ struct VisibleFrames {
 }
 
 /// `Ctrl` and the wheel zoom about the pointer, `Shift` and the wheel move along, a double click on the ruler shows all frames.
-/// The playhead is followed.
+/// The visible part follows the playhead.
 pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: Across, frame: f64) -> Across {
     let id = Id::unique("frames that are seen");
     let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();
@@ -33,13 +33,13 @@ pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: Across, frame: f64) 
         seen.frames = seen.frames.map(|frames| holding(frames, whole, frame));
     }
     seen.shown = frame;
-    // The range may have changed since.
+    // The range may have changed since the last pass.
     seen.frames = seen.frames.and_then(|frames| within(frames, whole));
     ui.data_mut(|data| data.insert_temp(id, seen));
     seen.frames.map_or(whole, |[first, last]| Across { first, last, ..whole })
 }
 
-/// The frames after a turn of the wheel; none for all of them.
+/// The visible frames after a turn of the wheel; none for all of them.
 fn zoomed(whole: Across, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: f32) -> Option<[f64; 2]> {
     let [first, last] = frames.unwrap_or([whole.first, whole.last]);
     if !zoom.is_finite() || zoom <= 0.0 || (zoom == 1.0 && along_px == 0.0) {
@@ -55,7 +55,7 @@ fn zoomed(whole: Across, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: 
     within([first, first + span], whole)
 }
 
-/// Frames moved into the whole; none where they are all of it.
+/// The frames shifted to lie within the whole; none where they span all of it.
 fn within([first, last]: [f64; 2], whole: Across) -> Option<[f64; 2]> {
     let (all, span) = (whole.last - whole.first, last - first);
     if span >= all * (1.0 - 1e-9) {
@@ -65,11 +65,11 @@ fn within([first, last]: [f64; 2], whole: Across) -> Option<[f64; 2]> {
     Some([first, first + span])
 }
 
-/// The same count of frames, with this one among them.
+/// As many frames as before, shifted so that `frame` is among them.
 fn holding([first, last]: [f64; 2], whole: Across, frame: f64) -> [f64; 2] {
     let span = last - first;
     let first = if frame > last {
-        // What plays goes on to the right.
+        // Playback goes on to the right: leave most of the room there.
         frame - 0.1 * span
     } else {
         first.min(frame)

@@ -70,7 +70,7 @@ fn object_of<'a>(scene: &'a Scene, active: Option<&'a Item>) -> Option<&'a str> 
     }
 }
 
-/// Regions that the object could have and has not: the whole of it, its groups, its materials.
+/// Regions that the object could have but does not have yet: the whole of it, its groups, its materials.
 fn regions(shown: &PanelInput<'_>, object: &str) -> Vec<Region> {
     let loaded = shown.document.loaded();
     let of_object = loaded.scene.objects.iter().find(|other| other.name == object);
@@ -86,7 +86,7 @@ fn regions(shown: &PanelInput<'_>, object: &str) -> Vec<Region> {
             Region::new(material.name.clone(), on)
         }));
     }
-    // A group and a material of one name are one part of the mesh, as a rule.
+    // A group and a material of the same name usually cover the same faces.
     let taken = |region: &Region| {
         loaded.scene.regions.iter().any(|other| {
             let part = |region: &Region| match &region.on {

@@ -1,4 +1,4 @@
-//! Dragging rows of the tree: onto an object puts one object on another, between rows changes the order.
+//! Dragging rows of the tree: an object dropped onto another becomes its child; a drop between rows changes the order.
 
 use egui::{DragAndDrop, Rect, Response, Stroke, StrokeKind, Ui};
 use impasto_editor_model::Item;
@@ -15,18 +15,18 @@ enum DropTarget<'a> {
     Before(&'a Item),
     After(&'a Item),
     Onto(&'a Item),
-    /// Under all rows.
+    /// Below all rows.
     Off,
 }
 
-/// Takes a row up.
+/// Begins to drag a row; the camera's row cannot be dragged.
 pub(super) fn begin(response: &Response, item: &Item) {
     if *item != Item::Camera {
         response.dnd_set_drag_payload(item.clone());
     }
 }
 
-/// Shows where the dragged row would go, and asks for it when it is let go.
+/// Shows where the dragged row would go, and asks for the change when it is released.
 pub(super) fn drag_and_drop(
     ui: &Ui,
     scene: &Scene,
@@ -67,7 +67,7 @@ pub(super) fn drag_and_drop(
     }
 }
 
-/// What letting go of `dragged` would do; none where it would do nothing.
+/// The command for dropping `dragged` at `place`; none where nothing would change.
 fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Command> {
     let reorder = |target: &Item, after: bool| {
         let [from, to] = [dragged, target].map(|item| index_of(scene, item));

@@ -1,4 +1,4 @@
-//! The scene tree: camera, lights, objects with their regions and what stands on them, backdrop.
+//! The scene tree: camera, lights, objects with their regions and child objects, regions without an object, canvas.
 
 mod add;
 mod drop;
@@ -130,7 +130,7 @@ fn show_row(
     let answer = if can_hide { drawn.show(ui) } else { drawn.show_bare(ui) };
     let rect = answer.response.rect;
     if drawn.selected && moved {
-        // With a row above and below, clear of where the list fades out.
+        // With a row above and below, so that it is clear of the list's faded edges.
         ui.scroll_to_rect(rect.expand2(vec2(0.0, 1.5 * measure::TREE_ROW)), None);
     }
     let Some(item) = &row.item else {
@@ -164,7 +164,7 @@ fn show_row(
     rect
 }
 
-/// A row whose name is typed.
+/// A row whose name is being typed.
 fn rename_row(ui: &mut Ui, row: &TreeLine, mut typed: String, asks: &mut Vec<Ask>) -> egui::Rect {
     let size = vec2(ui.available_width(), measure::TREE_ROW);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -204,7 +204,7 @@ fn rename_row(ui: &mut Ui, row: &TreeLine, mut typed: String, asks: &mut Vec<Ask
     rect
 }
 
-/// What stands under the rows where there is nothing, or nothing was found.
+/// The words under the rows of an empty scene, or of a search that found nothing.
 fn words_below(ui: &mut Ui, rows: &[TreeLine], state: &ColumnState, empty: bool) {
     let words = match &state.search {
         Some(text) if rows.is_empty() => format!("Nothing is named \u{201c}{}\u{201d}.", text.trim()),

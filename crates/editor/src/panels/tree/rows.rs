@@ -9,7 +9,7 @@ use crate::icons;
 use crate::panels::column_state::ColumnState;
 use crate::widgets::RowMark;
 
-/// Objects are open at first where no more rows than this come of it.
+/// Objects start open where the tree then has at most about this many rows.
 const ROWS_OPEN_AT_FIRST: usize = 20;
 
 /// One row of the scene tree.
@@ -29,7 +29,7 @@ pub(super) struct TreeLine {
     pub(super) expanded: Option<bool>,
     /// Words at its right end.
     pub(super) note: String,
-    /// It has keys.
+    /// It has more than one key.
     pub(super) keyed: bool,
     /// Whether the eye is shut.
     pub(super) hidden: bool,
@@ -156,7 +156,7 @@ fn region_row((index, region): (usize, &Region), depth: usize) -> TreeLine {
     }
 }
 
-/// The colour that a region shows in: its own, or one by its place.
+/// The colour that a region is shown in: its own, or one by its index.
 pub(crate) fn region_color(scene: &Scene, name: &str) -> Color32 {
     let index = scene.regions.iter().position(|region| region.name == name).unwrap_or(0);
     shown_color(scene.regions.get(index).and_then(|region| region.color), index)
@@ -168,7 +168,7 @@ fn shown_color(own: Option<Color>, index: usize) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// *4 guides*, else the base direction.
+/// *4 guides*, or the base direction where there are none.
 fn note_of(region: &Region) -> String {
     match region.guides.len() {
         0 => {}
@@ -187,7 +187,7 @@ fn note_of(region: &Region) -> String {
     }
 }
 
-/// The rows whose names hold `text`, with the rows that they lie under.
+/// The rows whose names contain `text`, with the rows that they lie under.
 fn found(rows: Vec<TreeLine>, text: &str) -> Vec<TreeLine> {
     let mut kept = Vec::new();
     let mut under = 0;

@@ -1,4 +1,4 @@
-//! A number as it is typed: what is none, or lies beyond the limits, is marked and not taken.
+//! Typing into a number field: text that is no number, or beyond the limits, is marked and rejected.
 
 use egui::{Key, Rect, Response, Role, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo};
 
@@ -57,7 +57,7 @@ impl NumberField<'_> {
         let mut done = response.lost_focus() && !fresh;
         let cancelled = done && ui.input(|input| input.key_pressed(Key::Escape));
         if done && is_wrong && ui.input(|input| input.key_pressed(Key::Enter)) {
-            // It stays as it was typed, to be mended.
+            // The text stays, to be corrected.
             response.request_focus();
             done = false;
         }
@@ -73,7 +73,8 @@ impl NumberField<'_> {
         (done, cancelled)
     }
 
-    /// The second click of a double click lands in the text that the first one opened.
+    /// Resets the value on a double click, whose second click lands in the text field that the first one opened. Returns
+    /// whether it did.
     pub(super) fn is_double_clicked(&mut self, ui: &Ui, id: egui::Id, frame: Rect) -> bool {
         let Some(default) = self.default else { return false };
         let is_here = ui.input(|input| {
