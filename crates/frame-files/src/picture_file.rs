@@ -5,7 +5,7 @@ use std::path::Path;
 
 use impasto_scene::whole_file::WholeFile;
 
-/// Where a picture comes from; the file says so.
+/// Where a picture comes from; noted in the file.
 #[derive(Clone, Debug)]
 pub struct Provenance {
     /// The scene's file name.

@@ -24,7 +24,7 @@ use impasto_scene::whole_file;
 use in_order::{Workers, in_order};
 use painter::Painter;
 
-/// A painter more than these would only wait for the others in the driver.
+/// More painters than this would only wait for each other in the driver.
 const MAX_PAINTERS: u64 = 4;
 
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
@@ -55,11 +55,11 @@ pub struct Sequence {
     pub scene_name: String,
     /// Where further painters take OpenGL from.
     pub driver: Driver,
-    /// Shaders that stand in for the program's own; none to use those.
+    /// Shaders that stand in for the program's own; empty to use those.
     pub shaders: ShaderTexts,
     /// What is made of each frame.
     pub wanted: Wanted,
-    /// Times each pass. That slows frames down, and a single painter is at work.
+    /// Times each pass. That slows frames down, and only one painter works.
     pub timed: bool,
     /// Counts the strokes that were painted.
     pub counted: bool,
@@ -85,7 +85,7 @@ pub struct Drawn {
 pub enum FileOutcome {
     /// It was written.
     Written(Drawn),
-    /// It was there already, and stays.
+    /// It existed already and was left as it is.
     Kept,
     /// It was not written.
     Failed(FrameError),
@@ -111,7 +111,7 @@ pub struct FrameFiles<'a> {
     pub frames: &'a FrameList,
     /// The file of each.
     pub path: &'a (dyn Fn(i64) -> PathBuf + Sync),
-    /// Files that are there already stay.
+    /// Files that exist already are left as they are.
     pub keep_existing: bool,
 }
 
@@ -128,7 +128,7 @@ pub enum Ending {
 #[derive(Clone, Copy)]
 struct Job {
     frame_number: i64,
-    /// False where its file is there and stays.
+    /// False where its file exists and is left as it is.
     must_draw: bool,
 }
 
@@ -138,7 +138,7 @@ enum Early<E> {
     Caller(E),
 }
 
-/// What a painter makes of a job: nothing where it need not be drawn, or was given up.
+/// What a painter makes of a job: `None` where it need not be drawn, or was given up.
 type Painted = Result<Option<Drawn>, FrameError>;
 
 impl Sequence {
@@ -167,8 +167,8 @@ impl Sequence {
         )
     }
 
-    /// Renders frames into files, each whole or not there, and tells in their order what became of them, on this thread. It goes
-    /// on after a frame that failed, unless `report` fails; `stop` is asked again and again.
+    /// Renders frames into files, each whole or not at all, and reports in their order what became of them, on this
+    /// thread. It goes on after a frame that failed, unless `report` fails; `stop` is asked again and again.
     ///
     /// # Errors
     /// What `report` gave.
@@ -246,7 +246,7 @@ impl Sequence {
         painters.saturating_sub(1) as usize
     }
 
-    /// What the PNG file of a frame, or of anything else of this sequence, says of itself.
+    /// The note for the PNG file of a frame, or of another picture of this sequence.
     pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
         let driver = renderer.report().renderer.clone();
         Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }
