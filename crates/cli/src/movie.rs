@@ -42,7 +42,8 @@ const ENCODINGS: [(&str, Encoding, Option<Encoding>); 4] = [
 impl Encoding {
     /// The encoding that a file's name asks for; `None` where it is no movie.
     ///
-    /// # Errors A message, where transparency is wanted and such a file holds none.
+    /// # Errors
+    /// A message, where transparency is wanted and such a file holds none.
     pub(crate) fn of(path: &Path, transparent: bool) -> Option<Result<Self, String>> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         let (_, opaque, with_alpha) = ENCODINGS.into_iter().find(|(known, ..)| *known == ending)?;

@@ -239,7 +239,8 @@ pub(super) const PICTURES: &[Picture] = &[
         ],
     ),
     sweep("paint_swing", JUG, 3, &[&[("strokes.swing_deg", "0")], &[], &[("strokes.swing_deg", "25")]]),
-    // The region states a contour of its own; strokes that run up would lie along most of the outline anyway.
+    // The contour is set in the region, which states its own. Its direction is an angle here, because strokes that
+    // run up would lie along most of the outline anyway.
     sweep(
         "paint_contour",
         FRUIT,

@@ -35,7 +35,7 @@ pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
         .map(|at| at - corners[0])
         .map(|at| DVec2::new(at.dot(along), at.dot(across)))
         .collect();
-    // any_orthonormal_pair is right-handed with the normal up to a sign: make the polygon counter-clockwise.
+    // any_orthonormal_pair may be left-handed with the normal; then mirror, so that the polygon is counter-clockwise.
     let is_mirrored = along.cross(across).dot(normal) < 0.0;
     let points = if is_mirrored { points.iter().map(|at| DVec2::new(at.x, -at.y)).collect() } else { points };
     let is_convex = (0..count)

@@ -51,7 +51,8 @@ macro_rules! stroke_numbers {
             usual: $color_usual:expr, limits: $color_limits:expr, shown: $color_shown:expr,
         })+ }
     ) => {
-        /// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
+        /// Stroke settings. What is left out comes from the preset; in a region without a preset, from the scene's
+        /// settings.
         #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
         #[serde(deny_unknown_fields, default)]
         pub struct StrokeSettings {
