@@ -27,7 +27,7 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     check("licences", &|| licences(root))?;
     // The command of the README.
     check("tests", &|| steps::run(root, &cargo(), &["xtask", "test"]))?;
-    // The binary that the tests ran: whether a release builds is no other question, and takes five minutes.
+    // The binary that the tests ran: a release build would tell nothing more, and takes five minutes.
     let impasto = target_folder(root)?.join("debug").join(format!("impasto{}", std::env::consts::EXE_SUFFIX));
     let impasto = impasto.to_string_lossy();
     check("doctor", &|| steps::run(root, &impasto, &["doctor"]))?;
@@ -40,8 +40,8 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// No warning, with the window and without it. Without it the whole workspace is named too, so that what all share is the same
-/// and is not looked at twice.
+/// No warning, with the editor's window and without it. Both runs name the whole workspace, so that the crates that
+/// both share have the same features and are not checked twice.
 fn clippy(root: &Path) -> anyhow::Result<()> {
     for features in [&[][..], &["--no-default-features"]] {
         let mut arguments = vec!["clippy", "--workspace", "--all-targets", "--locked"];

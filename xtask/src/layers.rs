@@ -1,8 +1,9 @@
-//! `cargo xtask layers`: arrows between crates are those that ARCHITECTURE.md allows, and no others; inside a crate, no files
-//! use each other in a circle.
+//! `cargo xtask layers`: checks that crates use each other only as ARCHITECTURE.md allows, and that no files of one
+//! crate use each other in a circle.
 //!
-//! Two tables there are read, between `<!-- layers:begin -->` / `<!-- layers:end -->` (which crate of ours may use
-//! which) and `<!-- outside:begin -->` / `<!-- outside:end -->` (which outside crate is used by whom alone).
+//! It reads two tables there: between `<!-- layers:begin -->` and `<!-- layers:end -->`, which of our crates may use
+//! which; between `<!-- outside:begin -->` and `<!-- outside:end -->`, which of our crates alone may use an outside
+//! crate.
 
 mod circles;
 mod graph;

@@ -1,4 +1,4 @@
-//! Automation of the repository: `cargo xtask <command>`. Needs nothing but cargo and std.
+//! Automation of the repository: `cargo xtask <command>`. Needs nothing but cargo.
 
 #![expect(clippy::print_stdout, reason = "these commands exist to print what they found")]
 

@@ -22,7 +22,7 @@ struct Column {
     baseline: Option<Cell>,
 }
 
-/// The first reading whose name begins so, and which of its figures.
+/// The first reading whose name begins with `begins`, and which of its figures is shown.
 struct Cell {
     begins: &'static str,
     figure: &'static str,
@@ -128,7 +128,7 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
                 .stderr(Stdio::null())
                 .output()
                 .context("impasto measure")?;
-            // 1: a row misses, which the table shows.
+            // Exit code 1: a metric misses its bound, which the table shows.
             if !matches!(output.status.code(), Some(0 | 1)) || output.stdout.is_empty() {
                 bail!("impasto measure ended with {}", output.status);
             }
@@ -174,7 +174,7 @@ fn table(reports: &[(&str, Value)]) -> anyhow::Result<String> {
 }
 
 impl Column {
-    /// `ours (baseline)`, bold where the row of the metric misses; a dash where it has nothing to say.
+    /// `ours (baseline)`, bold where the row of the metric misses; a dash where the report has no value.
     fn of(&self, report: &Value) -> String {
         let rows = report["rows"].as_array().map_or(&[][..], Vec::as_slice);
         let Some(row) = rows.iter().find(|row| row["id"] == self.metric) else { return "–".to_owned() };

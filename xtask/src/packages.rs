@@ -28,13 +28,13 @@ enum Place {
 
 /// A library or a program that has to be there, and the Debian package that brings it.
 pub struct Need {
-    /// What it is, for people.
+    /// What it is, for messages.
     what: &'static str,
     /// The Debian and Ubuntu package.
     package: &'static str,
     /// Where its files lie.
     place: Place,
-    /// Of a library, starts of file names, one of which has to be there; of a program, its name.
+    /// For a library, beginnings of file names, one of which must exist; for a program, its name.
     files: &'static [&'static str],
     /// Whether newer systems no longer have the package at all.
     retired: bool,
@@ -68,8 +68,8 @@ pub const RENDERING: &[Need] = &[EGL, MESA];
 /// What the tests need: they draw with every driver.
 const TESTS: &[Need] = &[EGL, MESA, OSMESA];
 
-/// What the tests of the editor's window need: what winit loads, a display without a screen, and a hand for it. Xvfb shows
-/// its picture in a file (`-fbdir`).
+/// What the tests of the editor's window need: the libraries that winit loads, a virtual display, and a program that
+/// sends it input. Xvfb writes its picture to a file (`-fbdir`).
 const WINDOW_TESTS: &[Need] = &[
     library("the X11 library", "libx11-6", &["libX11.so.6"]),
     library("the bridge from X11 to XCB", "libx11-xcb1", &["libX11-xcb.so.1"]),

@@ -19,7 +19,7 @@ const DRIVERS: [&str; 2] = ["egl", "osmesa"];
 /// Differences that are printed before the rest is only counted.
 const SHOWN_DIFFERENCES: usize = 40;
 
-/// What was found, by the name of the file that holds it: `roll.egl.0007.png`.
+/// The sum of each file, by the file's name: `roll.egl.0007.png`.
 type Sums = BTreeMap<String, String>;
 
 /// Draws everything and keeps its sums, or compares them with those that were kept.
@@ -111,7 +111,7 @@ fn frames(scene: &str) -> Option<Vec<i64>> {
     Some(frames)
 }
 
-/// Sums of one subject's pictures and strokes. What is refused is kept as that: it should still be.
+/// Sums of one subject's pictures and strokes. A refusal is noted as such: it should stay one.
 fn sums(subject: &Subject, impasto: &Path) -> anyhow::Result<Sums> {
     let folder = tempfile::tempdir()?;
     let mut sums = Sums::new();
@@ -154,7 +154,7 @@ fn read(path: &Path) -> anyhow::Result<Sums> {
     Ok(sums)
 }
 
-/// A line for each name whose sum is not the kept one.
+/// A line for each name whose sum has changed.
 fn differences(kept: &Sums, now: &Sums) -> Vec<String> {
     let missing = "not there".to_owned();
     let names: BTreeSet<&String> = kept.keys().chain(now.keys()).collect();

@@ -1,4 +1,4 @@
-//! Bamboo: two stalks of hollow lengths, thin twigs, leaves that hang in threes and fives.
+//! Bamboo: two stalks of hollow sections, thin twigs, leaves that hang in threes and fives.
 
 use std::f64::consts::TAU;
 
@@ -72,7 +72,7 @@ pub fn bamboo() -> PolyMesh {
     mesh
 }
 
-/// A stalk of lengths that swell a little at their ends; its curve.
+/// A stalk of sections that swell a little at their ends; returns the curve of its middle line.
 fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -> [DVec3; 3] {
     const LENGTHS: usize = 6;
     let path = through.map(DVec3::from);
@@ -113,7 +113,7 @@ fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -
     path
 }
 
-/// A leaf from its twig's end down in a direction of the picture's plane, a little different from every other.
+/// A leaf that hangs from its twig's end in a direction of the picture's plane, each a little different.
 fn leaf(mesh: &mut PolyMesh, from: DVec3, (angle, which): (f64, [usize; 2]), is_pale: bool) {
     let random = |number: u32| hash([which[0] as u32, which[1] as u32, number]);
     let length = 0.50 * (1.0 + 0.30 * random(1));

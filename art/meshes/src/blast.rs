@@ -58,7 +58,7 @@ pub fn blast_sparks() -> PolyMesh {
     let mut mesh = PolyMesh::new("blast_sparks", about, &[("ember", "#ffb54a")]);
     for index in 0..SPARKS {
         let way = golden(index, SPARKS);
-        // None flies at the eye.
+        // None flies towards the viewer.
         if way.z > 0.45 {
             continue;
         }
@@ -81,7 +81,7 @@ pub fn blast_sparks() -> PolyMesh {
     mesh
 }
 
-/// A direction of an even spread over a ball.
+/// One of many directions that are spread evenly over a ball.
 fn golden(index: u32, count: u32) -> DVec3 {
     let y = 1.0 - 2.0 * (f64::from(index) + 0.5) / f64::from(count);
     let angle = f64::from(index) * 2.399_963_229_7;
@@ -94,7 +94,7 @@ fn billow(name: &'static str, about: &'static str, palette: &'static [Pigment], 
     const MELT: f64 = 0.018;
     let mut mesh = PolyMesh::new(name, about, palette);
     let field = |point: DVec3| {
-        // The soft least of the distances to all lobes.
+        // The smooth minimum of the distances to all lobes.
         let sum: f64 =
             lobes.iter().map(|lobe| (-((point - lobe.middle).length() - lobe.radius) / MELT).exp()).sum();
         let body = -MELT * sum.max(1e-300).ln();

@@ -1,4 +1,4 @@
-//! The lemon and the pear: fruit that the lathe makes, then loosened by hand.
+//! The lemon and the pear: fruit turned on the lathe, then made less regular by hand.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! A seal: what a carved stone leaves in red, a sheet with the carving left out.
+//! A seal: the red print of a carved stone, a sheet with the carving left out.
 
 use glam::DVec3;
 

@@ -85,7 +85,7 @@ pub fn sky() -> PolyMesh {
     mesh
 }
 
-/// A point of the hollow, `before` it by so much.
+/// A point in front of the hollow sheet, by `before`.
 fn hollow(x: f64, y: f64, before: f64) -> DVec3 {
     DVec3::new(x, y, before - DEPTH + 0.006 * x * x)
 }
@@ -110,7 +110,7 @@ fn sheet(mesh: &mut PolyMesh) {
 fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
     let ([foot_x, foot_y], [half, height]) = (cloud.foot, cloud.size);
     let columns = 24 + (12.0 * half) as usize;
-    // The rounds before those of the outline.
+    // The rounds in front of those of the outline.
     let front = Cloud { seed: cloud.seed + 1, billows: cloud.billows + 2, ..*cloud };
     mesh.sheet(
         [columns, TONES],

@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &DoctorArguments) -> Result<(), Failure> {
     Err(Failure::Quiet(4))
 }
 
-/// Whether the editor could open a window. Rendering needs none, so it does not count against the machine.
+/// Whether the editor could open a window. Rendering needs none, so a missing one does not change the exit code.
 #[cfg(feature = "editor")]
 fn print_window(out: &mut std::io::Stdout, json: bool) -> Result<(), Failure> {
     let found = crate::window_libraries::find();

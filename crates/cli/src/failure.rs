@@ -15,7 +15,7 @@ pub(crate) const USAGE: u8 = 2;
 /// Why a command ends early.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Everything was said already; this exit code is left.
+    /// Everything was reported already; only this exit code is left.
     Quiet(u8),
     /// Something went wrong that is not the input's fault.
     Other(String),

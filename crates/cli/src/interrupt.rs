@@ -1,4 +1,4 @@
-//! Ctrl-C, and the signals that end a command kindly.
+//! Ctrl-C, and the other signals that ask a command to end.
 
 use std::io;
 use std::sync::Arc;
@@ -12,8 +12,8 @@ const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
-/// While a command reads and prepares, nothing of it is on the disk, and a signal ends it at once, whatever it is doing. From
-/// [`Interrupt::hold_off`] on a signal is only noted, and the command ends once its files are in order.
+/// While a command reads and prepares, it has written nothing, and a signal ends it at once. From
+/// [`Interrupt::hold_off`] on, a signal is only noted, and the command ends once its files are in order.
 pub(crate) struct Interrupt {
     came: Arc<AtomicBool>,
     ends_at_once: Arc<AtomicBool>,
@@ -30,7 +30,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// There are files to be put in order from now on.
+    /// From now on a signal is only noted, because files are being written.
     pub(crate) fn hold_off(&self) {
         self.ends_at_once.store(false, Ordering::SeqCst);
     }

@@ -67,7 +67,7 @@ fn main() -> ExitCode {
 
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
-        // Whoever reads our output may stop reading.
+        // A reader of our output may stop reading; that is no error.
         if error.kind() == std::io::ErrorKind::BrokenPipe {
             Self::Quiet(0)
         } else {

@@ -11,9 +11,9 @@ use crate::failure::Failure;
 #[cfg(test)]
 mod tests;
 
-/// From sRGB pixels to the numbers of BT.709 in the range of television, which is what players take a movie for; the stream
-/// says so. Left to itself, ffmpeg takes BT.601 and says nothing, and players show other colours. H.264 and others want even
-/// sides: what is added is transparent where there is transparency, else black.
+/// Converts sRGB pixels to BT.709 in the limited range of television, which players assume, and tags the stream so.
+/// By default ffmpeg uses BT.601 without a tag, and players show other colours. H.264 and others need even sides: the
+/// padding is transparent where there is transparency, else black.
 const FILTERS: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,\
     scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,\
     setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";
@@ -43,7 +43,7 @@ impl Encoding {
     /// The encoding that a file's name asks for; `None` where it is no movie.
     ///
     /// # Errors
-    /// Words, where transparency is wanted and such a file has none.
+    /// A message, where transparency is wanted and such a file holds none.
     pub(crate) fn of(path: &Path, transparent: bool) -> Option<Result<Self, String>> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         let (_, opaque, with_alpha) = ENCODINGS.into_iter().find(|(known, ..)| *known == ending)?;
@@ -58,7 +58,7 @@ impl Encoding {
     }
 }
 
-/// A movie that is being written. It has its own name only when it is whole; dropped before, it leaves nothing.
+/// A movie that is being written. The file gets its name only once it is whole; dropped before that, it leaves nothing.
 pub(crate) struct Movie {
     encoder: Child,
     file: Option<WholeFile>,
@@ -83,7 +83,7 @@ impl Movie {
             .arg(file.part_path())
             .stdin(Stdio::piped())
             .stdout(Stdio::null());
-        // Ctrl-C in a terminal goes to a whole process group. It is for us, and we end ffmpeg.
+        // Ctrl-C in a terminal goes to a whole process group. ffmpeg gets a group of its own, and we end it.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let encoder = command.spawn().map_err(|error| match error.kind() {
@@ -121,7 +121,7 @@ impl Movie {
 
 impl Drop for Movie {
     fn drop(&mut self) {
-        // Of a movie that was not finished, nothing is left running.
+        // An unfinished movie leaves no ffmpeg running.
         drop(self.encoder.stdin.take());
         if self.encoder.try_wait().is_ok_and(|status| status.is_none()) {
             let _ = self.encoder.kill();

@@ -292,7 +292,7 @@ impl Plan {
         if ending == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
     }
 
-    /// The pixels of all frames in their order; the first failure ends it, and so does a signal.
+    /// Hands the pixels of all frames to `take_in`, in order; the first failure or a signal ends it.
     fn pictures(
         &mut self,
         arguments: &RenderArguments,

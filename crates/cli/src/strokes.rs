@@ -39,7 +39,7 @@ struct Row<'a> {
     rank: f32,
     taper: f32,
     bend_deg: f32,
-    /// In half widths, to the left; for drawing only.
+    /// How far the stroke bows to the left, in half widths; for drawing only.
     #[serde(skip)]
     bow: f32,
 }

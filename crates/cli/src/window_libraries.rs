@@ -20,11 +20,11 @@ const WAYLAND: &[(&str, &str)] = &[
     ("libEGL.so.1", "libegl1"),
 ];
 
-/// What a window has here, and what it lacks.
+/// The display for a window, and the packages that are missing.
 pub(crate) struct Found {
     /// The display that a window would be on, such as `X11 :0`; none where there is none.
     pub(crate) display: Option<String>,
-    /// The packages that it lacks; those for X11 where there is no display.
+    /// The missing packages; those for X11 where there is no display.
     pub(crate) packages: Vec<&'static str>,
 }
 

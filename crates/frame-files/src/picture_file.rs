@@ -5,7 +5,7 @@ use std::path::Path;
 
 use impasto_scene::whole_file::WholeFile;
 
-/// Where a picture comes from; the file says so.
+/// Where a picture comes from; noted in the file.
 #[derive(Clone, Debug)]
 pub struct Provenance {
     /// The scene's file name.
@@ -59,7 +59,7 @@ pub fn begin_animation<'a>(
 ) -> anyhow::Result<png::Writer<&'a mut dyn Write>> {
     let mut encoder = encoder(file, size_px, provenance)?;
     encoder.set_animated(pictures, 0)?;
-    // Milliseconds resolve every common rate.
+    // Rounded to whole milliseconds: 24 frames a second become 23.8.
     encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
     Ok(encoder.write_header()?)
 }

@@ -18,7 +18,7 @@ pub enum PlaceError {
     Input(PathBuf),
 }
 
-/// Makes the folder of an output file, and tries whether a file can be written there.
+/// Makes the folder of an output file, and checks that a file can be written there.
 ///
 /// # Errors
 /// [`PlaceError::NotWritable`].
@@ -31,7 +31,7 @@ pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
     if std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return Ok(folder);
     }
-    // The file has no name, so nothing of it is ever left.
+    // This trial file has no name, so nothing of it is ever left.
     match std::fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder)) {
         Ok(_) => Ok(folder),
         Err(error) => Err(PlaceError::NotWritable { folder, error }),

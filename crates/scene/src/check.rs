@@ -1,4 +1,5 @@
-//! Whether the values of a document make sense: in range, together, and as names of things that exist.
+//! Checks whether the values of a document make sense: each in range, consistent with each other, and naming things
+//! that exist.
 //!
 //! Nothing here opens a file. A finding names its field by a path such as `objects[2].keys[1].frame`, which
 //! [`crate::locate::Located::place_of`] turns into a line and a column.
@@ -34,10 +35,9 @@ pub struct Finding {
     pub mend: String,
 }
 
-/// Everything that can be said about a document alone, at most [`limits::MAX_PROBLEMS`] findings and one that counts
-/// the rest.
+/// All findings about a document by itself: at most [`limits::MAX_PROBLEMS`], and one that counts the rest.
 ///
-/// Takes time in proportion to the document, whatever it says.
+/// The time is proportional to the document's size, whatever it holds.
 pub fn check(scene: &Scene) -> Vec<Finding> {
     let mut findings = Findings::default();
     shot::check(scene, &mut findings);
@@ -47,14 +47,14 @@ pub fn check(scene: &Scene) -> Vec<Finding> {
     findings.done()
 }
 
-/// Whether the document goes with its meshes, which are listed by the path written in the document: groups and materials
-/// that are there, guides on the surface, morphs of equal topology. A mesh that is not listed is passed over: whoever failed
-/// to read it has said so.
+/// Checks the document against its meshes, which are listed by the path written in the document: groups and materials
+/// exist, guides lie on the surface, morphs have equal topology. A mesh that is not listed is skipped; the failure to
+/// read it was reported before.
 pub fn check_with_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>) -> Vec<Finding> {
     check_anew(scene, meshes, &Known::default())
 }
 
-/// As [`check_with_meshes`], passing over what is known to be well.
+/// As [`check_with_meshes`], skipping what is known to be right.
 pub(crate) fn check_anew(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -66,12 +66,12 @@ pub(crate) fn check_anew(
     findings.done()
 }
 
-/// What was checked before, was well, and has not changed since.
+/// What an earlier check found right and has not changed since.
 #[derive(Debug, Default)]
 pub(crate) struct Known {
-    /// Objects, whose morphs go with their meshes.
+    /// Objects whose morphs match their meshes, by index.
     pub(crate) objects: HashSet<usize>,
-    /// Guides that lie on their surface: region, guide.
+    /// Guides that lie on their surface: indices of region and guide.
     pub(crate) guides: HashSet<(usize, usize)>,
 }
 
@@ -120,7 +120,7 @@ impl Findings {
         }
     }
 
-    /// All numbers of a table, of settings that stand at a path.
+    /// All numbers of a table of settings; `settings_path` is the path of the settings.
     fn numbers<T: 'static>(
         &mut self,
         settings_path: &str,
@@ -183,7 +183,7 @@ impl Findings {
         }
     }
 
-    /// A name: not empty, not endless, one line.
+    /// A name: not empty, not too long, on one line.
     fn name(&mut self, field_path: &str, name: &str) {
         if name.trim().is_empty() {
             self.error(field_path, "the name is empty", "give it a name");
@@ -195,7 +195,7 @@ impl Findings {
         }
     }
 
-    /// Names that must differ. `list_path` is the list whose items have a `name`.
+    /// Names that must differ. `list_path` is the path of the list whose items have a `name`.
     fn unique<'a>(&mut self, list_path: &str, names: impl Iterator<Item = &'a str>) {
         let mut seen = HashSet::new();
         for (index, name) in names.enumerate() {

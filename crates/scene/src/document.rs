@@ -101,9 +101,9 @@ usual_fields! {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Reference {
-    /// The camera and the objects as they stand at this frame.
+    /// The camera and the objects as posed at this frame.
     Frame(i64),
-    /// A camera of its own, and the objects as they stand at a frame.
+    /// A separate camera, and the objects as posed at a frame.
     View {
         /// Where the eye is, world space.
         eye: [f64; 3],
@@ -115,18 +115,18 @@ pub enum Reference {
         /// Vertical field of view, degrees, from 1 to 170; left out, the lens's own.
         #[serde(default, skip_serializing_if = "is_default")]
         fov_y_deg: Option<f64>,
-        /// The frame of the objects.
+        /// The frame that poses the objects.
         #[serde(default, skip_serializing_if = "is_default")]
         frame: i64,
     },
 }
 
-/// How a value leaves its key.
+/// How a value moves from one key to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Ease {
     /// Holds until the next key.
     Step,
-    /// In equal steps.
+    /// At a constant rate.
     #[default]
     Linear,
     /// Starts and ends at rest.
@@ -198,10 +198,11 @@ pub struct CameraKey {
     /// Turns the camera about its gaze, degrees; the picture turns the other way.
     #[serde(default, skip_serializing_if = "is_default")]
     pub roll_deg: f64,
-    /// The lens's field of view from here on, degrees, from 1 to 170; between two keys in between. Not for parallel lenses.
+    /// The lens's field of view from this key on, degrees, from 1 to 170; interpolated between keys. Not for parallel
+    /// lenses.
     #[serde(default, skip_serializing_if = "is_default")]
     pub fov_y_deg: Option<f64>,
-    /// How the pose leaves this key.
+    /// How the pose moves from this key to the next.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ease: Ease,
 }
@@ -210,7 +211,7 @@ pub struct CameraKey {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
-    /// For people; unique.
+    /// Shown to people; unique.
     pub name: String,
     /// `Sun`, `Point` or `Ambient`.
     pub kind: LightKind,
@@ -242,7 +243,7 @@ pub enum LightKind {
     Ambient,
 }
 
-/// What has its usual value is not saved.
+/// A field with its usual value is not saved.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -290,13 +291,14 @@ pub struct Object {
     /// How many particles it has, at most 16000000; left out, found from the coverage.
     #[serde(default, skip_serializing_if = "is_default")]
     pub particles: Option<u64>,
-    /// Frames that each pose is held, from 1 to 1000: 1 moves in every frame, 2 on twos, counted from the first frame.
+    /// How many frames each pose is held, from 1 to 1000: with 1 it moves in every frame, with 2 "on twos"; counted
+    /// from the first frame.
     #[serde(default = "one_frame", skip_serializing_if = "is_one_frame")]
     pub hold: u32,
     /// Static scale of the mesh, applied before anything is sampled; not inherited by children.
     #[serde(default, skip_serializing_if = "is_default")]
     pub scale: Scale,
-    /// Which way the mesh file points.
+    /// Which axis of the mesh file points up.
     #[serde(default, skip_serializing_if = "is_default")]
     pub up: Up,
     /// Path of a mesh of equal topology that keys may turn this one into.
@@ -311,7 +313,7 @@ pub struct Object {
     /// Left out of the picture: no body, no shadow, no strokes. Its children stay.
     #[serde(default, skip_serializing_if = "is_default")]
     pub hidden: bool,
-    /// An editor does not change it; nothing else takes notice.
+    /// The editor does not change it; no other effect.
     #[serde(default, skip_serializing_if = "is_default")]
     pub locked: bool,
 }
@@ -356,19 +358,19 @@ pub struct ObjectKey {
     /// Euler angles in degrees: about X first, then Y, then Z; interpolated as numbers, so 0 to 720 is two turns.
     #[serde(default, skip_serializing_if = "is_default")]
     pub rotation_deg: [f64; 3],
-    /// Size, from 0.001 to 1000; children take part in it.
+    /// Scale, from 0.001 to 1000; children scale with it.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub scale: f64,
     /// How far the mesh has turned into the object's `morph`, from 0, not at all, to 1, wholly.
     #[serde(default, skip_serializing_if = "is_default")]
     pub morph: f64,
-    /// How the pose leaves this key.
+    /// How the pose moves from this key to the next.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ease: Ease,
 }
 
 impl Object {
-    /// The whole of a mesh as it stands in its file, at rest.
+    /// An object that shows a whole mesh as it is in its file, without keys.
     pub fn new(name: impl Into<String>, mesh: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -398,7 +400,7 @@ impl Object {
 }
 
 impl ObjectKey {
-    /// The identity at a frame.
+    /// A key with the identity pose.
     pub fn at(frame: f64) -> Self {
         let ease = Ease::default();
         Self { frame, translation: [0.0; 3], rotation_deg: [0.0; 3], scale: 1.0, morph: 0.0, ease }

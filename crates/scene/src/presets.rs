@@ -1,4 +1,4 @@
-//! Named stroke settings, and what holds for a region once the preset, the scene and the region have spoken.
+//! Named stroke settings, and the settings of a region once preset, scene and region are combined.
 
 mod table;
 
@@ -13,11 +13,11 @@ pub const DEFAULT_PRESET: &str = "oil study";
 /// The preset of a scene in ink that names none.
 pub const INK_PRESET: &str = "ink";
 
-/// The source paper's own rule, whole: equal counts per polygon at random places, count by facing, one brush, the full
-/// neighbour sum in every frame, no jitter and no other layer. It holds for a scene, not for a region.
+/// The source paper's own rule, complete: equal counts per polygon at random places, count by facing, one brush, the
+/// full neighbour sum in every frame, no jitter and no other layer. It holds for a scene, not for a region.
 pub const PAPER_PRESET: &str = "paper";
 
-/// The name of the tone under all layers in a scene's list of layers.
+/// The name that a scene's list of layers uses for the tone under all of them.
 pub const GROUND: &str = "ground";
 
 /// A layer of paint, in the order in which they are laid on.
@@ -86,7 +86,7 @@ pub fn is_paper(scene: &Scene) -> bool {
     scene.strokes.preset.as_deref() == Some(PAPER_PRESET)
 }
 
-/// The settings of region `region` of the scene; of everything that no region covers where it is `None`.
+/// The settings of region `region` of the scene; `None` means everything that no region covers.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
 /// style's own preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.

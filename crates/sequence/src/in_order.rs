@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Jobs of each thread that may be under way or waiting to be taken in: enough that nobody waits for a single slow one.
+/// How many jobs per thread may be under way or waiting to be taken in: enough that no thread waits for a single slow
+/// job.
 const AHEAD: u64 = 2;
 
 /// Does one job after the other on its thread.
@@ -96,13 +97,13 @@ where
 }
 
 impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
-    /// Of the code that holds the lock, only the iterator of jobs may panic; the work then ends.
+    /// Only the iterator of jobs may panic while the lock is held, and then the work ends; so a poisoned lock is ignored.
     fn state(&self) -> MutexGuard<'_, State<I, J, T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// For the calling thread: it takes in before it works, so that few results wait, and it waits only where others have all
-    /// the jobs that may be begun.
+    /// For the calling thread: it takes in before it works, so that few results wait, and it waits only while other
+    /// threads have all the jobs that may be begun.
     fn next(&self) -> Next<J, T> {
         let mut state = self.state();
         loop {
@@ -166,7 +167,7 @@ impl<I: Iterator<Item = J>, J: Copy, T> Drop for Closing<'_, I, J, T> {
     }
 }
 
-/// Tells the others, where this thread panics, that the result of its job never comes; the scope passes the panic on.
+/// If this thread panics, tells the others that the result of its job never comes; the scope passes the panic on.
 struct Promise<'a, I: Iterator<Item = J>, J: Copy, T> {
     shared: &'a Shared<I, J, T>,
     kept: bool,

@@ -24,7 +24,7 @@ use shot::{Job, Painted};
 
 pub use shot::{Drawn, FrameError, Sequence, Wanted};
 
-/// A painter more than these would only wait for the others in the driver.
+/// More painters than this would only wait for each other in the driver.
 const MAX_PAINTERS: u64 = 4;
 
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
@@ -38,7 +38,7 @@ const MAX_TARGET_BYTES: u64 = 1 << 30;
 pub enum FileOutcome {
     /// It was written.
     Written(Drawn),
-    /// It was there already, and stays.
+    /// It existed already and was left as it is.
     Kept,
     /// It was not written.
     Failed(FrameError),
@@ -50,7 +50,7 @@ pub struct FrameFiles<'a> {
     pub frames: &'a FrameList,
     /// The file of each.
     pub path: &'a (dyn Fn(i64) -> PathBuf + Sync),
-    /// Files that are there already stay.
+    /// Files that exist already are left as they are.
     pub keep_existing: bool,
 }
 
@@ -95,8 +95,8 @@ impl Sequence {
         )
     }
 
-    /// Renders frames into files, each whole or not there, and tells in their order what became of them, on this thread. It goes
-    /// on after a frame that failed, unless `report` fails; `stop` is asked again and again.
+    /// Renders frames into files, each whole or not at all, and reports in their order what became of them, on this
+    /// thread. It goes on after a frame that failed, unless `report` fails; `stop` is asked again and again.
     ///
     /// # Errors
     /// What `report` gave.

@@ -1,4 +1,4 @@
-//! A painter: draws whole frames with a renderer of its own, and makes of each what is wanted.
+//! A painter: draws whole frames with a renderer of its own, and makes the wanted picture or PNG file of each.
 
 use std::time::Instant;
 
@@ -17,7 +17,7 @@ pub(crate) struct Painter<'a> {
     renderer: &'a mut Renderer,
 }
 
-/// A painter on the thread that asks for it; none where there is no further context of the same driver.
+/// A painter for the calling thread; `None` where the same driver gives no further context.
 pub(crate) fn further<'a>(
     sequence: &'a Sequence,
     driver: &str,
@@ -39,7 +39,7 @@ impl<'a> Painter<'a> {
         Self { sequence, renderer }
     }
 
-    /// Nothing comes of a frame that need not be drawn, or that `stop` gives up.
+    /// `None` for a frame that need not be drawn, or that `stop` gives up.
     pub(crate) fn paint(&mut self, job: Job, stop: &dyn Fn() -> bool) -> Painted {
         if !job.must_draw {
             return Ok(None);

@@ -28,11 +28,11 @@ pub struct Sequence {
     pub scene_name: String,
     /// Where further painters take OpenGL from.
     pub driver: Driver,
-    /// Shaders that stand in for the program's own; none to use those.
+    /// Shaders that stand in for the program's own; empty to use those.
     pub shaders: ShaderTexts,
     /// What is made of each frame.
     pub wanted: Wanted,
-    /// Times each pass. That slows frames down, and a single painter is at work.
+    /// Times each pass. That slows frames down, and only one painter works.
     pub timed: bool,
     /// Counts the strokes that were painted.
     pub counted: bool,
@@ -72,15 +72,15 @@ pub enum FrameError {
 #[derive(Clone, Copy)]
 pub(crate) struct Job {
     pub(crate) frame_number: i64,
-    /// False where its file is there and stays.
+    /// False where its file exists and is left as it is.
     pub(crate) must_draw: bool,
 }
 
-/// What a painter makes of a job: nothing where it need not be drawn, or was given up.
+/// What a painter makes of a job: `None` where it need not be drawn, or was given up.
 pub(crate) type Painted = Result<Option<Drawn>, FrameError>;
 
 impl Sequence {
-    /// What the PNG file of a frame, or of anything else of this sequence, says of itself.
+    /// The note for the PNG file of a frame, or of another picture of this sequence.
     pub fn provenance(&self, frame: &str, renderer: &Renderer) -> Provenance {
         let driver = renderer.report().renderer.clone();
         Provenance { scene: self.scene_name.clone(), frame: frame.to_owned(), driver }

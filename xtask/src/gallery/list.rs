@@ -1,4 +1,4 @@
-//! What the gallery shows.
+//! The list of the gallery's pictures.
 
 /// A picture of the docs.
 pub(super) struct Picture {
@@ -7,7 +7,8 @@ pub(super) struct Picture {
     /// Rendered at the scene's own size.
     pub(super) own_size: bool,
     pub(super) columns: usize,
-    /// One panel for each: what is set in the scene for it; `--frames`, `--rotation` and `--colors` go to the command.
+    /// One entry per panel: the values that are set in the scene; `--frames`, `--rotation` and `--colors` go to the
+    /// command line.
     pub(super) panels: &'static [&'static [(&'static str, &'static str)]],
 }
 
@@ -117,7 +118,7 @@ pub(super) const PICTURES: &[Picture] = &[
         panels: &[&[("--frames", "0")], &[("--frames", "24")]],
         ..whole("scale_pulse", "scale_pulse", 0)
     },
-    // What the source paper's figure 2 and 3 show: strokes laid on as a texture, and as billboards.
+    // What the source paper's figures 2 and 3 show: strokes laid on as a texture, and as billboards.
     Picture {
         columns: 2,
         panels: &[&[("strokes.preset", "paper"), ("--rotation", "mapped")], PAPER],
@@ -238,7 +239,8 @@ pub(super) const PICTURES: &[Picture] = &[
         ],
     ),
     sweep("paint_swing", JUG, 3, &[&[("strokes.swing_deg", "0")], &[], &[("strokes.swing_deg", "25")]]),
-    // The region states a contour of its own; strokes that run up would lie along most of the outline anyway.
+    // The contour is set in the region, which states its own. Its direction is an angle here, because strokes that
+    // run up would lie along most of the outline anyway.
     sweep(
         "paint_contour",
         FRUIT,

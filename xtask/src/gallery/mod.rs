@@ -43,7 +43,7 @@ fn pictures() -> impl Iterator<Item = &'static Picture> {
 struct Work<'a> {
     root: &'a Path,
     impasto: String,
-    /// For what is rendered on the way.
+    /// For intermediate files.
     folder: PathBuf,
 }
 

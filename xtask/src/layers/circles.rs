@@ -10,8 +10,8 @@ use super::modules::{Module, Names, modules};
 /// For each file, the files that it uses, each with one item that it takes from there.
 type Uses = BTreeMap<PathBuf, BTreeMap<PathBuf, String>>;
 
-/// A sentence for each group of files that use each other in a circle, in the crate with this root file. Files are named from
-/// `workspace` on.
+/// A sentence for each group of files that use each other in a circle, in the crate with this root file. Files are
+/// named relative to `workspace`.
 pub fn circles(workspace: &Path, root: &Path) -> anyhow::Result<Vec<String>> {
     let uses = uses(&modules(root)?);
     let mut done = BTreeSet::new();
@@ -48,7 +48,7 @@ fn uses(modules: &BTreeMap<Names, Module>) -> Uses {
 /// Longer chains of re-exports are not followed: a chain may run in a circle itself.
 const MOST_RE_EXPORTS: usize = 16;
 
-/// The module where the item of a path stands, and the item's name. None for a module and for what is of another crate.
+/// The module that defines the item of a path, and the item's name; `None` for a path to a module or into another crate.
 fn resolve(
     modules: &BTreeMap<Names, Module>,
     from: &Names,

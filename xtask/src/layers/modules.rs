@@ -16,7 +16,8 @@ pub struct Module {
     pub file: PathBuf,
     /// What `use` brings in, by its name here.
     pub imports: BTreeMap<String, Names>,
-    /// Every imported and every written path that the module uses, as written. What is only re-exported is not used.
+    /// Every imported and every written path that the module uses, as written. A path that is only re-exported does
+    /// not count.
     pub paths: BTreeSet<Names>,
 }
 
@@ -33,7 +34,7 @@ struct Reader {
     modules: BTreeMap<Names, Module>,
 }
 
-/// What one module was read to hold.
+/// What was found in one module.
 #[derive(Default)]
 struct Contents {
     imports: Vec<Import>,
@@ -189,7 +190,7 @@ fn is_for_tests(attribute: &TokenStream) -> bool {
     text.starts_with("cfg(test") || text.starts_with("cfg(all(test")
 }
 
-/// The place behind the item that starts at `at`: past its `;` or, but for a `use`, past its braces.
+/// The place behind the item that starts at `at`: past its `;` or, except for a `use`, past its braces.
 fn after_item(tokens: &[TokenTree], at: usize) -> usize {
     let mut is_use = false;
     for (place, token) in tokens.iter().enumerate().skip(at) {

@@ -97,7 +97,7 @@ fn every_crate_has_a_row_and_every_row_a_crate() {
     assert!(error.contains("row for impasto-tests"), "{error}");
 }
 
-/// What is said of a crate with these files under `src`.
+/// The findings about a crate with these files under `src`.
 fn circles_in(files: &[(&str, &str)]) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, text) in files {
@@ -164,7 +164,7 @@ fn what_is_handed_on_comes_from_where_it_stands() {
         ("a/c.rs", "use crate::a::B; pub struct C(B);"),
     ]);
     assert!(found.len() == 1 && found[0].contains("a/c.rs uses `B` of a/b.rs"), "{found:?}");
-    // To hand something on is not to use it.
+    // To re-export something is not to use it.
     let found = circles_in(&[
         ("lib.rs", "mod a; mod b;"),
         ("a.rs", "pub use crate::b::B; pub struct A;"),

@@ -1,17 +1,17 @@
-//! How long each test took, told from the lines that the test runner prints as tests end.
+//! How long each test took, derived from the lines that the test runner prints as tests end.
 //!
 //! The runner of a stable toolchain gives no times. It starts tests in the order of their names, as many at once as there are
 //! threads, and the next whenever one ends: so the moments at which tests end tell when each began.
 
 use std::time::{Duration, Instant};
 
-/// The times of all tests heard of.
+/// The times of all tests seen.
 #[derive(Debug)]
 pub struct Times {
     threads: usize,
     /// When the tests of the program that runs now began.
     began: Instant,
-    /// Tests of that program that have ended, with when.
+    /// Tests of that program that have ended, and when.
     ended: Vec<(String, Instant)>,
     known: Vec<(String, Duration)>,
 }

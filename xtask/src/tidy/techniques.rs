@@ -1,10 +1,11 @@
-//! One word per technique, everywhere: where one of its places is, all of them are.
+//! Checks that every technique has all its parts (shader folder, style, page, tests), called by the same word.
 
 use std::collections::BTreeMap;
 
 use super::finding::Finding;
 
-/// What every technique has: what it is, where (in one of these folders), and how the files' paths begin or are called.
+/// A part that every technique has: what it is, the folders of which one holds it, and how its file names end (`/`
+/// for a folder).
 type Place = (&'static str, &'static [&'static str], &'static str);
 const PLACES: &[Place] = &[
     ("a shader folder", &["shaders/"], "/"),
@@ -16,10 +17,10 @@ const STYLES: &[&str] =
     &["crates/gl-render/src/styles/", "crates/gl-render/src/materials/", "crates/gl-render/src/overlays/"];
 const TESTS: Place = ("a test module", &["tests/it/"], ".rs");
 
-/// Names in those places that are no technique's.
+/// Names in those places that are no techniques.
 const NO_TECHNIQUES: &[&str] = &["shared", "mod", "README", "reference", "paint", "inverse_bilinear"];
 
-/// Techniques that lack one of their places.
+/// Techniques that lack one of their parts.
 pub fn check(files: &[String]) -> Vec<Finding> {
     let mut words: BTreeMap<String, &String> = BTreeMap::new();
     for file in files {

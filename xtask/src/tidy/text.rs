@@ -20,7 +20,7 @@ pub fn check(file: &str, content: &str) -> Vec<Finding> {
     }
     let mut findings: Vec<Finding> = length(file, content).into_iter().collect();
     findings.extend(spaces(file, content));
-    // Legal texts and tables may say what they like.
+    // Legal texts and tables may hold such words.
     if matches!(extension(file), "rs" | "glsl" | "vert" | "frag" | "ron" | "md" | "toml") {
         findings.extend(unfinished(file, content));
     }
@@ -69,7 +69,7 @@ fn unfinished(file: &str, content: &str) -> Vec<Finding> {
         .collect()
 }
 
-/// `allow` hides, `expect` tells when it is no longer needed; both say why.
+/// `allow` only hides a lint, `expect` fails when it is no longer needed; so only `expect` may be used, with a reason.
 fn lint_exceptions(file: &str, content: &str) -> Vec<Finding> {
     let opens = |kind: &str| [format!("#[{kind}("), format!("#![{kind}(")];
     let [allows, expects] = ["allow", "expect"].map(opens);
@@ -96,7 +96,7 @@ fn lint_exceptions(file: &str, content: &str) -> Vec<Finding> {
     findings
 }
 
-/// Scenes travel: what they name is relative to them.
+/// Scenes are moved and copied, so the paths that they name must be relative to them.
 fn absolute_paths(file: &str, content: &str) -> Vec<Finding> {
     let is_absolute = |text: &str| {
         let drive =

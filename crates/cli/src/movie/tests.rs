@@ -14,7 +14,7 @@ const BANDS: [[u8; 4]; 6] = [
 const BAND_PX: usize = 32;
 const HEIGHT_PX: usize = 64;
 
-/// Whether ffmpeg and ffprobe are there; a line says so where they are not.
+/// Whether ffmpeg and ffprobe are installed; prints a line where they are not.
 ///
 /// # Panics
 /// When one of them is missing in CI (`CI` is set).
@@ -23,7 +23,7 @@ fn has_ffmpeg() -> bool {
     let all = is_there("ffmpeg") && is_there("ffprobe");
     assert!(all || std::env::var_os("CI").is_none(), "ffmpeg is missing; `cargo xtask test` installs it");
     if !all {
-        // Not by a macro: those are heard only of tests that fail.
+        // Not by `eprintln!`: the test runner shows its output only for tests that fail.
         let _ = writeln!(std::io::stderr(), "ignored: ffmpeg is missing; `cargo xtask test` installs it");
     }
     all
@@ -53,7 +53,7 @@ fn output(program: &str, arguments: &[&str], path: &Path, more: &[&str]) -> Vec<
     output.stdout
 }
 
-/// What ffprobe says of the movie's stream: `name=value` lines.
+/// What ffprobe says about the movie's stream: `name=value` lines.
 fn probed(path: &Path, entries: &str) -> String {
     let entries = format!("stream={entries}");
     let arguments =

@@ -1,10 +1,10 @@
-//! Noise-displaced materials: numbers in range.
+//! Checks noise-displaced materials: numbers in range.
 
 use super::Findings;
 use crate::document::{NoiseDisplace, SurfaceNoise, VertexNoise};
 use crate::limits;
 
-/// `field_path` is that of the material.
+/// `field_path` is the path of the material.
 pub(super) fn check(field_path: &str, noise: &NoiseDisplace, findings: &mut Findings) {
     let field_path = format!("{field_path}.noise_displace");
     for (name, field) in noise.textures() {

@@ -11,7 +11,7 @@ use crate::document::{Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
 
-/// The most distances from guides to triangles that are measured; further guides are not checked.
+/// The most distances from guides to triangles that are measured; guides beyond that are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -59,7 +59,7 @@ fn quoted(object: &Object) -> String {
     shown(object.morph.as_deref().unwrap_or_default())
 }
 
-/// A group or material that is named in the file and used by no triangle.
+/// Warns of a group or material that the mesh file names but no triangle uses.
 fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings: &mut Findings) {
     let mesh = &file.mesh;
     if mesh.triangles.is_empty() {
@@ -104,7 +104,8 @@ fn check_guide(
         let corners = mesh.corners(triangle).map(|corner| model_from_file * corner.as_dvec3());
         (at - nearest_point(at, corners)).length()
     };
-    // Points of a guide are near each other, so the search begins where the last one ended; first by corners, which is cheap.
+    // Points of a guide lie close together, so each search begins at the triangle found last; corners are tried
+    // first, which is cheap.
     let mut last = 0;
     let mut is_near = |at: DVec3| {
         let corner = |triangle: usize| mesh.positions[mesh.triangles[triangle][0] as usize].as_dvec3();

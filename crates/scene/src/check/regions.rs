@@ -90,7 +90,7 @@ fn check_dabs(field_path: &str, dabs: &[Dab], findings: &mut Findings) {
         let mend = "paint it somewhere, or remove it";
         findings.warning(field_path, "the region has no dabs and covers nothing", mend);
     }
-    // Fields of a tuple's items have no path of their own; the whole list is named.
+    // Fields of a tuple's items have no path of their own, so the whole list is named.
     for dab in dabs {
         findings.vector(field_path, dab.at);
         findings.direction(field_path, dab.normal);

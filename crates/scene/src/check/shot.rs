@@ -151,15 +151,15 @@ fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-/// A gaze has a length, and a sideways part: straight up or down, the picture's up would be undefined.
+/// A gaze must have a length and a horizontal part: straight up or down, the picture's up would be undefined.
 fn check_gaze(field_path: &str, eye: DVec3, target: DVec3, findings: &mut Findings) {
     const LEAST_SINE: f64 = 1e-6;
     let gaze = target - eye;
     let scale = eye.abs().max(target.abs()).max_element();
     if !scale.is_finite() || scale > limits::MAX_LENGTH {
-        return; // Said already, by the field that is out of range.
+        return; // Reported already for the field that is out of range.
     }
-    // Apart by more than rounding, so that the gaze still has a direction in 32 bits.
+    // They must differ by more than rounding, so that the gaze still has a direction in 32 bits.
     if gaze.length() <= limits::MIN_LENGTH.max(1e-6 * scale) {
         let mend = "move the eye or the target, so that the camera looks somewhere";
         findings.error(field_path, "eye and target are the same point", mend);

@@ -1,4 +1,4 @@
-//! Stroke settings and the style.
+//! Checks stroke settings and the style.
 
 use std::collections::HashSet;
 
@@ -22,7 +22,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-/// Reports a rule of the style that is broken.
+/// Reports a broken rule of the style.
 fn check_style(rule: &SettingRule, findings: &mut Findings) {
     match *rule {
         SettingRule::Range { field, value, ref limits } => {
@@ -72,7 +72,7 @@ pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, f
     check_flatness(strokes_path, scene, Some(index), findings);
 }
 
-/// Strokes that follow the surface need the tangent plane; the neighbour solvers know none.
+/// Strokes that follow the surface need the tangent plane, which the neighbour solvers do not have.
 fn check_flatness(strokes_path: &str, scene: &Scene, region: Option<usize>, findings: &mut Findings) {
     let stated = region.map_or(&scene.strokes, |index| &scene.regions[index].strokes).flatness;
     let Some(flatness) = stated.filter(|flatness| (0.0..1.0).contains(flatness)) else { return };
@@ -120,7 +120,7 @@ fn check_brush(settings_path: &str, brush: Option<&BrushMix>, findings: &mut Fin
         let mend = format!("name from 1 to {} brushes", limits::MAX_BRUSHES);
         findings.error(&field_path, message, mend);
     }
-    // A name with an ending is a picture; whoever reads it says what is wrong with it.
+    // A name with an ending is a picture; its problems are reported when it is read.
     for name in names.iter().filter(|name| !presets::is_picture(name)) {
         if !impasto_core::brush::NAMES.contains(&name.as_str()) {
             let message = format!("there is no brush \"{}\"", shown(name));
@@ -149,7 +149,7 @@ fn check_layers(strokes_path: &str, layers: &[LayerSettings], findings: &mut Fin
     }
 }
 
-/// The ground has a tone and no strokes, and there is one for the scene.
+/// The ground has a tone and no strokes, and only the scene has one.
 fn check_ground(layer_path: &str, layer: &LayerSettings, of_scene: bool, findings: &mut Findings) {
     let is_ground = layer.name == GROUND;
     if is_ground && !of_scene {

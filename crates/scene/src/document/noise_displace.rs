@@ -1,4 +1,4 @@
-//! A material whose vertices and colours a noise texture moves, as a scene file states it.
+//! A material whose vertices and colours move with a noise texture, as a scene file states it.
 
 use serde::{Deserialize, Serialize};
 
@@ -108,13 +108,14 @@ pub enum NoiseForward {
     Even,
 }
 
-/// How the product of the layers is made light again.
+/// How the product of the layers is brightened again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum NoiseMix {
-    /// By the power 1/k, as the source has it: darker the more layers there are.
+    /// By the power 1/k for k layers, as the source has it: darker the more layers there are.
     #[default]
     Root,
-    /// By the power 1/(2(k − 1)), the number of looks: about as light as the texture, whatever k.
+    /// By the power 1/(2(k − 1)), where 2(k − 1) is the number of texture lookups: about as light as the texture for
+    /// any k.
     Mean,
 }
 

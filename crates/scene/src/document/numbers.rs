@@ -8,13 +8,13 @@ use std::ops::RangeInclusive;
 pub struct Number<T, V = f64> {
     /// Its field in a scene file.
     pub field: &'static str,
-    /// What a scene file may say.
+    /// The values that a scene file may give.
     pub limits: RangeInclusive<f64>,
     /// What it does, in a sentence or two.
     pub effect: &'static str,
     /// Its value.
     pub get: fn(&T) -> V,
-    /// Where its value is kept.
+    /// Its value, to be set.
     pub of: fn(&mut T) -> &mut V,
 }
 

@@ -10,9 +10,9 @@ use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX, MAX_THICKNESS};
 /// A number of [`LayerSettings`].
 #[derive(Clone, Debug)]
 pub struct LayerNumber {
-    /// Its name, its range in a scene file, what it does, and where it is kept.
+    /// Its name, its range in a scene file, what it does, and how to get and set it.
     pub number: Number<LayerSettings, Option<f64>>,
-    /// Where it is kept once resolved.
+    /// The same number of a resolved layer, to be set.
     pub resolved: fn(&mut ResolvedLayer) -> &mut f32,
 }
 
@@ -73,7 +73,7 @@ layer_numbers! {
     pickup: 0.0..=1.0,
 }
 
-/// A brush by name, a PNG of one's own (grey is paint), or a list of them: one named twice is taken twice as often.
+/// A brush by name, a PNG of the user's own (grey is paint), or a list of them: one named twice is taken twice as often.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrushMix(pub Vec<String>);
 

@@ -37,10 +37,10 @@ pub struct Region {
     /// Its strokes are left out of the picture; all else stays as it was.
     #[serde(default, skip_serializing_if = "is_default")]
     pub hidden: bool,
-    /// An editor does not change it; nothing else takes notice.
+    /// The editor does not change it; no other effect.
     #[serde(default, skip_serializing_if = "is_default")]
     pub locked: bool,
-    /// Its colour in an editor's overlays; nothing else takes notice.
+    /// Its colour in the editor's overlays; no other effect.
     #[serde(default, skip_serializing_if = "is_default")]
     pub color: Option<Color>,
 }
@@ -59,10 +59,10 @@ pub enum Selector {
     Material(String, String),
     /// What dabs of a brush have touched: object, dabs, in the order of painting.
     Dabs(String, Vec<Dab>),
-    /// What is reached from a face without going round a sharp edge: object, where it begins, and the degrees between two
-    /// faces from which on an edge is sharp, from 0 to 180.
+    /// What is reached from a face without crossing a sharp edge: object, where it begins, and the angle between two
+    /// faces from which their edge counts as sharp, degrees, from 0 to 180.
     Flood(String, Seed, f64),
-    /// Patches of one object, in order: each adds to those before it, and dabs that take away cut them.
+    /// Patches of one object, in order: each adds to those before it, and dabs with `take_away` cut them.
     Several(String, Vec<Patch>),
 }
 
@@ -82,7 +82,7 @@ pub enum Patch {
     Flood(Seed, f64),
 }
 
-/// Where a flood begins: at the face of the surface that is nearest and faces likewise; in the object's own space.
+/// Where a flood begins: at the nearest face that faces the same way; in the object's own space.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seed {
@@ -102,7 +102,7 @@ pub struct Dab {
     pub normal: [f64; 3],
     /// How far it reaches, more than 0.
     pub radius: f64,
-    /// Whether it takes what it touches out again, rather than in.
+    /// Whether it removes what it touches instead of adding it.
     #[serde(default, skip_serializing_if = "is_default")]
     pub take_away: bool,
 }
@@ -117,7 +117,7 @@ pub enum Direction {
     Auto,
     /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
     Angle(f64),
-    /// Two families of strokes that cross: degrees of either, as with `Angle`.
+    /// Two families of strokes that cross: the angle of each, as with `Angle`.
     Crossing(f64, f64),
     /// Along this axis of the object's own space, on the surface.
     Along([f64; 3]),
@@ -154,7 +154,7 @@ pub enum Seam {
 /// Whether strokes have a beginning and an end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Sense {
-    /// Turned by half a turn, a direction is the same: a field of lines.
+    /// A direction and its opposite are the same: a field of lines.
     #[default]
     Lines,
     /// Guides point where strokes end: a field of arrows.
@@ -169,7 +169,7 @@ pub struct Guide {
     /// What it does with the strokes that it reaches.
     #[serde(default, skip_serializing_if = "is_default")]
     pub mode: GuideMode,
-    /// Set point by point, as one curve. Strokes follow it alike; lists of guides say so.
+    /// Set point by point, as one curve. Strokes follow it like any gesture; only lists of guides show the difference.
     #[serde(default, skip_serializing_if = "is_default")]
     pub curve: bool,
     /// The object, where the region covers more than one.
@@ -196,8 +196,8 @@ pub enum GuideMode {
     /// They lie along it.
     #[default]
     Comb,
-    /// It states no direction: it loosens what is stated and what the guides before it have combed, so that strokes join
-    /// smoothly what lies around. Where a later guide combs, that holds.
+    /// It states no direction: it loosens stated directions and those combed by earlier guides, so that strokes blend
+    /// with what lies around. A guide that combs later overrules it.
     Smooth,
 }
 
@@ -238,7 +238,7 @@ pub enum Falloff {
 }
 
 impl Region {
-    /// A region with nothing of its own.
+    /// A region without settings of its own.
     pub fn new(name: impl Into<String>, on: Selector) -> Self {
         Self {
             name: name.into(),
@@ -268,7 +268,7 @@ pub enum PatchRef<'a> {
     Material(&'a str),
     /// What dabs leave, in order.
     Dabs(&'a [Dab]),
-    /// A flood: where it begins, and from how many degrees on an edge is sharp.
+    /// A flood: where it begins, and the angle from which an edge counts as sharp, degrees.
     Flood(&'a Seed, f64),
 }
 

@@ -1,4 +1,4 @@
-//! Brush strokes as a scene file states them: how they turn, and what the paint is like as a body.
+//! The style of brush strokes, as a scene file states it: how strokes turn, and what the paint and its canvas look like.
 
 use serde::{Deserialize, Serialize};
 

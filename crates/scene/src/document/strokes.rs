@@ -13,9 +13,9 @@ use crate::limits::{MAX_COVERAGE, MAX_LENGTH, MAX_STRENGTH, MAX_STROKE_PX};
 /// A number of [`StrokeSettings`].
 #[derive(Clone, Debug)]
 pub struct StrokeNumber {
-    /// Its name, its range in a scene file, what it does, and where it is kept.
+    /// Its name, its range in a scene file, what it does, and how to get and set it.
     pub number: Number<StrokeSettings, Option<f64>>,
-    /// What holds once preset, scene and region have spoken, in the units of a scene file.
+    /// Its value once preset, scene and region are combined, in the units of a scene file.
     pub resolved: fn(&ResolvedStrokes) -> f64,
     /// How an inspector shows it.
     pub shown: Shown,
@@ -30,7 +30,7 @@ pub struct Shown {
     pub unit: &'static str,
     /// The value shown, times this, is the value of the file.
     pub file_per_shown: f64,
-    /// How far a drag goes, as shown; typing goes as far as a scene file may.
+    /// The range of a drag, as shown; typing reaches the limits of a scene file.
     pub drag: RangeInclusive<f64>,
     /// One step of the wheel or of an arrow key, as shown.
     pub step: f64,
@@ -68,12 +68,12 @@ const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 
 // - its field in a scene file => its field in `ResolvedStrokes`, as `plain` (the same number) or as an `angle` (degrees
 //   in the file, radians once resolved);
 // - `usual`: its value in the default preset, and in every preset that says nothing else (`presets/table.rs`);
-// - `limits`: what a scene file may say;
+// - `limits`: the values that a scene file may give;
 // - `shown`: how the inspector shows it. `place` is where it stands there: `Main(3)` is third from the top, `Advanced(3)`
 //   third under Advanced.
 //
-// `body` holds the sizes of the body layer, which `presets.rs` resolves by hand; `form` what a stroke does on its
-// surface; `color` what its colour does. `CONTRIBUTING.md` says what else a new row needs.
+// `body` holds the sizes of the body layer, which `presets.rs` resolves by hand; `form` how a stroke lies on its
+// surface; `color` its colour. `CONTRIBUTING.md` says what else a new row needs.
 stroke_numbers! {
     body {
         /// How long strokes are in the picture, pixels at the scene's size; other layers keep their proportion.
@@ -190,7 +190,7 @@ impl StrokeNumber {
         STROKE_NUMBERS.iter().find(|row| row.number.field == field)
     }
 
-    /// What may be typed, as shown.
+    /// The limits of what may be typed, in the units shown.
     pub fn limits_shown(&self) -> RangeInclusive<f64> {
         let shown = |value: f64| value / self.shown.file_per_shown;
         shown(*self.number.limits.start())..=shown(*self.number.limits.end())

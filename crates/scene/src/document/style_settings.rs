@@ -1,4 +1,4 @@
-//! What every style says of itself, so that the rest of the house can treat all styles alike.
+//! What every style tells about itself, so that all other code can treat styles alike.
 
 use std::ops::RangeInclusive;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::numbers::Number;
 
-/// The settings of a style. Whatever the rest of the house needs to know of a style, it asks here.
+/// The settings of a style: the only place where other code asks about a style.
 pub trait StyleSettings {
     /// Names and words, the same for every scene in this style.
     fn info(&self) -> &'static StyleInfo;
@@ -16,7 +16,7 @@ pub trait StyleSettings {
         Preparation::default()
     }
 
-    /// What has to hold of the settings, in the order in which it is reported.
+    /// The rules that the settings must meet, in the order in which they are reported.
     fn rules(&self) -> Vec<SettingRule> {
         Vec::new()
     }
@@ -58,7 +58,7 @@ pub struct Preparation {
     pub varnish: f64,
 }
 
-/// Something that has to hold of a style's settings.
+/// A rule that a style's settings must meet.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SettingRule {
     /// The number in this field lies within its limits.
@@ -67,7 +67,7 @@ pub enum SettingRule {
         field: &'static str,
         /// The number.
         value: f64,
-        /// What a scene file may say.
+        /// The values that a scene file may give.
         limits: RangeInclusive<f64>,
     },
     /// The three numbers in this field are a direction: not all of them are 0.
@@ -101,7 +101,7 @@ pub enum CanvasFollows {
     /// It stands still, as a picture on an easel.
     #[default]
     Picture,
-    /// It slides and turns as what the camera looked at in the reference pose does.
+    /// It slides and turns with what the camera looked at in the reference pose.
     Camera,
 }
 

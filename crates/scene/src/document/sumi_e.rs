@@ -55,7 +55,7 @@ usual_fields! {
     }
 }
 
-/// Whose rule ink is drawn by.
+/// Which rule ink is drawn by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum InkRule {
     /// Ours: an ink that bleeds, dries and lies on a paper with fibres.
@@ -108,7 +108,7 @@ impl StyleSettings for SumiE {
         }
     }
 
-    /// The numbers' ranges, and what must go up: the tones, and where the silhouette begins and ends.
+    /// The numbers' ranges; the tones must rise, and `silhouette_from` must lie below `silhouette_to`.
     fn rules(&self) -> Vec<SettingRule> {
         let mut rules: Vec<SettingRule> =
             Self::numbers().map(|number| SettingRule::range(number, self)).collect();

@@ -1,7 +1,7 @@
-//! `--set PATH=VALUE`: values of the command line in place of those of the file.
+//! `--set PATH=VALUE`: values from the command line replace those of the file.
 //!
-//! A value is put into the text, and the text is parsed again. So it may be anything that a file may hold there, and errors of the
-//! parser are reported for the command line.
+//! A value is inserted into the text, and the text is parsed again. So it may be anything that a file may hold there,
+//! and errors of the parser are reported as errors of the command line.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ pub(super) struct Applied {
 }
 
 impl Applied {
-    /// Whether a field is this one, inside it, or round it.
+    /// Whether a field is this one, lies inside it, or contains it.
     pub(super) fn covers(&self, field_path: &str) -> bool {
         let holds = |outer: &str, inner: &str| {
             inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
@@ -63,7 +63,8 @@ fn put_in(parsed: &Parsed, field_path: &str, value: &str, option: &Path) -> Resu
     Err(Report(problems.into_iter().map(|problem| Problem { place: None, ..problem }).collect()))
 }
 
-/// The value as it is where it is one value, and as quoted text, so that a shell's quotes are enough.
+/// What to try in turn: the value as it is, if it is a single RON value, then the value as quoted text, so that text
+/// needs no quotes beyond the shell's.
 fn candidates(value: &str) -> Vec<String> {
     let value = value.trim();
     let as_it_is = Located::scan(value).ok().map(|located| located.text_of(located.root()).to_owned());
@@ -181,7 +182,7 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
     Ok(spot)
 }
 
-/// The variants of fields whose inner fields can be set although the file leaves them out.
+/// Fields whose inner fields can be set although the file leaves them out, each with the variant that is then written.
 const DEFAULT_VARIANTS: [(&str, &str); 2] = [("style", "RotatingStrokes"), ("lens", "Perspective")];
 
 /// A segment with a capital names a variant, as `RotatingStrokes` in `style.RotatingStrokes.solver`.

@@ -13,7 +13,7 @@ use crate::locate::{Field, Inside, Located, Node};
 use crate::nearest::nearest;
 use crate::problem::{Problem, Report};
 
-/// Bytes that are parsed at most in all passes over one text, if that takes more than one.
+/// The most bytes parsed in all passes over one text together; the first pass is always made.
 const MOST_PARSED_BYTES: usize = 32 << 20;
 
 /// A document and where everything in it stands.
@@ -23,7 +23,7 @@ pub(super) struct Parsed {
     pub(super) located: Located,
 }
 
-/// Parses a text without byte order mark. All unknown fields are reported at once; of other faults the first.
+/// Parses a text without byte order mark. All unknown fields are reported at once, and the first of any other faults.
 pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
     let located = source::scan(path, text).map_err(|problem| Report(vec![problem]))?;
     check_version(path, &located).map_err(|problem| Report(vec![problem]))?;
@@ -47,7 +47,7 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
             _ => None,
         };
         problems.push(explain(path, &located, &error.code, span, unknown));
-        // An unknown field is blanked out, so that the parser goes on to the next fault and all places hold.
+        // An unknown field is blanked out, so that the parser goes on to the next fault and all positions stay valid.
         match unknown {
             Some(field) if problems.len() < most_problems => blank_out(&mut left, field),
             _ => break,
@@ -109,7 +109,7 @@ pub(super) fn from_ron(text: &str) -> Result<Scene, SpannedError> {
         .from_str(text)
 }
 
-/// The last field of a name that begins before the place where the parser stopped.
+/// The last field named `found` that begins before `end`, where the parser stopped, and is not blanked out.
 pub(super) fn field_before<'a>(
     located: &'a Located,
     left: &str,
@@ -138,7 +138,7 @@ fn reaches(node: &Node, offset: usize) -> bool {
     (node.start as usize..=node.end as usize).contains(&offset)
 }
 
-/// Overwrites a field, and the comma behind it, with spaces. Line ends stay, and so does every other byte.
+/// Overwrites a field, and the comma behind it, with spaces. Line ends and byte offsets stay.
 pub(super) fn blank_out(text: &mut String, field: &Field) {
     let range = with_comma(text, field.key.start as usize..field.value.end as usize);
     blank_range(text, range);
@@ -155,7 +155,7 @@ pub(super) fn with_comma(text: &str, range: Range<usize>) -> Range<usize> {
 pub(super) fn blank_range(text: &mut String, range: Range<usize>) {
     let blank = |character: char| match character {
         '\n' => "\n".to_owned(),
-        // As many bytes as before, so that byte offsets hold.
+        // As many bytes as before, so that byte offsets stay valid.
         character => " ".repeat(character.len_utf8()),
     };
     let blanked: String = text[range.clone()].chars().map(blank).collect();
@@ -203,7 +203,7 @@ pub(super) fn explain(
     }
 }
 
-/// A value of the wrong kind, or text that is no RON.
+/// A value of the wrong kind, or text that is not RON.
 fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ron::Error) -> Problem {
     let is_count = matches!(
         error,
@@ -213,7 +213,7 @@ fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ro
     );
     let (field_path, offset) = enclosing(located, span.0, span.1);
     let item_path = field_path.trim_matches('`');
-    // Too many or too few values are a fault of what holds them, not of the last one.
+    // Too many or too few values are a fault of their list, not of the last value.
     let holder = item_path.strip_suffix(']').filter(|_| is_count).and_then(|path| path.rsplit_once('['));
     let (field_path, node) = match holder.and_then(|(path, _)| Some((path, located.node_at(path)?))) {
         Some((path, node)) => (named(path), node),
@@ -245,13 +245,13 @@ fn is_inside_value(located: &Located, offset: usize) -> bool {
     (node.start as usize + 1..own_end).contains(&offset)
 }
 
-/// Which value the parser stumbled in: its path for a message, and its offset.
+/// The value at which the parser failed: its path for a message, and its offset.
 fn enclosing(located: &Located, start: usize, end: usize) -> (String, usize) {
     let (field_path, offset) = enclosing_path(located, start, end);
     (named(&field_path), offset)
 }
 
-/// Which value the parser stumbled in: its path, empty for the scene, and its offset.
+/// The value at which the parser failed: its path, empty for the scene, and its offset.
 pub(super) fn enclosing_path(located: &Located, start: usize, end: usize) -> (String, usize) {
     let behind = &located.text()[start.min(end)..];
     let blank = behind.len() - behind.trim_start().len();
@@ -304,7 +304,7 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
-/// What a field holds, for people.
+/// What a field holds, in words for a message.
 fn what_goes_into(field: &str) -> Option<&'static str> {
     Some(match field {
         "version" | "particles" | "seed" | "hold" | "layer_count" => "a whole number, as in 7",

@@ -1,15 +1,15 @@
-//! What tobj gets to read of an OBJ file: its plain lines as they stand, others written anew, the rest left out.
+//! The text that tobj reads of an OBJ file: plain lines unchanged, others rewritten, the rest left out.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, Read};
 use std::ops::Range;
 
-/// Stretches of the file's text and of lines written anew, in order.
+/// Stretches of the file's text and of rewritten lines, in order.
 #[derive(Debug)]
 pub(super) struct Cleaned<'a> {
     file: &'a [u8],
     written: Vec<u8>,
-    /// Whether each stretch is of the written lines, and where it stands.
+    /// For each stretch, whether it lies in `written` rather than in `file`, and its range there.
     stretches: VecDeque<(bool, Range<usize>)>,
 }
 
@@ -18,12 +18,12 @@ impl<'a> Cleaned<'a> {
         Self { file, written: Vec::new(), stretches: VecDeque::new() }
     }
 
-    /// Whole lines of the file follow.
+    /// Appends whole lines of the file.
     pub fn keep(&mut self, lines: Range<usize>) {
         self.stretches.push_back((false, lines));
     }
 
-    /// A line of these words follows.
+    /// Appends a line of these words.
     pub fn write<'w>(&mut self, words: impl IntoIterator<Item = &'w [u8]>) {
         let start = self.written.len();
         for word in words {

@@ -1,4 +1,4 @@
-//! The geometry of an OBJ text, read by tobj from what the linter has cleaned.
+//! The geometry of an OBJ text, read by tobj from the text that the linter has cleaned.
 
 use std::iter::repeat_n;
 
@@ -12,10 +12,10 @@ use super::text::Findings;
 /// Models smaller than this across are scaled to 1: their areas would vanish in single precision.
 const LEAST_EXTENT: f64 = 1e-6;
 
-/// Vertices, one for each triple of indices that corners have; and the faces, one after the other.
+/// Vertices, one for each distinct triple of indices of a corner; and the faces, one after the other.
 #[derive(Debug)]
 pub(super) struct Geometry {
-    /// For each vertex; 0 is never negative.
+    /// For each vertex; a zero is never −0.
     pub positions: Vec<Vec3>,
     /// For each vertex; `None` where the file gives none.
     pub uvs: Vec<Option<Vec2>>,
@@ -27,17 +27,18 @@ pub(super) struct Geometry {
     pub ends: Vec<u32>,
 }
 
-/// Reads what is cleaned in `checked`: only where the linter found no error.
+/// Reads the cleaned text of `checked`. Call it only where the linter found no error.
 ///
 /// # Errors
-/// Those of tobj; none is known that the linter does not find before.
+/// Those of tobj; none is known that the linter does not find first.
 pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Result<Geometry, LoadError> {
     // The linter keeps names and materials to itself, so all the faces are one model.
     let options = LoadOptions { single_index: true, ..LoadOptions::default() };
     let (models, _) = tobj::load_obj_buf(&mut checked.cleaned, &options, |_| Err(LoadError::OpenFileFailed))?;
     let mut mesh = models.into_iter().next().ok_or(LoadError::GenericFailure)?.mesh;
 
-    // tobj has no place for a vertex without: its lists are shorter then. A vertex is new at the first corner that has it.
+    // tobj's lists of texture coordinates and normals leave out vertices that have none, so both are matched to the
+    // vertices here. A vertex is new at the first corner that uses it.
     let mut listed_uvs = mesh.texcoords.as_chunks::<2>().0.iter();
     let mut listed_normals = mesh.normals.as_chunks::<3>().0.iter();
     let count = mesh.positions.len() / 3;
@@ -72,7 +73,7 @@ pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Re
     Ok(Geometry { positions, uvs, normals, corners: mesh.indices, ends })
 }
 
-/// Scales a model up whose areas would vanish, and tells how large it was.
+/// Scales up a model whose areas would vanish, and then returns how large it was.
 fn enlarge_tiny(positions: &mut [[f64; 3]]) -> Option<f64> {
     let points = positions.iter().map(|&at| DVec3::from_array(at));
     let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)));

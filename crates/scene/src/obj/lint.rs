@@ -1,5 +1,5 @@
-//! The first pass over an OBJ text: every number and index is checked where it stands, every problem told with its place,
-//! and the text is cleaned for tobj. Plain lines come in bulk from [`super::scan`], all others are taken one by one.
+//! The first pass over an OBJ text: every number and index is checked, every problem reported with its place, and the
+//! text is cleaned for tobj. Plain lines come in bulk from [`super::scan`], all others are taken one by one.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -18,10 +18,10 @@ pub(super) struct Face {
     pub offset: u32,
 }
 
-/// A file of materials that the text names.
+/// An MTL file that the text names.
 #[derive(Clone, Debug)]
 pub(super) struct Library {
-    /// The whole rest of the line, and its single words: either may be meant.
+    /// The rest of the line as one file name, and its words as names of several files: either may be meant.
     pub name: String,
     pub words: Vec<String>,
     pub offset: usize,
@@ -46,15 +46,14 @@ impl Names {
     }
 }
 
-/// What an OBJ text says beside its geometry. That is in `cleaned`: every index there is in range once [`check`] found no
-/// error.
+/// What an OBJ text holds. Its geometry is in `cleaned`, where every index is in range if [`check`] found no error.
 #[derive(Debug)]
 pub(super) struct Checked<'a> {
     /// Vertices and faces, for tobj.
     pub cleaned: Cleaned<'a>,
     /// The faces of `cleaned`.
     pub faces: Vec<Face>,
-    /// For each corner of these faces, what it [`gives`].
+    /// For each corner of these faces, which indices it has, see [`gives`].
     pub corners: Vec<u8>,
     pub groups: Names,
     pub materials: Names,
@@ -130,7 +129,7 @@ impl<'a> Linter<'_, 'a> {
         self.plain_lines(piece, at..piece.text.end, taken, piece.counts);
     }
 
-    /// Takes lines of a piece that are all plain; the counts are those before and behind them.
+    /// Takes lines of a piece that are all plain; `from` and `to` are the piece's counts before and after them.
     fn plain_lines(&mut self, piece: &Piece, lines: Range<usize>, from: Counts, to: Counts) {
         self.checked.cleaned.keep(lines);
         for kind in 0..3 {
@@ -253,7 +252,7 @@ impl<'a> Linter<'_, 'a> {
         self.value(Kind::Uv, [number(0), number(1)].into_iter());
     }
 
-    /// Where the normal is of no use, one without direction stands in for it.
+    /// An unusable normal is replaced by one without direction, so that the indices of the others stay right.
     fn normal(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
         let numbers: Vec<f64> = rest.iter().take(3).filter_map(|word| finite(word.bytes)).collect();
         if <[f64; 3]>::try_from(numbers).ok().and_then(unit).is_some() {
@@ -336,7 +335,8 @@ impl<'a> Linter<'_, 'a> {
         (group, material)
     }
 
-    /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. Positive indices may point ahead, so their upper end is checked last.
+    /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. Positive indices may point ahead, so their upper limit is checked at
+    /// the end.
     fn corner(&mut self, word: Word<'_>) -> Option<Indices> {
         let mut parts = word.bytes.split(|&byte| byte == b'/');
         let mut corner = Indices::default();
@@ -371,7 +371,7 @@ impl<'a> Linter<'_, 'a> {
                 self.findings.error(word.offset, message, "indices count from 1 (or from -1 backwards)");
                 return None;
             }
-            // Counted backwards: there may be none of the kind in the whole file.
+            // Counted backwards with none of the kind so far: the whole file may have none.
             Some(_) if part[0] == b'-' && kind > 0 && count == 0 => {
                 self.odd.absent[kind].add(word.offset);
                 return Some(0);
@@ -389,8 +389,8 @@ impl<'a> Linter<'_, 'a> {
         index
     }
 
-    /// Tells of indices beyond what the whole file has. Where it has no texture coordinate or no normal at all, faces do
-    /// without.
+    /// Reports indices beyond what the whole file has. Where it has no texture coordinate or no normal at all, faces
+    /// do without.
     fn check_upper_ends(&mut self) {
         let counts = self.counts;
         let mut beyond = |offset: usize, kind: usize, index: &str| {

@@ -18,10 +18,10 @@ const MAX_LIBRARIES: usize = 256;
 /// The most pixels that the pictures of one model keep together: 512 MiB, eight pictures of 4096 x 4096.
 const MAX_KEPT_PIXELS: usize = 1 << 27;
 
-/// How many warnings about files that were not found are told one by one.
+/// How many warnings about files that were not found are reported one by one.
 const MAX_TOLD: usize = 20;
 
-/// Line and column of a byte of the OBJ text; it walks the text, so ask only for what is told.
+/// Gives line and column of a byte of the OBJ text. It walks the text, so ask only for places that are reported.
 type PlaceOf<'a> = &'a dyn Fn(usize) -> TextPosition;
 
 /// Where materials and pictures are looked for, and what was found so far.
@@ -32,10 +32,10 @@ pub(super) struct MaterialLibrary<'a> {
     warnings: Vec<Problem>,
     /// The MTL files that were read.
     libraries: BTreeSet<PathBuf>,
-    /// Warnings about files that were not found: those told, and those beyond [`MAX_TOLD`].
+    /// How many files were not found; those beyond [`MAX_TOLD`] are only counted.
     unfound: usize,
     described: HashMap<String, (Described, Arc<PathBuf>)>,
-    /// By the MTL file and the name written there, so that each is read, and told of, once.
+    /// By the MTL file and the name written there, so that each is read and reported once.
     pictures: BTreeMap<(Arc<PathBuf>, String), Option<Arc<Texture>>>,
     kept_pixels: usize,
 }
@@ -55,7 +55,7 @@ impl<'a> MaterialLibrary<'a> {
         }
     }
 
-    /// Every warning, in the order of its finding.
+    /// All warnings, in the order in which they arose.
     pub fn finish(mut self) -> Vec<Problem> {
         if self.unfound > MAX_TOLD {
             let message = format!("{} more files like these were not found", self.unfound - MAX_TOLD);
@@ -84,7 +84,7 @@ impl<'a> MaterialLibrary<'a> {
                 if let Some(picture) = described.picture {
                     material.texture = self.picture(mtl, picture, described.picture_place)?;
                 }
-                // A picture without a colour is shown as it is.
+                // A picture without a colour is shown unchanged.
                 let otherwise = if material.texture.is_some() { [1.0; 3] } else { GREY };
                 material.color = described.color.unwrap_or(otherwise);
                 material.gloss = gloss;
@@ -161,7 +161,7 @@ impl<'a> MaterialLibrary<'a> {
         }
     }
 
-    /// One warning for all the materials that no file describes, where every named file was found.
+    /// One warning for all materials that no file describes; none where a named file was not found.
     fn tell_of_unknown(&mut self, checked: &Checked<'_>, place_of: PlaceOf<'_>) {
         if self.unfound > 0 {
             return;
@@ -225,7 +225,7 @@ impl<'a> MaterialLibrary<'a> {
             }
             Err(mut problem) => {
                 self.unfound += 1;
-                // A problem of the picture itself has no line.
+                // A problem inside the picture itself has no line.
                 if problem.path == *beside {
                     problem.place = place;
                 }

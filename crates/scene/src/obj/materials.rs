@@ -1,4 +1,4 @@
-//! MTL files: checked line by line, the pictures read through [`crate::texture`].
+//! MTL files, checked line by line. Their pictures are only named here; `material_library` reads them.
 
 use super::text::{Findings, Lines, Walk, Word, name_of, to_utf8};
 use crate::problem::{Problem, TextPosition};
@@ -7,7 +7,7 @@ use std::path::Path;
 /// The colour (sRGB) of whatever has no material.
 pub(super) const GREY: [f32; 3] = [0.8; 3];
 
-/// One `newmtl`.
+/// A material as one `newmtl` describes it.
 #[derive(Clone, Debug)]
 pub(super) struct Described {
     pub name: String,
@@ -24,8 +24,8 @@ pub(super) struct Described {
 }
 
 impl Described {
-    /// Strength of highlights, 0 matt .. 1 glazed. What common exporters write for a plain surface (Ks 0.5, Ns 250) is
-    /// a quarter.
+    /// Strength of highlights, 0 matt .. 1 glazed. What common exporters write for a plain surface (Ks 0.5, Ns 250)
+    /// gives 0.25.
     pub(super) fn gloss(&self) -> f32 {
         self.highlight * (self.exponent / 1000.0).sqrt()
     }
@@ -122,7 +122,7 @@ fn color(keyword: Word<'_>, rest: &[Word<'_>], findings: &mut Findings<'_>) -> O
     Some(channels.map(|channel| channel.clamp(0.0, 1.0)))
 }
 
-/// Mean of the numbers of a line; 0 where there is none that can be used. Highlights are not worth a warning.
+/// Mean of the numbers of a line; 0 where none can be used. Mistakes in highlights are not worth a warning.
 fn mean(rest: &[Word<'_>]) -> f32 {
     let numbers: Vec<f32> = rest
         .iter()

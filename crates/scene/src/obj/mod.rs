@@ -33,8 +33,9 @@ pub const MAX_MTL_BYTES: u64 = 64 << 20;
 
 /// Reads an OBJ file with the materials and pictures that it names.
 ///
-/// `root` is the scene's folder: materials and pictures come from it and from `folders` only. Beside the mesh come
-/// the warnings, in the order of the files; a missing material or picture is one of them, and its faces are grey.
+/// `root` is the scene's folder: materials and pictures come from it and from `folders` only. With the mesh it
+/// returns the warnings, in the order of the files; a missing material or picture is one of them, and its faces are
+/// grey.
 ///
 /// # Errors
 /// A [`Report`] of every error found, with lines and columns: a file that is missing or too large, numbers or indices
@@ -62,8 +63,8 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     Ok((MeshFile { mesh, groups: checked.groups.list, materials }, warnings))
 }
 
-/// The MTL files and pictures that an OBJ file in `root` names and that are found in `root`: what has to go with it to
-/// another folder. Pictures are found, not opened.
+/// The MTL files and pictures that an OBJ file in `root` names and that are found in `root`: what must be copied with
+/// it to another folder. Pictures are found, not opened.
 ///
 /// # Errors
 /// A [`Report`] where the file can not be read or has errors.
@@ -79,7 +80,7 @@ pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report>
     findings.finish().map(|_| found)
 }
 
-/// The mesh file itself was not read: no folder was searched for it, so only its path can be mended.
+/// The problem of a mesh file that was not read. No folder was searched for it, so the advice is about its path alone.
 fn unread(path: &Path, error: &AssetError) -> Problem {
     let mut problem = error.to_problem(Severity::Error, path, None);
     if matches!(error, AssetError::Missing { .. }) {

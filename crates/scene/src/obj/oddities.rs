@@ -1,10 +1,10 @@
-//! Oddities of an OBJ text: counted line by line, and told once each.
+//! Oddities of an OBJ text: counted line by line, and reported once each.
 
 use std::collections::BTreeSet;
 
 use super::text::Findings;
 
-/// What is counted and told once, with the first place.
+/// Counts one kind of oddity, which is reported once, with its first place.
 #[derive(Default)]
 pub(super) struct Tally {
     count: usize,
@@ -19,7 +19,7 @@ impl Tally {
         self.count += 1;
     }
 
-    /// Where the first stands, if there is any; then none is left to tell.
+    /// Where the first stands, if there is any. Resets the count, so that it is not reported again.
     pub fn take(&mut self) -> Option<usize> {
         (std::mem::take(&mut self.count) > 0).then_some(self.first)
     }
@@ -32,7 +32,7 @@ impl Tally {
     }
 }
 
-/// What a text may hold that is no error.
+/// Oddities of a text that are no errors.
 #[derive(Default)]
 pub(super) struct Oddities {
     pub degenerate: Tally,
@@ -53,7 +53,7 @@ pub(super) struct Oddities {
 }
 
 impl Oddities {
-    /// Tells what was counted, as warnings.
+    /// Reports what was counted, as warnings.
     pub fn tell(&self, findings: &mut Findings<'_>) {
         self.degenerate.tell(findings, "this face repeats its corners and has no area", "it is left out");
         self.too_few.tell(findings, "this face has fewer than 3 corners", "it is left out");

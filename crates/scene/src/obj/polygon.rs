@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use glam::{DVec2, DVec3};
 
-/// Work (point in triangle tests) that the polygons of one file may cost together; what is left then is cut without care.
+/// The most point-in-triangle tests for all polygons of one file together; polygons after that are cut without tests.
 pub(super) const MAX_TESTS: u64 = 300_000_000;
 
 /// The triangles of one polygon, as numbers of its corners.
@@ -35,7 +35,7 @@ pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
         .map(|at| at - corners[0])
         .map(|at| DVec2::new(at.dot(along), at.dot(across)))
         .collect();
-    // any_orthonormal_pair is right-handed with the normal up to a sign: make the polygon counter-clockwise.
+    // any_orthonormal_pair may be left-handed with the normal; then mirror, so that the polygon is counter-clockwise.
     let is_mirrored = along.cross(across).dot(normal) < 0.0;
     let points = if is_mirrored { points.iter().map(|at| DVec2::new(at.x, -at.y)).collect() } else { points };
     let is_convex = (0..count)
@@ -44,15 +44,15 @@ pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
     if is_convex { Cut { triangles: fan(), is_rough: false } } else { Ears::new(&points, tests_left).clip() }
 }
 
-/// Whether a polygon has four corners that all turn left by far more than rounding: four turns of less than a half make
-/// one whole turn and no more.
+/// Whether a polygon has four corners that all turn left by far more than rounding: four turns of less than half a
+/// turn each add up to exactly one.
 fn is_plain_quad(points: &[DVec2]) -> bool {
     let &[a, b, c, d] = points else { return false };
     let longest = [b - a, c - b, d - c, a - d].into_iter().map(DVec2::length_squared).fold(0.0, f64::max);
     [turn(a, b, c), turn(b, c, d), turn(c, d, a), turn(d, a, b)].into_iter().all(|turn| turn > 1e-9 * longest)
 }
 
-/// Whether a polygon that only turns left goes round once, and not as a pentagram does.
+/// Whether a polygon that only turns left goes round once, and not twice as a pentagram does.
 fn winds_once(points: &[DVec2]) -> bool {
     let count = points.len();
     let edge = |at: usize| points[(at + 1) % count] - points[at];
@@ -70,7 +70,7 @@ struct Ears<'a> {
     before: Vec<usize>,
     after: Vec<usize>,
     is_reflex: Vec<bool>,
-    /// Corners that turn right, by x: only these can lie in an ear. Entries that turned convex are skipped.
+    /// Corners that turn right, sorted by x: only these can lie in an ear. Entries that have become convex are skipped.
     reflex_by_x: Vec<usize>,
     tests_left: &'a mut u64,
 }

@@ -1,7 +1,7 @@
 //! Finds the plain lines of an OBJ text on all cores: vertices and faces as nearly every program writes them.
 //!
-//! Nothing has to be said about these, and tobj reads them as they stand. All other lines are left to [`super::lint`]: a
-//! line that is not plain is not wrong for that.
+//! Plain lines have no problem to report, and tobj reads them unchanged. All other lines are left to [`super::lint`];
+//! they need not be wrong.
 
 use std::ops::Range;
 
@@ -9,10 +9,10 @@ use rayon::prelude::*;
 
 use super::text::{Lines, finite};
 
-/// Coordinates beyond this lose their squares and cross products in single precision.
+/// Beyond this, products of coordinates (areas) overflow in single precision.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
-/// Texture coordinates from here on are of no use.
+/// Texture coordinates from here on count as unusable.
 pub(super) const MAX_UV: f64 = 1e30;
 
 /// The least text that is worth a piece of its own, in bytes.
@@ -42,7 +42,7 @@ pub(super) struct Counts {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Rest {
     pub text: Range<usize>,
-    /// What the piece held before them.
+    /// What the piece held before these lines.
     pub before: Counts,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Piece {
     pub counts: Counts,
     /// Where each plain face begins in the text.
     pub faces: Vec<u32>,
-    /// What each corner of the plain faces gives, see [`gives`].
+    /// Which indices each corner of the plain faces has, see [`gives`].
     pub corners: Vec<u8>,
     /// The highest indices of the plain faces.
     pub highest: Indices,
@@ -128,7 +128,8 @@ impl Piece {
         }
     }
 
-    /// Takes the line that begins at `at` and gives where the next begins; `None`, and nothing taken, where it is not plain.
+    /// Takes the line that begins at `at` and returns where the next begins; `None`, with nothing taken, where it is
+    /// not plain.
     #[inline]
     fn plain_line(&mut self, text: &[u8], at: usize) -> Option<usize> {
         let at = skip_blanks(text, at);
@@ -163,7 +164,7 @@ impl Piece {
         is_good.then_some(end)
     }
 
-    /// A face of at least three corners, of which no two neighbours are one.
+    /// A face of at least three corners, no two neighbours of which are the same.
     fn face(&mut self, text: &[u8], keyword: usize) -> Option<usize> {
         let before = self.corners.len();
         let end = self.face_corners(text, keyword + 1);
@@ -226,7 +227,7 @@ fn line_end(text: &[u8], at: usize) -> Option<usize> {
     }
 }
 
-/// Finite numbers, each after its blank, and where the last one ends.
+/// Finite numbers, each after blanks, and where the last one ends.
 #[inline]
 fn numbers<const COUNT: usize>(text: &[u8], mut at: usize) -> Option<([f64; COUNT], usize)> {
     let mut values = [0.0; COUNT];
@@ -241,7 +242,7 @@ fn numbers<const COUNT: usize>(text: &[u8], mut at: usize) -> Option<([f64; COUN
     Some((values, at))
 }
 
-/// An index written from 1 in at most nine digits, and where it ends.
+/// An index of at least 1 and at most nine digits, and where it ends.
 #[inline]
 fn index(text: &[u8], start: usize) -> Option<(u32, usize)> {
     let mut at = start;

@@ -1,4 +1,4 @@
-//! Faces cut into triangles, vertices shared, normals made good.
+//! Turns faces into a mesh: cuts them into triangles, shares vertices, adds missing normals.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,16 +22,16 @@ const DEGENERATE: f64 = 1e-12;
 /// Round a corner with more triangles than this, the crease is judged against the mean normal, not pair by pair.
 const MANY_TRIANGLES: usize = 256;
 
-/// No number of a vertex.
+/// Stands for no vertex.
 const NONE: u32 = u32::MAX;
 
-/// Triangles that one core takes at a time, at least.
+/// The least number of faces or triangles that a core takes at a time.
 const SHARE: usize = 4096;
 
 /// Values that differ in their bits, numbered in the order of their first use.
 type Distinct<const N: usize> = IndexSet<[u32; N], RandomState>;
 
-/// What [`Builder`] made, beside the mesh.
+/// Unusual faces that [`Builder`] met.
 #[derive(Debug, Default)]
 pub(super) struct Oddities {
     /// Faces without any area, and the number of the first.
@@ -61,7 +61,7 @@ struct Triangle {
     face: u32,
 }
 
-/// Faces, one after the other, that become a mesh.
+/// Makes a mesh of faces, one after the other.
 pub(super) struct Builder<'a> {
     geometry: &'a Geometry,
     triangles: Vec<Triangle>,
@@ -98,7 +98,7 @@ impl<'a> Builder<'a> {
             .map(|part| empty().cut(part * share..((part + 1) * share).min(count), &spent))
             .collect();
         if spent.into_inner() >= polygon::MAX_TESTS {
-            // Which polygons are cut without care then depends on those before them.
+            // Which polygons are then cut without tests depends on those before them, so all are cut again in order.
             return empty().cut(0..count, &AtomicU64::new(0));
         }
         let mut whole = empty();
@@ -110,7 +110,7 @@ impl<'a> Builder<'a> {
         whole
     }
 
-    /// Cuts some of the faces, unless too many tests are `spent` by all cores together.
+    /// Cuts a range of the faces; stops once all cores together have `spent` too many tests.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;
@@ -159,7 +159,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Keeps a triangle that has any area.
+    /// Adds a triangle unless it has no area.
     #[inline]
     fn add_triangle(&mut self, face: u32, vertices: [u32; 3]) {
         let [a, b, c] = vertices.map(|vertex| self.at(vertex));
@@ -178,7 +178,7 @@ impl<'a> Builder<'a> {
         let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
         let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
         let mut vertices = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
-        // The number that each vertex of the file had last.
+        // The number that each vertex of the file got last.
         let mut last: Vec<u32> = vec![NONE; positions.len()];
         let mut number = |vertex: u32, made: Option<Vec3>| {
             let vertex = vertex as usize;
@@ -226,9 +226,9 @@ impl<'a> Builder<'a> {
         Some([a?, b?, c?])
     }
 
-    /// A unit normal for each corner: the file's where all three corners of the triangle have one, else the mean of the
-    /// faces round the corner's place that meet this one below the crease angle, weighted by their angles there
-    /// (Thürmer and Wüthrich 1998). None at all where every triangle has the file's.
+    /// A unit normal for each corner: the file's where all three corners of the triangle have one, else the mean of
+    /// the faces round the corner's place that meet this one below the crease angle, weighted by their angles there
+    /// (Thürmer and Wüthrich 1998). Empty where every triangle has the file's.
     fn corner_normals(&self) -> Vec<[Vec3; 3]> {
         if self.triangles.par_iter().with_min_len(SHARE).all(|triangle| self.file_normals(triangle).is_some())
         {
@@ -251,7 +251,7 @@ impl<'a> Builder<'a> {
             } else {
                 around.mean(place, |other| is_near(other, own))
             };
-            // Each of the summed normals is near this one, so the mean can only vanish with all the angles.
+            // Each of the summed normals is near this one, so the mean vanishes only where all the angles are zero.
             let mean = if mean == DVec3::ZERO { own } else { mean };
             mean.as_vec3().normalize()
         };
@@ -271,7 +271,7 @@ impl<'a> Builder<'a> {
 /// not show as creases.
 struct Around {
     place_of_vertex: Vec<u32>,
-    /// Where those of each place begin in `list`; one more, for the end.
+    /// Where the triangles of each place begin in `list`, and a last entry for its end.
     first: Vec<u32>,
     /// Triangle times three, plus the number of its corner there.
     list: Vec<u32>,

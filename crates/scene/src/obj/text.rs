@@ -1,11 +1,11 @@
-//! Lines, words and places of an OBJ or MTL text, in whatever encoding and with whatever line ends it comes.
+//! Lines, words and places of an OBJ or MTL text, with any encoding and any line ends.
 
 use std::borrow::Cow;
 use std::path::Path;
 
 use crate::problem::{Problem, Report, Severity, TextPosition};
 
-/// How many errors, and how many warnings, are told one by one.
+/// How many errors, and how many warnings, are reported one by one.
 const MAX_TOLD: usize = 20;
 
 /// A word of the text.
@@ -62,11 +62,11 @@ pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     (text, was_utf16)
 }
 
-/// Lines that end in a name: a `#` in it belongs to the name.
+/// Keywords of lines that end in a name, in which a `#` belongs to the name.
 const NAMING: [&[u8]; 6] = [b"g", b"o", b"usemtl", b"mtllib", b"newmtl", b"map_Kd"];
 
-/// The words of the next line that has any: a `\` at the end of a line joins the next one to it, `#` begins a comment
-/// (but in a name).
+/// Walks through the lines that have words: a `\` at the end of a line joins the next one to it, `#` begins a comment
+/// (except in a name).
 pub(super) struct Lines<'a> {
     text: &'a [u8],
     at: usize,

@@ -15,7 +15,7 @@ pub(super) struct Preset {
 
 #[derive(Clone, Copy, Debug)]
 struct Layer {
-    /// Brushes with how often each is taken.
+    /// Brushes, and how often each is taken.
     brushes: &'static [(&'static str, usize)],
     size_px: [f32; 2],
     coverage: f32,
@@ -131,7 +131,7 @@ pub(super) const PRESETS: [Preset; 6] = [
             ..PresetNumbers::USUAL
         },
     },
-    // Little paint on a stiff brush: hairs, and what lies under them.
+    // Little paint on a stiff brush: marks of single bristles, and what shows between them.
     Preset {
         name: "dry brush",
         layers: [

@@ -1,4 +1,5 @@
 //! Tests of presets and of resolved stroke settings.
+
 use std::collections::HashSet;
 
 use super::*;

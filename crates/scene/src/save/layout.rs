@@ -1,6 +1,6 @@
 //! How RON is laid out on lines: what fits on one stays on one, everything else is broken at its outermost brackets.
 
-/// A value that knows no types, only how it is written.
+/// A value without a type: only how it is written.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
     /// Written as it is.
@@ -20,12 +20,12 @@ pub(super) struct Group {
     pub(super) items: Vec<(&'static str, Value)>,
 }
 
-/// Lines are broken where they would be longer; a text that is longer by itself stays whole.
+/// The longest line; a single text that is longer is not broken.
 const LINE_CHARS: usize = 110;
 
 const INDENT: &str = "    ";
 
-/// The shortest digits that give the number back.
+/// The shortest digits that read back as the same number.
 pub(super) fn number(value: f64) -> Value {
     let digits = if value.is_finite() {
         format!("{value:?}")
@@ -34,7 +34,7 @@ pub(super) fn number(value: f64) -> Value {
     } else {
         format!("{value}")
     };
-    // `4` is a number as good as `4.0`; `-0` would be a whole number, which has no sign at zero.
+    // `4` reads back as `4.0`; but `-0` would read as a whole number, which has no negative zero.
     let whole = digits.strip_suffix(".0").filter(|whole| *whole != "-0");
     Value::Word(whole.map_or(digits.clone(), str::to_owned))
 }
@@ -102,7 +102,7 @@ fn write_broken(value: &Value, depth: usize, out: &mut String) {
     out.push(brackets[1]);
 }
 
-/// Flat where it fits on the line that started at `line_start`, and is no list of more than one thing.
+/// Writes a value on one line where it fits on the line that started at `line_start` and is not a list of several items.
 fn write_fitting(value: &Value, (line_start, depth): (usize, usize), out: &mut String) {
     let before = out.len();
     write_flat(value, out);

@@ -1,4 +1,4 @@
-//! From serde to the values that `layout` writes as RON: the writing twin of the reader in `load::parse`.
+//! A serde serializer that makes the values that `layout` writes as RON; the counterpart of the reader in `load::parse`.
 
 use std::fmt::Error;
 
@@ -6,8 +6,7 @@ use serde::ser::{self, Impossible, Serialize, Serializer};
 
 use super::layout::{Group, Value, number, text};
 
-/// Turns what serde says of a document into a [`Value`]. What no document holds (maps, bytes, structs without field
-/// names) is an error.
+/// Turns a document into a [`Value`]. What no document holds (maps, bytes, structs without field names) is an error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ToValue;
 

@@ -1,3 +1,5 @@
+//! Tests of saving scenes: they read back equal, look hand-written, and replace files whole.
+
 mod any;
 
 use std::path::Path;

@@ -1,7 +1,7 @@
-//! The macro behind the table of stroke numbers: from each row it makes a field of the settings, a field of what is
-//! resolved, a field of a preset, and an entry of `STROKE_NUMBERS`.
+//! The macro behind the table of stroke numbers: from each row it makes a field of `StrokeSettings`, of
+//! `ResolvedStrokes` and of `PresetNumbers`, and an entry of `STROKE_NUMBERS`.
 
-/// Numbers that are resolved as they stand in the file.
+/// Numbers that are resolved without conversion.
 pub(super) mod plain {
     /// From a preset.
     pub(crate) fn of_preset(value: f32) -> f32 {
@@ -13,7 +13,7 @@ pub(super) mod plain {
         value as f32
     }
 
-    /// As a scene file would say it.
+    /// In the units of a scene file.
     pub(crate) fn in_file(value: f32) -> f64 {
         f64::from(value)
     }
@@ -31,7 +31,7 @@ pub(super) mod angle {
         value_deg.to_radians() as f32
     }
 
-    /// As a scene file would say it.
+    /// In the units of a scene file.
     pub(crate) fn in_file(value_rad: f32) -> f64 {
         f64::from(value_rad).to_degrees()
     }
@@ -51,7 +51,8 @@ macro_rules! stroke_numbers {
             usual: $color_usual:expr, limits: $color_limits:expr, shown: $color_shown:expr,
         })+ }
     ) => {
-        /// Stroke settings; what is left out comes from the preset, and a region's from the scene's.
+        /// Stroke settings. What is left out comes from the preset; in a region without a preset, from the scene's
+        /// settings.
         #[derive(Clone, Debug, Default, PartialEq, serde::Deserialize, serde::Serialize)]
         #[serde(deny_unknown_fields, default)]
         pub struct StrokeSettings {
@@ -93,7 +94,7 @@ macro_rules! stroke_numbers {
             pub layer: i32,
         }
 
-        /// What a preset says of the numbers that are no sizes, in the units of a scene file.
+        /// A preset's values for all numbers that are not sizes, in the units of a scene file.
         #[derive(Clone, Copy, Debug)]
         pub(crate) struct PresetNumbers {
             $(pub(crate) $form: f32,)+
@@ -101,12 +102,12 @@ macro_rules! stroke_numbers {
         }
 
         impl PresetNumbers {
-            /// The usual ones, which are those of the default preset.
+            /// The values of the default preset.
             pub(crate) const USUAL: Self = Self { $($form: $form_usual,)+ $($color: $color_usual,)+ };
         }
 
         impl ResolvedStrokes {
-            /// What a preset says, in any colour and on layer 0.
+            /// A preset's values, with any colour allowed, on layer 0.
             pub(crate) fn new(layers: [ResolvedLayer; 6], numbers: PresetNumbers, edges: Edges) -> Self {
                 Self {
                     layers,
@@ -118,7 +119,7 @@ macro_rules! stroke_numbers {
                 }
             }
 
-            /// Takes over the numbers that are stated and are no sizes.
+            /// Takes over the stated numbers that are not sizes.
             pub(crate) fn apply_numbers(&mut self, stated: &StrokeSettings) {
                 $(self.$form_resolved = stated.$form.map_or(self.$form_resolved, $form_kind::of_file);)+
                 $(self.$color_resolved = stated.$color.map_or(self.$color_resolved, $color_kind::of_file);)+
