@@ -122,7 +122,7 @@ pub enum Action {
     CameraFromView,
     /// Compares with the reference.
     Compare,
-    /// Off, hairs, hairs by region.
+    /// Direction lines: off, plain, by region.
     CycleHairs,
     /// The trust overlay.
     ToggleTrust,

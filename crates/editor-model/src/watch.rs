@@ -9,7 +9,7 @@ use crate::document::Document;
 /// Size and time of a file; none where it is not there.
 type SizeAndTime = Option<(u64, Option<SystemTime>)>;
 
-/// The files of a document, as they looked last.
+/// The files of a document, as they were at the last poll.
 #[derive(Debug, Default)]
 pub struct Watch {
     files: BTreeMap<PathBuf, Watched>,
@@ -17,9 +17,9 @@ pub struct Watch {
 
 #[derive(Debug)]
 struct Watched {
-    /// As it was taken in.
+    /// Of the version that was read.
     known: SizeAndTime,
-    /// As it looked a moment ago, where that is other: it may still be being written.
+    /// Of the last poll, if different: the file may still be being written.
     seen: Option<SizeAndTime>,
 }
 

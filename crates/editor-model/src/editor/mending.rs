@@ -10,9 +10,9 @@ use crate::watch::News;
 /// A repair of the document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// Mends the loss at this place of the source.
+    /// Mends the loss with this index in the source.
     Fix(usize),
-    /// Mends everything that can be mended in one way only.
+    /// Mends all losses that have a certain repair.
     FixCertain,
     /// A guide of a region goes onto its surface.
     Snap(String, usize),

@@ -30,7 +30,7 @@ pub struct Needle {
     pub at_px: DVec2,
     /// Unit, Y down.
     pub along: DVec2,
-    /// Whether it has a head: the hand moves, or strokes have a beginning.
+    /// Whether it has a head: the pointer moves, or strokes have a beginning.
     pub headed: bool,
 }
 
