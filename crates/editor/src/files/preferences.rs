@@ -89,7 +89,7 @@ pub enum Keys {
 /// What draws the paintings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriverChoice {
-    /// The graphics card where there is one, else software.
+    /// The graphics card if there is one, else software.
     #[default]
     Auto,
     /// EGL.

@@ -77,7 +77,7 @@ struct PaintWorker {
     turn: u32,
     /// How long the last exact picture took, seconds.
     exact_s: Option<f64>,
-    /// The next frame of a film.
+    /// The next frame of the playback.
     ahead: Ahead,
 }
 
