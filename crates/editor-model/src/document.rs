@@ -32,32 +32,32 @@ pub use mending::{ProblemRow, Repair};
 pub struct Document {
     loaded: Arc<LoadedScene>,
     preview: Option<Arc<LoadedScene>>,
-    /// The file that `save` writes; none where the scene was made for a mesh or from nothing.
+    /// The file that `save` writes; none for a new scene that was never saved.
     file: Option<PathBuf>,
     history: History,
     selection: Selection,
     options: LoadOptions,
     /// The file as it was read or written last.
     stamp: Option<Stamp>,
-    /// The text that it was read from, as long as not all of it could be read.
+    /// The text that it was read from, while parts of it could not be read.
     source: Option<Arc<Source>>,
     revision: u64,
 }
 
-/// What a command did, or what was taken back or done again.
+/// What a command, an undo or a redo did.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// The words of the history: *Comb skin*. Empty where nothing changed.
+    /// The text of the history, such as *Comb skin*. Empty if nothing changed.
     pub text: String,
-    /// More that should be said: *Also keyed frame 0, so that apple moves from there*.
+    /// An additional message, such as *Also keyed frame 0, so that apple moves from there*.
     pub note: Option<String>,
 }
 
-/// A new scene has room to move: five seconds.
+/// The last frame of a new scene: five seconds at 24 frames per second.
 const LAST_FRAME: i64 = 119;
 
 impl Document {
-    /// A document with nothing in it, whose files lie in `folder`.
+    /// An empty document; paths of its files are relative to `folder`.
     pub fn empty(folder: &Path) -> Self {
         let mut scene = new_scene::empty();
         scene.timeline.last = LAST_FRAME;
@@ -82,7 +82,7 @@ impl Document {
         let is_scene = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
         if !is_scene {
             loaded.scene.timeline.last = LAST_FRAME;
-            // What the mesh is made of can be painted at once.
+            // One region for each group of the mesh, ready to be painted.
             let mesh = loaded
                 .scene
                 .objects
@@ -97,7 +97,7 @@ impl Document {
         }
         let file = is_scene.then(|| path.to_owned());
         let stamp = stamp.filter(|_| is_scene);
-        // What was asked for is what is at hand.
+        // The mesh that was opened is selected.
         let mesh = loaded.scene.objects.first().filter(|_| !is_scene);
         let selection =
             mesh.map_or_else(Selection::default, |object| Selection::only(Item::Object(object.name.clone())));
@@ -119,17 +119,17 @@ impl Document {
         }
     }
 
-    /// The scene as the history has it.
+    /// The scene without any preview.
     pub fn scene(&self) -> &Scene {
         &self.loaded.scene
     }
 
-    /// The scene with its files, as the history has it.
+    /// The scene with its files, without any preview.
     pub fn loaded(&self) -> &Arc<LoadedScene> {
         &self.loaded
     }
 
-    /// The scene with its files as it is shown: with what is under the hand.
+    /// The scene with its files as it is shown: with the preview of a command, if there is one.
     pub fn shown(&self) -> &Arc<LoadedScene> {
         self.preview.as_ref().unwrap_or(&self.loaded)
     }
@@ -139,7 +139,7 @@ impl Document {
         &self.selection
     }
 
-    /// Selects; what does not exist is left out. No entry of the history.
+    /// Sets the selection, without things that do not exist. Makes no entry in the history.
     pub fn select(&mut self, mut selection: Selection) {
         let scene = &self.loaded.scene;
         selection.retain(|item| item.is_in(scene));
@@ -156,17 +156,17 @@ impl Document {
         Ok(())
     }
 
-    /// Why a command would be refused; none where it would be carried out.
+    /// Why a command would be refused; none if it would be carried out.
     pub fn would_refuse(&self, command: &Command) -> Option<Refusal> {
         self.edited(command).err()
     }
 
-    /// Shows the scene as the history has it again.
+    /// Ends a preview.
     pub fn end_preview(&mut self) {
         self.preview = None;
     }
 
-    /// Carries a command out: one entry of the history, or none where it changes nothing.
+    /// Carries a command out: makes one entry in the history, or none if it changes nothing.
     ///
     /// # Errors
     /// Why it is refused, in the words to show; the document is as it was.
@@ -185,7 +185,7 @@ impl Document {
         Ok(Step { text: done.text, note: done.note })
     }
 
-    /// As [`Document::apply`], for what comes in small steps: steps of one `key` within a second of each other are one entry.
+    /// As [`Document::apply`], for changes in small steps: steps with the same `key` within a second of each other are one entry.
     ///
     /// # Errors
     /// As [`Document::apply`].
@@ -219,22 +219,22 @@ impl Document {
         Ok((loaded, done))
     }
 
-    /// An edited scene with its files; what is wrong with it is the refusal.
+    /// An edited scene with its files; refused if anything is wrong with it.
     fn with_files(&self, scene: Scene) -> Result<LoadedScene, Refusal> {
         let held = self.source.as_ref().map(|source| source.held(&self.loaded));
         let held = held.as_ref().unwrap_or(&self.loaded);
         held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
-    /// Takes a mesh that was read before, by its path from the scene's folder, so that it is not read again; one that is
-    /// held stays. No change of the scene.
+    /// Keeps a mesh that was read before, by its path relative to the scene's folder, so that it is not read again. A mesh with
+    /// this path that is there already stays. The scene does not change.
     pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
         let mut loaded = (*self.loaded).clone();
         loaded.meshes.entry(mesh.to_owned()).or_insert(file);
         self.loaded = Arc::new(loaded);
     }
 
-    /// Reads a mesh by its path from the scene's folder and adds an object for it, with a region for each of its groups.
+    /// Reads a mesh by its path relative to the scene's folder and adds an object for it, with a region for each of its groups.
     ///
     /// # Errors
     /// What is wrong with the file, in the words to show.
@@ -248,12 +248,12 @@ impl Document {
                 Arc::new(read.0)
             }
         };
-        // So that it is not read again to be looked at.
+        // So that the command need not read it again.
         self.hold_mesh(mesh, Arc::clone(&file));
         self.apply(&Command::Arrange(Arrange::Import { mesh: mesh.to_owned(), file }))
     }
 
-    /// Takes the last entry back; none where there is none.
+    /// Undoes the last entry; none if there is none.
     pub fn undo(&mut self) -> Option<Step> {
         self.preview = None;
         let entry = self.history.undo()?.clone();
@@ -265,7 +265,7 @@ impl Document {
         self.travel(scene, entry.selections[0].clone(), entry.text)
     }
 
-    /// Does the last entry that was taken back again.
+    /// Redoes the last entry that was undone; none if there is none.
     pub fn redo(&mut self) -> Option<Step> {
         self.preview = None;
         let entry = self.history.redo()?.clone();
@@ -277,7 +277,7 @@ impl Document {
         self.travel(scene, entry.selections[1].clone(), entry.text)
     }
 
-    /// Both ends of an entry were good once. Should a file be gone since, the scene comes back without it.
+    /// Goes to a scene of the history. It was valid once, so only its files can be missing now: then it comes back without them.
     fn travel(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
         self.revision += 1;
         let loaded = self.with_files(scene.clone());
@@ -287,12 +287,12 @@ impl Document {
         Some(Step { text, note })
     }
 
-    /// The words of the entry that undo would take back.
+    /// The text of the entry that would be undone.
     pub fn undo_text(&self) -> Option<&str> {
         self.history.next_undo().map(|entry| entry.text.as_str())
     }
 
-    /// The words of the entry that redo would do again.
+    /// The text of the entry that would be redone.
     pub fn redo_text(&self) -> Option<&str> {
         self.history.next_redo().map(|entry| entry.text.as_str())
     }
@@ -302,17 +302,17 @@ impl Document {
         self.history.count()
     }
 
-    /// Whether there is anything that the file does not have.
+    /// Whether there are unsaved edits.
     pub fn is_edited(&self) -> bool {
         !self.history.is_saved()
     }
 
-    /// How many entries of the history the file has not.
+    /// How many entries of the history separate the scene from its file.
     pub fn changes(&self) -> usize {
         self.history.since_saved()
     }
 
-    /// A number that every change of the scene raises.
+    /// A number that grows with every change of the scene.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -322,26 +322,26 @@ impl Document {
         self.file.as_deref()
     }
 
-    /// What the title bar calls it: *still_life.ron*, *Untitled*.
+    /// Its name in the title bar: *still_life.ron*, *Untitled*.
     pub fn name(&self) -> String {
         let file = self.file.as_ref().and_then(|file| file.file_name());
         file.map_or_else(|| "Untitled".to_owned(), |name| name.to_string_lossy().into_owned())
     }
 
-    /// A file name to begin with for a copy: *still_life_copy.ron*.
+    /// The proposed file of a copy: *still_life_copy.ron*.
     pub fn suggested_copy(&self) -> PathBuf {
         let own = self.suggested_file();
         let stem = own.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         own.with_file_name(format!("{stem}_copy.ron"))
     }
 
-    /// The folder that the scene's files are named from.
+    /// The folder that paths in the scene are relative to.
     pub fn folder(&self) -> &Path {
         let folder = self.loaded.path.parent().filter(|folder| !folder.as_os_str().is_empty());
         folder.unwrap_or(Path::new("."))
     }
 
-    /// Moves to another folder, if the scene has no file and names none. Returns whether it did.
+    /// Makes paths relative to another folder, if the scene has no file and names none. Returns whether it did.
     pub fn live_in(&mut self, folder: &Path) -> bool {
         let is_free = self.file.is_none() && self.files_named().next().is_none();
         if is_free {
@@ -352,7 +352,7 @@ impl Document {
         is_free
     }
 
-    /// A file name to begin with: the scene's own, or one after its first object.
+    /// The proposed file for saving: the scene's own, or one named after its first object.
     pub fn suggested_file(&self) -> PathBuf {
         if let Some(file) = &self.file {
             return file.clone();

@@ -119,7 +119,7 @@ enum Busy {
     /// Nothing.
     #[default]
     Idle,
-    /// It moves the view round or beside a point.
+    /// It moves the view with respect to this point: orbit, pan or zoom.
     Navigating(Navigation, DVec3),
     /// It moves the shot's camera by the shot camera tool.
     Shot(CameraPose),
@@ -154,7 +154,7 @@ pub struct Editor {
     at_secs: f64,
     /// When the pointer last did something; the clock goes on without it.
     moved_secs: f64,
-    /// Whether the tool knows already that the hand rests.
+    /// Whether the tool was informed that the pointer rests.
     has_rested: bool,
     said: Vec<Said>,
     requests: Vec<Request>,
@@ -213,11 +213,11 @@ impl Editor {
         (self.document.shown(), self.version)
     }
 
-    /// Takes the painting that was prepared of what is shown.
+    /// Takes the painting that was prepared of the scene as shown.
     pub fn prepared(&mut self, painting: Painting) {
         self.picker.follow(&painting, self.session.frame);
         self.painting = Some(painting);
-        // What lies under a resting pointer may have changed.
+        // The surface under a resting pointer may have changed.
         self.has_rested = false;
     }
 
@@ -226,7 +226,7 @@ impl Editor {
         self.painting.as_ref()
     }
 
-    /// Surfaces under rays.
+    /// Finds surfaces under rays.
     pub fn picker(&self) -> &Picker {
         &self.picker
     }
@@ -310,7 +310,7 @@ impl Editor {
         })
     }
 
-    /// As [`Editor::run`], and never without an entry of the history.
+    /// As [`Editor::run`], but a pose always becomes an entry of the history, never a loose pose.
     fn keep(&mut self, command: &Command) -> bool {
         let result = self.document.apply(command);
         self.edited();
@@ -401,13 +401,13 @@ impl Editor {
     }
 
     fn refuse(&mut self, refusal: &Refusal) {
-        // The same words again add nothing.
+        // The same message is not repeated.
         if self.said.last().is_none_or(|said| said.words != refusal.0) {
             self.said.push(Said { words: refusal.0.clone(), offers: None, is_refusal: true });
         }
     }
 
-    /// Takes a key; false where it means nothing here. `typing` while a text field has the focus.
+    /// Handles a key; false if it has no meaning here. `typing`: whether a text field has the focus.
     pub fn key(&mut self, key: Key, held: Modifiers, typing: bool, view: &View) -> bool {
         self.held = held;
         let scope = match (&self.busy, self.session.mode) {

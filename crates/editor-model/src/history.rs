@@ -1,4 +1,4 @@
-//! What can be undone and redone.
+//! The history: steps that can be undone and redone, and which of them are saved.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::source::Source;
 /// The history forgets its oldest entries beyond this many bytes.
 const BUDGET_BYTES: usize = 256 << 20;
 
-/// Two entries of one merge key this close in time are one.
+/// Steps with the same merge key this close in time become one entry.
 const MERGE_SECONDS: f64 = 1.0;
 
 /// One step that can be undone.
@@ -21,20 +21,20 @@ pub(crate) struct Entry {
     pub(crate) selections: [Selection; 2],
     pub(crate) merge_key: Option<String>,
     pub(crate) at_secs: f64,
-    /// What was known of the text that the scene was read from, before and after; none where that stays.
+    /// The document's source text before and after; none if the step does not change it.
     pub(crate) sources: Option<[Option<Arc<Source>>; 2]>,
     serial: u64,
 }
 
-/// Done and undone steps, and where the file stands among them.
+/// Done and undone steps, and after which of them the file was saved.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct History {
     done: Vec<Entry>,
     undone: Vec<Entry>,
     next_serial: u64,
-    /// The serial of the last entry that was forgotten.
+    /// The serial of the last entry that was dropped to save memory.
     forgotten: u64,
-    /// The serial of the last entry when the file was written; 0 is before all entries; none: the file is not among them.
+    /// The serial of the last entry when the file was saved; 0 before all entries; none if no entry matches the file.
     saved: Option<u64>,
 }
 
@@ -64,7 +64,7 @@ impl History {
         }
     }
 
-    /// The entry that a step of this key at this time belongs to; never one that the file was saved at.
+    /// Whether a step with this key at this time joins the last entry; never if the file was saved just after that.
     pub(crate) fn mergeable(&self, key: &str, at_secs: f64) -> bool {
         self.undone.is_empty()
             && self.done.last().is_some_and(|entry| {
@@ -127,7 +127,7 @@ impl History {
         self.saved = Some(self.here());
     }
 
-    /// How many entries the file has not, or has too many.
+    /// How many steps of undo or redo lead back to the saved state; all done ones if it is out of reach.
     pub(crate) fn since_saved(&self) -> usize {
         let Some(saved) = self.saved else { return self.done.len() };
         if saved == self.forgotten {

@@ -122,7 +122,7 @@ pub enum Action {
     CameraFromView,
     /// Compares with the reference.
     Compare,
-    /// Off, hairs, hairs by region.
+    /// Direction lines: off, plain, by region.
     CycleHairs,
     /// The trust overlay.
     ToggleTrust,
@@ -162,7 +162,7 @@ pub enum Action {
     TakeBack,
 }
 
-/// A key of the board, by what is printed on it.
+/// A key of the keyboard, by what is printed on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Key {
     /// `'A'..='Z'`.
@@ -244,7 +244,7 @@ pub enum Digits {
 /// The keys as the user set them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Keymap {
-    /// Whose habits.
+    /// The preset: Blender's keys or Maya's.
     pub preset: Preset,
     /// What digits do.
     pub digits: Digits,
@@ -285,7 +285,7 @@ struct Binding {
 }
 
 impl Keymap {
-    /// What a key does; nothing where it is text, or has no meaning.
+    /// What a key does; nothing if it is text, or has no meaning.
     pub fn action_for(&self, key: Key, held: Modifiers, scope: Scope) -> Option<Action> {
         let chord = Chord { key, held };
         let bound = |place: Where| {
@@ -311,7 +311,7 @@ impl Keymap {
         }
     }
 
-    /// The keys of an action, as menus and tooltips write them; `None` where it has none.
+    /// The keys of an action, as menus and tooltips write them; `None` if it has none.
     pub fn shortcut_text(&self, action: Action) -> Option<String> {
         let mut bindings = self.bindings();
         let (_, chords) =

@@ -5,7 +5,7 @@
 //!                                 └─▶ Document::apply    (one entry of the history)
 //! ```
 //!
-//! A script of commands in a test can do whatever a hand can do in the window.
+//! A script of commands in a test can do whatever a user can do in the window.
 
 pub mod camera_rig;
 mod change;

@@ -37,7 +37,7 @@ const LONGEST_STRING_PX: f64 = 120.0;
 pub struct PathSettings {
     /// Radius of the brush at the press, pixels, > 0.
     pub radius_px: f64,
-    /// How far a pulled string steadies the hand, 0..=1.
+    /// How far a pulled string steadies the stroke, 0..=1.
     pub steady: f64,
     /// Which sides of the surface take part.
     pub faces: Faces,
@@ -93,11 +93,11 @@ pub struct GuideStyle {
     pub strength: f64,
     /// How the strength falls off.
     pub falloff: Falloff,
-    /// Whether strokes run as the hand did, or against it.
+    /// Whether strokes run along the drag, or against it.
     pub sense: PathSense,
 }
 
-/// Whether strokes run as the hand did.
+/// Whether strokes run along the drag.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PathSense {
     /// As dragged.
@@ -142,7 +142,7 @@ impl SurfacePath {
         self.radius
     }
 
-    /// Whether the hand is off the surface now.
+    /// Whether the pointer is off the surface now.
     pub fn is_lifted(&self) -> bool {
         self.lifted
     }
@@ -160,7 +160,7 @@ impl SurfacePath {
         }
     }
 
-    /// The path as it would be if the hand let go now.
+    /// The path as it would be if the button were released now.
     pub fn finished(&self, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) -> Self {
         let mut path = self.clone();
         let steps = path.curve.finish();

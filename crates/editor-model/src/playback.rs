@@ -97,7 +97,7 @@ impl Playing {
         }
     }
 
-    /// The last frame's index, where there is one.
+    /// Index of the last frame, counted from the one that playing began at; none if playback loops.
     fn end(&self) -> Option<i64> {
         (!self.course.looped).then_some(self.course.last - self.start_frame)
     }

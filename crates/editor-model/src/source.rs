@@ -1,4 +1,4 @@
-//! The text of a scene that could not be read whole, with what was lost of it.
+//! The text of a scene that could not be read completely, with a list of what was lost.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use impasto_scene::load::salvage::{Loss, Salvaged};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::MeshFile;
 
-/// The text that a scene was read from, not all of which could be read.
+/// The text that a scene was read from, of which parts could not be read.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The text.
@@ -17,12 +17,12 @@ pub struct Source {
     pub losses: Vec<Loss>,
     /// The scene as far as it was read.
     pub(crate) scene: Scene,
-    /// What stands in for meshes that cannot be used.
+    /// Boxes in place of meshes that cannot be used, by the meshes' names.
     stand_ins: BTreeMap<String, Arc<MeshFile>>,
 }
 
 impl Source {
-    /// None where nothing was lost.
+    /// The source of a salvaged scene; none if nothing was lost.
     pub(crate) fn of(salvaged: &Salvaged) -> Option<Self> {
         let Salvaged { loaded, losses, text } = salvaged;
         let names = losses.iter().filter_map(|loss| loss.mesh.as_ref());
@@ -36,7 +36,7 @@ impl Source {
         })
     }
 
-    /// A scene that holds what stands in, too, so that an edit can come back to it.
+    /// The scene with the boxes added to its meshes, so that an edited scene that names such a mesh can still use its box.
     pub(crate) fn held(&self, loaded: &LoadedScene) -> LoadedScene {
         let mut held = loaded.clone();
         for (name, stand_in) in &self.stand_ins {
@@ -45,7 +45,7 @@ impl Source {
         held
     }
 
-    /// Whether a box stands in for a mesh that cannot be used.
+    /// Whether a mesh cannot be used and a box is shown in its place.
     pub(crate) fn has_stand_in(&self, mesh: &str) -> bool {
         self.stand_ins.contains_key(mesh)
     }

@@ -17,7 +17,7 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// The stamp of a file, which is read completely. `None` where there is no regular file that can be read.
+    /// The stamp of a file, which is read completely. `None` if it is not a regular file that can be read.
     pub fn of(path: &Path) -> Option<Self> {
         let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
         let hash = hash_of(path).ok()?;

@@ -57,7 +57,7 @@ pub struct Surroundings<'a> {
 
 /// Questions that only the painting can answer.
 pub trait Painted {
-    /// Index of the region at a hit; `None` where none lies.
+    /// Index of the region at a hit, if there is one.
     fn region_at(&self, hit: &Hit) -> Option<usize>;
 
     /// How strokes show there now.

@@ -6,10 +6,10 @@ use std::time::SystemTime;
 
 use crate::document::Document;
 
-/// Size and time of a file; none where it is not there.
+/// Size and time of a file; none if it does not exist.
 type SizeAndTime = Option<(u64, Option<SystemTime>)>;
 
-/// The files of a document, as they looked last.
+/// The files of a document, as they were at the last poll.
 #[derive(Debug, Default)]
 pub struct Watch {
     files: BTreeMap<PathBuf, Watched>,
@@ -17,9 +17,9 @@ pub struct Watch {
 
 #[derive(Debug)]
 struct Watched {
-    /// As it was taken in.
+    /// Of the version that was read.
     known: SizeAndTime,
-    /// As it looked a moment ago, where that is other: it may still be being written.
+    /// Of the last poll, if different: the file may still be being written.
     seen: Option<SizeAndTime>,
 }
 
@@ -93,14 +93,14 @@ mod tests {
         fs::write(&mesh, format!("{QUAD}# more and more\n")).expect("written");
         assert_eq!(watch.look(&document), None);
         assert_eq!([watch.look(&document), watch.look(&document)], [Some(News::Files), None]);
-        // Its own saving is no news.
+        // Its own saving is not reported.
         document.apply(&Command::Scene(SceneEdit::SetSeed(5))).expect("done");
         document.save().expect("saved");
         assert_eq!([watch.look(&document), watch.look(&document)], [None, None]);
         fs::write(&scene, format!("{SCENE} ")).expect("written");
         assert_eq!([watch.look(&document), watch.look(&document)], [None, Some(News::Scene)]);
         assert_eq!(watch.look(&document), None, "told once");
-        // Another document: nothing is known of it yet.
+        // The files of another document are new, so they are not reported.
         let other = Document::empty(folder.path());
         assert_eq!([watch.look(&other), watch.look(&document)], [None, None]);
     }

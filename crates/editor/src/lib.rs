@@ -18,13 +18,13 @@ use impasto_gl_render::shader_folder::ShaderFolder;
 
 pub use options::EditOptions;
 
-/// Why there is nothing to edit in.
+/// Why the editor did not open.
 #[derive(Debug, thiserror::Error)]
 pub enum EditError {
-    /// The file cannot be edited, with the words that say why.
+    /// The file or the shaders cannot be used, with the words that say why.
     #[error("{0}")]
     Refused(String),
-    /// There is no window.
+    /// The window could not be opened, or broke off.
     #[error(transparent)]
     Window(#[from] window::WindowError),
 }
@@ -32,7 +32,7 @@ pub enum EditError {
 /// Opens the editor and stays until it is closed. Must be called on the main thread, once.
 ///
 /// # Errors
-/// [`EditError`]: a file that is no scene and no mesh, no display, no OpenGL.
+/// [`EditError`]: a file that is neither scene nor mesh, shaders that cannot be read, no display, no OpenGL.
 pub fn run(options: &EditOptions) -> Result<(), EditError> {
     use incoming::Kind;
     if let Some(path) = &options.path {

@@ -1,4 +1,4 @@
-//! The thread that renders a sequence into files, the same as those of `impasto render`, while the window stays usable.
+//! Renders a sequence into files on a thread of its own, so that the window stays usable: the files of `impasto render`.
 //!
 //! ```text
 //! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ Sequence::render_files ─▶ Rendering::progress
@@ -46,12 +46,12 @@ struct Shared {
 #[derive(Default)]
 struct Board {
     progress: RenderProgress,
-    /// A small copy of the last frame, until somebody takes it.
+    /// A small copy of the last frame, until it is taken.
     picture: Option<ColorImage>,
 }
 
 impl Rendering {
-    /// Starts. `shaders` stand in for the program's own. `wake` is called on the thread whenever there is something new to show.
+    /// Starts. `shaders` replace the program's own. `wake` is called on the thread whenever there is something new to show.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -89,7 +89,7 @@ impl Rendering {
         &self.plan
     }
 
-    /// How far it is.
+    /// Its progress.
     pub fn progress(&self) -> RenderProgress {
         let mut progress = self.shared.board().progress.clone();
         if progress.outcome.is_none() {
@@ -99,22 +99,22 @@ impl Rendering {
         progress
     }
 
-    /// Whether it ended.
+    /// Whether it has ended, well or not.
     pub fn is_over(&self) -> bool {
         self.shared.board().progress.outcome.is_some()
     }
 
-    /// A small copy of the last frame, once.
+    /// A small copy of the last frame; each is given once.
     pub fn take_picture(&self) -> Option<ColorImage> {
         self.shared.board().picture.take()
     }
 
-    /// Ends it as soon as it can; frames under way are given up.
+    /// Ends it soon; frames under way are given up.
     pub fn stop(&self) {
         self.shared.stop.store(true, Ordering::Release);
     }
 
-    /// Waits for the end, at most so long; returns whether it came.
+    /// Waits for the end, at most this long; returns whether it came.
     pub fn wait(&self, most: Duration) -> bool {
         let board = self.shared.board();
         let runs = |board: &mut Board| board.progress.outcome.is_none();
@@ -129,14 +129,14 @@ impl Drop for Rendering {
         if self.wait(CLOSING)
             && let Some(thread) = self.thread.take()
         {
-            // Where it panicked, the outcome says so already.
+            // If it panicked, the outcome says so already.
             let _ = thread.join();
         }
     }
 }
 
 impl Shared {
-    /// No code that holds the lock can panic half way.
+    /// Ignores poisoning: no code that holds the lock can panic and leave the board half changed.
     fn board(&self) -> MutexGuard<'_, Board> {
         self.board.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -237,7 +237,7 @@ fn run(
     })
 }
 
-/// Every so many pixels, which is enough for a look.
+/// Every n-th pixel of every n-th row, so that no side is longer than [`SMALL_PX`].
 fn small_copy(picture: &Picture) -> ColorImage {
     let [width, height] = picture.size_px;
     let step = width.max(height).div_ceil(SMALL_PX).max(1);

@@ -1,5 +1,5 @@
-//! The picture with everything that floats over it: what the pointer does there comes back as plain events, what the chips
-//! ask for as asks. It changes nothing itself.
+//! The viewport: the picture with everything that floats over it. It changes nothing itself, and returns the pointer's events
+//! and what the chips (the floating buttons) ask for.
 
 use egui::{Color32, CursorIcon, Id, Rect, Sense, Ui, pos2};
 use glam::DVec2;
@@ -31,27 +31,27 @@ pub use seen_hairs::{HairLook, hair_marks};
 /// What the viewport shows.
 #[derive(Clone, Copy)]
 pub struct ViewportInput<'a> {
-    /// The worker's pictures; of a comparison the first is the reference.
+    /// The worker's pictures; in a comparison the first is the reference.
     pub pictures: &'a Pictures,
     /// Mode, shading, overlays.
     pub session: &'a Session,
-    /// What is looked through, as it stands in the scene or in the hand: not widened.
+    /// The camera of the first picture, before it is widened to the viewport.
     pub camera: &'a CameraPose,
-    /// Whether that is the shot camera.
+    /// Whether the viewport looks through the shot camera.
     pub through_shot: bool,
     /// What is drawn over the picture; in a comparison, over the reference.
     pub marks: &'a Marks<'a>,
-    /// The other half of a comparison; `None` where nothing is compared.
+    /// The other half of a comparison, if there is one.
     pub now: Option<Now<'a>>,
-    /// How what is seen stands to the reference.
+    /// The badge at the bottom left.
     pub badge: Badge,
-    /// What a screen reader says of the viewport: *Paint, comb, shot camera, frame 0, reference*.
+    /// What a screen reader says of the viewport, such as *Paint, comb, shot camera, frame 0, reference*.
     pub value: &'a str,
-    /// What it says of the place under the pointer: *skin, 10 degrees, trust 0.97*.
+    /// What it says of the place under the pointer, such as *skin, 10 degrees, trust 0.97*.
     pub under_cursor: &'a str,
-    /// Whether nothing stands in the scene.
+    /// Whether the scene is empty.
     pub empty: bool,
-    /// What went wrong with the picture, in words.
+    /// What went wrong with the picture, in words for the user.
     pub trouble: Option<&'a str>,
 }
 
@@ -62,57 +62,57 @@ pub struct Now<'a> {
     pub camera: &'a CameraPose,
     /// This frame.
     pub frame: f64,
-    /// *apple turned −86°, strokes turned −85.8°*
+    /// The note beside its title, such as *apple turned −86°*.
     pub note: &'a str,
     /// What is drawn over it.
     pub marks: &'a Marks<'a>,
 }
 
-/// How what is seen stands to the reference.
+/// How the view that is shown differs from the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Badge {
-    /// It is the reference pose, at this frame.
+    /// Not at all: the shot camera at this frame, which is the reference's.
     Reference(f64),
     /// Another frame, through the shot camera.
     Turned {
-        /// What is seen.
+        /// The frame that is shown.
         frame: f64,
-        /// The reference.
+        /// The reference's frame.
         reference: f64,
     },
-    /// A camera of the hand's own, at this frame.
+    /// A free camera, at this frame.
     Free(f64),
 }
 
-/// What the user looks through from now on.
+/// A choice of the camera to look through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CameraChoice {
     /// The shot camera.
     Shot,
-    /// A camera of one's own, from where one is.
+    /// A free camera that starts at the current pose.
     Free,
-    /// A camera of one's own, along an axis.
+    /// A free camera that looks along an axis.
     Along(AxisView),
 }
 
-/// What was done in the viewport.
+/// What the user did in the viewport.
 #[derive(Debug, Default)]
 pub struct ViewportEvents {
-    /// What the pointer did on the picture (of a comparison: on the reference), in order.
+    /// What the pointer did on the picture (in a comparison, on the reference), in order.
     pub pointer: Vec<PointerEvent>,
     /// What the chips ask for.
     pub asks: Vec<Ask>,
-    /// What is to be looked through.
+    /// A camera that was chosen.
     pub look: Option<CameraChoice>,
-    /// Take the frame and view that are seen as the reference.
+    /// Whether *Recapture* was pressed: take the frame that is shown as the reference.
     pub recapture: bool,
-    /// An orbit by the axis ball, points.
+    /// A drag of the axis ball, which orbits the view, points.
     pub orbit_px: DVec2,
     /// Whether the pointer is on the picture.
     pub hovered: bool,
 }
 
-/// Shows the viewport. `layout` is where things lie in it; it is made before, so that marks can be made for it.
+/// Shows the viewport. `layout` says where its pictures lie; the caller makes it, as marks need it first.
 pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> ViewportEvents {
     let tokens = Tokens::of(ui);
     let area = layout.area();
@@ -125,7 +125,7 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
         info
     });
     let painter = ui.painter().with_clip_rect(area);
-    // In the light theme fields are white, and brighter than any picture.
+    // In the light theme `field` is white, which would be brighter than any picture.
     let is_dark = ui.visuals().dark_mode;
     let ground = if input.now.is_some() && is_dark { tokens.field } else { tokens.app };
     painter.rect_filled(area, 0.0, ground);
@@ -150,7 +150,7 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     let mut pointer = ui.data_mut(|data| data.get_temp::<pointer::Pointer>(id)).unwrap_or_default();
     let layer = response.layer_id;
     let ctx = ui.ctx().clone();
-    // Chips and sheets float in layers of their own.
+    // Chips and sheets are in layers of their own.
     let over = |at| first.viewport().contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
     events.pointer = pointer.events(ui, first, over);
     events.hovered = pointer.is_inside();

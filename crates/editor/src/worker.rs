@@ -1,4 +1,4 @@
-//! The thread that prepares and draws. The window hands it what to show and takes what has been done since; it never waits.
+//! The thread that prepares and draws. The window hands it what to show and polls for results; it never waits.
 //!
 //! ```text
 //! Worker::show(Job) ─▶ desk (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ tray ─▶ Worker::poll
@@ -31,48 +31,48 @@ use desk::Desk;
 /// How long closing waits for the thread; after that it is left to end by itself.
 const CLOSING: Duration = Duration::from_millis(1500);
 
-/// What is to be seen.
+/// A scene and the views of it to draw.
 #[derive(Clone, Debug)]
 pub struct Job {
     /// The scene.
     pub loaded: Arc<LoadedScene>,
-    /// Counts the scene's versions: where it is as it was, nothing is prepared anew.
+    /// The version of the scene: nothing is prepared again while it stays the same.
     pub serial: u64,
-    /// One picture each.
+    /// The views, each drawn as one picture.
     pub views: Vec<ViewJob>,
 }
 
 /// One picture of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewJob {
-    /// Where from; its lens takes in the whole picture.
+    /// The camera; its lens is widened to take in the whole picture.
     pub camera: CameraPose,
     /// The frame, which need not be whole.
     pub frame: f64,
     /// Width and height of the exact picture, in pixels.
     pub size_px: [u32; 2],
-    /// How high the shot is in the picture, in pixels, > 0; strokes are sized for it.
+    /// Height of the shot within the picture, in pixels, > 0; strokes are sized for it.
     pub shot_height_px: f32,
-    /// What is shown of the scene.
+    /// How the scene is shown: painted, shaded, or coloured by trust.
     pub shading: Shading,
-    /// Lights that are shown over the picture; sizes in pixels are those of the exact picture.
+    /// Icons of lights over the picture; sizes in pixels are those of the exact picture.
     pub lights: Vec<LightBillboard>,
-    /// Whether more of its kind will follow at once (a hand is on it): then a draft is enough.
+    /// Whether the next view will follow at once (a drag or playback is under way): then a draft is enough.
     pub moving: bool,
 }
 
 impl ViewJob {
-    /// Whether both look the same: a hand that is on it changes nothing that is seen.
+    /// Whether both look the same, whether or not they are moving.
     pub fn looks_like(&self, other: &Self) -> bool {
         *self == Self { moving: self.moving, ..other.clone() }
     }
 
-    /// Whether both look the same but for the lights over them.
+    /// Whether both look the same, except for the icons of lights over them.
     pub(crate) fn differs_in_lights_alone(&self, other: &Self) -> bool {
         *self == Self { moving: self.moving, lights: self.lights.clone(), ..other.clone() }
     }
 
-    /// The lights in a picture of fewer pixels.
+    /// The icons of lights, sized for a picture of fewer pixels.
     pub(crate) fn lights_in(&self, size_px: [u32; 2]) -> Vec<LightBillboard> {
         let share = size_px[1] as f32 / self.size_px[1].max(1) as f32;
         let sized = |light: &LightBillboard| match light.size {
@@ -85,15 +85,15 @@ impl ViewJob {
     }
 }
 
-/// What the thread has to tell.
+/// What the thread reports.
 pub enum Report {
-    /// The driver that draws.
+    /// OpenGL is open, with this driver.
     Opened(ContextReport),
-    /// A scene is prepared: direction marks and picking may use it, with what picking needs of it. With its serial.
+    /// A scene is prepared: its painting and picker, for direction marks and picking, and its serial.
     Prepared(Box<(Painting, Picker)>, u64),
     /// A picture.
     Picture(Picture),
-    /// What went wrong, in words for people. The thread goes on.
+    /// What went wrong, in words for the user. The thread goes on.
     Failed(String),
 }
 
@@ -111,7 +111,7 @@ pub struct Picture {
     pub exact: bool,
     /// How many strokes it has.
     pub strokes: usize,
-    /// How many of them each region has, by its place in the scene; the last are those of no region.
+    /// How many of them each region has, in the order of the scene's regions; the last number is of strokes in no region.
     pub strokes_of: Vec<usize>,
     /// How long it took to draw, seconds.
     pub seconds: f64,
@@ -137,29 +137,28 @@ impl Worker {
         Ok(Self { desk, thread: Some(thread) })
     }
 
-    /// Shows this from now on. A job that was not begun is dropped; of the one that is being worked on, the exact pictures are
-    /// given up.
+    /// Shows this from now on. A job that was not begun is dropped; one that is under way gives up its exact pictures.
     pub fn show(&self, job: Job) {
         self.desk.put(job, Vec::new());
     }
 
-    /// As [`Worker::show`], of a film that plays: `ahead` are the same views as they will likely be asked for next.
+    /// As [`Worker::show`], during playback: `ahead` are the same views at the frame that will likely be asked for next.
     pub fn play(&self, job: Job, ahead: Vec<ViewJob>) {
         self.desk.put(job, ahead);
     }
 
-    /// From the next job on, everything is drawn with these shaders; where one of them is broken that is told, and what there was
-    /// goes on.
+    /// Draws everything with these shaders from the next job on. If one of them is broken, that is reported and the ones before
+    /// stay in use.
     pub fn replace_shaders(&self, texts: ShaderTexts) {
         self.desk.put_shaders(texts);
     }
 
-    /// Gives up preparing what is to be shown now: what was shown before stays, until something else is to be shown.
+    /// Gives up preparing the last job: its scene is not shown, and the pictures before stay until another job comes.
     pub fn stop_preparing(&self) {
         self.desk.stop_preparing();
     }
 
-    /// Everything that has come since the last call; of several pictures of one view, the newest.
+    /// All reports since the last call; of several pictures of one view, only the newest.
     pub fn poll(&self) -> Vec<Report> {
         self.desk.collect()
     }
@@ -171,7 +170,7 @@ impl Drop for Worker {
         if self.desk.wait_for_end(CLOSING)
             && let Some(thread) = self.thread.take()
         {
-            // Its panics have been told already.
+            // Its panics have been reported already.
             let _ = thread.join();
         }
     }

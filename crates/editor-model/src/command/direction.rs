@@ -229,7 +229,7 @@ fn no_point() -> Refusal {
     Refusal::new("The guide has no such point")
 }
 
-/// The name of the region that a gesture works on; made where it is not there yet.
+/// The name of the region that a gesture works on; the region is made if it does not exist yet.
 fn target(scene: &mut Scene, region: &RegionTarget) -> Result<String, Refusal> {
     match region {
         RegionTarget::Named(name) => Ok(name.clone()),

@@ -14,7 +14,7 @@ use crate::selection::{Item, Selection};
 /// The owner of stroke settings.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum StrokesOf {
-    /// The scene's, which hold where no region says otherwise.
+    /// The scene's, which regions can replace.
     Scene,
     /// A region's.
     Region(String),

@@ -20,17 +20,17 @@ pub enum SaveError {
     /// It has no file yet.
     #[error("this scene has no file yet: choose a name")]
     Unnamed,
-    /// Files that the scene names would not be found from there.
+    /// The scene would not find its files from there.
     #[error("from {} the scene would not find {mesh:?}: save it in {}, or put the file there first", target.display(), folder.display())]
     FilesElsewhere {
         /// The file that was chosen.
         target: PathBuf,
         /// A file that the scene names.
         mesh: String,
-        /// The folder that the scene's files are named from.
+        /// The folder that paths in the scene are relative to.
         folder: PathBuf,
     },
-    /// The file system would not.
+    /// The file could not be written.
     #[error("{} was not written: {source}", target.display())]
     Unwritable {
         /// The file.
@@ -57,10 +57,10 @@ pub enum SaveError {
 }
 
 impl Document {
-    /// Writes the scene to its file; at any moment the file is the old one or the new one, whole.
+    /// Writes the scene to its file; at any moment that is the whole old one or the whole new one.
     ///
     /// # Errors
-    /// As [`Document::save_as`]; and where there is no file yet, or another program has changed it.
+    /// As [`Document::save_as`], and if there is no file yet, or another program has changed it.
     pub fn save(&mut self) -> Result<PathBuf, SaveError> {
         let file = self.file.clone().ok_or(SaveError::Unnamed)?;
         self.may_save_over(&file)?;
@@ -74,28 +74,29 @@ impl Document {
     /// As [`Document::save`], but overwrites what another program has written since.
     ///
     /// # Errors
-    /// As [`Document::save_as`], and where there is no file yet.
+    /// As [`Document::save_as`], and if there is no file yet.
     pub fn save_over(&mut self) -> Result<PathBuf, SaveError> {
         let file = self.file.clone().ok_or(SaveError::Unnamed)?;
         self.save_as(&file)?;
         Ok(file)
     }
 
-    /// Whether the document's file holds other bytes than were last read or written. A deleted file does not count: nothing could
-    /// be lost.
+    /// Whether the document's file has changed since it was last read or written here. A deleted file does not count, because
+    /// saving would overwrite nothing.
     pub fn is_changed_outside(&self) -> bool {
         let is_other = |file: &PathBuf| Stamp::is_other(self.stamp.as_ref(), file) && file.exists();
         self.file.as_ref().is_some_and(is_other)
     }
 
-    /// Writes the scene to a file, which is its own from then on. The history stays. Returns what [`Document::save_copy`] does.
+    /// Writes the scene to a file, which is the document's own from then on. The history stays. Returns as
+    /// [`Document::save_copy`] does.
     ///
     /// # Errors
-    /// As [`Document::save_copy`], and when it is the document's own file and not all of that could be read.
+    /// As [`Document::save_copy`], and if `target` is the document's own file and not all of that could be read.
     pub fn save_as(&mut self, target: &Path) -> Result<Vec<String>, SaveError> {
         self.may_save_over(target)?;
         let missing = self.save_copy(target)?;
-        // What was written, should somebody else have written since.
+        // Size and hash are those of the text written here, in case another program has already changed the file.
         let text = save::to_ron(self.scene());
         let written = |stamp| Stamp { bytes: text.len() as u64, hash: stamp::hash(text.as_bytes()), ..stamp };
         self.stamp = Stamp::of(target).map(written);
@@ -108,7 +109,7 @@ impl Document {
 
     fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        // The text may belong to another file than the document's own: that of a copy of unsaved work.
+        // Compared by `loaded.path`: a recovered copy that was read with losses has no `file`, but must not overwrite its origin.
         let is_own = real(target) == real(&self.loaded.path);
         match self.first_loss().filter(|_| is_own) {
             Some(line) => Err(SaveError::Problems { count: self.loss_count(), line }),
@@ -116,12 +117,12 @@ impl Document {
         }
     }
 
-    /// Writes the scene to another file, and stays with its own. Returns the files that the scene names and that are neither
-    /// in the folder of `target` nor in the scene's own, where that is another.
+    /// Writes the scene to another file; the document keeps its own. Returns the files that the scene names but that are in
+    /// neither folder, if `target` is in another folder.
     ///
     /// # Errors
-    /// When the scene's folder has a file that the scene names and that of `target` has not, or the file system refuses; what
-    /// was at `target` is untouched.
+    /// If a file that the scene names is in the scene's folder but not in that of `target`, or if writing fails; then `target`
+    /// is untouched.
     pub fn save_copy(&self, target: &Path) -> Result<Vec<String>, SaveError> {
         let folder_of = |path: &Path| {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -145,7 +146,7 @@ impl Document {
         Ok(missing)
     }
 
-    /// Where a file that the scene names lies in the scene's folder; none where it is not there.
+    /// The path of a file that the scene names; none if it is not in the scene's folder.
     pub fn file_at_hand(&self, name: &str) -> Option<PathBuf> {
         let root = self.folder();
         let beside = root.join("scene.ron");
@@ -174,7 +175,7 @@ impl Document {
     /// As [`Document::reload`], but reads as much as possible of a file with errors.
     ///
     /// # Errors
-    /// Where there is nothing to read.
+    /// If nothing can be read.
     pub fn read_again(&mut self) -> Result<Step, Report> {
         let Some(file) = self.file.clone() else { return Ok(nothing()) };
         let read = Self::open_with_problems(&file, &self.options)?;
@@ -200,10 +201,10 @@ impl Document {
         Step { text, note: None }
     }
 
-    /// Reads the meshes and pictures that the scene names again. No entry of the history: the scene stays.
+    /// Reads the meshes and pictures that the scene names again. The scene does not change, so there is no history entry.
     ///
     /// # Errors
-    /// What is wrong with them, in the words to show; those that were held stay.
+    /// What is wrong with them, in the words to show; then the old ones stay.
     pub fn read_files_again(&mut self) -> Result<(), Refusal> {
         let scene = self.scene().clone();
         let (meshes, textures, brushes) = Default::default();
@@ -214,7 +215,7 @@ impl Document {
         Ok(())
     }
 
-    /// The files that the scene was read from, with its own first, where they are on the disk.
+    /// The paths of all files of the scene, its own first; MTL files are assumed to be named like their OBJ files.
     pub fn files_on_disk(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.file.iter().cloned().collect();
         for name in self.files_named() {

@@ -17,7 +17,7 @@ use crate::source::Source;
 /// One problem of the document, for a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProblemRow {
-    /// What, and where in the text.
+    /// The problem, and its place in the text.
     pub problem: Problem,
     /// What is used until it is mended, as a sentence; empty for warnings.
     pub instead: String,
@@ -33,13 +33,13 @@ pub enum Repair {
         /// The object.
         object: String,
     },
-    /// A change of the text that it was read from.
+    /// A change of the scene's text.
     Fix {
         /// Index of the loss in the source.
         loss: usize,
         /// The verb: *Rename*, *Use leaf.obj*.
         verb: String,
-        /// Whether nothing else can have been meant.
+        /// Whether it is certain: nothing else can have been meant.
         is_certain: bool,
     },
     /// Moves the points of a guide onto the surface.
@@ -52,7 +52,7 @@ pub enum Repair {
 }
 
 impl Document {
-    /// Everything that is wrong or odd: what keeps the scene from being saved over its file, then the rest.
+    /// All problems: first those that keep the scene from being saved over its file, then the rest.
     pub fn problems(&self) -> Vec<ProblemRow> {
         let losses = self.open_losses().map(|(index, loss)| {
             let mut repairs = Vec::new();
@@ -81,7 +81,7 @@ impl Document {
         losses.chain(warnings).collect()
     }
 
-    /// How many losses are left: while there are any, the scene must not take the place of its file.
+    /// How many losses are left. While there are any, the scene must not be saved over its file.
     pub fn loss_count(&self) -> usize {
         self.open_losses().count()
     }
@@ -104,18 +104,18 @@ impl Document {
     /// Mends one loss.
     ///
     /// # Errors
-    /// Where there is no certain way, or the same thing was edited since; the document is unchanged.
+    /// If there is no certain repair, or the same thing was edited since; the document is unchanged.
     pub fn fix_problem(&mut self, loss: usize) -> Result<Step, Refusal> {
         self.fix(&[loss])
     }
 
-    /// The losses that can be mended in one way only.
+    /// Indices of the losses that have a certain repair.
     pub fn certain(&self) -> Vec<usize> {
         let is_certain = |loss: &Loss| loss.fix.as_ref().is_some_and(|fix| fix.is_certain);
         self.open_losses().filter(|(_, loss)| is_certain(loss)).map(|(index, _)| index).collect()
     }
 
-    /// Mends all losses that can be mended in one way only, as one entry.
+    /// Mends all losses that have a certain repair, as one entry.
     ///
     /// # Errors
     /// As [`Document::fix_problem`].
@@ -140,7 +140,7 @@ impl Document {
     /// Reads another text in place of the one that the scene was read from. The file on disk stays as it is.
     ///
     /// # Errors
-    /// Where nothing of it can be read, or the same thing was edited since; the document is unchanged.
+    /// If nothing of it can be read, or the same thing was edited since; the document is unchanged.
     pub fn read_text(&mut self, text: &str) -> Result<Step, Refusal> {
         self.read_instead(text, "Read the source again".to_owned())
     }
@@ -150,10 +150,10 @@ impl Document {
             .map_err(|report| Refusal::of(&report))?;
         let after = Source::of(&read).map(Arc::new);
         let loaded = match &self.source {
-            // Edited since: both changes are merged where they concern different things.
+            // The scene was edited since it was read: merge the edits with the new text.
             Some(source) if source.scene != *self.scene() => {
                 let scene = both(&source.scene, &read.loaded.scene, self.scene())?;
-                // What is held already is not read again, what stands in for something stands on.
+                // Keeps meshes that were read, and the boxes in place of unusable ones.
                 let held = after.as_ref().map(|after| after.held(&read.loaded));
                 let held = held.as_ref().unwrap_or(&read.loaded);
                 held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?
@@ -176,7 +176,7 @@ impl Document {
     /// Moves the points of a guide onto the surface that they belong to.
     ///
     /// # Errors
-    /// Where there is no such guide or surface, or the region is locked.
+    /// If there is no such guide or surface, or the region is locked.
     pub fn snap_guide(&mut self, region: &str, guide: usize) -> Result<Step, Refusal> {
         let scene = self.scene();
         let of = scene.regions.iter().find(|other| other.name == region);
@@ -279,7 +279,7 @@ fn items<T: Clone + PartialEq>(
     }
     for (index, item) in left.iter().enumerate() {
         if find(from, item).is_none() && find(right, item).is_none() {
-            // Behind what it stood behind.
+            // After the item that it came after in `left`.
             let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
             merged.insert(before.map_or(0, |at| at + 1), item.clone());
         }

@@ -14,10 +14,10 @@ use crate::source::Source;
 use crate::stamp::Stamp;
 
 impl Document {
-    /// Opens a scene as far as it can be read. While anything of it could not be, saving over its file is refused.
+    /// Opens a scene as far as it can be read. Until all losses are mended, saving over its file is refused.
     ///
     /// # Errors
-    /// Where there is nothing to open.
+    /// If nothing of it can be read.
     pub fn open_with_problems(path: &Path, options: &LoadOptions) -> Result<Self, Report> {
         let whole = match Self::open(path, options) {
             Ok(document) => return Ok(document),
@@ -33,26 +33,26 @@ impl Document {
         Ok(Self { stamp, source, ..document })
     }
 
-    /// Opens a copy of unsaved work, as an edited document. Files are found from the scene's original folder.
+    /// Opens a copy of unsaved work as an edited document. Paths stay relative to the scene's original folder.
     ///
     /// # Errors
-    /// Where nothing of the copy can be read.
+    /// If nothing of the copy can be read.
     pub fn recovered(copy: &Copy, options: &LoadOptions) -> Result<Self, Report> {
         let salvaged = salvage::salvage_text(&copy.path, &copy.text, options)?;
         let source = Source::of(&salvaged).map(Arc::new);
-        // A scene that was read with losses must not overwrite its file, whose losses are not known any more.
+        // A scene that was read with losses must not overwrite its file: the copy does not know what was lost.
         let file = copy.file.clone().filter(|_| !copy.lossy);
         let stamp = copy.stamp.filter(|_| file.is_some());
         let document = Self::of(salvaged.loaded, file, options.clone());
         Ok(Self { stamp, source, history: History::new(false), ..document })
     }
 
-    /// The text that the scene was read from, as long as not all of it could be read.
+    /// The text that the scene was read from, while parts of it could not be read.
     pub fn source(&self) -> Option<&Arc<Source>> {
         self.source.as_ref()
     }
 
-    /// Whether a mesh, as an object names it, is not there or cannot be used: nothing or a box stands in for it.
+    /// Whether a mesh, by its name in the scene, is missing or cannot be used, so that a box or nothing is shown in its place.
     pub fn lacks_mesh(&self, mesh: &str) -> bool {
         let is_boxed = |source: &Arc<Source>| source.has_stand_in(mesh);
         self.source.as_ref().is_some_and(is_boxed) || !self.shown().meshes.contains_key(mesh)

@@ -10,9 +10,9 @@ use crate::watch::News;
 /// A repair of the document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// Mends the loss at this place of the source.
+    /// Mends the loss with this index in the source.
     Fix(usize),
-    /// Mends everything that can be mended in one way only.
+    /// Mends all losses that have a certain repair.
     FixCertain,
     /// A guide of a region goes onto its surface.
     Snap(String, usize),
@@ -88,8 +88,8 @@ impl Editor {
         })
     }
 
-    /// Takes in what changed on the disk, where that drops no edit: view, selection and mode stay. For any thread, since it may
-    /// read many files; none where the user has to be asked.
+    /// Reads what changed on the disk; view, selection and mode stay. To be run on any thread, since it may read many files.
+    /// None if that would lose edits, so that the user has to be asked.
     pub fn taking_in(&self, news: News) -> Option<impl FnOnce() -> Mended + Send + use<>> {
         if news == News::Scene && self.document.is_edited() {
             return None;
@@ -173,7 +173,7 @@ mod tests {
         editor.save(None).expect("saved");
         assert_eq!(editor.take(again), Took::Late);
         assert_eq!(editor.document().scene().seed, 7);
-        // Dropped by choice, and brought back.
+        // The user chose to drop the edits; undo brings them back.
         seed(&mut editor, 8);
         assert!(editor.mend(&Mend::ReadAgain));
         assert_eq!(editor.document().scene().seed, 7);

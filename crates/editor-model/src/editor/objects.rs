@@ -140,7 +140,7 @@ impl Editor {
         if let Some(light) = &drag.light {
             return self.light_command(light, delta, drag.machine.world_from_space());
         }
-        // A pose that is not keyed is what the hand sees.
+        // A loose pose is what the user sees, so the transform starts from it.
         let loose = self.time.loose_scene().map(|loaded| &loaded.scene);
         let scene = loose.unwrap_or(self.document.scene());
         let frame = self.session.frame;

@@ -43,7 +43,7 @@ pub struct PointerEvent {
     pub kind: PointerKind,
     /// Where, pixels of the viewport from its upper left corner.
     pub at_px: DVec2,
-    /// With what held.
+    /// The modifiers that are held.
     pub held: Modifiers,
     /// When, seconds of any clock.
     pub at_secs: f64,
@@ -221,7 +221,7 @@ impl Editor {
             Busy::Painting if button == Button::Left => {
                 self.busy = Busy::Idle;
                 self.tool(ToolEvent::Release, view);
-                // The ring stays under the hand.
+                // Shows the ring at the pointer again.
                 self.hover_again(view);
             }
             Busy::Transforming(drag) if drag.held && button == Button::Left => {

@@ -1,4 +1,4 @@
-//! Saving: what was written, and what the scene will not find from there, is said.
+//! Saving, with a message that names the file and any files that the scene will not find from there.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ impl Editor {
         Ok(())
     }
 
-    /// Saves in the place of what somebody else wrote.
+    /// Saves over a file that another program has changed.
     ///
     /// # Errors
     /// See [`crate::Document::save_over`].
@@ -41,7 +41,7 @@ impl Editor {
     }
 }
 
-/// What is said after *Saved s.ron* where files that the scene names could not be found.
+/// The end of *Saved s.ron* if files that the scene names were not found.
 fn without_files(missing: &[String]) -> String {
     match missing {
         [] => String::new(),

@@ -99,7 +99,7 @@ impl Editor {
         }
     }
 
-    /// Applies an action to the selected keys; false where it does not concern them.
+    /// Applies an action to the selected keys; false if it does not concern them.
     pub(super) fn act_on_keys(&mut self, action: Action) -> bool {
         if !self.time.keys.has_focus() {
             return false;
@@ -272,7 +272,7 @@ impl Editor {
     }
 }
 
-/// The poses that a command sets at a frame; `None` where it does anything else.
+/// The poses that a command sets at a frame; `None` if it does anything else.
 fn poses_of(command: &Command, at_frame: f64) -> Option<Vec<(String, Command)>> {
     match command {
         Command::Time(Time::PoseAtFrame(pose, frame)) if *frame == at_frame => {

@@ -227,7 +227,7 @@ fn a_string_steadies_a_trembling_hand() {
     let spread = |steady: f64| {
         let path =
             drag(&trembling, &PathSettings { steady, ..SETTINGS }, &mut |at_px| on_plane(&front(), at_px));
-        // It ends where the hand let go: the string is let out at last, over its own length.
+        // It ends where the button was released: at the end the path goes on across the length of the string.
         let points = &path.pieces()[0];
         assert!(points.last().unwrap().at_px.distance(*trembling.last().unwrap()) <= STEP_PX);
         let inner = &points[20..points.len() - (steady * LONGEST_STRING_PX) as usize - 4];

@@ -91,13 +91,13 @@ fn drops_are_counted_and_remembered_exactly() {
     assert_eq!((playback.dropped(), playback.missed().collect::<Vec<_>>()), (2, vec![1, 2]));
     // The same picture again, now exact: nothing new.
     assert!(!playback.shown(3.0, 0.36));
-    // Over the seam: 4 to 9 and 0 were never seen.
+    // Across the loop's end: 4 to 9 and 0 were never shown.
     playback.lead_secs = 0.0;
     assert_eq!(playback.tick(course, 1.15), Some(1.0));
     assert!(playback.shown(1.0, 1.15));
     assert_eq!(playback.dropped(), 9);
     assert_eq!(playback.missed().collect::<Vec<_>>(), [0, 1, 2, 4, 5, 6, 7, 8, 9]);
-    // A picture that was asked for before and comes late is none of this round.
+    // A late picture of the round before does not count for this round.
     assert!(!playback.shown(5.0, 1.16));
     playback.stop();
     assert_eq!(playback.dropped(), 9, "it can be read after the stop");

@@ -26,11 +26,11 @@ pub struct Work {
 /// A copy of unsaved work, with its origin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Copy {
-    /// The scene's own file; none where it has none yet.
+    /// The scene's own file; none if it was never saved.
     pub file: Option<PathBuf>,
-    /// Where the scene's files are named from: a file in that folder, absolute.
+    /// A path in the folder that paths in the scene are relative to, absolute.
     pub path: PathBuf,
-    /// The scene file as it was read; none where there is none, or it was gone.
+    /// The stamp of the scene file as it was read; none if there is no file, or it was deleted.
     pub stamp: Option<Stamp>,
     /// When the copy was made, seconds since 1970.
     pub at_unix_secs: u64,
@@ -69,7 +69,7 @@ impl Work {
 }
 
 impl Copy {
-    /// Reads a copy back; none where it is no whole copy.
+    /// Reads a copy back; none if it is not complete.
     pub(super) fn read(file: &Path) -> Option<Self> {
         let bytes = read_regular_file(file, MAX_SCENE_BYTES + (64 << 10)).ok()?;
         Self::parse(std::str::from_utf8(&bytes).ok()?)

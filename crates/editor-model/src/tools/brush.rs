@@ -18,7 +18,7 @@ use crate::session::{RegionDoes, Tool};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
-    /// From the first quick movement until the hand rests.
+    /// True from the first quick movement until the pointer rests.
     foresees: bool,
     stroke: Option<Stroke>,
 }

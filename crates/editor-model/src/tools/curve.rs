@@ -60,7 +60,7 @@ struct Drawing {
 struct Dragging {
     grip: Grip,
     from_px: DVec2,
-    /// Nothing until the hand has moved.
+    /// None until the pointer has moved.
     command: Option<Box<Command>>,
 }
 

@@ -37,7 +37,7 @@ impl Heading {
         self.trail.truncate(keep);
     }
 
-    /// Unit, Y down: over the last 12 px. `None` before the hand has moved so far.
+    /// The direction over the last 12 px, unit, Y down. `None` before the pointer has moved so far.
     pub(super) fn along(&self) -> Option<DVec2> {
         let &(last, _) = self.trail.front()?;
         let mut length = 0.0;

@@ -30,7 +30,7 @@ pub struct Needle {
     pub at_px: DVec2,
     /// Unit, Y down.
     pub along: DVec2,
-    /// Whether it has a head: the hand moves, or strokes have a beginning.
+    /// Whether it has a head: the pointer moves, or strokes have a beginning.
     pub headed: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct Needle {
 pub struct Foreseen {
     /// Index of the object under the ring.
     pub object: usize,
-    /// Index of the region that the comb would stay inside of; none where it would make one.
+    /// Index of the region that the comb would stay inside of; none if it would make a new one.
     pub region: Option<usize>,
     /// The hit, in the object's own space.
     pub position_in_model: DVec3,

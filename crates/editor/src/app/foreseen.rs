@@ -34,7 +34,7 @@ impl ForeseenStrokes {
         let wanted = editor.tool_output().foreseen.filter(|_| !held.shift && !held.alt);
         let id = egui::Id::unique("foreseen strokes");
         if editor.is_moving() {
-            // During the gesture the strokes themselves are seen.
+            // During the gesture the picture itself shows the strokes turn.
             *self = Self::default();
             ctx.animate_bool_with_time(id, false, 0.0);
             return;

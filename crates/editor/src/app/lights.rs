@@ -56,7 +56,7 @@ fn ink(Color(color): Color) -> [f32; 4] {
     [r, g, b, 1.0]
 }
 
-/// The distance at which a lamp lights a facing surface as brightly as a sun of intensity 1, world units.
+/// The distance at which a lamp lights a surface that faces it as brightly as a sun of intensity 1, world units.
 fn range(light: &Light) -> Option<f32> {
     (light.kind == LightKind::Point && light.intensity > 0.0).then(|| light.intensity.sqrt() as f32)
 }

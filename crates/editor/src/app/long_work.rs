@@ -1,4 +1,4 @@
-//! Files are read on a thread of their own, which the window never waits for; the status line shows what takes its time.
+//! Reads files on a thread of their own, which the window never waits for; the status line shows what takes long.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -146,7 +146,7 @@ impl EditorApp {
         self.long.reading.is_some()
     }
 
-    /// Does this, after the file that is being read.
+    /// Does this at once, or when the file that is being read is done.
     pub(super) fn take_step(&mut self, step: Step) {
         if self.long.reading.is_some() {
             return self.long.queue.push_back(step);

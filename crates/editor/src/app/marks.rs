@@ -29,7 +29,7 @@ use crate::viewport::{Framing, HairLook, Marks, hair_marks};
 const CELLS_PER_POINT: f64 = 0.5;
 const MOVING_CELLS_PER_POINT: f64 = 0.2;
 
-/// The cached marks of the one or two pictures.
+/// The cached marks of each picture: one, or the two of a comparison.
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],

@@ -72,7 +72,7 @@ pub(crate) struct EditorApp {
     likely_meshes: LikelyMeshes,
 }
 
-/// Missing meshes, with the files of the folder that are likely meant.
+/// Missing meshes, and for each the file in the scene's folder that is likely meant.
 #[derive(Default)]
 struct LikelyMeshes {
     of: Vec<String>,
@@ -311,7 +311,7 @@ impl window::App for EditorApp {
         if news == Some(News::NextOfFilm) {
             self.tell_played();
         }
-        // While the view is turned, the window is redrawn only with the picture, so that marks stay on it.
+        // While the view moves, the window is redrawn only with a new picture, so that the marks fit it.
         if news.is_none() && self.editor.is_navigating() && self.picture_flow.is_awaited() {
             frame.hold();
         }
@@ -325,7 +325,7 @@ impl window::App for EditorApp {
         }
         self.folds.had_focus = focused;
         let numpad = numpad_pressed(&ctx);
-        // Keys belong to an open menu.
+        // An open menu takes the keys.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);

@@ -24,7 +24,7 @@ const SPAN_S: f64 = 1.0;
 pub(super) enum News {
     /// Some report.
     Any,
-    /// The next picture of the film that plays.
+    /// The next picture of the playback.
     NextOfFilm,
 }
 
@@ -132,7 +132,7 @@ impl PictureFlow {
         self.layout.framings()[0].view(&self.camera(editor))
     }
 
-    /// The camera of the first picture: what is looked through, or the reference's in a comparison.
+    /// The camera that the viewport looks through.
     pub(super) fn camera(&self, editor: &Editor) -> CameraPose {
         editor.camera()
     }
@@ -200,8 +200,7 @@ impl PictureFlow {
         asked.is_some_and(|(_, views)| !views.iter().enumerate().all(shows)) && self.trouble.is_none()
     }
 
-    /// The version of the scene that is shown exactly, in all views that were asked for and with no hand on it; none while
-    /// something is still to come.
+    /// The version of the scene, once all views that were asked for show it exactly and none of them is moving; none before.
     pub(super) fn at_rest(&self) -> Option<u64> {
         let (version, views) = self.asked.as_ref()?;
         let is_done =

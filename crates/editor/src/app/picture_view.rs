@@ -1,8 +1,8 @@
-//! Which of the viewport's pictures marks are made for, and how it looks at the scene.
+//! The picture of the viewport that marks are made for: which one, its camera and its frame.
 
 use impasto_scene::motion::CameraPose;
 
-/// One of the two pictures of a comparison; one alone is the first.
+/// A picture of the viewport: index 0, or in a comparison 0 (the reference) and 1 (now).
 pub(super) struct PictureView<'a> {
     pub(super) index: usize,
     pub(super) camera: &'a CameraPose,

@@ -1,4 +1,4 @@
-//! Tells tests and scripts what the window shows (`impasto edit --tell`): the picture at rest, the film, the controls.
+//! Reports to tests and scripts what the window shows (`impasto edit --tell`): the picture at rest, playback, the controls.
 
 use std::fmt::Write as _;
 
@@ -10,12 +10,12 @@ use impasto_editor_model::session::Mode;
 
 use super::EditorApp;
 
-/// Whom the window tells what it shows, and what it told last.
+/// Where reports go, and what was reported last.
 #[derive(Default)]
 pub(super) struct Telling {
     tell: Option<fn(&str)>,
     rest: String,
-    /// The controls of the last pass, and whether they were told.
+    /// The controls of the last pass, and whether they were reported.
     controls: (String, bool),
     menu_was_open: bool,
 }
@@ -29,8 +29,8 @@ impl Telling {
         self.tell.is_some()
     }
 
-    /// Tells the names and rectangles of all controls, once two passes laid them out alike: in its first pass a sheet or a
-    /// menu is only measured.
+    /// Reports the names and rectangles of all controls, once two passes in a row laid them out alike: in its first pass a
+    /// sheet or a menu is only measured.
     pub(super) fn tell_controls(&mut self, ctx: &Context, controls: &TreeUpdate) {
         let Some(tell) = self.tell else { return };
         let words = controls_in_words(controls);
@@ -44,7 +44,7 @@ impl Telling {
     }
 }
 
-/// Tabs between all parts: `controls:`, then name, x, y, width and height in points of each control, then `end`.
+/// `controls:`, then name, x, y, width and height (points) of each control, then `end`; tabs between all parts.
 fn controls_in_words(controls: &TreeUpdate) -> String {
     let mut words = "controls:".to_owned();
     for (_, node) in &controls.nodes {
@@ -61,7 +61,7 @@ fn controls_in_words(controls: &TreeUpdate) -> String {
 }
 
 impl EditorApp {
-    /// Tells which frame of what is played came up, and where the clock stood.
+    /// Reports the frame of the playback that was just shown, and the frame that the clock stands at.
     pub(super) fn tell_played(&self) {
         let playback = &self.editor.time().playback;
         let clock = playback.clock_frame(self.editor.now_secs());
@@ -71,7 +71,7 @@ impl EditorApp {
         }
     }
 
-    /// Tells what the window shows, each time that it has come to rest on something else.
+    /// Reports what the window shows, each time it has come to rest on something new.
     pub(super) fn tell_rest(&mut self, ctx: &Context) {
         // In its first pass a menu is only measured: it cannot be clicked before the second.
         let menu_is_open = egui::Popup::is_any_open(ctx);

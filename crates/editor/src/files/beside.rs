@@ -1,4 +1,4 @@
-//! Taking a scene's files along when it is saved into another folder.
+//! Copies a scene's files along when it is saved into another folder.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write as _};
@@ -10,27 +10,27 @@ use impasto_scene::{obj, texture};
 
 use super::incoming::Kind;
 
-/// What is to be copied: the files of a scene under the names that they have from its folder.
+/// The files to copy, each under its path relative to the scene's folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Copies {
     files: BTreeMap<PathBuf, PathBuf>,
 }
 
-/// Why files were not copied. What was there is untouched, and what was copied before is gone again.
+/// Why files were not copied. Existing files are untouched, and copies that were made are removed again.
 #[derive(Debug, thiserror::Error)]
 pub enum CopyError {
-    /// Another file has the name of one of them.
+    /// A different file has the name of one of them.
     #[error("{} has another {}: choose another folder", folder.display(), name.display())]
     InTheWay {
-        /// The name from the scene's folder.
+        /// Its path relative to the scene's folder.
         name: PathBuf,
         /// The folder that was chosen.
         folder: PathBuf,
     },
-    /// It could not be read or written.
+    /// A file could not be read or written.
     #[error("{} could not be copied: {source}", name.display())]
     Failed {
-        /// The name from the scene's folder.
+        /// Its path relative to the scene's folder.
         name: PathBuf,
         /// What the system said.
         source: io::Error,
@@ -38,11 +38,11 @@ pub enum CopyError {
 }
 
 impl Copies {
-    /// The files that a scene in `from` names, and those that its meshes name in turn, as far as they lie in that folder and
-    /// are not in `to` already.
+    /// The files to copy from `from` to `to`: those that the scene names and that its meshes name in turn, if they are inside
+    /// `from` and the same files are not in `to` already.
     ///
     /// # Errors
-    /// Where `to` has another file of such a name.
+    /// If `to` has a different file of the same name.
     pub fn between<'a>(
         from: &Path,
         to: &Path,
@@ -81,17 +81,17 @@ impl Copies {
         self.files.len()
     }
 
-    /// Copies them into the folder. Nothing is written over.
+    /// Copies them into the folder. No file is overwritten.
     ///
     /// # Errors
-    /// The first file that could not be copied; those before it are taken away again.
+    /// The first file that could not be copied; the copies before it are removed again.
     pub fn carry_out(&self, to: &Path) -> Result<(), CopyError> {
         let mut written = Vec::new();
         for (name, file) in &self.files {
             let target = to.join(name);
             if let Err(source) = copy(file, &target) {
                 for path in written {
-                    // It was just written: where it cannot be taken away, it does no harm.
+                    // A copy that cannot be removed does no harm.
                     let _left = std::fs::remove_file(path);
                 }
                 return Err(CopyError::Failed { name: name.clone(), source });
@@ -118,7 +118,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
     matches!((bytes(a), bytes(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// A file that came there in between stays.
+/// Copies one file. Fails if `target` has appeared in the meantime.
 fn copy(file: &Path, target: &Path) -> io::Result<()> {
     if let Some(folder) = target.parent() {
         std::fs::create_dir_all(folder)?;
@@ -204,7 +204,7 @@ mod tests {
         let words = between(&document, to.path()).unwrap_err().to_string();
         assert!(words.contains("a.mtl") && words.contains("choose another folder"), "{words}");
 
-        // It came after the question.
+        // A file that appears after the check.
         std::fs::remove_file(&others).unwrap();
         let copies = between(&document, to.path()).unwrap();
         std::fs::write(to.path().join("meshes/a.obj"), "mine").unwrap();

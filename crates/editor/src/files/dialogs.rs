@@ -1,8 +1,8 @@
-//! Asking for a file: by the desktop's dialog where there is one, by a sheet in the window where there is none.
+//! Asks for a file: with the desktop's dialog if there is one, else with a sheet in the window.
 //!
-//! The desktop's dialog can be missing, silent or stuck, and says so to nobody. So it runs on a thread of its own; an
-//! answer of nothing that comes faster than a hand means that there is no dialog here, and after [`PATIENCE`] the window
-//! offers its own sheet beside it.
+//! The desktop's dialog can be missing or stuck without reporting it. So it runs on a thread of its own. If it is cancelled
+//! sooner than a user could do it, there is no dialog, and the sheet is shown. After [`PATIENCE`] the window offers its own
+//! sheet instead.
 
 #[cfg(test)]
 mod tests;
@@ -18,29 +18,28 @@ use super::path_sheet::{PathSheet, Picked};
 use crate::theme::{Theme, measure, type_face};
 use crate::widgets::Button;
 
-/// No hand cancels a dialog this soon after it was asked for.
+/// No user cancels a dialog this soon after it was opened.
 const HAND: Duration = Duration::from_millis(300);
 
-/// How long the window waits before it offers its own sheet too.
+/// How long the window waits for the desktop's dialog before it offers its own sheet.
 pub const PATIENCE: Duration = Duration::from_secs(3);
 
-/// What came of an [`FileAsk`].
+/// The answer to a [`FileAsk`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// What was asked.
     pub ask: FileAsk,
-    /// The file; none where the user let it be. Of a save, its name ends in `.ron`, and a file that is there may be
-    /// replaced.
+    /// The file; none if the user cancelled. To save, its name has the right ending, and an existing file may be replaced.
     pub path: Option<PathBuf>,
 }
 
-/// Which dialogs are shown.
+/// Where file dialogs come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Source {
-    /// The desktop's, where it has them.
+    /// The desktop, if it has them.
     #[default]
     Desktop,
-    /// The window's own, always.
+    /// Always the window.
     InApp,
 }
 
@@ -51,7 +50,7 @@ pub struct FileDialogs {
     open: Option<Open>,
 }
 
-/// Shows the desktop's dialog and waits for it; the path to begin with is a folder, or a file to be saved.
+/// Shows the desktop's dialog and waits for the answer; the path is the folder to start in or, to save, the proposed file.
 type Choose = fn(FileAsk, &Path) -> Option<PathBuf>;
 
 struct Open {
@@ -67,19 +66,19 @@ enum ShownAs {
 }
 
 impl FileDialogs {
-    /// Dialogs from `source`, and from the window where the desktop has none.
+    /// Dialogs from `source`; from the window if the desktop has none.
     pub fn new(source: Source) -> Self {
         let source = if has_session_bus() { source } else { Source::InApp };
         Self { source, choose: choose_on_desktop, open: None }
     }
 
-    /// A dialog waits for its answer: no other can be opened.
+    /// Whether a dialog is open; no other can be opened meanwhile.
     pub fn is_open(&self) -> bool {
         self.open.is_some()
     }
 
-    /// Asks for a file. `start` is a folder; to save, the file that is proposed. Nothing happens while another dialog is
-    /// open.
+    /// Asks for a file. `start` is the folder to start in or, to save, the proposed file. Does nothing while another dialog
+    /// is open.
     pub fn open(&mut self, ctx: &Context, ask: FileAsk, start: &Path) {
         if self.open.is_some() {
             return;
@@ -90,7 +89,7 @@ impl FileDialogs {
                 let (answer, answers) = channel();
                 let (choose, from, ctx) = (self.choose, start.to_owned(), ctx.clone());
                 std::thread::spawn(move || {
-                    // Nobody listens once the sheet has taken over.
+                    // Fails once the sheet has replaced the dialog and nobody listens.
                     let _late = answer.send(choose(ask, &from));
                     ctx.request_repaint();
                 });
@@ -101,7 +100,7 @@ impl FileDialogs {
         ctx.request_repaint();
     }
 
-    /// The answer, once; none while there is no answer. Call it in every pass: it shows what is shown in the window.
+    /// The answer, given once; none before. Call it in every pass, because it shows the window's own sheet.
     pub fn poll(&mut self, ctx: &Context) -> Option<Answer> {
         let open = self.open.as_mut()?;
         let ask = open.ask;
@@ -114,7 +113,7 @@ impl FileDialogs {
                 (Ok(Some(path)), _) => Some(ask.completed(path)),
                 (Ok(None), waited) if waited > HAND => None,
                 (Ok(None) | Err(TryRecvError::Disconnected), _) => {
-                    // There is no dialog here: it is not tried again.
+                    // There is no dialog here: do not try it again.
                     self.source = Source::InApp;
                     open.shown = ShownAs::Sheet(PathSheet::new(ask, &open.start));
                     ctx.request_repaint();
@@ -148,7 +147,7 @@ enum Offer {
     Cancel,
 }
 
-/// A small bar at the bottom: the desktop's dialog has the word, and the user can do without it.
+/// A small bar at the bottom: says that the desktop's dialog is open, and offers the window's own instead.
 fn offer(ctx: &Context) -> Option<Offer> {
     let theme = if ctx.global_style().visuals.dark_mode { Theme::Dark } else { Theme::Light };
     let tokens = theme.tokens();
@@ -176,7 +175,7 @@ fn offer(ctx: &Context) -> Option<Offer> {
     .inner
 }
 
-/// Whether there is a session bus, which the desktop's dialogs are asked for over.
+/// Whether there is a D-Bus session bus, through which the desktop's dialogs are opened.
 fn has_session_bus() -> bool {
     let is_set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     if is_set("DBUS_SESSION_BUS_ADDRESS").is_some() {

@@ -1,10 +1,10 @@
-//! What a file is asked for, and which kinds of files answer.
+//! The purposes for which the user is asked for a file, and the kinds of files that fit each.
 
 use std::path::PathBuf;
 
 use super::incoming::Kind;
 
-/// What a file is asked for.
+/// The purpose of a file that the user is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileAsk {
     /// Open a scene, or a mesh in a new scene.
@@ -22,7 +22,7 @@ pub enum FileAsk {
 }
 
 impl FileAsk {
-    /// The head of the dialog.
+    /// The title of the dialog.
     pub fn title(self) -> &'static str {
         match self {
             Self::Open => "Open a scene or a mesh",
@@ -34,7 +34,7 @@ impl FileAsk {
         }
     }
 
-    /// The kinds of files that answer it.
+    /// The kinds of files that fit.
     pub fn kinds(self) -> &'static [Kind] {
         match self {
             Self::Open => &[Kind::Scene, Kind::Mesh],
@@ -44,7 +44,7 @@ impl FileAsk {
         }
     }
 
-    /// The file that is meant, with the ending that it needs, whatever was typed.
+    /// The path with the ending that a saved file needs, added if it is missing.
     pub(super) fn completed(self, path: PathBuf) -> PathBuf {
         match self {
             Self::SaveAs | Self::SaveCopy => as_file(path, Kind::Scene, ".ron"),
@@ -53,7 +53,7 @@ impl FileAsk {
         }
     }
 
-    /// The file is written.
+    /// Whether the file will be written.
     pub fn is_save(self) -> bool {
         matches!(self, Self::SaveAs | Self::SaveCopy | Self::RenderOutput)
     }

@@ -10,10 +10,10 @@ use impasto_editor_model::Document;
 
 pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture};
 
-/// Endings of the names of pictures that can serve as brushes.
+/// File extensions of pictures that can serve as brushes.
 pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
 
-/// What a file is, by its name.
+/// The kind of a file, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// A scene, `.ron`.
@@ -25,7 +25,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind of a file by the ending of its name; none where Impasto reads no such file.
+    /// The kind of a file, by its extension; none if Impasto does not read such files.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -36,19 +36,19 @@ impl Kind {
     }
 }
 
-/// What the window holds when files come.
+/// What the open document holds when files come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Present {
     /// Nothing: an untitled document that nobody has touched.
     Nothing,
-    /// A scene as its file has it.
+    /// A scene without unsaved edits.
     Saved,
-    /// A scene with work that its file does not have.
+    /// A scene with unsaved edits.
     Edited,
 }
 
 impl Present {
-    /// How much of the user's work a document holds.
+    /// What a document holds.
     pub fn of(document: &Document) -> Self {
         let is_empty = document.file().is_none() && document.scene().objects.is_empty();
         match document.is_edited() {
@@ -72,21 +72,21 @@ pub enum Step {
     Brush(PathBuf),
 }
 
-/// What to do with files that came.
+/// What to do with files that came together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
-    /// In this order.
+    /// The steps, in order.
     pub steps: Vec<Step>,
-    /// The first step takes the place of work that is not saved: ask first.
+    /// Whether the first step would drop unsaved edits, so that the user has to be asked.
     pub asks: bool,
-    /// What is not taken, in words to show.
+    /// Why files are not taken, in words to show.
     pub refused: Vec<String>,
 }
 
 /// What to do with files that are dropped or opened together.
 ///
-/// A scene is opened alone. A mesh begins a scene where there is nothing yet, and is imported otherwise; pictures come in
-/// as brushes once there is a scene.
+/// A scene is opened alone. A mesh starts a new scene if the document is empty, and is imported otherwise. Pictures become
+/// brushes, if there is a scene.
 pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     let mut plan = Plan::default();
     let mut known = Vec::new();
@@ -127,10 +127,10 @@ pub fn plan(paths: &[PathBuf], present: Present) -> Plan {
     plan
 }
 
-/// The kind of a file that can be used.
+/// The kind of a file, if it can be used.
 ///
 /// # Errors
-/// Why it cannot, in words to show.
+/// Why it cannot be used, in words to show.
 pub fn taken(path: &Path) -> Result<Kind, String> {
     let name = name_of(path);
     if path.is_dir() {

@@ -1,4 +1,4 @@
-//! Files from the user's side: asking for them, taking in what is dropped, and what is kept between sessions.
+//! Files from the user's side: file dialogs, dropped and imported files, and preferences.
 
 pub mod beside;
 pub mod dialogs;

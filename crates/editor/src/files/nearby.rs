@@ -1,17 +1,17 @@
-//! Files that may be meant where a scene names one that is not there.
+//! Finds files that a scene may mean when one that it names is missing.
 
 use std::path::Path;
 
 use super::incoming::Kind;
 
-/// No more folders deep, and no more files than this, are looked at.
+/// Limits of the search: depth of folders, and number of files.
 const MAX_DEPTH: usize = 4;
 const MAX_FILES: usize = 4000;
-/// Names that differ by more letters, or by more than a third of them, are other names.
+/// Names that differ by more letters than this, or by more than a third of their letters, are not similar.
 const MAX_APART: usize = 2;
 
-/// For each mesh that a scene names and that is not there, the one in its folder that is likely meant: of the same name, else
-/// of the most similar one.
+/// For each missing mesh, the mesh in the scene's folder that is likely meant: one of the same name in another folder, else
+/// the one of the most similar name.
 pub fn meshes_like(folder: &Path, missing: &[&str]) -> Vec<(String, String)> {
     if missing.is_empty() {
         return Vec::new();
@@ -21,7 +21,7 @@ pub fn meshes_like(folder: &Path, missing: &[&str]) -> Vec<(String, String)> {
     missing.iter().filter_map(|name| Some(((*name).to_owned(), likest(name, &there)?.to_owned()))).collect()
 }
 
-/// The meshes under a folder, as a scene there names them. Links are not followed.
+/// Adds the meshes under a folder, by their paths relative to the scene's folder. Links are not followed.
 fn list(folder: &Path, within: &str, depth: usize, found: &mut Vec<String>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.flatten().take(MAX_FILES) {
@@ -57,12 +57,12 @@ fn likest<'a>(missing: &str, there: &'a [String]) -> Option<&'a str> {
         .map(|(.., name)| name)
 }
 
-/// The name without its folders; whoever wrote the scene may have had either slash.
+/// The name without its folders; a scene may be written with either slash.
 fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
-/// How many letters must be put in, taken out or changed (Levenshtein 1966).
+/// How many letters must be inserted, deleted or changed (Levenshtein 1966).
 fn letters_apart(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -1,4 +1,4 @@
-//! A sheet that asks for a file by its path: a folder's list, and a field to type in. It needs nothing of the desktop.
+//! The window's own file dialog: a list of a folder's files, and a field for a path. It needs nothing of the desktop.
 
 mod listing;
 #[cfg(test)]
@@ -22,31 +22,31 @@ use listing::{ListedFile, Listing, resolve};
 const WIDTH: f32 = 620.0;
 const LIST_HEIGHT: f32 = 260.0;
 
-/// What came of a [`PathSheet`].
+/// The answer of a [`PathSheet`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Picked {
-    /// This file. Of a save, the user agreed to replace it where it is there.
+    /// This file. To save: if it exists, the user agreed to replace it.
     File(PathBuf),
-    /// None.
+    /// The user cancelled.
     Cancelled,
 }
 
-/// Asks for a file.
+/// The sheet, while it is open.
 pub struct PathSheet {
     ask: FileAsk,
     listing: Listing,
-    /// What stands in the field.
+    /// The text of the field.
     typed: String,
-    /// Why the file cannot be had.
+    /// Why the file in the field cannot be used.
     error: Option<String>,
-    /// The file that would be replaced, while that is asked.
+    /// The file that would be replaced, while the question about it is open.
     replaces: Option<PathBuf>,
-    /// The field takes the focus in the next pass.
+    /// Whether the field takes the focus in the next pass.
     wants_focus: bool,
 }
 
 impl PathSheet {
-    /// A sheet that begins in the folder `start`; to save, with the file `start` in the field.
+    /// A sheet that starts in the folder `start` or, to save, with the file `start` in the field.
     pub fn new(ask: FileAsk, start: &Path) -> Self {
         let is_file = ask.is_save() && !start.is_dir();
         let typed = if is_file { name_of(start) } else { String::new() };
@@ -55,7 +55,7 @@ impl PathSheet {
         Self { ask, listing, typed, error: None, replaces: None, wants_focus: true }
     }
 
-    /// Shows it; the answer, once there is one.
+    /// Shows the sheet and returns the answer, once there is one.
     pub fn show(&mut self, ctx: &Context) -> Option<Picked> {
         if let Some(path) = self.replaces.clone() {
             let title = format!("Replace \u{201c}{}\u{201d}?", name_of(&path));
@@ -90,7 +90,7 @@ impl PathSheet {
         done
     }
 
-    /// Where the list is.
+    /// The path of the listed folder.
     fn folder(&self, ui: &mut Ui) {
         let tokens = Tokens::of(ui);
         let shown = self.listing.folder.display().to_string();
@@ -157,7 +157,7 @@ impl PathSheet {
             .desired_width(f32::INFINITY)
             .min_size(vec2(0.0, measure::FIELD))
             .hint_text("Name, or a whole path")
-            // Tab completes; it goes on to the next control where there is nothing to complete.
+            // Tab completes the name, and moves to the next control only if there is nothing to complete.
             .lock_focus(true);
         let response = frame.show(ui, |ui| ui.add(edit)).inner;
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_label("File name"));
@@ -205,7 +205,7 @@ impl PathSheet {
         }
     }
 
-    /// The file in the field, where it can be had; else the words say why not.
+    /// The file in the field, if it can be used; if not, sets the error to say why.
     fn submit(&mut self) -> Option<Picked> {
         self.wants_focus = true;
         match self.judge() {
@@ -265,7 +265,7 @@ impl PathSheet {
 enum Judged {
     File(PathBuf),
     Folder(PathBuf),
-    /// A save that would write over this file.
+    /// A save would overwrite this file.
     Replaces(PathBuf),
 }
 
@@ -301,12 +301,12 @@ fn show_row(ui: &mut Ui, row: &ListedFile, is_on: bool) -> egui::Response {
     response
 }
 
-/// The folder, or the nearest one above it that is there.
+/// The folder, or its nearest parent that exists.
 fn nearest_folder(folder: &Path) -> PathBuf {
     let whole = std::path::absolute(folder)
         .or_else(|_| std::env::current_dir())
         .unwrap_or_else(|_| PathBuf::from("/"));
     let nearest = whole.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("/"));
-    // Without a slash at the end.
+    // This removes a slash at the end.
     nearest.components().collect()
 }

@@ -1,4 +1,4 @@
-//! What the editor remembers of its user, as readable RON in the user's config folder.
+//! The user's preferences and recent files, kept as readable RON in the user's config folder.
 
 mod store;
 #[cfg(test)]
@@ -19,38 +19,38 @@ pub const VERSION: u32 = 1;
 /// How many files *Open recent* lists.
 pub const MAX_RECENT: usize = 10;
 
-/// Of how many scenes the last mode and view are kept.
+/// For how many scenes the last mode and view are remembered.
 pub const MAX_LAST_SEEN: usize = 50;
 
-/// What the user chose, and where he was. Fields that a file lacks have their defaults; fields that it should not have
-/// are passed over.
+/// The user's choices, recent files, and last views. Fields that are missing in the file get their defaults; unknown ones
+/// are ignored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
     /// The layout of the file.
     pub version: u32,
-    /// Whose keys.
+    /// The key bindings.
     pub keys: Keys,
-    /// The palette.
+    /// The colour theme.
     #[serde(with = "ThemeText")]
     pub theme: Theme,
     /// Size of the interface, 0.75 to 3.
     pub scale: f32,
-    /// The welcome sheet is shown at the start.
+    /// Whether the welcome sheet is shown at the start.
     pub show_welcome: bool,
     /// What draws the paintings.
     pub driver: DriverChoice,
     /// Minutes between two copies of unsaved work; 0 for none.
     pub autosave_minutes: u32,
-    /// The digits above the letters choose views, as those of the number pad do.
+    /// Whether the digits above the letters choose views, as those of the number pad do.
     pub digits_as_numpad: bool,
-    /// Show what a stroke would do, before the press.
+    /// Whether to preview what a comb would do, before the press.
     pub foresee_strokes: bool,
-    /// Nothing moves that need not.
+    /// Whether to leave out animations that are not needed.
     pub reduced_motion: bool,
     /// Files that were opened or saved, newest first.
     pub recent: Vec<PathBuf>,
-    /// Where the user was in each scene, newest first.
+    /// The last mode and view in each scene, newest first.
     pub last_seen: Vec<LastSeen>,
     /// Width and height of the window, points.
     pub window_size: (f32, f32),
@@ -76,7 +76,7 @@ impl Default for Preferences {
     }
 }
 
-/// A set of keys and drags that artists know.
+/// A set of key bindings and drags from another program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Keys {
     /// Those of Blender.
@@ -89,18 +89,18 @@ pub enum Keys {
 /// What draws the paintings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriverChoice {
-    /// The graphics card where there is one, else software.
+    /// The graphics card if there is one, else software.
     #[default]
     Auto,
     /// EGL.
     Egl,
     /// OSMesa, always in software.
     Osmesa,
-    /// Software, whatever the machine has.
+    /// Software for the window, too.
     Software,
 }
 
-/// Where the user was in one scene.
+/// The last mode and view in one scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LastSeen {
@@ -109,7 +109,7 @@ pub struct LastSeen {
     /// The mode.
     #[serde(with = "ModeText")]
     pub mode: Mode,
-    /// The free view; none when he looked through the shot camera.
+    /// The free view; none if it was the shot camera.
     pub view: Option<LastView>,
 }
 
@@ -129,13 +129,13 @@ pub struct LastView {
     /// Turn about the line of sight, degrees.
     #[serde(default)]
     pub roll_deg: f64,
-    /// Parallel rays.
+    /// Whether the view is orthographic.
     #[serde(default)]
     pub orthographic: bool,
 }
 
 impl Preferences {
-    /// Puts a file that was opened or saved on top of the recent ones. A name that is no text cannot be kept.
+    /// Puts a file that was opened or saved on top of the recent ones, unless its path is not valid Unicode.
     pub fn note_recent(&mut self, file: &Path) {
         let Some(file) = lasting(file) else { return };
         self.recent.retain(|known| *known != file);
@@ -143,12 +143,12 @@ impl Preferences {
         self.recent.truncate(MAX_RECENT);
     }
 
-    /// The recent files that are still there, newest first.
+    /// The recent files that still exist, newest first.
     pub fn recent_there(&self) -> Vec<&Path> {
         self.recent.iter().map(PathBuf::as_path).filter(|file| file.is_file()).collect()
     }
 
-    /// Keeps where the user was in a scene.
+    /// Remembers the last mode and view in a scene.
     pub fn note_last_seen(&mut self, file: &Path, mode: Mode, view: Option<LastView>) {
         let Some(file) = lasting(file) else { return };
         self.last_seen.retain(|known| known.file != file);
@@ -156,13 +156,13 @@ impl Preferences {
         self.last_seen.truncate(MAX_LAST_SEEN);
     }
 
-    /// Where the user was in a scene; none where it was never left.
+    /// The last mode and view in a scene, if they are remembered.
     pub fn last_seen_in(&self, file: &Path) -> Option<&LastSeen> {
         let file = lasting(file)?;
         self.last_seen.iter().find(|known| known.file == file)
     }
 
-    /// Brings what a hand may have written into the ranges that the editor can use.
+    /// Brings values, which may have been edited by hand, into the ranges that the editor can use.
     fn settle(&mut self) {
         let within = |value: f32, least: f32, most: f32, otherwise: f32| {
             if value.is_finite() { value.clamp(least, most) } else { otherwise }
@@ -183,7 +183,7 @@ impl Preferences {
     }
 }
 
-/// The path as it means the same from every folder; none where it is no text.
+/// The absolute path; none if it is not valid Unicode.
 fn lasting(file: &Path) -> Option<PathBuf> {
     let file = std::path::absolute(file).ok()?;
     file.to_str().is_some().then_some(file)

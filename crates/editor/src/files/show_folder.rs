@@ -1,9 +1,9 @@
-//! A folder in the desktop's own way.
+//! Shows a folder in the desktop's file manager.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What opens a folder on this system.
+/// The program that opens a folder on this system.
 const OPENER: &str = if cfg!(target_os = "macos") {
     "open"
 } else if cfg!(windows) {
@@ -12,17 +12,17 @@ const OPENER: &str = if cfg!(target_os = "macos") {
     "xdg-open"
 };
 
-/// Shows a folder to the user.
+/// Shows a folder in the desktop's file manager.
 ///
 /// # Errors
-/// Words that name the folder, where the desktop has nothing to show it with.
+/// If the program cannot be started: a message that names the folder.
 pub fn show_folder(folder: &Path) -> Result<(), String> {
     let mut command = Command::new(OPENER);
     command.arg(folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().map_err(|error| {
         format!("{OPENER} cannot be started ({error}); the files are in {}", folder.display())
     })?;
-    // Somebody has to hear that it ended.
+    // Waits for the program to end, so that it does not stay a zombie.
     std::thread::spawn(move || drop(child.wait()));
     Ok(())
 }

@@ -1,5 +1,5 @@
-//! What floats over the picture: view and shading at the top left, overlays at the top right, the reference badge at the
-//! bottom left, the axis ball at the bottom right.
+//! The chips, controls that float over the picture: view and shading at the top left, overlays at the top right, the
+//! reference badge at the bottom left, the axis ball at the bottom right.
 
 use egui::{Align2, Area, Id, Order, Rect, Ui, Vec2, vec2};
 use impasto_editor_model::camera_rig::AxisView;
@@ -45,7 +45,7 @@ pub(super) fn show(ui: &Ui, area: Rect, input: &ViewportInput<'_>, events: &mut 
     }
 }
 
-/// In a layer of its own, so that a press on it is none on the picture.
+/// Shows contents in a corner, in a layer of their own, so that a press on them does not reach the picture.
 fn float(ui: &Ui, name: &str, area: Rect, corner: Align2, contents: impl FnOnce(&mut Ui)) {
     let inner = area.shrink(INSET);
     let at = corner.pos_in_rect(&inner);
@@ -79,7 +79,7 @@ fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
         let response = icon_toggle(ui, icon, name, on);
         Tip { name, key, effect, range: "" }.on(response);
     };
-    // Where none are drawn, none are said to be.
+    // Directions are drawn in Paint only, so elsewhere the toggle is off.
     let mut hairs = paints && shown.hairs != Hairs::Off;
     let before = hairs;
     let effect = if paints { "Short lines along the strokes." } else { "Directions show in Paint." };
@@ -142,7 +142,7 @@ fn badge(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
     ui.add_space(2.0);
 }
 
-/// Words that can be clicked.
+/// A button of plain words. Returns whether it was clicked.
 fn verb_of(ui: &mut Ui, words: &str, name: &str, colour: egui::Color32) -> bool {
     let tokens = Tokens::of(ui);
     let galley = ui.painter().layout_no_wrap(words.to_owned(), type_face::small(), colour);

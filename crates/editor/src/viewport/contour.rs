@@ -1,17 +1,17 @@
-//! The line round a set of cells, as smooth curves.
+//! The outlines of a set of grid cells, as smooth curves.
 
 use std::collections::HashMap;
 
 use glam::DVec2;
 
-/// Rounds of smoothing; each pulls a point a third of the way between its neighbours.
+/// Rounds of smoothing; each moves a point to the mean of itself and its two neighbours.
 const ROUNDS: usize = 6;
 
-/// The closed lines between cells that are in a set and cells that are not, in cells from the upper left corner. Cells outside the grid are in
-/// it if the one at its rim is: a line along the rim would not be an edge.
+/// The lines between cells in a set and cells not in it, in cells from the upper left corner, Y down. No line runs along the
+/// rim of the grid, which is no edge of the set: lines that reach the rim end there, all others are closed.
 pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<DVec2>> {
-    // Each piece runs along one side of a cell with the set on its left (Y down: on its right); where two meet at one
-    // corner, the line turns so that it does not cross itself.
+    // Each piece runs along one side of a cell, with the set on its right as seen on the screen. Where two lines meet at a
+    // corner, they turn there and do not cross.
     let mut next: HashMap<(usize, usize), Vec<(usize, usize)>> = HashMap::new();
     let mut piece = |from: (usize, usize), to: (usize, usize)| next.entry(from).or_default().push(to);
     for row in 0..rows {
@@ -34,7 +34,7 @@ pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> boo
             }
         }
     }
-    // Open lines (they end at the rim) first, from their beginnings.
+    // Open lines (those that end at the rim) come first, from their beginnings.
     let mut ends: HashMap<(usize, usize), isize> = HashMap::new();
     for (&from, targets) in &next {
         *ends.entry(from).or_default() += targets.len() as isize;
@@ -64,7 +64,7 @@ fn follow(
     let mut line = vec![DVec2::new(start.0 as f64, start.1 as f64)];
     let mut at = start;
     while let Some(to) = next.get_mut(&at).and_then(Vec::pop) {
-        // The middle of each side: half of the stairs are gone at once.
+        // Through the middles of the sides: this alone removes half of the stair steps.
         line.push(DVec2::new(at.0 as f64 + to.0 as f64, at.1 as f64 + to.1 as f64) * 0.5);
         at = to;
         if at == start {
@@ -76,7 +76,7 @@ fn follow(
         return None;
     }
     if at == start {
-        // Closed: begins and ends with the middle of its first side.
+        // A closed line begins and ends with the middle of its first side.
         line.pop();
         line.remove(0);
         line.push(line[0]);

@@ -1,4 +1,4 @@
-//! Where the shot lies in the viewport, and the wider lens that shows what is round it.
+//! Where the shot lies in the viewport, and the wider lens that also shows what is around it.
 
 use egui::{Pos2, Rect, Vec2, vec2};
 use glam::DVec2;
@@ -8,8 +8,8 @@ use impasto_scene::motion::CameraPose;
 
 /// A viewport and the shot in its middle, as large as fits, with the scene's aspect.
 ///
-/// The picture fills the viewport. Its lens is widened just so that the shot's part is what the shot is; the free camera
-/// is widened alike, so that leaving the shot moves nothing.
+/// The picture fills the viewport. Its lens is widened so that the shot's part shows exactly the shot. The free camera is
+/// widened in the same way, so that nothing moves when the user leaves the shot camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
     viewport: Rect,
@@ -18,7 +18,7 @@ pub struct Framing {
 }
 
 impl Framing {
-    /// A viewport of this place in the window, and a scene of this size.
+    /// The framing of a viewport at this place in the window, for a scene of this size.
     pub fn new(viewport: Rect, scene_size: (u32, u32), pixels_per_point: f32) -> Self {
         let size = viewport.size().max(vec2(1.0, 1.0));
         let viewport = Rect::from_min_size(viewport.min, size);
@@ -31,12 +31,12 @@ impl Framing {
         Self { viewport, shot: Rect::from_center_size(viewport.center(), shot_size), pixels_per_point }
     }
 
-    /// The whole viewport, in the window.
+    /// The whole viewport, in points of the window.
     pub fn viewport(&self) -> Rect {
         self.viewport
     }
 
-    /// The shot's part of it.
+    /// The shot's part of the viewport, in points of the window.
     pub fn shot(&self) -> Rect {
         self.shot
     }
@@ -56,7 +56,7 @@ impl Framing {
         CameraPose { lens, ..camera.clone() }
     }
 
-    /// What the viewport shows of a camera, for picking and tools; in points from the viewport's upper left corner.
+    /// The view through a camera in this viewport, for picking and tools; places count in points from its upper left corner.
     pub fn view(&self, camera: &CameraPose) -> View {
         let size = self.viewport.size();
         View { camera: self.widened(camera), size_px: DVec2::new(f64::from(size.x), f64::from(size.y)) }
@@ -68,12 +68,12 @@ impl Framing {
         [size.x, size.y].map(|side| side.round().clamp(1.0, 16384.0) as u32)
     }
 
-    /// How high the shot is in the picture, pixels.
+    /// Height of the shot within the picture, pixels.
     pub fn shot_height_px(&self) -> f32 {
         self.size_px()[1] as f32 * self.shot.height() / self.viewport.height()
     }
 
-    /// A place of the window from the viewport's upper left corner.
+    /// Converts a place in the window to points from the viewport's upper left corner.
     pub fn from_window(&self, at: Pos2) -> DVec2 {
         let from = at - self.viewport.min;
         DVec2::new(f64::from(from.x), f64::from(from.y))

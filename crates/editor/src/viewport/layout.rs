@@ -1,5 +1,5 @@
-//! Where pictures lie in the viewport: one fills it; of a comparison, two lie side by side or one over the other, whichever
-//! makes them larger.
+//! Where pictures lie in the viewport: one fills it; the two of a comparison lie side by side or one above the other,
+//! whichever makes them larger.
 
 use egui::{Align2, Painter, Rect, pos2, vec2};
 
@@ -7,14 +7,14 @@ use super::overlay::trust_legend;
 use super::{Badge, Framing, Now, ViewportInput};
 use crate::theme::{Tokens, type_face};
 
-/// Round the pictures of a comparison.
+/// Space to the left and right of each picture of a comparison, points.
 const MARGIN: f32 = 12.0;
-/// Over each picture of a comparison, for its title.
+/// Space above each picture of a comparison, for its title, points.
 const TITLE: f32 = 28.0;
-/// Over and under both, for the chips.
+/// Space above and below both, for the chips, points.
 const CHIPS: f32 = 52.0;
 
-/// Where pictures lie.
+/// The places of the pictures in the viewport.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     area: Rect,
@@ -23,12 +23,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of a viewport with one picture.
+    /// One picture.
     pub fn single(area: Rect, scene_size: (u32, u32), pixels_per_point: f32) -> Self {
         Self { area, framings: vec![Framing::new(area, scene_size, pixels_per_point)], stacked: false }
     }
 
-    /// Of a viewport with the reference and what is seen now.
+    /// A comparison: the reference and now.
     pub fn compare(area: Rect, scene_size: (u32, u32), pixels_per_point: f32) -> Self {
         let aspect = scene_size.0.max(1) as f32 / scene_size.1.max(1) as f32;
         let half = |at: Rect, above: f32, below: f32| {
@@ -46,7 +46,7 @@ impl Layout {
         let (top, bottom) = area.split_top_bottom_at_fraction(0.5);
         let beside = [left, right].map(|at| half(at, CHIPS, CHIPS));
         let stacked = [half(top, CHIPS, 4.0), half(bottom, 4.0, CHIPS)];
-        // Both of a kind have one size.
+        // Both pictures have the same size, though the two halves may differ.
         let least = stacked[0].width().min(stacked[1].width());
         let stacked = stacked.map(|at| Rect::from_center_size(at.center(), vec2(least, least / aspect)));
         let is_stacked = least > beside[0].width();
@@ -60,7 +60,7 @@ impl Layout {
         self.area
     }
 
-    /// One, or the reference's and the one of now.
+    /// The framing of the one picture, or of the reference and now.
     pub fn framings(&self) -> &[Framing] {
         &self.framings
     }

@@ -1,4 +1,4 @@
-//! Everything that is drawn over one picture, in its order.
+//! Everything that is drawn over one picture, in drawing order.
 
 use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::tools::{Needle, Ring};
@@ -14,35 +14,35 @@ pub struct Marks<'a> {
     pub grid: bool,
     /// Regions in their colours.
     pub regions: &'a [RegionTint],
-    /// What is selected.
+    /// The outline of the selected object.
     pub selected: Option<&'a Outline>,
-    /// What is selected, as it stands at the keys beside this frame.
+    /// Outlines of the selected object at the keys before and after this frame.
     pub ghosts: &'a [Outline],
-    /// Directions.
+    /// Direction lines.
     pub hairs: &'a [HairMark],
-    /// Points without a direction, and what tells whether they can be seen.
+    /// Points where strokes have no direction, and what decides whether they are visible.
     pub singular: Option<(&'a [SingularPoint], Sight<'a>)>,
     /// Guides of the selected region.
     pub guides: &'a [GuideCurve],
-    /// Strokes as the comb would lay them, with how much of them is shown (0..=1).
+    /// A preview of strokes as the comb would turn them, and its opacity (0..=1).
     pub foreseen: Option<(&'a [ForeseenStroke], Comb, f32)>,
-    /// Rings of the brush, its mirror images among them.
+    /// Rings of the tool and of its mirror images.
     pub rings: &'a [Ring],
-    /// The direction under the dot.
+    /// The direction at the centre of the ring.
     pub needle: Option<Needle>,
     /// Radius of the ring, points.
     pub radius_px: f64,
-    /// Words beside the ring.
+    /// The label beside the ring.
     pub tag: Option<&'a str>,
-    /// Where the selected object goes.
+    /// The motion path of the selected object.
     pub path: Option<&'a MotionPath>,
-    /// Lights and cameras, with whether they are selected.
+    /// Marks for suns and the shot camera, and whether each is selected.
     pub stand_ins: &'a [(StandIn, bool)],
     /// Boxes where meshes are missing.
     pub missing: &'a [MissingMesh],
-    /// Handles, and the one that is lit.
+    /// The handles, and the constraint of the highlighted one.
     pub gizmo: Option<(&'a Gizmo, Option<Constraint>)>,
-    /// Whether the ring stands for the pointer.
+    /// Whether the ring replaces the pointer.
     pub hides_pointer: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What is drawn over the picture: pure functions from plain data to shapes, one file each. All lengths are points.
+//! The marks over the picture: functions that draw plain data as shapes, one file each. All lengths are points.
 
 use egui::{Painter, Pos2, Rect};
 use glam::{DVec2, DVec3};
@@ -37,19 +37,19 @@ pub use sight::Sight;
 pub use singular_points::{SingularPoint, singular_points};
 pub use stand_ins::{StandIn, stand_ins};
 
-/// Where overlays are drawn: a rectangle of the window and the camera that its picture was taken with.
+/// Where overlays are drawn: a picture's rectangle in the window, and its view.
 #[derive(Clone, Copy)]
 pub struct Sheet<'a> {
-    /// Draws; clipped to the rectangle.
+    /// The painter, clipped to the rectangle.
     pub painter: &'a Painter,
     /// The picture's place in the window.
     pub rect: Rect,
-    /// The camera before that rectangle, in points.
+    /// The picture's camera, and its size in points.
     pub view: &'a View,
 }
 
 impl Sheet<'_> {
-    /// A place of the picture (from its upper left corner, Y down) in the window.
+    /// Converts a place in the picture (from its upper left corner, Y down) to the window.
     pub fn at(&self, at_px: DVec2) -> Pos2 {
         self.rect.min + egui::vec2(at_px.x as f32, at_px.y as f32)
     }
@@ -57,7 +57,7 @@ impl Sheet<'_> {
     /// Where a point of the world shows in the window; `None` behind the lens, or too far out to draw.
     pub fn project(&self, position_in_world: DVec3) -> Option<Pos2> {
         let at_px = self.view.project(position_in_world)?;
-        // Tessellators lose their precision far outside.
+        // Tessellation loses precision far outside the picture.
         (at_px.is_finite() && at_px.abs().max_element() < 1e5).then(|| self.at(at_px))
     }
 }

@@ -18,7 +18,7 @@ struct ShownPicture {
 }
 
 impl Pictures {
-    /// Takes a picture in; only the texture of its own view changes.
+    /// Takes a new picture; only the texture of its view changes.
     pub fn take(&mut self, ctx: &Context, picture: Picture) {
         let Picture { index, view, serial, image, exact, .. } = picture;
         if self.shown.len() <= index {
@@ -37,19 +37,19 @@ impl Pictures {
         }
     }
 
-    /// The texture of a view with what it shows, and whether it is exact.
+    /// The texture of a view, the view as it was drawn, and whether the picture is exact.
     pub fn of(&self, index: usize) -> Option<(TextureId, &ViewJob, bool)> {
         let shown = self.shown.get(index)?.as_ref()?;
         Some((shown.texture.id(), &shown.view, shown.exact))
     }
 
-    /// Whether the exact picture of a view is here, of the scene with this serial.
+    /// Whether the exact picture of this view has come, for the scene with this serial.
     pub fn is_exact(&self, index: usize, view: &ViewJob, serial: u64) -> bool {
         let shown = self.shown.get(index).and_then(Option::as_ref);
         shown.is_some_and(|shown| shown.exact && shown.serial == serial && shown.view.looks_like(view))
     }
 
-    /// Forgets all: another document.
+    /// Drops all pictures: another document was opened.
     pub fn clear(&mut self) {
         self.shown.clear();
     }

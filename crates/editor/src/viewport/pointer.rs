@@ -1,4 +1,4 @@
-//! From egui's events to those of the editor, in the order in which they came; places in points from the viewport's upper left
+//! Translates egui's pointer events into the editor's, in their order. Places are points from the viewport's upper left
 //! corner, Y down.
 
 use egui::{Event, MouseWheelUnit, PointerButton, Ui};
@@ -8,7 +8,7 @@ use impasto_editor_model::keymap::{Button, Modifiers};
 
 use super::framing::Framing;
 
-/// Two fingers that spread by this factor are one step of the wheel.
+/// A pinch by this factor counts as one step of the wheel.
 const PINCH_STEP: f64 = 1.1;
 
 /// The pointer over the viewport, from one pass to the next.
@@ -20,7 +20,7 @@ pub(super) struct Pointer {
 }
 
 impl Pointer {
-    /// The events of this pass. `over` says whether a place of the window is on the picture and not on what floats over it.
+    /// The events of this pass. `over` says whether a place in the window is on the picture and not on a chip or sheet over it.
     pub(super) fn events(
         &mut self,
         ui: &Ui,
@@ -90,7 +90,7 @@ impl Pointer {
         events
     }
 
-    /// Whether a drag that began here goes on.
+    /// Whether a drag that began on the picture goes on.
     pub(super) fn is_dragging(&self) -> bool {
         !self.buttons.is_empty()
     }

@@ -1,4 +1,4 @@
-//! Which hairs show: evenly over the picture, those that nothing hides.
+//! Chooses which direction lines to show: spread evenly over the picture, and not hidden by a surface.
 
 use egui::Color32;
 use glam::DVec2;
@@ -9,25 +9,26 @@ use impasto_scene::motion::CameraPose;
 use super::overlay::{HairInk, HairMark};
 use super::{Framing, surface_map::SurfaceMap};
 
-/// Hairs are at least so far apart, points.
+/// Lines are at least this far apart, points.
 const APART: f64 = 20.0;
-/// And no more than this many.
+/// At most this many lines are shown.
 const MOST: usize = 600;
 
-/// How hairs are to be drawn.
+/// How to draw direction lines.
 #[derive(Clone, Copy, Debug)]
 pub struct HairLook<'a> {
-    /// Plain, by region, by trust.
+    /// Chooses the colours: plain, by region, or by trust.
     pub overlays: Overlays,
-    /// Of each region of the scene.
+    /// The colour of each region of the scene.
     pub region_colours: &'a [Color32],
-    /// The region that is being painted: hairs of others are faint. `None` where all are alike.
+    /// The region that is being painted: lines of other regions are faint. `None` draws all alike.
     pub region: Option<usize>,
-    /// The object that is being posed: hairs of others are faint. `None` where all are alike.
+    /// The object that is being posed: lines of other objects are faint. `None` draws all alike.
     pub object: Option<usize>,
 }
 
-/// The hairs of a painting at a frame, seen through a camera (not widened) in a framing. `map` is what that camera sees.
+/// The direction lines of a painting at a frame, seen through a camera (before widening) in a framing. `map` holds the
+/// surfaces that this camera sees.
 pub fn hair_marks(
     painting: &Painting,
     camera: &CameraPose,

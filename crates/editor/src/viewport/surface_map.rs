@@ -1,5 +1,5 @@
-//! Which surface shows where, drawn on the processor at the viewport's own pace: what hairs, outlines and regions are hidden
-//! by. The picture itself comes later, and from another thread.
+//! A coarse map of the visible surfaces, for outlines and regions and to hide direction lines behind surfaces. It is drawn
+//! on the CPU in the window's thread, as the picture itself comes later from another thread.
 
 use std::sync::Arc;
 
@@ -11,16 +11,16 @@ use impasto_painting::{BodyShape, Painting};
 use impasto_scene::document::Lens;
 use impasto_scene::motion;
 
-/// A point may lie this share of its depth behind the surface that shows, and still be that surface.
+/// A point that is this share of its depth behind the visible surface still counts as on it.
 const LEEWAY: f32 = 0.006;
 
-/// For each cell of a grid over the viewport, the nearest face.
+/// The nearest face in each cell of a grid over the viewport.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceMap {
     /// Columns and rows.
     size: [usize; 2],
     cells_per_point: f64,
-    /// Along the gaze, world units; infinite where nothing is.
+    /// Depth along the gaze per cell, world units; infinite if the cell is empty.
     depth: Vec<f32>,
     faces: Vec<Face>,
 }
@@ -36,21 +36,21 @@ pub struct Face {
 
 const NOTHING: Face = Face { object: u32::MAX, triangle: u32::MAX };
 
-/// An object as it stands.
+/// An object as it stands at a frame.
 #[derive(Clone, Debug)]
 pub struct StandingBody {
     /// Its surface.
     pub surface: Arc<BodySurface>,
-    /// Its shape.
+    /// Its morph and noise.
     pub shape: BodyShape,
     /// Its pose.
     pub world_from_model: DAffine3,
-    /// Whether it shows.
+    /// Whether it is not hidden.
     pub visible: bool,
 }
 
 impl StandingBody {
-    /// The bodies of a painting as they stand at a frame, by the places of their objects in the scene.
+    /// The bodies of a painting at a frame, in the order of the scene's objects.
     pub fn all(painting: &Painting, frame: f64) -> Vec<Self> {
         let scene = painting.scene();
         let poses = motion::poses_at(scene, frame);
@@ -64,7 +64,7 @@ impl StandingBody {
     }
 }
 
-/// Of the very same surface, standing alike.
+/// Equal if they share one surface, and shape, pose and visibility are equal.
 impl PartialEq for StandingBody {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.surface, &other.surface)
@@ -73,16 +73,16 @@ impl PartialEq for StandingBody {
     }
 }
 
-/// A corner before the division: all four are linear in space.
+/// A corner of a triangle before the perspective division: all four numbers are linear in its position.
 #[derive(Clone, Copy)]
 struct Corner {
-    /// Numerators of the place in pixels from the centre, Y up, and their denominator.
+    /// Numerators x and y of the place in pixels from the picture's centre, Y up, and their denominator w.
     place: [f64; 3],
     depth: f64,
 }
 
 impl SurfaceMap {
-    /// Looks at all bodies; index in `bodies` is index in the scene. `cells_per_point` is 1 or less.
+    /// Draws all bodies; their indices are those of the scene's objects. `cells_per_point` is 1 or less.
     pub fn new(bodies: &[StandingBody], view: &View, cells_per_point: f64) -> Self {
         let size = [view.size_px.x, view.size_px.y]
             .map(|side| ((side * cells_per_point).ceil() as usize).clamp(1, 4096));
@@ -107,18 +107,19 @@ impl SurfaceMap {
         self.size
     }
 
-    /// How many cells a point is wide.
+    /// Cells per point of the viewport.
     pub fn cells_per_point(&self) -> f64 {
         self.cells_per_point
     }
 
-    /// The face in a cell; `None` where nothing is.
+    /// The face in a cell; `None` if it is empty.
     pub fn face(&self, column: usize, row: usize) -> Option<Face> {
         let face = *self.faces.get(column + row * self.size[0])?;
         (face != NOTHING).then_some(face)
     }
 
-    /// Whether a point of an object shows: it is no farther than what is drawn at its place or beside it.
+    /// Whether a point of an object is visible: no farther than the object's farthest visible face in its cell and the cells
+    /// around it.
     pub fn shows(&self, at_px: DVec2, depth: f64, object: usize) -> bool {
         let at = (at_px * self.cells_per_point).floor();
         if !(at.x >= 0.0 && at.y >= 0.0 && at.x < self.size[0] as f64 && at.y < self.size[1] as f64) {
@@ -144,7 +145,7 @@ impl SurfaceMap {
         }
     }
 
-    /// Draws what lies before the near plane.
+    /// Draws a triangle that is beyond the near plane.
     fn fill(&mut self, corners: [Corner; 3], size_px: DVec2, face: Face) {
         let place = |corner: Corner| {
             let [x, y, w] = corner.place;
@@ -155,7 +156,7 @@ impl SurfaceMap {
         if !area.is_normal() {
             return;
         }
-        // Depth over w, and one over w, are linear on the screen, whatever the lens.
+        // Depth / w and 1 / w are linear on the screen for every lens.
         let over_w = corners.map(|corner| DVec2::new(corner.depth, 1.0) / corner.place[2]);
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let limit = DVec2::new(self.size[0] as f64, self.size[1] as f64);
@@ -189,7 +190,7 @@ fn corners(body: &StandingBody, map: &ScreenMap) -> Vec<Corner> {
     body.surface.positions_at(&body.shape).into_iter().map(corner).collect()
 }
 
-/// The part of a triangle before the near plane: none, three, or four corners.
+/// Clips a triangle at the near plane, which leaves none, three or four corners.
 fn before(corners: [Corner; 3], near: f64) -> Vec<Corner> {
     let mut kept = Vec::with_capacity(4);
     for index in 0..3 {

@@ -1,4 +1,4 @@
-//! The event loop: from winit's events to passes of egui, and from those to what the window shows.
+//! The event loop: turns winit's events into passes of egui, and shows what they draw.
 
 use std::panic::catch_unwind;
 use std::time::{Duration, Instant};
@@ -22,22 +22,22 @@ use super::{App, Asks, Frame, Opened, Options, Waker, WindowError};
 /// The shortest time between two frames that only an animation asks for. Software drivers do not wait for the screen.
 const LEAST_FRAME: Duration = Duration::from_millis(8);
 
-/// What the window shows is at most this much older than what an app holds back.
+/// An app can hold back new frames ([`Frame::hold`]) for at most this long.
 const MOST_HELD: Duration = Duration::from_millis(100);
 
-/// While an app holds back, moves of the pointer are handed to it at most this often.
+/// While an app holds back, pointer moves cause a pass at most this often.
 const HELD_PASS: Duration = Duration::from_millis(30);
 
 /// Why a frame is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Due {
-    /// Something happened, or the window system has lost what it showed.
+    /// Something happened, or the window system asks for the contents again.
     Now,
-    /// A timer of the page: it is shown where it looks otherwise than before.
+    /// A timer of the page: the frame is shown only if it looks different from the last.
     ByTimer,
 }
 
-/// What the window shows.
+/// What the window shows, to compare with the next frame.
 #[derive(PartialEq)]
 struct Page {
     shapes: Vec<egui::epaint::ClippedShape>,
@@ -45,14 +45,14 @@ struct Page {
     size: [u32; 2],
 }
 
-/// What reaches the loop from outside the window system.
+/// Events that do not come from the window system.
 #[derive(Debug)]
 pub(super) enum Happening {
-    /// A [`Waker`].
+    /// A [`Waker`] asks for a pass.
     Wake,
     /// egui wants a pass at `at`; `pass` is the one in which it was asked for.
     Repaint { at: Instant, pass: u64 },
-    /// A screen reader.
+    /// A screen reader asks for something.
     Access(accesskit_winit::Event),
 }
 
@@ -66,7 +66,7 @@ impl From<accesskit_winit::Event> for Happening {
 ///
 /// # Errors
 ///
-/// [`WindowError`] where there is no display or no OpenGL, with the packages that would mend it.
+/// [`WindowError`] if there is no display or no OpenGL, with the packages to install.
 pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<(), WindowError> {
     let event_loop = build_event_loop()?;
     let proxy = event_loop.create_proxy();
@@ -76,7 +76,7 @@ pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<
 }
 
 fn build_event_loop() -> Result<EventLoop<Happening>, WindowError> {
-    // A missing libxkbcommon-x11 or libwayland-egl is a panic below winit. Its words reach the user in the error.
+    // Code below winit panics if libxkbcommon-x11 or libwayland-egl is missing. The error shows its message to the user.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| ()));
     let built = catch_unwind(|| EventLoop::with_user_event().build());
@@ -110,7 +110,7 @@ struct OpenWindow<A> {
     window: Window,
     info: ViewportInfo,
     textures: egui::TexturesDelta,
-    /// Keys of the number pad that the next pass is handed.
+    /// Keys of the number pad, for the next pass.
     numpad: Vec<(Key, Modifiers)>,
     held: Modifiers,
     title: String,
@@ -151,7 +151,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> Shell<A, M> {
             window.theme(),
             Some(most),
         );
-        // It must know the window before the window shows.
+        // accesskit must be set up before the window is visible.
         state.init_accesskit(event_loop, &window, self.proxy.clone());
 
         let opened = Opened { ctx, waker: Waker(self.proxy.clone()), driver: gl.driver() };
@@ -240,7 +240,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
             Happening::Wake => open.window.request_redraw(),
             Happening::Repaint { at, pass } => {
                 let now = open.state.egui_ctx().cumulative_pass_nr();
-                // What an older pass asked for, the passes since have answered.
+                // Requests of older passes are out of date: later passes have run since.
                 if now == pass || now == pass + 1 {
                     let at = at.max(open.last_start + LEAST_FRAME);
                     self.next = Some(self.next.map_or(at, |next| next.min(at)));
@@ -316,7 +316,7 @@ impl<A: App, M: FnOnce(&Opened) -> A> ApplicationHandler<Happening> for Shell<A,
 }
 
 impl<A: App> OpenWindow<A> {
-    /// Runs the passes that are due and shows the last. True where the app wants to close.
+    /// Runs the passes that are due and shows the last. Returns whether the app wants to close.
     fn frame(&mut self, due: Due) -> Result<bool, WindowError> {
         self.last_start = Instant::now();
         let broken = |reason| WindowError::Broken(format!("OpenGL: {reason}"));
@@ -366,7 +366,7 @@ impl<A: App> OpenWindow<A> {
             return Ok(close);
         }
         self.holds = false;
-        // Somebody looked at a clock and found nothing to show.
+        // A timer ran out, and nothing looks different.
         let size = self.window.inner_size();
         let page = Page { shapes: shapes.clone(), scale, size: size.into() };
         let is_shown = self.textures.is_empty() && self.shown.as_ref() == Some(&page);

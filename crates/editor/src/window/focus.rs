@@ -1,11 +1,11 @@
-//! Which keys move egui's focus, and which are the editor's.
+//! Decides which keys move egui's focus, and which are the editor's.
 
 use egui::{Context, Event, Id, Key, Modifiers, Plugin, RawInput, Ui};
 
-/// Which keys reach egui's own focus, so that the editor's keys work: add it to the context as a plugin.
+/// Keeps egui's keyboard focus from taking the editor's keys: add it to the context as a plugin.
 ///
-/// `Tab` belongs to the app while nothing has the focus ([`tab_pressed`] tells it), and walks from control to control
-/// once the focus stands on one. A click outside a text field lets go of the focus, so that `Space` presses nothing.
+/// While nothing has the focus, `Tab` goes to the app ([`tab_pressed`]); once a control has it, `Tab` moves to the next
+/// control. A click outside a text field gives up the focus, so that `Space` presses no button.
 #[derive(Debug, Default)]
 pub struct FocusRules;
 

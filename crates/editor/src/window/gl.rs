@@ -1,4 +1,4 @@
-//! The window's OpenGL: opening it, and keeping the app's leftovers away from egui.
+//! The window's OpenGL: opens it, and resets state that the app left before egui draws.
 
 #![expect(
     unsafe_code,
@@ -22,8 +22,8 @@ use winit::event_loop::ActiveEventLoop;
 use winit::raw_window_handle::HasWindowHandle as _;
 use winit::window::{Window, WindowAttributes};
 
-/// Has Mesa draw the window in software, whatever the machine has; what the user has set himself stays. Must be called before
-/// anything else of the window, on the main thread, while it is the only one.
+/// Makes Mesa draw the window in software, by environment variables; those that the user has set stay. Must be called before
+/// anything else of the window, on the main thread, while no other thread runs.
 pub fn force_software() {
     for (name, value) in [("LIBGL_ALWAYS_SOFTWARE", "1"), ("__GLX_VENDOR_LIBRARY_NAME", "mesa")] {
         if std::env::var_os(name).is_none() {
@@ -46,7 +46,7 @@ impl WindowGl {
         event_loop: &ActiveEventLoop,
         window: WindowAttributes,
     ) -> Result<(Window, Self), String> {
-        // glutin asks for a config where there may be none, and drivers panic below it.
+        // `open` panics if the driver offers no config, and some drivers make glutin panic.
         catch_unwind(AssertUnwindSafe(|| open(event_loop, window)))
             .unwrap_or_else(|_| Err("the driver broke off while it was asked".to_owned()))
     }
@@ -55,7 +55,7 @@ impl WindowGl {
         &self.gl
     }
 
-    /// The version and the driver, in its own words.
+    /// The OpenGL version and the name that the driver gives itself.
     pub(super) fn driver(&self) -> String {
         // SAFETY: the context is current on this thread.
         let (version, renderer) = unsafe {
@@ -78,7 +78,7 @@ impl WindowGl {
         self.surface.swap_buffers(&self.context).map_err(|error| error.to_string())
     }
 
-    /// Puts back what egui's painter takes for granted, whatever the app left behind.
+    /// Restores the OpenGL state that egui's painter relies on.
     pub(super) fn before_egui(&self) {
         let gl = &self.gl;
         // SAFETY: the context is current on this thread, and none of these calls reads memory of ours.
@@ -125,7 +125,7 @@ fn open_on(window: &Window, config: &Config) -> Result<WindowGl, String> {
     let least = |length| NonZeroU32::new(length).unwrap_or(NonZeroU32::MIN);
     let surface =
         SurfaceAttributesBuilder::<WindowSurface>::new().build(handle, least(size.width), least(size.height));
-    // SAFETY: the handle is of `window`, which its owner keeps longer than what is made here.
+    // SAFETY: the handle is of `window`, which its owner drops after what is made here.
     let (context, surface) = unsafe {
         let context = display.create_context(config, &wanted).or_else(|first| {
             display
@@ -135,7 +135,7 @@ fn open_on(window: &Window, config: &Config) -> Result<WindowGl, String> {
         (context, display.create_window_surface(config, &surface).map_err(|error| error.to_string())?)
     };
     let context = context.make_current(&surface).map_err(|error| error.to_string())?;
-    // A driver that cannot wait for the screen draws without waiting.
+    // If the driver cannot wait for the screen, it draws without waiting.
     let _cannot_wait = surface.set_swap_interval(&context, SwapInterval::Wait(NonZeroU32::MIN));
     // SAFETY: the context is current on this thread, and the display outlives the functions: the surface holds it.
     let gl = unsafe { glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name)) };

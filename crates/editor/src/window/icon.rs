@@ -4,7 +4,7 @@ use winit::window::Icon;
 
 const SIDE: u32 = 64;
 const HALF_WIDTH: f32 = 0.1;
-/// Strokes from one end to the other, as parts of the side, and their colours.
+/// The two ends of each stroke, as shares of the side, and its colour.
 const STROKES: [([[f32; 2]; 2], [u8; 3]); 3] = [
     ([[0.22, 0.34], [0.74, 0.24]], [240, 180, 65]),
     ([[0.24, 0.56], [0.80, 0.46]], [255, 131, 112]),

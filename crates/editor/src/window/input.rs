@@ -1,12 +1,12 @@
-//! Splits what happened between two frames into passes that egui and the editor can follow.
+//! Splits the input of a frame into passes, so that neither egui nor the editor misses a click or mixes up the order.
 
 use egui::{Event, RawInput};
 
-/// Splits what happened since the last frame, so that no pass sees more than one press or release of a button, and none
-/// sees a key after what the pointer did.
+/// Splits the input since the last frame, so that no pass has more than one press or release of a button, nor a key after
+/// a move or click of the pointer.
 ///
-/// A slow frame gathers a whole drag. egui looks at the pointer once a pass, and would take that for nothing. The page
-/// takes the keys of a pass before the pointer: `Ctrl Z` right after a drag would find the drag still under way.
+/// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss it. The page handles the
+/// keys of a pass before the pointer: for `Ctrl Z` right after a drag, the drag would still be under way.
 pub(super) fn one_thing_each(mut input: RawInput) -> Vec<RawInput> {
     let events = std::mem::take(&mut input.events);
     let mut parts = vec![Vec::new()];

@@ -23,7 +23,7 @@ use event_loop::Happening;
 pub trait App {
     /// Builds one pass of the page. Called when the window, the user, a timer or a [`Waker`] asks for it.
     ///
-    /// Files that the user drags over the window or drops on it stand in `ui.input(|input| &input.raw)`.
+    /// Files that the user drags over the window or drops on it are in `ui.input(|input| &input.raw)`.
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame<'_>);
 
     /// The words in the window's title bar.
@@ -40,7 +40,7 @@ pub trait App {
         false
     }
 
-    /// The controls of the last pass, as a screen reader is told of them.
+    /// The controls of the last pass, as a screen reader gets them.
     fn controls(&mut self, _controls: &egui::accesskit::TreeUpdate) {}
 }
 
@@ -79,7 +79,7 @@ pub struct Frame<'a> {
     asks: &'a mut Asks,
 }
 
-/// What an app asked of a pass.
+/// What an app asked for in a pass.
 #[derive(Clone, Copy, Debug, Default)]
 struct Asks {
     close: bool,
@@ -102,14 +102,14 @@ impl Frame<'_> {
         self.asks.close = true;
     }
 
-    /// What this pass shows need not be seen: another will follow soon (a picture of the view that the hand has moved to).
-    /// The window keeps what it shows, for a few hundredths of a second at most.
+    /// Does not show this pass, because a better one will follow soon (with the picture of a view that is being moved). The
+    /// window stays as it is, for a tenth of a second at most.
     pub fn hold(&mut self) {
         self.asks.hold = true;
     }
 }
 
-/// Makes the window run a pass soon. Any thread may hold one, and it is cheap to clone.
+/// Makes the window run a pass soon. It works on any thread, and is cheap to clone.
 #[derive(Clone, Debug)]
 pub struct Waker(EventLoopProxy<Happening>);
 
@@ -135,7 +135,7 @@ pub enum WindowError {
         /// What the window system said.
         reason: String,
     },
-    /// The window system is there, and OpenGL is not.
+    /// There is a window system but no OpenGL.
     #[error(
         "no OpenGL for a window: {reason}\n\
          On Debian: apt install libegl1 libgl1-mesa-dri. `impasto doctor` tells what was found."
@@ -144,7 +144,7 @@ pub enum WindowError {
         /// What the driver said.
         reason: String,
     },
-    /// The window system broke off.
+    /// The window system or OpenGL failed while the window was open.
     #[error("the window system broke off: {0}")]
     Broken(String),
 }

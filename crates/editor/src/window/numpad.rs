@@ -1,11 +1,11 @@
-//! Keys of the number pad, which egui takes for those of the main row.
+//! Keys of the number pad, which egui does not tell from those of the main row.
 
 use egui::{Context, Id};
 use impasto_editor_model::keymap::{Key, Modifiers};
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{KeyCode, PhysicalKey};
 
-/// What egui takes for a digit of the main row.
+/// The key of the number pad that was pressed; none for other keys, and for releases.
 pub(super) fn numpad_key(event: &KeyEvent) -> Option<Key> {
     let PhysicalKey::Code(code) = event.physical_key else { return None };
     (event.state == ElementState::Pressed).then(|| of_code(code))?

@@ -1,4 +1,4 @@
-//! While a frame of a film is drawn, the next one is computed on a thread of its own.
+//! During playback, computes the next frame on a thread of its own while this one is drawn.
 
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -21,7 +21,7 @@ struct Computing {
 }
 
 impl Ahead {
-    /// Begins to compute a view that will likely be asked for next, drawn in the same options.
+    /// Begins to compute a view that will likely be asked for next, to be drawn with the same options.
     pub(super) fn begin(
         &mut self,
         painting: &Painting,
@@ -41,8 +41,8 @@ impl Ahead {
         self.0 = thread.ok().map(|frame| Computing { view: view.clone(), size_px, is_exact, serial, frame });
     }
 
-    /// Takes the frame that was computed and its view, if it can be shown in place of `view`: it is of the same view, or in a
-    /// film that plays on to `next` of the frame just before it.
+    /// Takes the frame that was computed and its view, if it can be shown for `view`: it is of the same view or, while playback
+    /// goes on to `next`, of the frame just before `view`.
     pub(super) fn take(
         &mut self,
         serial: u64,
@@ -59,7 +59,7 @@ impl Ahead {
             && ahead.view.shot_height_px == view.shot_height_px
             && ahead.view.shading == view.shading
             && (view.looks_like(&ahead.view) || is_just_before);
-        // What panicked there is computed again here, where it is told.
+        // If that thread panicked, the frame is computed again on this one, where a panic is reported.
         let frame = is_like.then(|| ahead.frame.join().ok()).flatten()?;
         Some((ahead.view, frame))
     }
@@ -101,13 +101,13 @@ mod tests {
             assert!(!there.strokes.is_empty());
             assert_eq!(format!("{:?}", frame.strokes), format!("{:?}", there.strokes));
         }
-        // Another moment, another scene, another size: it is of no use.
+        // Another frame, scene or size: the computed frame cannot be used.
         for (serial, asked, side) in [(1, 5.0, 80), (1, 2.0, 80), (2, 3.0, 80), (1, 3.0, 96)] {
             ahead.begin(&painting, 1, &view(3.0), &options(80), None);
             let taken = ahead.take(serial, &view(asked), Some(&next), &options(side));
             assert!(taken.is_none(), "{serial} {asked} {side}");
         }
-        // The last frame of all is drawn itself.
+        // The last frame of the playback is drawn itself, not the one before it.
         ahead.begin(&painting, 1, &view(3.0), &options(80), None);
         assert!(ahead.take(1, &view(4.0), Some(&view(4.0)), &options(80)).is_none());
     }

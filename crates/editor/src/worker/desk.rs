@@ -1,4 +1,4 @@
-//! What the window and the thread pass each other: one job, the latest, and a tray of what has been done.
+//! What the window and the painting thread pass each other: the latest job, and the results that wait to be polled.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,7 +12,7 @@ use impasto_painting::Painting;
 
 use super::{Job, Picture, Report, ViewJob};
 
-/// Words that nobody has read yet are kept up to this many.
+/// At most this many failures wait to be polled; further ones are dropped.
 const MOST_FAILURES: usize = 8;
 
 /// Shared by both threads.
@@ -21,9 +21,9 @@ pub(super) struct Desk {
     orders: Mutex<Orders>,
     changed: Condvar,
     tray: Mutex<Tray>,
-    /// The ticket of the last job that was put down; `u64::MAX` once closed.
+    /// The ticket of the last job; `u64::MAX` once closed.
     newest: AtomicU64,
-    /// The ticket of the last job whose preparing was stopped.
+    /// Preparing is stopped for jobs up to this ticket.
     stopped: AtomicU64,
 }
 
@@ -32,7 +32,7 @@ struct Orders {
     job: Option<Order>,
     closed: bool,
     ended: bool,
-    /// What stands in for the program's own shaders, and how often that was said.
+    /// The shaders that replace the program's own, and how often they were set.
     shaders: (Arc<ShaderTexts>, u64),
 }
 
@@ -44,11 +44,11 @@ struct Tray {
     failures: Vec<String>,
 }
 
-/// A job with its place among all.
+/// A job with its ticket: tickets count the jobs.
 pub(super) struct Order {
     pub(super) job: Job,
     pub(super) came: Instant,
-    /// The views that will likely be asked for next, while a film plays.
+    /// The views that will likely be asked for next, during playback.
     pub(super) ahead: Vec<ViewJob>,
     ticket: u64,
 }
@@ -70,7 +70,7 @@ impl Desk {
         orders.shaders = (Arc::new(texts), orders.shaders.1 + 1);
     }
 
-    /// What shaders are to be drawn with, where that is another than the one of this number; with its own number.
+    /// The shaders to draw with and their number; none if the number is still this one.
     pub(super) fn shaders_after(&self, number: u64) -> Option<(Arc<ShaderTexts>, u64)> {
         let (texts, latest) = lock(&self.orders).shaders.clone();
         (latest != number).then_some((texts, latest))
@@ -86,23 +86,23 @@ impl Desk {
         if orders.closed { None } else { orders.job.take() }
     }
 
-    /// Whether a later job lies on the desk, or the desk is closed.
+    /// Whether a later job has come, or the desk is closed.
     pub(super) fn is_stale(&self, order: &Order) -> bool {
         self.newest.load(Ordering::Acquire) != order.ticket
     }
 
-    /// The job that was put down last is not to be prepared to its end.
+    /// Stops preparing the last job, and those before it.
     pub(super) fn stop_preparing(&self) {
         self.stopped.store(self.newest.load(Ordering::Acquire), Ordering::Release);
     }
 
-    /// Whether preparing this job is given up: it was stopped, or the desk is closed.
+    /// Whether to give up preparing this job: it was stopped, or the desk is closed.
     pub(super) fn gives_up(&self, order: &Order) -> bool {
         let is_closed = self.newest.load(Ordering::Acquire) == u64::MAX;
         is_closed || self.stopped.load(Ordering::Acquire) >= order.ticket
     }
 
-    /// Waits until a job is this old. Returns whether no later one came.
+    /// Waits until a job is this old, or a later one comes. Returns whether none came.
     pub(super) fn rests(&self, order: &Order, age: Duration) -> bool {
         let until = order.came + age;
         let mut orders = lock(&self.orders);
@@ -145,13 +145,13 @@ impl Desk {
         self.changed.notify_all();
     }
 
-    /// The thread's last words.
+    /// Marks that the thread has ended.
     pub(super) fn end(&self) {
         lock(&self.orders).ended = true;
         self.changed.notify_all();
     }
 
-    /// Waits for them; returns whether they came in time.
+    /// Waits for the thread to end, at most this long; returns whether it has.
     pub(super) fn wait_for_end(&self, most: Duration) -> bool {
         let orders = lock(&self.orders);
         let waited = self.changed.wait_timeout_while(orders, most, |orders| !orders.ended);
@@ -159,7 +159,7 @@ impl Desk {
     }
 }
 
-/// No code that holds a lock here can panic half way.
+/// Ignores poisoning: no code that holds a lock here can panic and leave the data half changed.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,12 +1,12 @@
-//! How large drafts are: as large as keeps the hand's picture moving.
+//! Chooses the size of drafts: as large as can be drawn fast enough for a smooth drag.
 
-/// All drafts of a job together should take no longer, seconds: fifteen a second, with something left for preparing.
+/// All drafts of a job together should take no longer than this, seconds: fifteen a second, with some time left to prepare.
 const BUDGET_S: f64 = 0.055;
-/// Shares of the exact picture's sides count in twentieths, so that targets are not made anew for every picture.
+/// The sides of a draft are these parts of the exact picture's: few sizes, so that render targets are seldom made anew.
 const STEPS: u32 = 20;
 /// The least share: 0.35.
 const LEAST: u32 = 7;
-/// What the first draft is drawn at: 0.5.
+/// The share of the first draft: 0.5.
 const FIRST: u32 = 10;
 
 /// Chooses the size of the next draft by what the last one took.
@@ -22,16 +22,16 @@ impl Default for DraftSize {
 }
 
 impl DraftSize {
-    /// Of a picture of this size, at least one pixel.
+    /// The size of a draft of a picture of this size, at least one pixel.
     pub(super) fn of(&self, size_px: [u32; 2]) -> [u32; 2] {
         size_px.map(|side| ((f64::from(side) * self.share()).round() as u32).clamp(1, side.max(1)))
     }
 
-    /// Learns from what all drafts of a job took.
+    /// Adapts the size to the time that all drafts of a job took.
     pub(super) fn took(&mut self, seconds: f64) {
         let ideal = f64::from(self.steps) * (BUDGET_S / seconds.max(1e-4)).sqrt();
         let steps = ((ideal + 1e-6) as u32).clamp(LEAST, STEPS);
-        // Up only with something to spare: what is on the edge would swing.
+        // Grows only with a margin: at the limit the size would swing.
         if steps < self.steps || ideal > f64::from(self.steps) + 1.5 {
             self.steps = steps;
         }
@@ -41,7 +41,7 @@ impl DraftSize {
         f64::from(self.steps) / f64::from(STEPS)
     }
 
-    /// Whether an exact picture is as quick as a draft need be.
+    /// Whether exact pictures are so quick that drafts are not needed.
     pub(super) fn is_needless(exact_s: Option<f64>) -> bool {
         exact_s.is_some_and(|seconds| seconds < 0.5 * BUDGET_S)
     }
@@ -51,7 +51,7 @@ impl DraftSize {
 mod tests {
     use super::*;
 
-    /// A driver that takes this long for a whole picture, and a fixed time for any.
+    /// The shares of 40 drafts, with a driver that takes a fixed time and one in proportion to the pixels.
     fn settled(whole_s: f64, fixed_s: f64) -> Vec<f64> {
         let mut size = DraftSize::default();
         (0..40)

@@ -18,10 +18,10 @@ use super::draft::DraftSize;
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
 
-/// A job that is this old, without a later one, is drawn exactly.
+/// A job is drawn exactly once it is this old and no later one has come.
 const REST: Duration = Duration::from_millis(100);
 
-/// Works until the desk is closed. What panics is told and thrown away; the next job begins with a new worker.
+/// Works until the desk is closed. A panic is reported and the worker dropped; the next job gets a new one.
 pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
     let tell = |report: Report| {
         desk.report(report);
@@ -38,11 +38,11 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
         if let Err(panic) = worked {
             tell(Report::Failed(format!("the picture could not be made: {}", words(panic.as_ref()))));
             let broken = worker.take();
-            // A broken driver may break again when it is let go.
+            // A broken driver may panic again when it is dropped.
             let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
         }
     };
-    // A driver takes its time to open: that begins before there is anything to draw.
+    // A driver takes time to open, so that begins before there is anything to draw.
     work(None);
     while let Some(order) = desk.take() {
         work(Some(&order));
@@ -61,23 +61,23 @@ type Tell<'a> = &'a dyn Fn(Report);
 
 struct PaintWorker {
     preparer: Preparer,
-    /// Builds what the window needs to pick.
+    /// Brought up to date here; the window gets copies.
     picker: Picker,
     prepared: Option<(Painting, u64)>,
-    /// `None` where no driver was found: then scenes are prepared, and nothing is drawn.
+    /// `None` if no driver was found: then scenes are prepared, but nothing is drawn.
     renderer: Option<Renderer>,
-    /// The number of the shaders that it draws with.
+    /// The number of the shaders in use, from [`Desk::shaders_after`].
     shaders: u64,
-    /// What was last drawn of each view.
+    /// The last picture of each view.
     drawn: Vec<Option<Drawn>>,
     draft_size: DraftSize,
-    /// Which of the views the driver still has.
+    /// The view whose picture the renderer still holds.
     on_driver: Option<usize>,
-    /// Counts the pictures.
+    /// The number of pictures drawn so far.
     turn: u32,
-    /// What the last exact picture took.
+    /// How long the last exact picture took, seconds.
     exact_s: Option<f64>,
-    /// The next frame of a film.
+    /// The next frame of the playback.
     ahead: Ahead,
 }
 
@@ -87,7 +87,7 @@ struct Drawn {
     exact: bool,
     /// How many strokes it has, and how many of each region.
     strokes: (usize, Vec<usize>),
-    /// Its strokes; none where the picture has no strokes.
+    /// What the next draft may recall of it; none if it has no strokes.
     recall: Option<Arc<Recall>>,
 }
 
@@ -169,7 +169,7 @@ impl PaintWorker {
         }
     }
 
-    /// Draws with other shaders from now on, where there are any.
+    /// Takes up new shaders, if there are any.
     fn take_shaders(&mut self, desk: &Desk, tell: Tell<'_>) {
         let Some(renderer) = &mut self.renderer else { return };
         let Some((texts, number)) = desk.shaders_after(self.shaders) else { return };
@@ -180,7 +180,7 @@ impl PaintWorker {
         }
     }
 
-    /// Whether nothing of the scene was there before.
+    /// Whether none of the scene's meshes was prepared before.
     fn is_new(&self, order: &Order) -> bool {
         let known = |mesh: &Arc<MeshFile>| {
             let before = self.prepared.iter().flat_map(|(painting, _)| painting.loaded().meshes.values());
@@ -189,8 +189,8 @@ impl PaintWorker {
         !order.job.loaded.meshes.values().any(known)
     }
 
-    /// Something to look at until the strokes are prepared: the scene as it is lit, in few pixels. What goes wrong here goes
-    /// wrong again in its turn, and is told then.
+    /// Shows a new scene lit but unpainted, in few pixels, until its strokes are prepared. Errors are ignored here: they come
+    /// again when the scene is prepared and drawn, and are reported then.
     fn glimpse(&mut self, order: &Order, tell: Tell<'_>) {
         let Some(renderer) = &mut self.renderer else { return };
         let Ok(plain) = self.preparer.prepare_plain(&order.job.loaded) else { return };
@@ -245,7 +245,7 @@ impl PaintWorker {
         }
     }
 
-    /// Where a picture that is there needs other lights over it and nothing else, it gets those.
+    /// If only the icons of lights over an exact picture changed, and the renderer still holds it, redraws the icons alone.
     fn relight(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         let (Some(renderer), Some(drawn)) = (&mut self.renderer, &mut self.drawn[index]) else { return };
@@ -255,7 +255,7 @@ impl PaintWorker {
         }
         let began = Instant::now();
         renderer.set_billboards(&view.lights);
-        // What goes wrong here is told when the whole is drawn again.
+        // An error here is reported when the whole picture is drawn again.
         let Ok(Some(picture)) = renderer.with_other_billboards() else { return };
         drawn.view = view.clone();
         let (strokes, strokes_of) = drawn.strokes.clone();
@@ -282,7 +282,7 @@ impl PaintWorker {
         self.shows(order, index) && self.drawn[index].as_ref().is_some_and(|drawn| drawn.exact)
     }
 
-    /// Draws one view and tells of it. Returns whether to go on with the job.
+    /// Draws one view and reports the picture. Returns whether to go on with the job.
     fn draw(
         &mut self,
         painting: &Painting,
@@ -342,7 +342,7 @@ fn counted(frame: &Frame, regions: usize) -> Vec<usize> {
     counts
 }
 
-/// The frame, `computed` before or now, and its picture; no picture where it was given up.
+/// The frame (`computed` ahead, or now) and its picture; no picture if drawing was given up.
 fn render(
     renderer: &mut Renderer,
     painting: &Painting,
@@ -353,7 +353,7 @@ fn render(
 ) -> (Frame, Result<Option<ColorImage>, RenderError>) {
     let (frame, picture) = match computed {
         None if !options.is_exact => {
-            // A draft is never given up: whoever asks has to wait for the driver.
+            // Drafts are not given up, so strokes can be computed while the driver already works on the bare frame.
             let painting = styled(painting, view.shading);
             let options = frame_options(view, options);
             let mut frame = painting.bare(&view.camera, view.frame, &options);
@@ -374,7 +374,7 @@ fn render(
     (frame, picture.map(|picture| picture.map(image)))
 }
 
-/// A picture as egui takes it. Those of the window are opaque.
+/// A picture as egui takes it. The window's pictures are opaque, so premultiplied is the same.
 fn image(picture: impasto_gl_render::Picture) -> ColorImage {
     ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
 }

@@ -34,7 +34,7 @@ fn view(loaded: &LoadedScene, frame: f64) -> ViewJob {
     }
 }
 
-/// A worker, and what wakes the window.
+/// A worker, and a channel that receives each of its wake-ups.
 fn worker() -> (Worker, mpsc::Receiver<()>) {
     let (sender, woken) = mpsc::channel();
     let sender = Mutex::new(sender);
@@ -42,7 +42,7 @@ fn worker() -> (Worker, mpsc::Receiver<()>) {
     (Worker::new(Driver::Auto, wake).unwrap(), woken)
 }
 
-/// Everything that is told until a report for which `last` holds.
+/// All reports up to one for which `last` holds.
 fn until(worker: &(Worker, mpsc::Receiver<()>), last: impl Fn(&Report) -> bool) -> Vec<Report> {
     let mut told = Vec::new();
     let began = Instant::now();
@@ -172,7 +172,7 @@ fn a_wider_picture_holds_the_shot() {
     assert_eq!(picture.image.size, [160, 130]);
     let middle = &bytes(picture)[20 * 160 * 4..110 * 160 * 4];
     let shot = rendered(&loaded, &alone, None);
-    // What lies outside the shot reaches in at its border: shade, strokes, the light on them.
+    // What lies outside the shot changes the picture near its border: shade, strokes, the light on them.
     let differ = middle.iter().zip(&shot).filter(|(one, other)| one.abs_diff(**other) > 24).count();
     assert!(differ * 100 < shot.len(), "{differ} of {}", shot.len());
 }
@@ -190,11 +190,11 @@ fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
         &worker,
         |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame && picture.strokes > 0),
     );
-    // The job that was worked on, if any, and the last one: the others never reached the thread.
+    // Jobs that were replaced before the thread took them draw nothing.
     assert!(pictures(&told).len() <= 13);
     let first = *pictures(&told).last().unwrap();
     assert!(!first.exact && first.image.size[0] < 160, "{:?}", first.image.size);
-    // The hand lets go: the same view again, now exact.
+    // The drag ends: the same view again, now exact.
     worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, last_frame)] });
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.exact), "the draft stands there already");
@@ -260,7 +260,7 @@ fn a_panic_is_told_and_the_next_job_is_drawn() {
     let sender = Mutex::new(sender);
     let calls = AtomicUsize::new(0);
     let wake = move || {
-        // The first call comes from the midst of the work.
+        // The first call comes while the thread works.
         if calls.fetch_add(1, Ordering::Relaxed) == 0 {
             panic!("planted");
         }

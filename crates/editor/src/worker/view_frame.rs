@@ -1,4 +1,4 @@
-//! The frame that the renderer draws of one view: as a draft or exactly, painted or only shaded.
+//! Computes the frame of one view for the renderer: as a draft or exactly, painted or only shaded.
 
 use std::borrow::Cow;
 
@@ -10,15 +10,15 @@ use super::ViewJob;
 
 /// How a view is drawn.
 pub(super) struct DrawOptions<'a> {
-    /// Width and height of the picture; fewer pixels than the view has in a draft.
+    /// Width and height of the picture in pixels; smaller than the view's in a draft.
     pub(super) size_px: [u32; 2],
-    /// As a file would get it, not as a draft.
+    /// Whether it is drawn as for a file, not as a draft.
     pub(super) is_exact: bool,
-    /// Asked while an exact picture is drawn: true ends the drawing.
+    /// Called while an exact picture is drawn: true ends the drawing.
     pub(super) give_up: &'a dyn Fn() -> bool,
 }
 
-/// The same for the painting.
+/// The options in the form that the painting takes.
 pub(super) fn frame_options(view: &ViewJob, draw: &DrawOptions<'_>) -> FrameOptions {
     let share = draw.size_px[1] as f32 / view.size_px[1] as f32;
     FrameOptions {
@@ -32,7 +32,7 @@ pub(super) fn frame_options(view: &ViewJob, draw: &DrawOptions<'_>) -> FrameOpti
     }
 }
 
-/// What the renderer draws of a view. A draft may leave out strokes that `recall` did not see.
+/// The frame of a view. A draft may leave out strokes that were absent from the picture of `recall`.
 pub(super) fn frame_of(
     painting: &Painting,
     view: &ViewJob,
@@ -47,7 +47,7 @@ pub(super) fn frame_of(
     frame
 }
 
-/// The painting in the style of a view; what was prepared is shared.
+/// The painting in the style that a view's shading asks for; prepared data is shared.
 pub(super) fn styled(painting: &Painting, shading: Shading) -> Cow<'_, Painting> {
     match shading {
         Shading::Shaded => Cow::Owned(painting.in_style(Style::Reference)),

@@ -213,7 +213,7 @@ fn space_plays_whole_frames_and_any_edit_ends_it() {
     assert!(editor.time().playback.is_playing());
     key(&mut editor, Key::Space);
     assert!(!editor.time().playback.is_playing());
-    // A step is a hand on the playhead.
+    // A step moves the playhead, which stops playback.
     key(&mut editor, Key::Space);
     act(&mut editor, Action::StepOn);
     editor.tick(1.0);

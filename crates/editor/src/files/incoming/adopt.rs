@@ -1,4 +1,4 @@
-//! Copying a mesh or a picture, with the files that it names, into a scene's folder.
+//! Copies a mesh or a picture, with the files that it names, into a scene's folder.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,23 +14,22 @@ use super::name_of;
 /// The most bytes that one import copies.
 const MAX_COPIED_BYTES: u64 = 2 << 30;
 
-/// How many names are tried for a folder of its own.
+/// How many names are tried for the new folder: NAME, NAME-2 and so on.
 const MAX_NAMES: usize = 1000;
 
 /// A file that a scene can name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Adopted {
-    /// The path to write in the scene: from its folder, with `/`.
+    /// Its path relative to the scene's folder, with `/`, as the scene file names it.
     pub name: String,
-    /// The files that were copied there, whole paths; none where the file lay in the scene's folder, or was copied
-    /// before.
+    /// Full paths of the copies; none if the file was in the scene's folder already, or was copied before.
     pub copied: Vec<PathBuf>,
 }
 
-/// Why a file was not brought into a scene's folder. Nothing is left behind there.
+/// Why a file was not copied into a scene's folder. No partial copy is left there.
 #[derive(Debug, thiserror::Error)]
 pub enum AdoptError {
-    /// The mesh is wrong.
+    /// The mesh has errors.
     #[error("{0}")]
     Mesh(#[from] Report),
     /// One of the files cannot be read.
@@ -54,9 +53,9 @@ pub enum AdoptError {
     },
 }
 
-/// Brings a mesh within a scene's reach. One that lies in the scene's folder is named from there; any other is copied to
-/// `meshes/NAME/` in it, with the MTL files and pictures that it names and that lie in the mesh's own folder. A file that is
-/// there already is never written over.
+/// Makes a mesh available to a scene. A mesh inside the scene's folder is named where it is. Any other is copied to
+/// `meshes/NAME/` in that folder, with the MTL files and pictures that it names and that are inside the mesh's own folder.
+/// No existing file is overwritten.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.
@@ -78,7 +77,7 @@ pub fn adopt_mesh(mesh: &Path, scene_folder: &Path) -> Result<Adopted, AdoptErro
     bring(&files, &own_name, scene_folder, "meshes")
 }
 
-/// Brings a picture within a scene's reach, as [`adopt_mesh`] does, to `brushes/NAME/`.
+/// Makes a picture available to a scene, as [`adopt_mesh`] does; copies go to `brushes/NAME/`.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.
@@ -94,7 +93,7 @@ pub fn adopt_picture(picture: &Path, scene_folder: &Path) -> Result<Adopted, Ado
     bring(&files, &own_name, scene_folder, "brushes")
 }
 
-/// How a scene in `folder` names a file there; none where it lies elsewhere, or where its name would not be found again.
+/// How a scene in `folder` names a file inside it; none if the file is elsewhere, or the scene could not find it by its name.
 fn name_within(file: &Path, folder: &Path) -> Option<String> {
     let (file, folder) = (fs::canonicalize(file).ok()?, fs::canonicalize(folder).ok()?);
     let name = file.strip_prefix(&folder).ok()?.to_str()?.to_owned();
@@ -104,8 +103,8 @@ fn name_within(file: &Path, folder: &Path) -> Option<String> {
     (found == file).then_some(name)
 }
 
-/// Copies files (by their paths in the new folder, with their limits in bytes) to `folder/shelf/NAME`, where NAME is after
-/// the file `own_name`.
+/// Copies files to `scene_folder/shelf/NAME`, where NAME comes from the file `own_name`. `files` maps the path in the new
+/// folder to the source and its size limit in bytes.
 fn bring(
     files: &BTreeMap<PathBuf, (PathBuf, u64)>,
     own_name: &Path,
@@ -123,7 +122,7 @@ fn bring(
     fs::create_dir_all(&shelf_folder).map_err(unwritable)?;
     let copied = copy_beside(files, &shelf_folder, own_name);
     if copied.is_err() && !was_there {
-        // Only an empty folder goes.
+        // Fails if the folder is not empty, and leaves it then.
         let _not_empty = fs::remove_dir(&shelf_folder);
     }
     let (place, copied) = copied.map_err(|error| match error {
@@ -145,7 +144,7 @@ impl From<io::Error> for Copying {
     }
 }
 
-/// Copies into a folder that nobody sees yet, and gives it its name when it is whole. Returns the name and the copies.
+/// Copies into a hidden temporary folder, then renames that to its final name. Returns the name and the copies.
 fn copy_beside(
     files: &BTreeMap<PathBuf, (PathBuf, u64)>,
     shelf: &Path,
@@ -177,7 +176,7 @@ fn copy_beside(
                 let _moved = hidden.keep();
                 return Ok((place, files.keys().map(|within| target.join(within)).collect()));
             }
-            // Another program took the name in between.
+            // Another program took the name in the meantime.
             Err(_) if fs::symlink_metadata(&target).is_ok() => (),
             Err(error) => return Err(error.into()),
         }
@@ -185,7 +184,7 @@ fn copy_beside(
     Err(io::Error::other(format!("there are {MAX_NAMES} folders named {stem} already")).into())
 }
 
-/// Temporary folders are closed to others; a mesh folder is like any other.
+/// Lets other users read the folder: temporary folders are private, but the copies are ordinary files.
 fn open_to_readers(folder: &Path) -> io::Result<()> {
     #[cfg(unix)]
     {
@@ -197,7 +196,7 @@ fn open_to_readers(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Whether the folder has each of the files with the bytes of its copy.
+/// Whether the folder already has all of the files, each equal to its copy.
 fn is_same(files: &BTreeMap<PathBuf, (PathBuf, u64)>, copies: &Path, folder: &Path) -> bool {
     files.iter().all(|(within, (_, limit))| {
         let (there, copy) = (folder.join(within), copies.join(within));
@@ -211,7 +210,7 @@ fn canonical(file: &Path) -> Result<PathBuf, AdoptError> {
     Ok(fs::canonicalize(file).map_err(unreadable)?)
 }
 
-/// The file's name without its ending, in characters that a scene can name it by.
+/// The file's name without its extension; characters that a scene cannot use in a path are replaced.
 fn plain_stem(file: &Path) -> String {
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |c: char| if c.is_control() || "\\/:".contains(c) { '_' } else { c };

@@ -1,20 +1,20 @@
-//! What stands in a folder, and what a typed path means in it.
+//! Lists a folder, and resolves and completes paths that are typed in it.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::Kind;
 
-/// Rows of one folder; more are not listed.
+/// At most this many rows are listed.
 const MAX_ROWS: usize = 5000;
 
-/// Entries that are looked at.
+/// At most this many entries of a folder are read.
 const MAX_ENTRIES: usize = 50_000;
 
 /// A line of the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ListedFile {
-    /// The folder that this one lies in.
+    /// The parent folder.
     Parent,
     Folder(String),
     File(String),
@@ -33,9 +33,9 @@ impl ListedFile {
 #[derive(Debug)]
 pub(super) struct Listing {
     pub(super) folder: PathBuf,
-    /// The way up, folders, files of the wanted kinds; names of all alphabets, capitals and small letters together.
+    /// The parent, then folders, then files of the wanted kinds, sorted without regard to case.
     pub(super) rows: Vec<ListedFile>,
-    /// What should be said about the list.
+    /// A remark to show under the list.
     pub(super) note: Option<String>,
 }
 
@@ -58,7 +58,7 @@ impl Listing {
         Self { folder: folder.to_owned(), rows, note }
     }
 
-    /// What is typed, as far as it can only go on in one way; none where that is no further.
+    /// The typed text extended as far as all names that begin with it agree; none if that adds nothing.
     pub(super) fn complete(&self, typed: &str, kinds: &[Kind]) -> Option<String> {
         let (folder, start) = typed.rfind('/').map_or(("", typed), |at| typed.split_at(at + 1));
         let read;
@@ -83,11 +83,11 @@ impl Listing {
     }
 }
 
-/// The folders, then the files of the wanted kinds, each by name. Hidden ones are left out.
+/// The folders, then the files of the wanted kinds, each sorted by name. Hidden ones are left out.
 fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
     let (mut folders, mut files) = (Vec::new(), Vec::new());
     for entry in fs::read_dir(folder)?.flatten().take(MAX_ENTRIES) {
-        // A name that is no text can be shown by nobody.
+        // A name that is not valid Unicode cannot be shown.
         let Ok(name) = entry.file_name().into_string() else { continue };
         if name.starts_with('.') {
             continue;
@@ -105,7 +105,7 @@ fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
     Ok(folders.into_iter().map(ListedFile::Folder).chain(files.into_iter().map(ListedFile::File)).collect())
 }
 
-/// The whole path that is meant by what is typed in a folder; `~` is the user's home.
+/// The full path of what is typed in a folder; `~` is the user's home.
 pub(super) fn resolve(folder: &Path, typed: &str) -> PathBuf {
     let home = || etcetera::home_dir().ok();
     let path = match typed.strip_prefix('~') {

@@ -1,4 +1,4 @@
-//! The window's own file dialog, driven by name.
+//! The window's own file dialog, driven by the names of its controls.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Where preferences and copies of unsaved work lie, and how preferences are read and written.
+//! The folders of preferences and of copies of unsaved work; reading and writing preferences.
 
 use std::fs;
 use std::io::Write as _;
@@ -14,8 +14,8 @@ use super::{Preferences, VERSION};
 const FILE: &str = "editor.ron";
 const MAX_BYTES: u64 = 1 << 20;
 
-/// The folder of the editor's preferences: `$IMPASTO_CONFIG_DIR`, else `impasto` in the user's config folder; none
-/// where the user has no home.
+/// The folder of the editor's preferences: `$IMPASTO_CONFIG_DIR`, else `impasto` in the user's config folder; none if the
+/// user has no home.
 pub fn config_folder() -> Option<PathBuf> {
     match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
         Some(folder) => Some(PathBuf::from(folder)),
@@ -23,8 +23,8 @@ pub fn config_folder() -> Option<PathBuf> {
     }
 }
 
-/// The folder of copies of unsaved work: in `$IMPASTO_CONFIG_DIR`, else in the user's folder for what programs keep of their
-/// state; none where the user has no home.
+/// The folder of copies of unsaved work: `recovery` in `$IMPASTO_CONFIG_DIR`, else in `impasto` in the user's folder for
+/// programs' state (or data, if there is no such folder); none if the user has no home.
 pub fn recovery_folder() -> Option<PathBuf> {
     let folder = match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
         Some(folder) => PathBuf::from(folder),
@@ -39,16 +39,16 @@ pub fn recovery_folder() -> Option<PathBuf> {
 /// Preferences as they were read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
-    /// What to use.
+    /// The preferences to use.
     pub preferences: Preferences,
-    /// What the user should know: the file could not be used, and where it is kept.
+    /// A note for the user, if the file could not be used: why, and where it is now.
     pub note: Option<String>,
 }
 
 /// Why preferences were not written.
 #[derive(Debug, thiserror::Error)]
 pub enum PreferencesError {
-    /// The system would not.
+    /// The file could not be written.
     #[error("the preferences could not be kept in {}: {source}", folder.display())]
     Unwritable {
         /// The config folder.
@@ -56,7 +56,7 @@ pub enum PreferencesError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// They are no RON.
+    /// They could not be turned into RON.
     #[error("the preferences could not be written down: {0}")]
     NoText(#[from] ron::Error),
 }
@@ -71,8 +71,8 @@ fn this_version() -> u32 {
     VERSION
 }
 
-/// Reads the preferences in a folder. Never fails: a file that cannot be used, or that a newer Impasto wrote, is kept
-/// beside as `editor.ron.bad`, and the defaults serve.
+/// Reads the preferences in a folder. Never fails: a file that cannot be used, or that a newer Impasto wrote, is renamed to
+/// `editor.ron.bad`, and the defaults are used.
 pub fn load(folder: &Path) -> Loaded {
     let path = folder.join(FILE);
     let why = match read_regular_file(&path, MAX_BYTES) {
@@ -105,8 +105,8 @@ fn parse(bytes: &[u8]) -> Result<Preferences, String> {
     ron::from_str(text).map_err(|error| error.to_string())
 }
 
-/// Writes the preferences into a folder, which is made where it is not there. At any moment the file is the old one or
-/// the new one, whole.
+/// Writes the preferences into a folder, which is created if it is missing. At any moment the file is the whole old one or
+/// the whole new one.
 ///
 /// # Errors
 /// [`PreferencesError`]; the old file is untouched.

@@ -1,4 +1,4 @@
-//! Preferences are read back as they were saved; a broken file does no harm.
+//! Preferences: read back as saved, broken files, values out of range.
 
 use std::fs;
 use std::path::{Path, PathBuf};

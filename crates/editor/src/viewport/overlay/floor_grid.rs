@@ -6,15 +6,15 @@ use glam::DVec3;
 use super::Sheet;
 use super::ink::{self, OVER_PAINT};
 
-/// Lines to either side of the middle.
+/// Lines on each side of the middle one.
 const REACH: i32 = 20;
-/// Pieces of a line: what is behind the eye is left out piece by piece.
+/// Pieces of each half of a line: those behind the eye are left out.
 const PIECES: i32 = 10;
-/// Lines are at least this far apart where the camera looks, points.
+/// Lines are at least this far apart at the camera's target, points.
 const LEAST_GAP: f64 = 12.0;
 
-/// Draws a grid on the floor (Y = 0) round where the camera looks, with the axes X and Z in their colours. Its step is a power of ten
-/// of the world's unit, so that lines are neither crowded nor lost. What is on the floor hides none of it: it is seen through.
+/// Draws a grid on the floor (Y = 0) around the camera's target, with the X and Z axes in their colours. The step is a power
+/// of ten world units, chosen so that lines are neither crowded nor far apart. Objects do not hide the grid.
 pub fn floor_grid(sheet: &Sheet<'_>) {
     let target = sheet.view.camera.target * DVec3::new(1.0, 0.0, 1.0);
     let px_per_unit = sheet.view.px_per_unit(sheet.view.camera.target).max(1e-9);

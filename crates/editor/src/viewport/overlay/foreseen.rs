@@ -1,4 +1,4 @@
-//! Strokes under the ring, drawn as a comb would turn them.
+//! A preview of the strokes under the ring as a comb would turn them.
 
 use glam::DVec2;
 
@@ -14,19 +14,20 @@ pub struct ForeseenStroke {
     pub angle_rad: f32,
     /// Its length on the screen.
     pub length_px: f32,
-    /// Whether it has a head: then it turns by up to half a turn, else by up to a quarter.
+    /// Whether it has a head: then it turns by up to 180 degrees, else by up to 90.
     pub directed: bool,
 }
 
 impl ForeseenStroke {
-    /// The angle that a comb would give it: what the comb says to a share k = (1 − (d/r)²)² of its strength, the rest stays.
+    /// The angle that a comb would give it: a blend of its own with the comb's, which counts strength · (1 − (d/r)²)² (an even
+    /// comb: strength) at distance d from the dot, for a ring of radius r. None outside the ring.
     fn combed_rad(&self, comb: &Comb) -> Option<f32> {
         let near = 1.0 - (self.at_px - comb.at_px).length_squared() / (comb.radius_px * comb.radius_px);
         if near <= 0.0 {
             return None;
         }
         let share = if comb.even { 1.0 } else { (near * near) as f32 } * comb.strength;
-        // Directions without a head are blended at twice their angle, where both ways are one.
+        // Directions without a head are blended at twice their angle, so that opposite ones are the same.
         let fold = if self.directed { 1.0 } else { 2.0 };
         let unit = |angle_rad: f32| glam::Vec2::from_angle(angle_rad * fold);
         let blend = unit(self.angle_rad) * (1.0 - share) + unit(comb.angle_rad) * share;
@@ -34,22 +35,22 @@ impl ForeseenStroke {
     }
 }
 
-/// What the hand would state.
+/// A comb at the place of the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comb {
-    /// The dot.
+    /// The centre of the ring.
     pub at_px: DVec2,
     /// Radius of the ring.
     pub radius_px: f64,
-    /// Counter-clockwise from +X with Y up, radians.
+    /// The direction that it gives: counter-clockwise from +X with Y up, radians.
     pub angle_rad: f32,
-    /// Share that follows at the dot, 0..=1.
+    /// How far strokes at the centre follow it, 0..=1.
     pub strength: f32,
-    /// Whether all within the ring follow alike; else less and less towards its rim.
+    /// Whether all strokes in the ring follow alike; if not, less towards its rim.
     pub even: bool,
 }
 
-/// Draws the strokes inside the ring as a comb would lay them. `shown` fades them, 0..=1.
+/// Draws the strokes inside the ring as a comb would turn them. `shown` is the opacity, 0..=1.
 pub fn foreseen(sheet: &Sheet<'_>, strokes: &[ForeseenStroke], comb: &Comb, shown: f32) {
     if shown <= 0.0 {
         return;

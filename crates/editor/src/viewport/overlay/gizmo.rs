@@ -1,4 +1,4 @@
-//! The handles that move, turn and scale.
+//! Draws the handles that move, turn and scale.
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use glam::DVec2;
@@ -9,7 +9,7 @@ use super::Sheet;
 use super::ink::{self, EDGE, Ink, OVER_PAINT};
 use crate::theme::type_face;
 
-/// Draws handles, the farthest first; `lit` is the one that the pointer is on or holds.
+/// Draws handles, the farthest first; the one with the constraint `lit` is highlighted.
 pub fn gizmo(sheet: &Sheet<'_>, gizmo: &Gizmo, lit: Option<&Constraint>) {
     for handle in gizmo.handles() {
         draw(

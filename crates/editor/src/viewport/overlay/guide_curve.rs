@@ -1,4 +1,4 @@
-//! Guides as lines with an arrow and handles.
+//! Draws guides as lines with an arrow and handles.
 
 use egui::{Color32, Pos2, Stroke, vec2};
 use glam::{DVec2, DVec3};
@@ -6,23 +6,23 @@ use glam::{DVec2, DVec3};
 use super::ink::{self, EDGE, Ink, OVER_PAINT};
 use super::{Sheet, Sight};
 
-/// Radius of a handle; it can be gripped within 12.
+/// Radius of a handle, points; the pointer grips it from up to 12 away.
 const HANDLE: f32 = 5.0;
 
-/// A guide as it shows, points from the upper left corner of the picture.
+/// The visible parts of a guide, in points from the upper left corner of the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GuideCurve {
-    /// The pieces of the line that can be seen.
+    /// The visible pieces of the line.
     pub runs_px: Vec<Vec<DVec2>>,
-    /// The points that the user set, those that can be seen; with each, its index.
+    /// The visible points that the user set, each with its index.
     pub handles_px: Vec<(usize, DVec2)>,
-    /// Whether the last run's end is the guide's end: only then has it an arrow.
+    /// Whether the end of the guide is visible: only then is the arrow drawn.
     pub end_shows: bool,
-    /// Whether handles and the arrow show.
+    /// Whether it is selected: then handles and the arrow are drawn.
     pub selected: bool,
-    /// What the pointer is on, or holds.
+    /// The part that the pointer is on, or holds.
     pub lit: Option<CurvePart>,
-    /// Points that are not on the surface any more.
+    /// Points that are no longer on the surface.
     pub adrift_px: Vec<DVec2>,
 }
 
@@ -38,8 +38,8 @@ pub enum CurvePart {
 }
 
 impl GuideCurve {
-    /// What shows of a guide on a surface: where it faces the eye and nothing is before it. Of line and handles, places and
-    /// surface normals in world space.
+    /// The visible parts of a guide: where its surface faces the eye and nothing is in front. `line` and `handles` are pairs of
+    /// place and surface normal, world space.
     pub fn seen(line: &[[DVec3; 2]], handles: &[[DVec3; 2]], sight: &Sight<'_>) -> Self {
         let seen = |[at, normal]: &[DVec3; 2]| {
             sight.view.project(*at).filter(|at_px| at_px.is_finite() && sight.sees(*at, *normal))

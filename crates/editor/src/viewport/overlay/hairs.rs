@@ -1,4 +1,4 @@
-//! Short lines that show the direction of strokes, and how far each can be trusted.
+//! Draws short lines along the strokes, plain, in their regions' colours, or by how far each direction can be trusted.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use glam::DVec2;
@@ -9,14 +9,14 @@ use crate::theme::{Tokens, type_face};
 
 const LENGTH: f32 = 12.0;
 const WIDTH: f32 = 1.4;
-/// Above this a turn is sure.
+/// Above this trust a direction is sure.
 const SURE: f32 = 0.90;
-/// Above this it is fair; below, it is not to be trusted.
+/// From this trust on it is fair; below, it cannot be trusted.
 const FAIR: f32 = 0.72;
-/// How much is left of the hairs of other regions.
+/// Opacity of faint lines.
 const FAINT: f32 = 0.35;
 
-/// One hair: a short line along the strokes at a place of the picture.
+/// One direction line: a short line along the strokes at a place in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HairMark {
     /// Its middle, from the upper left corner of the picture.
@@ -25,23 +25,22 @@ pub struct HairMark {
     pub angle_rad: f32,
     /// How it is drawn.
     pub ink: HairInk,
-    /// Whether it is of something else than what is painted or posed.
+    /// Whether it belongs to another region or object than the one that is painted or posed.
     pub faint: bool,
 }
 
-/// How a hair is drawn.
+/// How a direction line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HairInk {
     /// White over black.
     Plain,
     /// In the colour of its region.
     Region(Color32),
-    /// By how far its angle can be trusted, κ in 0..=1; 0 where the reference does not see it. Told by pattern as well as by
-    /// colour.
+    /// By trust, κ in 0..=1; 0 where the reference does not see the surface. Shown by pattern as well as by colour.
     Trust(f32),
 }
 
-/// Draws hairs.
+/// Draws direction lines.
 pub fn hairs(sheet: &Sheet<'_>, marks: &[HairMark]) {
     for mark in marks {
         let half = ink::along(mark.angle_rad) * (LENGTH * 0.5);
@@ -70,7 +69,7 @@ fn draw(painter: &Painter, ends: [Pos2; 2], hair: HairInk, share: f32) {
     }
 }
 
-/// What the patterns of trust mean, in a line from `at` (the middle of its left end).
+/// Draws the legend of the patterns of trust in one row; `at` is the middle of its left end.
 pub fn trust_legend(painter: &Painter, at: Pos2, tokens: &Tokens) -> Rect {
     let mut x = at.x;
     let words = |x: f32, text: &str| {

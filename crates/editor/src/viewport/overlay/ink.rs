@@ -1,11 +1,11 @@
-//! Lines that can be seen on any paint: light over dark.
+//! Lines and words that are visible on any paint: light over dark.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Vec2, pos2};
 
 pub(super) const WHITE: Color32 = Color32::WHITE;
-/// What the picture's own marks are edged with.
+/// The dark edge of marks.
 pub(super) const EDGE: Color32 = Color32::from_rgb(0x14, 0x17, 0x20);
-/// Over paint the dark theme's colours serve in both themes.
+/// Marks over paint have the dark theme's colours in both themes.
 pub(super) use crate::theme::DARK as OVER_PAINT;
 
 pub(super) fn black(share: f32) -> Color32 {
@@ -44,7 +44,7 @@ impl Ink {
     }
 }
 
-/// A direction on the screen: angles count counter-clockwise with Y up.
+/// The unit vector (Y down) of an angle that counts counter-clockwise with Y up.
 pub(super) fn along(angle_rad: f32) -> Vec2 {
     let (sin, cos) = angle_rad.sin_cos();
     egui::vec2(cos, -sin)
@@ -64,7 +64,7 @@ pub(super) fn head(
     Shape::convex_polygon(vec![tip, back + side, back - side], fill, edge)
 }
 
-/// Words in white, edged with black on all sides.
+/// Words with a black edge on all sides.
 pub(super) fn edged_words(painter: &Painter, at: Pos2, text: &str, font: FontId, colour: Color32) {
     for (x, y) in
         [(-1.0, -1.0), (0.0, -1.4), (1.0, -1.0), (-1.4, 0.0), (1.4, 0.0), (-1.0, 1.0), (0.0, 1.4), (1.0, 1.0)]

@@ -1,4 +1,4 @@
-//! The box that stands in for a mesh that was not found.
+//! Draws a box in place of a mesh that was not found.
 
 use egui::{Color32, Rect, Stroke, pos2, vec2};
 use glam::DVec3;
@@ -12,11 +12,11 @@ use crate::theme::type_face;
 pub struct MissingMesh {
     /// Its object.
     pub name: String,
-    /// Its corners, world space: bit 0 of a corner's place is its X, bit 1 its Y, bit 2 its Z.
+    /// Its corners, world space: bits 0, 1 and 2 of an index choose the least or greatest X, Y and Z in the object's own axes.
     pub corners: [DVec3; 8],
 }
 
-/// Draws the edges of the box, and what is missing beside it.
+/// Draws the edges of the box, and a label beside it.
 pub fn missing_mesh(sheet: &Sheet<'_>, missing: &MissingMesh) {
     let at = missing.corners.map(|corner| sheet.project(corner));
     let ink = Ink::new(1.6, OVER_PAINT.vermilion, (3.6, ink::black(0.6)));
@@ -43,5 +43,5 @@ pub fn missing_mesh(sheet: &Sheet<'_>, missing: &MissingMesh) {
     sheet.painter.galley(at + vec2(8.0, 4.0), galley, OVER_PAINT.vermilion);
 }
 
-/// Under the words: dark, so that they can be read on any paint.
+/// The label's background: dark, so that the words can be read on any paint.
 const GROUND: Color32 = Color32::from_rgb(0x38, 0x1E, 0x1E);

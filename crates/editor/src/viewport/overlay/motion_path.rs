@@ -1,4 +1,4 @@
-//! The path of the selected object, with its keys.
+//! Draws the path of the selected object, with its keys.
 
 use egui::{Pos2, Shape, Stroke, Vec2, vec2};
 use glam::DVec3;
@@ -7,15 +7,15 @@ use super::Sheet;
 use super::ink::{self, OVER_PAINT};
 use crate::theme::type_face;
 
-/// Marks that are closer than this, points, are drawn smaller.
+/// If two keys are closer than this, points, all are drawn smaller.
 const CROWDED: f32 = 16.0;
-/// The room of a number, points.
+/// The space that a number needs, points.
 const NUMBER: Vec2 = vec2(28.0, 16.0);
 
-/// Where an object goes.
+/// The motion path of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionPath {
-    /// Its origin, frame by frame, world space.
+    /// Places of its origin along the path, world space.
     pub places: Vec<DVec3>,
     /// Its keys: frame and place.
     pub keys: Vec<(f64, DVec3)>,
@@ -48,7 +48,7 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     }
 }
 
-/// Which keys bear their number: the ends, and of the others those that leave room for all before them.
+/// Indices of the keys that show their number: first the ends, then in order the others, as long as no two numbers overlap.
 fn numbered(places: &[Pos2]) -> Vec<usize> {
     let last = places.len().saturating_sub(1);
     let mut chosen: Vec<usize> = Vec::new();

@@ -1,4 +1,4 @@
-//! The needle in a tool's ring, and the words beside it.
+//! Draws the needle in a tool's ring, and the label beside it.
 
 use egui::{Color32, Stroke, pos2, vec2};
 use glam::DVec2;
@@ -8,7 +8,7 @@ use super::Sheet;
 use super::ink::{self, Ink};
 use crate::theme::type_face;
 
-/// How far a needle with a head reaches behind the dot and before it, in radii of the ring.
+/// How far a needle reaches behind the centre and before it, in radii of the ring: with a head, and without one.
 const HEADED: [f32; 2] = [0.5, 1.5];
 const HEADLESS: [f32; 2] = [1.0, 1.0];
 
@@ -29,7 +29,7 @@ pub fn needle(sheet: &Sheet<'_>, needle: &Needle, radius_px: f64) {
     sheet.painter.circle(at, 2.6, ink::WHITE, Stroke::new(1.2, ink::black(0.6)));
 }
 
-/// Words beside the ring: `10°  trust 0.97`. They stay within the picture.
+/// Draws the label beside the ring, such as `10°  trust 0.97`. It stays within the picture.
 pub fn needle_tag(sheet: &Sheet<'_>, at_px: DVec2, radius_px: f64, words: &str) {
     let galley = sheet.painter.layout_no_wrap(words.to_owned(), type_face::number(), Color32::from_gray(232));
     let size = vec2(galley.size().x + 20.0, 24.0);

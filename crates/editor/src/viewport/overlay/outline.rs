@@ -1,4 +1,4 @@
-//! The outline of what is selected, and of its ghosts at other keys.
+//! Draws the outline of the selected object, and its ghosts at other keys.
 
 use egui::Pos2;
 use glam::DVec2;
@@ -8,7 +8,7 @@ use super::ink::{self, Ink, OVER_PAINT};
 use crate::viewport::contour::contours;
 use crate::viewport::surface_map::SurfaceMap;
 
-/// The line round what shows of an object.
+/// The outline of the visible part of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     /// In points from the upper left corner of the picture.
@@ -16,7 +16,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Round some objects of a map.
+    /// The outline of the objects of a map for which `is_in` holds.
     pub fn new(map: &SurfaceMap, is_in: impl Fn(usize) -> bool) -> Self {
         let inside = |column, row| map.face(column, row).is_some_and(|face| is_in(face.object as usize));
         let to_points = |line: Vec<DVec2>| line.into_iter().map(|at| at / map.cells_per_point()).collect();
@@ -32,7 +32,7 @@ impl Outline {
     }
 }
 
-/// Draws the outline of what is selected, 2 wide; of a ghost, thin.
+/// Draws an outline, 2 points wide; that of a ghost thin.
 pub fn outline(sheet: &Sheet<'_>, outline: &Outline, ghost: bool) {
     let ink = if ghost {
         Ink::new(1.0, ink::white(0.55), (2.0, ink::black(0.25)))

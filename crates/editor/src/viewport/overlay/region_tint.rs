@@ -1,4 +1,4 @@
-//! Regions tinted in their colours, with their names.
+//! Draws regions tinted in their colours, with their names.
 
 use egui::{Color32, Mesh, Rect, Shape, pos2};
 use glam::DVec2;
@@ -10,24 +10,24 @@ use crate::theme::type_face;
 use crate::viewport::contour::contours;
 use crate::viewport::surface_map::{Face, SurfaceMap};
 
-/// How much of a region's colour covers the paint.
+/// Opacity of the tint.
 const FILL: f32 = 0.45;
 
-/// What shows of a region.
+/// The visible part of a region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionTint {
     name: String,
     colour: Color32,
-    /// Row, first column and the one after the last, in cells.
+    /// Runs of cells: row, first column, and the column after the last.
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// Of its cells, the one nearest to their mean; points.
+    /// The place in its cells that is nearest to their mean, points; its name is drawn there.
     middle_px: DVec2,
 }
 
 impl RegionTint {
-    /// What shows of the regions in `names` (with their colours). `region_of` tells the index of a face's region.
+    /// The visible parts of all regions. `names` are their names and colours; `region_of` gives the index of a face's region.
     pub fn all(
         map: &SurfaceMap,
         names: &[(&str, Color32)],
@@ -50,7 +50,7 @@ impl RegionTint {
         let shown = runs.into_iter().enumerate().filter(|(_, runs)| !runs.is_empty());
         let scale = 1.0 / map.cells_per_point();
         let tint = |(region, runs): (usize, Vec<[usize; 3]>)| {
-            // Its edge is looked for only round about it.
+            // Only the surroundings of the region are searched for its edge.
             let left = runs.iter().map(|run| run[1]).min().unwrap_or(0).saturating_sub(1);
             let right = (runs.iter().map(|run| run[2]).max().unwrap_or(0) + 1).min(columns);
             let top = runs[0][0].saturating_sub(1);
@@ -80,7 +80,7 @@ impl RegionTint {
     }
 }
 
-/// The place within some runs that is nearest to another.
+/// The place within the runs that is nearest to `to`, in cells.
 fn nearest(runs: &[[usize; 3]], to: DVec2) -> DVec2 {
     let places = runs.iter().map(|&[row, first, end]| {
         DVec2::new(to.x.clamp(first as f64 + 0.5, end as f64 - 0.5), row as f64 + 0.5)

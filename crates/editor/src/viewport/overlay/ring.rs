@@ -1,4 +1,4 @@
-//! The ring of a tool.
+//! Draws the ring of a tool.
 
 use egui::{Color32, Pos2};
 use glam::DVec2;
@@ -7,7 +7,7 @@ use impasto_editor_model::tools::Ring;
 use super::Sheet;
 use super::ink::{self, Ink};
 
-/// Draws a ring: white over black; off the surface a grey one.
+/// Draws a ring: white over black, or grey when it is off the surface.
 pub fn ring(sheet: &Sheet<'_>, ring: &Ring) {
     let line = |points_px: &[DVec2]| -> Vec<Pos2> { points_px.iter().map(|&at| sheet.at(at)).collect() };
     let share = if ring.mirrored { 0.6 } else { 1.0 };

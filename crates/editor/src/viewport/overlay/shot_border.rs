@@ -1,13 +1,13 @@
-//! The border of the shot, and the veil over what is outside.
+//! Draws the border of the shot, and a veil over the picture outside it.
 
 use egui::{Color32, Painter, Rect, StrokeKind};
 
 use super::ink;
 
-/// How much of the picture the veil hides outside the shot.
+/// Opacity of the veil.
 const VEIL: f32 = 0.66;
 
-/// Draws the veil outside the shot and the border round it. `ground` is what the viewport stands on.
+/// Draws the veil outside the shot and the border around it. `ground` is the viewport's background colour.
 pub fn shot_border(painter: &Painter, viewport: Rect, shot: Rect, ground: Color32) {
     let veil = ground.gamma_multiply(VEIL);
     let above = Rect::from_min_max(viewport.min, egui::pos2(viewport.max.x, shot.min.y));

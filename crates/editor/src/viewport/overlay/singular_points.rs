@@ -1,4 +1,4 @@
-//! Points where strokes have no direction.
+//! Draws the points where strokes have no direction.
 
 use egui::{Color32, Shape, Stroke, vec2};
 use glam::DVec3;
@@ -9,15 +9,15 @@ use super::{Sheet, Sight};
 /// A point where strokes have no direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SingularPoint {
-    /// Where, world space.
+    /// Its place, world space.
     pub position_in_world: DVec3,
-    /// Of the surface there, unit.
+    /// Normal for the visibility test, unit.
     pub normal_in_world: DVec3,
-    /// How often strokes turn round on the way round it: +½, +1 or −½.
+    /// How many turns the strokes make on a small loop around it, such as +½, +1 or −½.
     pub index: f32,
 }
 
-/// Draws circles (strokes go round) and triangles (strokes part) where they can be seen.
+/// Draws the visible points: circles where the index is positive (strokes go round), else triangles (strokes part).
 pub fn singular_points(sheet: &Sheet<'_>, points: &[SingularPoint], sight: &Sight<'_>) {
     for point in points.iter().filter(|point| sight.sees(point.position_in_world, point.normal_in_world)) {
         let Some(at) = sheet.project(point.position_in_world) else { continue };

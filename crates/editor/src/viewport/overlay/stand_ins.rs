@@ -1,4 +1,4 @@
-//! Marks for suns and the shot camera, which have no surface.
+//! Draws marks for suns and the shot camera, which have no surface.
 
 use egui::{Align2, Color32, Stroke, vec2};
 use glam::DVec3;
@@ -8,26 +8,26 @@ use super::ink::{self, OVER_PAINT};
 use crate::icons;
 use crate::theme::type_face;
 
-/// What has no surface of its own.
+/// A mark for something that has no surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StandIn {
-    /// A parallel light: a line along its direction, world space. Its icon is a part of the picture.
+    /// A parallel light: a line along its direction. The renderer draws its icon.
     Sun {
-        /// Where its icon is.
+        /// Where its icon is, world space.
         at: DVec3,
-        /// Where its light goes, unit.
+        /// The direction of its light, world space, unit.
         direction: DVec3,
     },
     /// The shot camera.
     Camera {
-        /// Its eye.
+        /// Its eye, world space.
         eye: DVec3,
-        /// The corners of its picture at some depth, in order.
+        /// The corners of its picture at some depth, in order round it, world space.
         corners: [DVec3; 4],
     },
 }
 
-/// Draws lights and cameras; with each, whether it is selected.
+/// Draws the marks, each with whether it is selected.
 pub fn stand_ins(sheet: &Sheet<'_>, all: &[(StandIn, bool)]) {
     for &(stand_in, selected) in all {
         let colour = if selected { OVER_PAINT.accent_text } else { ink::WHITE };

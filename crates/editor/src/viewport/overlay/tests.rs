@@ -26,12 +26,12 @@ fn view() -> View {
     View { camera, size_px: DVec2::new(400.0, 225.0) }
 }
 
-/// What something draws, flat.
+/// The shapes that something draws, in one flat list.
 fn drawn(draw: impl Fn(&Sheet<'_>)) -> Vec<Shape> {
     let ctx = egui::Context::default();
     crate::theme::apply(&ctx, crate::theme::Theme::Dark, 1.0);
     let view = view();
-    // Fonts come with the second pass.
+    // Fonts are loaded from the second pass on.
     let mut shapes = Vec::new();
     for _ in 0..2 {
         let output = ctx.run_ui(egui::RawInput::default(), |ui| {
@@ -171,7 +171,7 @@ fn what_the_map_shows_is_what_rays_meet() {
         }
     }
     assert!(seen > 1000, "{seen}");
-    // A cell's middle on an edge may go to either face.
+    // If the middle of a cell is on an edge, either face may be found.
     assert!(other * 200 < columns * rows, "{other} of {}", columns * rows);
 }
 
