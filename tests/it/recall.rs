@@ -69,6 +69,6 @@ fn large_strokes_are_late_by_one_picture_at_most() {
 fn another_painting_is_asked_for_all() {
     let painting = still_life();
     let none = Recall::of(&painting, &seen(&painting, None), |_| false, 0);
-    let again = still_life();
+    let again = scenes::painting_with("still_life", &[]);
     assert_eq!(seen(&again, Some(&none)).strokes, seen(&again, None).strokes);
 }

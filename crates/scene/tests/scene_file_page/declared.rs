@@ -32,7 +32,7 @@ pub struct Field {
 const VALUES: [&str; 3] = ["Color", "Scale", "BrushMix"];
 
 /// Types that no scene file holds.
-const NOT_IN_FILES: [&str; 8] = [
+const NOT_IN_FILES: [&str; 11] = [
     "Number",
     "LayerNumber",
     "ResolvedLayer",
@@ -41,6 +41,9 @@ const NOT_IN_FILES: [&str; 8] = [
     "Shown",
     "InspectorPlace",
     "PatchRef",
+    "Preparation",
+    "SettingRule",
+    "StyleInfo",
 ];
 
 fn sources() -> Vec<PathBuf> {
