@@ -190,7 +190,7 @@ fn extreme_settings_still_give_a_picture() {
         ("huge strokes", |scene| {
             (scene.strokes.length_px, scene.strokes.width_px) = (Some(4096.0), Some(4096.0));
         }),
-        ("hair-thin strokes", |scene| scene.strokes.width_px = Some(0.001)),
+        ("direction_line-thin strokes", |scene| scene.strokes.width_px = Some(0.001)),
         ("wild colours", |scene| {
             (scene.strokes.color_jitter, scene.strokes.temperature) = (Some(10.0), Some(10.0));
         }),

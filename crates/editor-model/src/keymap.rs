@@ -123,7 +123,7 @@ pub enum Action {
     /// Compares with the reference.
     Compare,
     /// Direction lines: off, plain, by region.
-    CycleHairs,
+    CycleDirections,
     /// The trust overlay.
     ToggleTrust,
     /// The right column.

@@ -63,7 +63,7 @@ pub enum Shading {
 
 /// Short lines along the strokes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Hairs {
+pub enum DirectionLines {
     /// None.
     Off,
     /// White over black.
@@ -76,9 +76,9 @@ pub enum Hairs {
 /// The overlays over the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overlays {
-    /// Hairs along the strokes, in Paint.
-    pub hairs: Hairs,
-    /// Hairs by trust.
+    /// DirectionLines along the strokes, in Paint.
+    pub direction_lines: DirectionLines,
+    /// DirectionLines by trust.
     pub trust: bool,
     /// Regions in their colours, with their names.
     pub regions: bool,

@@ -34,7 +34,7 @@ mod turn;
 
 pub use hand::Hand;
 pub(crate) use heading::REST_SECS;
-pub use ring::{Foreseen, Needle, Ring};
+pub use ring::{CombPreview, Needle, Ring};
 
 /// What tools read, passed with every event. `loaded` is the scene of the history, without any preview.
 #[derive(Clone, Copy)]
@@ -131,7 +131,7 @@ pub struct ToolOutput {
     /// The direction at the pointer.
     pub needle: Option<Needle>,
     /// The comb whose strokes are previewed while the pointer moves before a press.
-    pub foreseen: Option<Foreseen>,
+    pub comb_preview: Option<CombPreview>,
     /// The line of a curve that is being drawn, or that the pointer is on.
     pub line_px: Vec<DVec2>,
     /// Handles of that line.

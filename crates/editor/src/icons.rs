@@ -58,8 +58,8 @@ icons! {
     TABLE = ICON_TABLE_RESTAURANT;
     /// Reference.
     REFERENCE = ICON_PUSH_PIN;
-    /// Hairs.
-    HAIRS = ICON_GRASS;
+    /// DirectionLines.
+    DIRECTIONS = ICON_GRASS;
     /// Trust.
     TRUST = ICON_THERMOSTAT;
     /// Regions.

@@ -16,7 +16,7 @@ mod marks;
 pub mod overlay;
 mod pictures;
 mod pointer;
-mod seen_hairs;
+mod direction_marks;
 pub mod surface_map;
 
 use crate::panels::Ask;
@@ -26,7 +26,7 @@ pub use framing::Framing;
 pub use layout::Layout;
 pub use marks::Marks;
 pub use pictures::Pictures;
-pub use seen_hairs::{HairLook, hair_marks};
+pub use direction_marks::{HairLook, direction_marks};
 
 /// What the viewport shows.
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! The thread that prepares and draws. The window hands it what to show and polls for results; it never waits.
 //!
 //! ```text
-//! Worker::show(Job) ─▶ desk (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ tray ─▶ Worker::poll
+//! Worker::show(Job) ─▶ mailbox (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ tray ─▶ Worker::poll
 //! ```
 
 use std::sync::Arc;
@@ -19,14 +19,14 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::CameraPose;
 
 mod ahead;
-mod desk;
+mod mailbox;
 mod draft;
 mod paint_worker;
 #[cfg(test)]
 mod tests;
 mod view_frame;
 
-use desk::Desk;
+use mailbox::Mailbox;
 
 /// How long closing waits for the thread; after that it is left to end by itself.
 const CLOSING: Duration = Duration::from_millis(1500);
@@ -119,7 +119,7 @@ pub struct Picture {
 
 /// A thread that prepares and draws. Dropping it ends the thread.
 pub struct Worker {
-    desk: Arc<Desk>,
+    mailbox: Arc<Mailbox>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -129,45 +129,45 @@ impl Worker {
     /// # Errors
     /// When the system gives no thread.
     pub fn new(driver: Driver, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let desk = Arc::new(Desk::default());
-        let theirs = Arc::clone(&desk);
+        let mailbox = Arc::new(Mailbox::default());
+        let theirs = Arc::clone(&mailbox);
         let thread = std::thread::Builder::new()
             .name("painting".to_owned())
             .spawn(move || paint_worker::run(&theirs, driver, &wake))?;
-        Ok(Self { desk, thread: Some(thread) })
+        Ok(Self { mailbox, thread: Some(thread) })
     }
 
     /// Shows this from now on. A job that was not begun is dropped; one that is under way gives up its exact pictures.
     pub fn show(&self, job: Job) {
-        self.desk.put(job, Vec::new());
+        self.mailbox.put(job, Vec::new());
     }
 
     /// As [`Worker::show`], during playback: `ahead` are the same views at the frame that will likely be asked for next.
     pub fn play(&self, job: Job, ahead: Vec<ViewJob>) {
-        self.desk.put(job, ahead);
+        self.mailbox.put(job, ahead);
     }
 
     /// Draws everything with these shaders from the next job on. If one of them is broken, that is reported and the ones before
     /// stay in use.
     pub fn replace_shaders(&self, texts: ShaderTexts) {
-        self.desk.put_shaders(texts);
+        self.mailbox.put_shaders(texts);
     }
 
     /// Gives up preparing the last job: its scene is not shown, and the pictures before stay until another job comes.
     pub fn stop_preparing(&self) {
-        self.desk.stop_preparing();
+        self.mailbox.stop_preparing();
     }
 
     /// All reports since the last call; of several pictures of one view, only the newest.
     pub fn poll(&self) -> Vec<Report> {
-        self.desk.collect()
+        self.mailbox.collect()
     }
 }
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        self.desk.close();
-        if self.desk.wait_for_end(CLOSING)
+        self.mailbox.close();
+        if self.mailbox.wait_for_end(CLOSING)
             && let Some(thread) = self.thread.take()
         {
             // Its panics have been reported already.

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use headless::Headless;
 use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
-use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, HairInk, HairMark};
+use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, DirectionInk, DirectionMark};
 use impasto_editor::viewport::{
     Badge, CameraChoice, Framing, Layout, Marks, Now, Pictures, ViewportEvents, ViewportInput, viewport,
 };
@@ -37,7 +37,7 @@ struct Page {
 
 #[derive(Default)]
 struct Drawn {
-    hairs: Vec<HairMark>,
+    direction_lines: Vec<DirectionMark>,
     guides: Vec<GuideCurve>,
     rings: Vec<Ring>,
     needle: Option<Needle>,
@@ -72,7 +72,7 @@ impl Page {
             if self.compare { Layout::compare(area, SCENE, 1.0) } else { Layout::single(area, SCENE, 1.0) };
         let drawn = &self.drawn;
         let marks = Marks {
-            hairs: &drawn.hairs,
+            direction_lines: &drawn.direction_lines,
             guides: &drawn.guides,
             rings: &drawn.rings,
             needle: drawn.needle,
@@ -263,10 +263,10 @@ fn marks() -> Drawn {
     };
     let own = ring(DVec3::new(0.2, 0.1, 0.0), false);
     let at_px = own.at_px;
-    let inks = [HairInk::Plain, HairInk::Region(egui::Color32::from_rgb(214, 80, 70))];
-    let inks = inks.into_iter().chain([0.97, 0.8, 0.4].map(HairInk::Trust));
-    let hairs = inks.enumerate().flat_map(|(row, ink)| {
-        (0..6).map(move |column| HairMark {
+    let inks = [DirectionInk::Plain, DirectionInk::Region(egui::Color32::from_rgb(214, 80, 70))];
+    let inks = inks.into_iter().chain([0.97, 0.8, 0.4].map(DirectionInk::Trust));
+    let direction_lines = inks.enumerate().flat_map(|(row, ink)| {
+        (0..6).map(move |column| DirectionMark {
             at_px: DVec2::new(60.0 + 22.0 * f64::from(column), 120.0 + 22.0 * row as f64),
             angle_rad: 0.5 * column as f32,
             ink,
@@ -286,7 +286,7 @@ fn marks() -> Drawn {
     };
     let hollow = Ring { hollow: true, half_px: Vec::new(), ..ring(DVec3::new(-0.6, -0.5, 0.4), true) };
     Drawn {
-        hairs: hairs.collect(),
+        direction_lines: direction_lines.collect(),
         guides: vec![guide],
         rings: vec![own, ring(DVec3::new(-0.9, 0.1, 0.0), true), hollow],
         needle: Some(Needle { at_px, along: DVec2::new(0.985, -0.174), headed: true }),

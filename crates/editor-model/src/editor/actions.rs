@@ -9,7 +9,7 @@ use crate::keymap::Action;
 use crate::picking::View;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
-use crate::session::{Hairs, Mode, Tool};
+use crate::session::{DirectionLines, Mode, Tool};
 use crate::timeline::keyed_frames;
 use crate::tools::ToolEvent;
 use crate::transform::{Operation, TransformEvent};
@@ -63,12 +63,12 @@ impl Editor {
                 self.cancel(view);
                 self.output = Default::default();
             }
-            Action::CycleHairs => {
-                let hairs = &mut self.session.overlays.hairs;
-                *hairs = match hairs {
-                    Hairs::Off => Hairs::Plain,
-                    Hairs::Plain => Hairs::ByRegion,
-                    Hairs::ByRegion => Hairs::Off,
+            Action::CycleDirections => {
+                let direction_lines = &mut self.session.overlays.direction_lines;
+                *direction_lines = match direction_lines {
+                    DirectionLines::Off => DirectionLines::Plain,
+                    DirectionLines::Plain => DirectionLines::ByRegion,
+                    DirectionLines::ByRegion => DirectionLines::Off,
                 };
             }
             Action::ToggleTrust => self.session.overlays.trust = !self.session.overlays.trust,

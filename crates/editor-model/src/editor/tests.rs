@@ -198,35 +198,35 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     act(&mut editor, Action::Paint);
     let at = middle_of_the_apple(&editor);
     event(&mut editor, PointerKind::Move, at, HERE);
-    assert!(editor.tool_output().foreseen.is_none(), "it has not moved yet");
+    assert!(editor.tool_output().comb_preview.is_none(), "it has not moved yet");
     for step in 1..=4 {
         event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
     }
-    let foreseen = editor.tool_output().foreseen.expect("it moves over the apple");
-    assert_eq!(foreseen.along, DVec2::X);
-    assert!((foreseen.at_px - at - DVec2::new(20.0, 0.0)).length() < 1e-6, "{foreseen:?}");
+    let comb_preview = editor.tool_output().comb_preview.expect("it moves over the apple");
+    assert_eq!(comb_preview.along, DVec2::X);
+    assert!((comb_preview.at_px - at - DVec2::new(20.0, 0.0)).length() < 1e-6, "{comb_preview:?}");
 
     // What lies in the ring is what the whole picture has there.
     let painting = editor.painting().expect("it is prepared");
     let options = impasto_painting::FrameOptions::new([960, 540]);
     let camera = editor.camera();
     let place = impasto_painting::SurfacePlace {
-        object: foreseen.object,
-        position: foreseen.position_in_model,
-        normal: foreseen.normal_in_model,
-        radius: foreseen.radius,
+        object: comb_preview.object,
+        position: comb_preview.position_in_model,
+        normal: comb_preview.normal_in_model,
+        radius: comb_preview.radius,
     };
     let near = painting.stroke_directions_near(&place, &camera, 0.0, &options, 40);
     assert_eq!(near.len(), 40);
     let is_near =
-        |hair: &impasto_painting::StrokeDirection| near.iter().any(|near| near.particle == hair.particle);
+        |direction_line: &impasto_painting::StrokeDirection| near.iter().any(|near| near.particle == direction_line.particle);
     let of_object =
-        |hair: &impasto_painting::StrokeDirection| hair.object == foreseen.object && is_near(hair);
+        |direction_line: &impasto_painting::StrokeDirection| direction_line.object == comb_preview.object && is_near(direction_line);
     let all = painting.stroke_directions(&camera, 0.0, &options, 1.0, &of_object);
     assert!(all.len() > 30, "{}", all.len());
-    for hair in &all {
-        assert!(near.contains(hair), "{hair:?}");
-        let off_px = DVec2::from(hair.position_px.map(f64::from)).distance(foreseen.at_px);
+    for direction_line in &all {
+        assert!(near.contains(direction_line), "{direction_line:?}");
+        let off_px = DVec2::from(direction_line.position_px.map(f64::from)).distance(comb_preview.at_px);
         assert!(off_px < editor.session.options.radius_px * 1.05, "{off_px}");
     }
 
@@ -237,7 +237,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
         editor.tick(moved_secs + rest_secs);
         editor.rested(moved_secs + rest_secs, &view);
         assert_eq!(editor.tool_output().label.is_some(), rests, "after {rest_secs} s");
-        assert_eq!(editor.tool_output().foreseen.is_none(), rests, "after {rest_secs} s");
+        assert_eq!(editor.tool_output().comb_preview.is_none(), rests, "after {rest_secs} s");
     }
     assert!(editor.tool_output().label.as_ref().is_some_and(|label| label.contains("trust")));
 
@@ -245,7 +245,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     for step in 1..=4 {
         event(&mut editor, PointerKind::Move, at + DVec2::new(5.0 * f64::from(step), 0.0), HERE);
     }
-    assert!(editor.tool_output().foreseen.is_none(), "switched off");
+    assert!(editor.tool_output().comb_preview.is_none(), "switched off");
 }
 
 #[test]

@@ -198,7 +198,7 @@ pub(super) const BINDINGS: &[Binding] = &[
     ),
     both(Action::CameraFromView, "Camera to this view", EVERYWHERE, &[ctrl_alt(Key::NumPad(0))]),
     both(Action::Compare, "Compare with the reference", EVERYWHERE, &[plain(Key::Letter('K'))]),
-    both(Action::CycleHairs, "Directions", EVERYWHERE, &[plain(Key::Letter('O'))]),
+    both(Action::CycleDirections, "Directions", EVERYWHERE, &[plain(Key::Letter('O'))]),
     both(Action::ToggleTrust, "Trust", EVERYWHERE, &[shift(Key::Letter('O'))]),
     both(Action::ToggleColumn, "Right column", EVERYWHERE, &[plain(Key::Letter('N'))]),
     both(Action::MaximiseViewport, "Only the viewport", EVERYWHERE, &[ctrl(Key::Space)]),

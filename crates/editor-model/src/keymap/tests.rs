@@ -150,7 +150,7 @@ fn the_keys_of_both_presets_are_as_documented() {
         (A::FirstFrame, all, "Shift ←", "Shift ←"),
         (A::LastFrame, all, "Shift →", "Shift →"),
         (A::Compare, all, "K", "K"),
-        (A::CycleHairs, all, "O", "O"),
+        (A::CycleDirections, all, "O", "O"),
         (A::ToggleTrust, all, "Shift O", "Shift O"),
         (A::ToggleColumn, all, "N", "N"),
         (A::MaximiseViewport, all, "Ctrl Space", "Ctrl Space"),

@@ -4,7 +4,7 @@ use glam::DVec2;
 use impasto_scene::document::{Dab, Falloff, Guide, GuideMode, Region, Selector};
 
 use super::heading::Heading;
-use super::ring::{Foreseen, Needle, Ring, radius_in_model};
+use super::ring::{CombPreview, Needle, Ring, radius_in_model};
 use super::{NOTHING_HERE, Paintable, Surroundings, ToolEvent, ToolOutput, erase, smear, waiting_words};
 use crate::command::{Command, Directions, Gesture, RegionTarget, Regions};
 use crate::keymap::{Action, Modifiers};
@@ -111,7 +111,7 @@ impl Brush {
         let lying = shown.map(|shown| DVec2::from_angle(-shown.angle_rad));
         let along = if moving { self.heading.along().or(lying) } else { lying };
         self.foresees = moving || self.foresees && !self.heading.rests(at_secs);
-        output.foreseen = self.foreseen(tool, &hit, around);
+        output.comb_preview = self.comb_preview(tool, &hit, around);
         output.needle = along.map(|along| Needle { at_px, along, headed: moving });
         if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
             // A line has no head: its angle is shown from −90° to 90°.
@@ -123,7 +123,7 @@ impl Brush {
     }
 
     /// The comb that a press would begin here, if it could.
-    fn foreseen(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<Foreseen> {
+    fn comb_preview(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<CombPreview> {
         let options = around.options;
         let wanted = tool == Tool::Comb && options.foresee && self.foresees;
         if !wanted || options.front_only && !hit.front {
@@ -131,7 +131,7 @@ impl Brush {
         }
         let on = around.paintable(Some(hit)).ok()?;
         let along = self.heading.along()?;
-        Some(Foreseen {
+        Some(CombPreview {
             object: on.object,
             region: on.region,
             position_in_model: hit.position_in_model,

@@ -36,7 +36,7 @@ pub struct Needle {
 
 /// A comb that a press would begin here; strokes under it are previewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foreseen {
+pub struct CombPreview {
     /// Index of the object under the ring.
     pub object: usize,
     /// Index of the region that the comb would stay inside of; none if it would make a new one.

@@ -7,23 +7,23 @@ use impasto_editor_model::Item;
 use impasto_editor_model::editor::{Editor, LightPlace};
 use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::picking::View;
-use impasto_editor_model::session::{Hairs, Mode, Overlays, Tool};
+use impasto_editor_model::session::{DirectionLines, Mode, Overlays, Tool};
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_painting::Painting;
 use impasto_scene::document::{Guide, LightKind, Scene};
 use impasto_scene::motion::CameraPose;
 use impasto_scene::new_scene::REGION_COLORS;
 
-use super::foreseen::ForeseenStrokes;
+use super::comb_preview::CombPreviewStrokes;
 use super::motion_marks;
 use super::picture::PictureFlow;
 use super::picture_view::PictureView;
 use crate::viewport::overlay::{
-    CurvePart, GuideCurve, HairMark, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
+    CurvePart, GuideCurve, DirectionMark, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
     StandIn,
 };
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
-use crate::viewport::{Framing, HairLook, Marks, hair_marks};
+use crate::viewport::{Framing, HairLook, Marks, direction_marks};
 
 /// Cells per point of the map of visible surfaces, at rest and while the view moves.
 const CELLS_PER_POINT: f64 = 0.5;
@@ -33,14 +33,14 @@ const MOVING_CELLS_PER_POINT: f64 = 0.2;
 #[derive(Default)]
 pub(super) struct MarkCache {
     halves: [Half; 2],
-    pub(super) foreseen: ForeseenStrokes,
+    pub(super) comb_preview: CombPreviewStrokes,
 }
 
 #[derive(Default)]
 struct Half {
     of: Option<Key>,
     map: Option<(MapKey, SurfaceMap)>,
-    hairs: Vec<HairMark>,
+    direction_lines: Vec<DirectionMark>,
     tints: Vec<RegionTint>,
     outline: Option<Outline>,
     ghosts: Vec<Outline>,
@@ -109,7 +109,7 @@ impl MarkCache {
             return;
         }
         let shows_hairs =
-            session.mode == Mode::Paint && session.overlays.hairs != Hairs::Off || session.overlays.trust;
+            session.mode == Mode::Paint && session.overlays.direction_lines != DirectionLines::Off || session.overlays.trust;
         let active = editor.active_object();
         let outlines = session.mode != Mode::Paint && active.is_some();
         let kept = half.map.take();
@@ -134,7 +134,7 @@ impl MarkCache {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
             let object = active.filter(|_| session.mode != Mode::Paint);
             let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
-            half.hairs = hair_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
+            half.direction_lines = direction_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
         }
         if session.overlays.regions {
             let names: Vec<(&str, Color32)> = scene
@@ -164,7 +164,7 @@ impl MarkCache {
             selected: half.outline.as_ref(),
             ghosts: &half.ghosts,
             path: half.path.as_ref(),
-            hairs: &half.hairs,
+            direction_lines: &half.direction_lines,
             ..Marks::default()
         };
         let Some(fresh) = fresh else { return marks };
@@ -176,7 +176,7 @@ impl MarkCache {
             guides: &fresh.guides,
             stand_ins: &fresh.stand_ins,
             missing: &fresh.missing,
-            foreseen: self.foreseen.shown(),
+            comb_preview: self.comb_preview.shown(),
             gizmo: fresh.gizmo.as_ref().map(|gizmo| (gizmo, None)),
             hides_pointer: fresh.hides_pointer,
             ..marks

@@ -7,7 +7,7 @@
 
 mod asks;
 mod file_flow;
-mod foreseen;
+mod comb_preview;
 mod keys;
 mod last_seen;
 mod lights;

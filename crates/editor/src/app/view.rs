@@ -41,7 +41,7 @@ impl EditorApp {
         }
         let view = self.picture_flow.view(&self.editor);
         self.editor.rested(ui.input(|input| input.time), &view);
-        self.marks.foreseen.follow(ui.ctx(), &self.editor, &self.picture_flow);
+        self.marks.comb_preview.follow(ui.ctx(), &self.editor, &self.picture_flow);
         let fresh = marks::fresh(&self.editor, &view, ui);
         let poses = self.editor.poses();
         let visible = |object: usize| !self.editor.document().shown().scene.objects[object].hidden;

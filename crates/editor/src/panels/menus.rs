@@ -3,7 +3,7 @@
 use egui::containers::menu::{MenuBar, SubMenu, menu_style};
 use egui::{Align2, Popup, RichText, Ui};
 use impasto_editor_model::keymap::Action;
-use impasto_editor_model::session::{Hairs, Mode};
+use impasto_editor_model::session::{DirectionLines, Mode};
 
 use super::{Ask, PanelInput, file_name, row, text_width, within};
 use crate::icons;
@@ -14,14 +14,14 @@ use crate::widgets::MenuRow;
 #[derive(Clone, Copy)]
 enum Line {
     Do(Action),
-    Part,
+    Separator,
     Recent,
     CopyRenderCommand,
     FirstRun,
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{CopyRenderCommand, Do, FirstRun, Part, Recent, Sub};
+use Line::{CopyRenderCommand, Do, FirstRun, Separator, Recent, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (
@@ -31,15 +31,15 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::OpenScene),
             Recent,
             Do(Action::ImportMesh),
-            Part,
+            Separator,
             Do(Action::Save),
             Do(Action::SaveAs),
             Do(Action::SaveCopy),
             Do(Action::Revert),
-            Part,
+            Separator,
             Do(Action::Render),
             CopyRenderCommand,
-            Part,
+            Separator,
             Do(Action::Quit),
         ],
     ),
@@ -48,19 +48,19 @@ const MENUS: [(&str, &[Line]); 4] = [
         &[
             Do(Action::Undo),
             Do(Action::Redo),
-            Part,
+            Separator,
             Do(Action::SelectAll),
             Do(Action::SelectNone),
-            Part,
+            Separator,
             Do(Action::Add),
             Do(Action::Duplicate),
             Do(Action::Rename),
             Do(Action::Delete),
-            Part,
+            Separator,
             Do(Action::Hide),
             Do(Action::ShowAll),
             Do(Action::Lock),
-            Part,
+            Separator,
             Sub("Tools", TOOLS),
             Sub("Time", TIME),
         ],
@@ -73,7 +73,7 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::Animate),
             Do(Action::TogglePaint),
             Do(Action::NextMode),
-            Part,
+            Separator,
             Do(Action::FrameSelected),
             Do(Action::FrameAll),
             Do(Action::ViewFront),
@@ -82,11 +82,11 @@ const MENUS: [(&str, &[Line]); 4] = [
             Do(Action::ToggleOrthographic),
             Do(Action::LookThrough),
             Do(Action::CameraFromView),
-            Part,
-            Do(Action::CycleHairs),
+            Separator,
+            Do(Action::CycleDirections),
             Do(Action::ToggleTrust),
             Do(Action::Compare),
-            Part,
+            Separator,
             Do(Action::ToggleColumn),
             Do(Action::MaximiseViewport),
             Do(Action::NextArea),
@@ -100,7 +100,7 @@ const TOOLS: &[Line] = &[
     Do(Action::Move),
     Do(Action::Turn),
     Do(Action::Scale),
-    Part,
+    Separator,
     Do(Action::Comb),
     Do(Action::GuideCurve),
     Do(Action::Fill),
@@ -109,7 +109,7 @@ const TOOLS: &[Line] = &[
     Do(Action::Erase),
     Do(Action::Region),
     Do(Action::Pick),
-    Part,
+    Separator,
     Do(Action::SizeRadius),
     Do(Action::SizeStrength),
     Do(Action::SmallerRadius),
@@ -119,7 +119,7 @@ const TOOLS: &[Line] = &[
 
 const TIME: &[Line] = &[
     Do(Action::SetKey),
-    Part,
+    Separator,
     Do(Action::Play),
     Do(Action::StepBack),
     Do(Action::StepOn),
@@ -186,7 +186,7 @@ fn list(ui: &mut Ui, lines: &[Line], shown: &PanelInput<'_>, asks: &mut Vec<Ask>
                     asks.push(Ask::Act(action));
                 }
             }
-            Part => {
+            Separator => {
                 ui.add_space(4.0);
                 let line = ui.max_rect().x_range();
                 ui.painter().hline(line, ui.cursor().top(), (1.0, Tokens::of(ui).div));
@@ -217,7 +217,7 @@ fn words_of(line: Line) -> &'static str {
         Recent => "Open recent",
         CopyRenderCommand => "Copy render command",
         FirstRun => "First run sheet",
-        Part => "",
+        Separator => "",
     }
 }
 
@@ -265,7 +265,7 @@ fn is_on(shown: &PanelInput<'_>, action: Action) -> bool {
         Action::Arrange => session.mode == Mode::Arrange,
         Action::Paint => session.mode == Mode::Paint,
         Action::Animate => session.mode == Mode::Animate,
-        Action::CycleHairs => session.overlays.hairs != Hairs::Off,
+        Action::CycleDirections => session.overlays.direction_lines != DirectionLines::Off,
         Action::ToggleTrust => session.overlays.trust,
         Action::Compare => session.compare,
         _ => false,

@@ -71,13 +71,13 @@ pub fn render_sheet(
         ui.add_enabled_ui(!runs, |ui| {
             let fault = plan.as_ref().err();
             frames(ui, shown, settings, plan.as_ref());
-            told(ui, fault, Field::Frames);
+            fault_under(ui, fault, Field::Frames);
             size(ui, shown, settings);
-            told(ui, fault, Field::Size);
+            fault_under(ui, fault, Field::Size);
             ask = files(ui, settings, fault).or(ask);
             match &plan {
                 Ok(plan) => place(ui, plan),
-                Err(_) => told(ui, fault, Field::Output),
+                Err(_) => fault_under(ui, fault, Field::Output),
             }
             driver(ui, shown, settings);
         });
@@ -133,7 +133,7 @@ fn under(ui: &mut Ui, words: &str, colour: egui::Color32) {
     ui.add_space(4.0);
 }
 
-fn told(ui: &mut Ui, fault: Option<&Fault>, field: Field) {
+fn fault_under(ui: &mut Ui, fault: Option<&Fault>, field: Field) {
     if let Some(fault) = fault.filter(|fault| fault.field == field) {
         under(ui, &fault.words, Tokens::of(ui).vermilion);
     }

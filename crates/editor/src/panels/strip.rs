@@ -5,7 +5,7 @@ use impasto_editor_model::timeline::keyed_frames;
 use impasto_scene::document::Timeline;
 use impasto_scene::motion;
 
-use super::timeline::across::{self, Across, KEY};
+use super::timeline::across::{self, FrameScale, KEY};
 use super::timeline::{self, transport};
 use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::icons;
@@ -58,7 +58,7 @@ fn range(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
 fn ruler(ui: &mut Ui, rect: Rect, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let scene = shown.document.scene();
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
-    let across = Across { left: rect.left(), right: rect.right(), first, last };
+    let across = FrameScale { left: rect.left(), right: rect.right(), first, last };
     // Wider than the ruler, so that the first and the last frame can be hit from outside too.
     let response =
         ui.interact(rect.expand2(vec2(8.0, 0.0)), ui.scope_id().with("ruler"), Sense::click_and_drag());

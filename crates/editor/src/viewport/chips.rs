@@ -4,7 +4,7 @@
 use egui::{Align2, Area, Id, Order, Rect, Ui, Vec2, vec2};
 use impasto_editor_model::camera_rig::AxisView;
 use impasto_editor_model::keymap::Action;
-use impasto_editor_model::session::{Hairs, Mode, Session, Shading};
+use impasto_editor_model::session::{DirectionLines, Mode, Session, Shading};
 
 use super::{Badge, CameraChoice, ViewportEvents, ViewportInput};
 use crate::icons;
@@ -80,12 +80,12 @@ fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
         Tip { name, key, effect, range: "" }.on(response);
     };
     // Directions are drawn in Paint only, so elsewhere the toggle is off.
-    let mut hairs = paints && shown.hairs != Hairs::Off;
-    let before = hairs;
+    let mut direction_lines = paints && shown.direction_lines != DirectionLines::Off;
+    let before = direction_lines;
     let effect = if paints { "Short lines along the strokes." } else { "Directions show in Paint." };
-    ui.add_enabled_ui(paints, |ui| toggle(ui, icons::HAIRS, ("Directions", "O", effect), &mut hairs));
-    if hairs != before {
-        shown.hairs = if hairs { Hairs::Plain } else { Hairs::Off };
+    ui.add_enabled_ui(paints, |ui| toggle(ui, icons::DIRECTIONS, ("Directions", "O", effect), &mut direction_lines));
+    if direction_lines != before {
+        shown.direction_lines = if direction_lines { DirectionLines::Plain } else { DirectionLines::Off };
     }
     toggle(ui, icons::TRUST, ("Trust", "Shift O", "How far each turn can be trusted."), &mut shown.trust);
     toggle(ui, icons::REGIONS, ("Regions overlay", "", "Regions in their colours."), &mut shown.regions);

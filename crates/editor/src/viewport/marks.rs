@@ -4,7 +4,7 @@ use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_editor_model::transform::Constraint;
 
-use super::overlay::{self, Comb, ForeseenStroke, GuideCurve, HairMark, MotionPath, Outline, RegionTint};
+use super::overlay::{self, Comb, CombPreviewStroke, GuideCurve, DirectionMark, MotionPath, Outline, RegionTint};
 use super::overlay::{MissingMesh, Sheet, Sight, SingularPoint, StandIn};
 
 /// What is drawn over one picture. Empty by default.
@@ -19,13 +19,13 @@ pub struct Marks<'a> {
     /// Outlines of the selected object at the keys before and after this frame.
     pub ghosts: &'a [Outline],
     /// Direction lines.
-    pub hairs: &'a [HairMark],
+    pub direction_lines: &'a [DirectionMark],
     /// Points where strokes have no direction, and what decides whether they are visible.
     pub singular: Option<(&'a [SingularPoint], Sight<'a>)>,
     /// Guides of the selected region.
     pub guides: &'a [GuideCurve],
     /// A preview of strokes as the comb would turn them, and its opacity (0..=1).
-    pub foreseen: Option<(&'a [ForeseenStroke], Comb, f32)>,
+    pub comb_preview: Option<(&'a [CombPreviewStroke], Comb, f32)>,
     /// Rings of the tool and of its mirror images.
     pub rings: &'a [Ring],
     /// The direction at the centre of the ring.
@@ -57,13 +57,13 @@ impl Marks<'_> {
         if let Some(selected) = self.selected {
             overlay::outline(sheet, selected, false);
         }
-        overlay::hairs(sheet, self.hairs);
+        overlay::direction_lines(sheet, self.direction_lines);
         if let Some((points, sight)) = &self.singular {
             overlay::singular_points(sheet, points, sight);
         }
         self.guides.iter().for_each(|guide| overlay::guide_curve(sheet, guide));
-        if let Some((strokes, comb, shown)) = &self.foreseen {
-            overlay::foreseen(sheet, strokes, comb, *shown);
+        if let Some((strokes, comb, shown)) = &self.comb_preview {
+            overlay::comb_preview(sheet, strokes, comb, *shown);
         }
         self.rings.iter().for_each(|ring| overlay::ring(sheet, ring));
         if let Some(needle) = &self.needle {

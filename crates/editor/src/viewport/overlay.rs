@@ -5,10 +5,10 @@ use glam::{DVec2, DVec3};
 use impasto_editor_model::picking::View;
 
 mod floor_grid;
-mod foreseen;
+mod comb_preview;
 mod gizmo;
 mod guide_curve;
-mod hairs;
+mod direction_lines;
 mod ink;
 mod missing_mesh;
 mod motion_path;
@@ -22,10 +22,10 @@ mod singular_points;
 mod stand_ins;
 
 pub use floor_grid::floor_grid;
-pub use foreseen::{Comb, ForeseenStroke, foreseen};
+pub use comb_preview::{Comb, CombPreviewStroke, comb_preview};
 pub use gizmo::gizmo;
 pub use guide_curve::{CurvePart, GuideCurve, guide_curve};
-pub use hairs::{HairInk, HairMark, hairs, trust_legend};
+pub use direction_lines::{DirectionInk, DirectionMark, direction_lines, trust_legend};
 pub use missing_mesh::{MissingMesh, missing_mesh};
 pub use motion_path::{MotionPath, motion_path};
 pub use needle::{needle, needle_tag};

@@ -13,7 +13,7 @@ use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, 
 use impasto_scene::mesh_file::MeshFile;
 
 use super::ahead::Ahead;
-use super::desk::{Desk, Order};
+use super::mailbox::{Mailbox, Order};
 use super::draft::DraftSize;
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
@@ -21,10 +21,10 @@ use super::{Picture, Report, ViewJob};
 /// A job is drawn exactly once it is this old and no later one has come.
 const REST: Duration = Duration::from_millis(100);
 
-/// Works until the desk is closed. A panic is reported and the worker dropped; the next job gets a new one.
-pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
+/// Works until the mailbox is closed. A panic is reported and the worker dropped; the next job gets a new one.
+pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
     let tell = |report: Report| {
-        desk.report(report);
+        mailbox.report(report);
         wake();
     };
     let mut worker = None;
@@ -32,7 +32,7 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
         let worked = catch_unwind(AssertUnwindSafe(|| {
             let worker = worker.get_or_insert_with(|| PaintWorker::open(driver, &tell));
             if let Some(order) = order {
-                worker.work(order, desk, &tell);
+                worker.work(order, mailbox, &tell);
             }
         }));
         if let Err(panic) = worked {
@@ -44,11 +44,11 @@ pub(super) fn run(desk: &Desk, driver: Driver, wake: &dyn Fn()) {
     };
     // A driver takes time to open, so that begins before there is anything to draw.
     work(None);
-    while let Some(order) = desk.take() {
+    while let Some(order) = mailbox.take() {
         work(Some(&order));
     }
     let _ = catch_unwind(AssertUnwindSafe(|| drop(worker)));
-    desk.end();
+    mailbox.end();
 }
 
 fn words(panic: &(dyn Any + Send)) -> String {
@@ -66,7 +66,7 @@ struct PaintWorker {
     prepared: Option<(Painting, u64)>,
     /// `None` if no driver was found: then scenes are prepared, but nothing is drawn.
     renderer: Option<Renderer>,
-    /// The number of the shaders in use, from [`Desk::shaders_after`].
+    /// The number of the shaders in use, from [`Mailbox::shaders_after`].
     shaders: u64,
     /// The last picture of each view.
     drawn: Vec<Option<Drawn>>,
@@ -127,14 +127,14 @@ impl PaintWorker {
         }
     }
 
-    fn work(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) {
-        self.take_shaders(desk, tell);
+    fn work(&mut self, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) {
+        self.take_shaders(mailbox, tell);
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
         if self.is_new(order) {
             self.glimpse(order, tell);
         }
-        let Some(painting) = self.prepare(order, desk, tell) else { return };
+        let Some(painting) = self.prepare(order, mailbox, tell) else { return };
         let wanted: Vec<usize> =
             (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
         wanted.iter().for_each(|&index| self.relight(order, index, tell));
@@ -157,11 +157,11 @@ impl PaintWorker {
             .copied()
             .filter(|&index| (quick || !views[index].moving) && !self.shows_exactly(order, index));
         let exact: Vec<usize> = exact.collect();
-        if exact.is_empty() || (!quick && !desk.rests(order, REST)) {
+        if exact.is_empty() || (!quick && !mailbox.rests(order, REST)) {
             return;
         }
         for index in exact {
-            let give_up = || !quick && desk.is_stale(order);
+            let give_up = || !quick && mailbox.is_stale(order);
             let options = DrawOptions { size_px: views[index].size_px, is_exact: true, give_up: &give_up };
             if !self.draw(&painting, order, index, &options, tell) {
                 return;
@@ -170,9 +170,9 @@ impl PaintWorker {
     }
 
     /// Takes up new shaders, if there are any.
-    fn take_shaders(&mut self, desk: &Desk, tell: Tell<'_>) {
+    fn take_shaders(&mut self, mailbox: &Mailbox, tell: Tell<'_>) {
         let Some(renderer) = &mut self.renderer else { return };
-        let Some((texts, number)) = desk.shaders_after(self.shaders) else { return };
+        let Some((texts, number)) = mailbox.shaders_after(self.shaders) else { return };
         self.shaders = number;
         match renderer.replace_shaders(&texts) {
             Ok(()) => self.drawn.clear(),
@@ -218,12 +218,12 @@ impl PaintWorker {
         }
     }
 
-    fn prepare(&mut self, order: &Order, desk: &Desk, tell: Tell<'_>) -> Option<Painting> {
+    fn prepare(&mut self, order: &Order, mailbox: &Mailbox, tell: Tell<'_>) -> Option<Painting> {
         let serial = order.job.serial;
         if let Some((painting, _)) = self.prepared.as_ref().filter(|(_, prepared)| *prepared == serial) {
             return Some(painting.clone());
         }
-        let give_up = || desk.gives_up(order);
+        let give_up = || mailbox.gives_up(order);
         let options = PrepareOptions {
             give_up: &give_up,
             memory_bytes: impasto_scene::memory::available_bytes(),

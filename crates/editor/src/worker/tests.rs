@@ -81,31 +81,31 @@ fn bytes(picture: &Picture) -> Vec<u8> {
 #[test]
 fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
     let loaded = scene();
-    let desk = Desk::default();
+    let mailbox = Mailbox::default();
     let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: Vec::new() };
-    desk.put(job(1), Vec::new());
-    let first = desk.take().unwrap();
-    assert!(desk.rests(&first, Duration::ZERO));
-    desk.put(job(2), Vec::new());
-    desk.put(job(3), Vec::new());
-    assert!(desk.is_stale(&first));
+    mailbox.put(job(1), Vec::new());
+    let first = mailbox.take().unwrap();
+    assert!(mailbox.rests(&first, Duration::ZERO));
+    mailbox.put(job(2), Vec::new());
+    mailbox.put(job(3), Vec::new());
+    assert!(mailbox.is_stale(&first));
     let began = Instant::now();
-    assert!(!desk.rests(&first, Duration::from_secs(20)));
+    assert!(!mailbox.rests(&first, Duration::from_secs(20)));
     assert!(began.elapsed() < Duration::from_secs(5));
-    assert_eq!(desk.take().unwrap().job.serial, 3);
-    desk.close();
-    assert!(desk.take().is_none());
+    assert_eq!(mailbox.take().unwrap().job.serial, 3);
+    mailbox.close();
+    assert!(mailbox.take().is_none());
 }
 
 #[test]
 fn a_later_job_ends_the_rest_of_the_one_before() {
     let loaded = scene();
-    let desk = Desk::default();
-    desk.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Vec::new());
-    let order = desk.take().unwrap();
+    let mailbox = Mailbox::default();
+    mailbox.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Vec::new());
+    let order = mailbox.take().unwrap();
     std::thread::scope(|scope| {
-        let waiting = scope.spawn(|| desk.rests(&order, Duration::from_secs(30)));
-        desk.put(Job { loaded, serial: 2, views: Vec::new() }, Vec::new());
+        let waiting = scope.spawn(|| mailbox.rests(&order, Duration::from_secs(30)));
+        mailbox.put(Job { loaded, serial: 2, views: Vec::new() }, Vec::new());
         assert!(!waiting.join().unwrap());
     });
 }

@@ -151,7 +151,7 @@ impl Page {
         ui.scope_builder(at(corner), |ui| {
             widgets::chip(ui, |ui| {
                 let overlays = [
-                    (icons::HAIRS, "Directions"),
+                    (icons::DIRECTIONS, "Directions"),
                     (icons::TRUST, "Trust"),
                     (icons::REGIONS, "Regions overlay"),
                     (icons::GRID, "Grid"),

@@ -26,7 +26,7 @@ pub(super) fn check(
         let Some(target) = object.morph.as_ref().and_then(|path| meshes.get(path)) else { continue };
         let Some(base) = meshes.get(&object.mesh) else { continue };
         if let Err(difference) = morph::target_of(base, target) {
-            let message = format!("{} does not go with {}: {difference}", quoted(object), object.mesh);
+            let message = format!("{} does not go with {}: {difference}", morph_name(object), object.mesh);
             let mend = "export both from the same mesh, with the same faces in the same order; a face without area is no face";
             findings.error(format!("objects[{index}].morph"), message, mend);
         }
@@ -55,7 +55,7 @@ pub(super) fn check(
     }
 }
 
-fn quoted(object: &Object) -> String {
+fn morph_name(object: &Object) -> String {
     shown(object.morph.as_deref().unwrap_or_default())
 }
 

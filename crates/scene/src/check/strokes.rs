@@ -29,8 +29,8 @@ fn check_style(rule: &SettingRule, findings: &mut Findings) {
             findings.number(&format!("style.{field}"), value, limits.clone());
         }
         SettingRule::Direction { field, value } => findings.direction(&format!("style.{field}"), value),
-        SettingRule::Broken { field, message, advice } => {
-            findings.error(format!("style.{field}"), message, advice);
+        SettingRule::Broken { field, message, mend } => {
+            findings.error(format!("style.{field}"), message, mend);
         }
     }
 }

@@ -84,7 +84,7 @@ pub enum SettingRule {
         /// What is wrong.
         message: &'static str,
         /// What to do about it.
-        advice: &'static str,
+        mend: &'static str,
     },
 }
 

@@ -118,14 +118,14 @@ impl StyleSettings for SumiE {
             rules.push(SettingRule::Broken {
                 field: "tones",
                 message: "the four tones do not go from dark to light",
-                advice: "give four numbers from 0 to 1, none below the one before",
+                mend: "give four numbers from 0 to 1, none below the one before",
             });
         }
         if self.silhouette_from >= self.silhouette_to {
             rules.push(SettingRule::Broken {
                 field: "silhouette_from",
                 message: "the silhouette ends before it begins",
-                advice: "give a number below silhouette_to",
+                mend: "give a number below silhouette_to",
             });
         }
         rules

@@ -19,7 +19,7 @@ const MAX_LIBRARIES: usize = 256;
 const MAX_KEPT_PIXELS: usize = 1 << 27;
 
 /// How many warnings about files that were not found are reported one by one.
-const MAX_TOLD: usize = 20;
+const MAX_REPORTED: usize = 20;
 
 /// Gives line and column of a byte of the OBJ text. It walks the text, so ask only for places that are reported.
 type PlaceOf<'a> = &'a dyn Fn(usize) -> TextPosition;
@@ -32,7 +32,7 @@ pub(super) struct MaterialLibrary<'a> {
     warnings: Vec<Problem>,
     /// The MTL files that were read.
     libraries: BTreeSet<PathBuf>,
-    /// How many files were not found; those beyond [`MAX_TOLD`] are only counted.
+    /// How many files were not found; those beyond [`MAX_REPORTED`] are only counted.
     unfound: usize,
     described: HashMap<String, (Described, Arc<PathBuf>)>,
     /// By the MTL file and the name written there, so that each is read and reported once.
@@ -57,8 +57,8 @@ impl<'a> MaterialLibrary<'a> {
 
     /// All warnings, in the order in which they arose.
     pub fn finish(mut self) -> Vec<Problem> {
-        if self.unfound > MAX_TOLD {
-            let message = format!("{} more files like these were not found", self.unfound - MAX_TOLD);
+        if self.unfound > MAX_REPORTED {
+            let message = format!("{} more files like these were not found", self.unfound - MAX_REPORTED);
             let problem = self.warning(None, message, "");
             self.warnings.push(problem);
         }
@@ -152,7 +152,7 @@ impl<'a> MaterialLibrary<'a> {
             }
             Err(error) => {
                 self.unfound += 1;
-                if self.unfound <= MAX_TOLD {
+                if self.unfound <= MAX_REPORTED {
                     let message = format!("no materials from here: {error}");
                     let problem = self.warning(Some(place_of(offset)), message, error.mend());
                     self.warnings.push(problem);
@@ -229,7 +229,7 @@ impl<'a> MaterialLibrary<'a> {
                 if problem.path == *beside {
                     problem.place = place;
                 }
-                if self.unfound <= MAX_TOLD {
+                if self.unfound <= MAX_REPORTED {
                     self.warnings.push(problem);
                 }
                 None

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::problem::{Problem, Report, Severity, TextPosition};
 
 /// How many errors, and how many warnings, are reported one by one.
-const MAX_TOLD: usize = 20;
+const MAX_REPORTED: usize = 20;
 
 /// A word of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,7 +165,7 @@ impl<'a> Findings<'a> {
 
     pub fn error(&mut self, offset: usize, message: impl Into<String>, mend: &str) {
         self.errors += 1;
-        if self.errors <= MAX_TOLD {
+        if self.errors <= MAX_REPORTED {
             let place = Some(self.place(offset));
             self.push(Severity::Error, place, message.into(), mend);
         }
@@ -173,7 +173,7 @@ impl<'a> Findings<'a> {
 
     pub fn warning(&mut self, offset: usize, message: impl Into<String>, mend: &str) {
         self.warnings += 1;
-        if self.warnings <= MAX_TOLD {
+        if self.warnings <= MAX_REPORTED {
             let place = Some(self.place(offset));
             self.push(Severity::Warning, place, message.into(), mend);
         }
@@ -207,8 +207,8 @@ impl<'a> Findings<'a> {
         for (count, severity, word) in
             [(self.errors, Severity::Error, "errors"), (self.warnings, Severity::Warning, "warnings")]
         {
-            if count > MAX_TOLD {
-                self.push(severity, None, format!("{} more {word} like these", count - MAX_TOLD), "");
+            if count > MAX_REPORTED {
+                self.push(severity, None, format!("{} more {word} like these", count - MAX_REPORTED), "");
             }
         }
         if self.errors > 0 { Err(Report(self.problems)) } else { Ok(self.problems) }

@@ -103,13 +103,13 @@ fn name_within(file: &Path, folder: &Path) -> Option<String> {
     (found == file).then_some(name)
 }
 
-/// Copies files to `scene_folder/shelf/NAME`, where NAME comes from the file `own_name`. `files` maps the path in the new
+/// Copies files to `scene_folder/subfolder/NAME`, where NAME comes from the file `own_name`. `files` maps the path in the new
 /// folder to the source and its size limit in bytes.
 fn bring(
     files: &BTreeMap<PathBuf, (PathBuf, u64)>,
     own_name: &Path,
     scene_folder: &Path,
-    shelf: &str,
+    subfolder: &str,
 ) -> Result<Adopted, AdoptError> {
     let unwritable =
         |source| AdoptError::Unwritable { file: name_of(own_name), folder: scene_folder.to_owned(), source };
@@ -117,19 +117,19 @@ fn bring(
     if files.values().map(|(file, _)| size(file)).sum::<u64>() > MAX_COPIED_BYTES {
         return Err(AdoptError::TooMuch { file: name_of(own_name) });
     }
-    let shelf_folder = scene_folder.join(shelf);
-    let was_there = shelf_folder.is_dir();
-    fs::create_dir_all(&shelf_folder).map_err(unwritable)?;
-    let copied = copy_beside(files, &shelf_folder, own_name);
+    let subfolder_path = scene_folder.join(subfolder);
+    let was_there = subfolder_path.is_dir();
+    fs::create_dir_all(&subfolder_path).map_err(unwritable)?;
+    let copied = copy_beside(files, &subfolder_path, own_name);
     if copied.is_err() && !was_there {
         // Fails if the folder is not empty, and leaves it then.
-        let _not_empty = fs::remove_dir(&shelf_folder);
+        let _not_empty = fs::remove_dir(&subfolder_path);
     }
     let (place, copied) = copied.map_err(|error| match error {
         Copying::Read(error) => AdoptError::Unread(error),
         Copying::Write(error) => unwritable(error),
     })?;
-    let name = format!("{shelf}/{place}/{}", own_name.display());
+    let name = format!("{subfolder}/{place}/{}", own_name.display());
     Ok(Adopted { name, copied })
 }
 
@@ -147,11 +147,11 @@ impl From<io::Error> for Copying {
 /// Copies into a hidden temporary folder, then renames that to its final name. Returns the name and the copies.
 fn copy_beside(
     files: &BTreeMap<PathBuf, (PathBuf, u64)>,
-    shelf: &Path,
+    subfolder: &Path,
     own_name: &Path,
 ) -> Result<(String, Vec<PathBuf>), Copying> {
     let stem = plain_stem(own_name);
-    let hidden = tempfile::Builder::new().prefix(".coming-").tempdir_in(shelf)?;
+    let hidden = tempfile::Builder::new().prefix(".coming-").tempdir_in(subfolder)?;
     for (within, (file, limit)) in files {
         let bytes = assets::read_regular_file(file, *limit).map_err(Copying::Read)?;
         let target = hidden.path().join(within);
@@ -163,7 +163,7 @@ fn copy_beside(
     open_to_readers(hidden.path())?;
     for number in 1..=MAX_NAMES {
         let place = if number == 1 { stem.clone() } else { format!("{stem}-{number}") };
-        let target = shelf.join(&place);
+        let target = subfolder.join(&place);
         if fs::symlink_metadata(&target).is_ok() {
             if is_same(files, hidden.path(), &target) {
                 return Ok((place, Vec::new()));

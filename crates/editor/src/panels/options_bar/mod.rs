@@ -23,7 +23,7 @@ const DIVIDER: f32 = 9.0 + measure::GAP;
 const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 
 /// Translates words; tests put in longer ones.
-type Say = fn(&'static str) -> &'static str;
+type Translate = fn(&'static str) -> &'static str;
 
 /// Takes the top 40 points of `ui`.
 pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
@@ -36,7 +36,7 @@ pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// The bar's contents. Returns the options if one was changed.
-fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Say) -> Option<ToolOptions> {
+fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Translate) -> Option<ToolOptions> {
     let mut options = shown.session.options.clone();
     let tool = shown.session.tool();
     let all = settings::of(tool, &options);
@@ -73,7 +73,7 @@ fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Say) -> Option<ToolOptions> {
     (options != shown.session.options).then_some(options)
 }
 
-fn head(ui: &mut Ui, tool: Tool, say: Say) {
+fn head(ui: &mut Ui, tool: Tool, say: Translate) {
     let (face, tokens) = (face(tool), Tokens::of(ui));
     ui.label(RichText::new(face.icon.glyph()).font(type_face::icon(measure::ICON)).color(tokens.accent_text));
     let name = if tool == Tool::ShotCamera { "Shot camera" } else { face.name };
@@ -82,7 +82,7 @@ fn head(ui: &mut Ui, tool: Tool, say: Say) {
 }
 
 /// How much of the bar a setting takes, points.
-fn width(ui: &Ui, setting: &Setting, say: Say) -> f32 {
+fn width(ui: &Ui, setting: &Setting, say: Translate) -> f32 {
     let control = match &setting.control {
         Control::Choice(choice) => {
             widgets::segmented_width(ui, choice.words.iter().map(|(words, _)| say(words)))
@@ -99,7 +99,7 @@ fn width(ui: &Ui, setting: &Setting, say: Say) -> f32 {
     divider + label + control
 }
 
-fn on_bar(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) {
+fn on_bar(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Translate) {
     if setting.apart {
         divider(ui);
     }
@@ -114,7 +114,7 @@ fn note(ui: &mut Ui, words: &str) {
     ui.add(egui::Label::new(words).extend());
 }
 
-fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) {
+fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Translate) {
     match &setting.control {
         Control::Choice(choice) => {
             let words: Vec<_> = choice.words.iter().map(|(words, name)| (say(words), *name)).collect();
@@ -143,7 +143,7 @@ fn control(ui: &mut Ui, setting: &Setting, options: &mut ToolOptions, say: Say) 
 }
 
 /// A hint about the tool or the mode, where there is room.
-fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Say) {
+fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Translate) {
     let pieces: [(String, bool); 4] = match (tool, shown.document.selection().active()) {
         (Tool::Pick | Tool::ShotCamera, _) => [
             (say(face(tool).effect).to_owned(), false),
@@ -179,7 +179,7 @@ fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Say) {
 }
 
 /// The button at the bar's end, with the menu that it opens.
-fn more(ui: &mut Ui, behind: &[&Setting], options: &mut ToolOptions, say: Say) {
+fn more(ui: &mut Ui, behind: &[&Setting], options: &mut ToolOptions, say: Translate) {
     let name = "More tool options";
     let response =
         ui.add_enabled_ui(!behind.is_empty(), |ui| widgets::icon_button(ui, icons::MORE_OPTIONS, name)).inner;

@@ -46,7 +46,7 @@ fn german(words: &'static str) -> &'static str {
 }
 
 /// The boxes of all controls of a bar `wide` points across, by name.
-fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String, Rect)> {
+fn boxes(session: &Session, (wide, window): (f32, f32), say: Translate) -> Vec<(String, Rect)> {
     let ctx = egui::Context::default();
     ctx.enable_accesskit();
     theme::apply(&ctx, Theme::Dark, 1.0);
@@ -117,7 +117,7 @@ fn long_words_are_never_cut_and_never_overlap() {
     // The bar beside the column at both sizes of the design, and in the smallest window.
     for (wide, window) in [(1000.0, 1280.0), (1584.0, 1920.0), (960.0, 960.0)] {
         for session in sessions() {
-            for say in [german as Say, |words| words] {
+            for say in [german as Translate, |words| words] {
                 let boxes = boxes(&session, (wide, window), say);
                 let tool = session.tool();
                 assert!(boxes.iter().any(|(name, _)| name == "More tool options"), "{tool:?}");

@@ -11,14 +11,14 @@ pub(in crate::panels) const KEY: f32 = 5.5;
 
 /// Maps the frames from `first` to `last` onto the points from `left` to `right`.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::panels) struct Across {
+pub(in crate::panels) struct FrameScale {
     pub(in crate::panels) left: f32,
     pub(in crate::panels) right: f32,
     pub(in crate::panels) first: f64,
     pub(in crate::panels) last: f64,
 }
 
-impl Across {
+impl FrameScale {
     fn span(self) -> f64 {
         (self.last - self.first).max(1.0)
     }
@@ -61,7 +61,7 @@ impl Across {
 pub(in crate::panels) fn scrub(
     ui: &Ui,
     response: &Response,
-    across: Across,
+    across: FrameScale,
     shown: &PanelInput<'_>,
     asks: &mut Vec<Ask>,
 ) {
@@ -76,14 +76,14 @@ pub(in crate::panels) fn scrub(
         node.set_max_numeric_value(across.last);
         node.add_action(accesskit::Action::SetValue);
     });
-    let told = response.ctx.input(|input| {
+    let requested = response.ctx.input(|input| {
         let asked = input.accesskit_action_requests(response.id, accesskit::Action::SetValue).last();
         asked.and_then(|request| match request.data {
             Some(accesskit::ActionData::NumericValue(value)) => Some(value),
             _ => None,
         })
     });
-    if let Some(to) = told.filter(|value| value.is_finite()) {
+    if let Some(to) = requested.filter(|value| value.is_finite()) {
         asks.push(Ask::Timeline(TimelineEvent::GoTo(to.clamp(across.first, across.last))));
     }
     let held = response.is_pointer_button_down_on() || response.clicked();
@@ -109,7 +109,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
 }
 
 /// Marks at the frames that were dropped.
-pub(in crate::panels) fn drops(ui: &Ui, across: Across, top: f32, shown: &PanelInput<'_>) {
+pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &PanelInput<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {
         let left = across.x(frame as f64);
@@ -132,8 +132,8 @@ pub(in crate::panels) fn filled(points: Vec<Pos2>, colour: egui::Color32) -> Sha
 mod tests {
     use super::*;
 
-    fn across(first: f64, last: f64, wide: f32) -> Across {
-        Across { left: 100.0, right: 100.0 + wide, first, last }
+    fn across(first: f64, last: f64, wide: f32) -> FrameScale {
+        FrameScale { left: 100.0, right: 100.0 + wide, first, last }
     }
 
     #[test]
@@ -148,13 +148,13 @@ mod tests {
 
     #[test]
     fn a_place_on_the_ruler_and_its_frame_agree() {
-        let across = Across { left: 232.0, right: 1018.0, first: -10.0, last: 119.0 };
+        let across = FrameScale { left: 232.0, right: 1018.0, first: -10.0, last: 119.0 };
         for frame in [-10.0, 0.0, 37.0, 119.0] {
             assert_eq!(across.frame(across.x(frame)), frame);
         }
         assert_eq!(across.frame(0.0), -10.0);
         assert_eq!(across.frame(5000.0), 119.0);
-        let still = Across { first: 4.0, last: 4.0, ..across };
+        let still = FrameScale { first: 4.0, last: 4.0, ..across };
         assert_eq!(still.frame(600.0), 4.0);
     }
 

@@ -6,14 +6,14 @@ use impasto_editor_model::command::{Command, Time};
 use impasto_editor_model::timeline::{KeyAt, KeysEvent, Lane, LanePosition, TimelineEvent};
 use impasto_scene::document::Ease;
 
-use super::across::Across;
+use super::across::FrameScale;
 use crate::panels::{Ask, PanelInput};
 use crate::theme::measure;
 use crate::widgets::MenuRow;
 
 /// Where the lanes lie in the window.
 #[derive(Clone, Copy)]
-pub(super) struct Lying<'a> {
+pub(super) struct LaneLayout<'a> {
     /// The visible part of the lanes.
     pub(super) area: Rect,
     /// Top of the first lane.
@@ -21,12 +21,12 @@ pub(super) struct Lying<'a> {
     /// Height of a lane.
     pub(super) lane: f32,
     /// Where the frames lie.
-    pub(super) across: Across,
+    pub(super) across: FrameScale,
     /// The lanes.
     pub(super) lanes: &'a [Lane],
 }
 
-impl Lying<'_> {
+impl LaneLayout<'_> {
     fn place(&self, at: Pos2) -> LanePosition {
         let y = at.y - self.top;
         // Above the first lane counts as the first.
@@ -53,24 +53,24 @@ struct Memory {
 }
 
 /// Turns the pointer's events into events of the timeline.
-pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let id = ui.scope_id().with("lanes hand");
     let layer = ui.layer_id();
     let ctx = ui.ctx().clone();
-    let over = |at| lying.area.contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
+    let over = |at| layout.area.contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
     let mut memory = ui.data_mut(|data| data.get_temp::<Memory>(id)).unwrap_or_default();
     let mut tell = |event| asks.push(Ask::Timeline(TimelineEvent::Keys(event)));
     let follows = shown.time.keys.follows();
     for event in ui.input(|input| input.events.clone()) {
         match event {
             Event::PointerMoved(at) if memory.down || follows && over(at) => {
-                tell(KeysEvent::Move(lying.place(at)));
+                tell(KeysEvent::Move(layout.place(at)));
             }
             Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers } => {
                 if pressed && over(pos) {
                     memory.down = true;
                     let adds = modifiers.shift || modifiers.command;
-                    tell(KeysEvent::Press { at: lying.place(pos), key: lying.key(pos), adds });
+                    tell(KeysEvent::Press { at: layout.place(pos), key: layout.key(pos), adds });
                 } else if !pressed && std::mem::take(&mut memory.down) {
                     tell(KeysEvent::Release);
                 }
@@ -83,12 +83,12 @@ pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks:
                     tell(KeysEvent::Cancel);
                     continue;
                 }
-                let keys = match lying.key(pos) {
+                let keys = match layout.key(pos) {
                     Some(key) if shown.time.keys.contains(&key.0, key.1) => {
                         Some((shown.time.keys.selected().to_vec(), true))
                     }
                     Some(key) => Some((vec![key], true)),
-                    None => between(lying, pos).map(|key| (vec![key], false)),
+                    None => between(layout, pos).map(|key| (vec![key], false)),
                 };
                 memory.menu = keys.map(|(keys, hit)| (keys, hit, pos));
                 if memory.menu.is_some() {
@@ -109,9 +109,9 @@ pub(super) fn hand(ui: &mut Ui, lying: &Lying<'_>, shown: &PanelInput<'_>, asks:
 }
 
 /// The key that a place between two keys belongs to: the left one.
-fn between(lying: &Lying<'_>, at: Pos2) -> Option<KeyAt> {
-    let place = lying.place(at);
-    let lane = lying.lanes.get(place.lane)?;
+fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
+    let place = layout.place(at);
+    let lane = layout.lanes.get(place.lane)?;
     Some((lane.of.clone(), lane.left_of(place.frame)?.frame))
 }
 

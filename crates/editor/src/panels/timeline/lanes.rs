@@ -9,7 +9,7 @@ use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
 
-use super::across::{Across, KEY, diamond, filled};
+use super::across::{FrameScale, KEY, diamond, filled};
 use crate::icons;
 use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
@@ -26,7 +26,7 @@ pub(super) struct LaneRow {
     /// Where its name ends.
     pub(super) names: f32,
     /// Where the frames lie.
-    pub(super) across: Across,
+    pub(super) across: FrameScale,
 }
 
 /// The item whose keys these are.

@@ -14,7 +14,7 @@ use impasto_editor_model::timeline;
 use super::{Ask, PanelInput, row, row_from_right, within};
 use crate::theme::{Tokens, measure};
 
-use hand::Lying;
+use hand::LaneLayout;
 use lanes::LaneRow;
 
 /// Height of the row of buttons.
@@ -59,21 +59,21 @@ pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
             rows_of(ui, &lanes, lane_height, names.right(), across, shown, asks)
         });
         ruler::over(ui, right, across, shown);
-        let lying = Lying {
+        let layout = LaneLayout {
             area: Rect::from_x_y_ranges(right.x_range(), rows.top()..=rows.bottom() - ruler::PIN),
             top: first,
             lane: lane_height,
             across,
             lanes: &lanes,
         };
-        hand::hand(ui, &lying, shown, asks);
+        hand::hand(ui, &layout, shown, asks);
         if let Some([from, to]) = shown.time.keys.boxed() {
             let corner = |[x, y]: [f64; 2]| pos2(x as f32, first + y as f32);
             let rect = Rect::from_two_pos(corner(from), corner(to));
             let tokens = Tokens::of(ui);
             let fill = tokens.accent_text.gamma_multiply(0.12);
             let line = Stroke::new(1.0, tokens.accent_text);
-            ui.painter().with_clip_rect(lying.area).rect(rect, 0.0, fill, line, StrokeKind::Inside);
+            ui.painter().with_clip_rect(layout.area).rect(rect, 0.0, fill, line, StrokeKind::Inside);
         }
     });
 }
@@ -84,7 +84,7 @@ fn rows_of(
     lanes: &[timeline::Lane],
     height: f32,
     names: f32,
-    across: across::Across,
+    across: across::FrameScale,
     shown: &PanelInput<'_>,
     asks: &mut Vec<Ask>,
 ) -> f32 {

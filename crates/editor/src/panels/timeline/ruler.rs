@@ -6,7 +6,7 @@ use impasto_editor_model::timeline::keyed_frames;
 use impasto_scene::document::Scene;
 use impasto_scene::motion;
 
-use super::across::{self, Across};
+use super::across::{self, FrameScale};
 use crate::icons;
 use crate::panels::{Ask, PanelInput};
 use crate::theme::{Tokens, measure, type_face};
@@ -20,10 +20,10 @@ pub(super) const HEIGHT: f32 = 28.0;
 const LABELS: f32 = 90.0;
 
 /// Where the frames lie: the range and all keys fit.
-pub(super) fn across(scene: &Scene, rect: Rect) -> Across {
+pub(super) fn across(scene: &Scene, rect: Rect) -> FrameScale {
     let keys = keyed_frames(scene);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);
-    Across {
+    FrameScale {
         left: rect.left() + 50.0,
         right: (rect.right() - 64.0).max(rect.left() + 51.0),
         first: keys.first().copied().unwrap_or(first).min(first).floor(),
@@ -32,7 +32,7 @@ pub(super) fn across(scene: &Scene, rect: Rect) -> Across {
 }
 
 /// Fills the area behind ruler and lanes; the range is lighter.
-pub(super) fn ground(ui: &Ui, rect: Rect, across: Across, scene: &Scene) {
+pub(super) fn ground(ui: &Ui, rect: Rect, across: FrameScale, scene: &Scene) {
     let tokens = Tokens::of(ui);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| across.x(frame as f64));
     ui.painter().rect_filled(rect, 0.0, tokens.app);
@@ -43,7 +43,7 @@ pub(super) fn ground(ui: &Ui, rect: Rect, across: Across, scene: &Scene) {
 }
 
 /// The ruler, on which a drag scrubs, with grips at the ends of the range.
-pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     let is_gripped = grips(ui, rect, across, shown, asks);
     if !is_gripped {
@@ -67,7 +67,7 @@ pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<
 }
 
 /// The grips that drag the ends of the range. Returns whether one is held.
-fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
+fn grips(ui: &mut Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let timeline = &shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;
     let mut is_gripped = false;
@@ -110,7 +110,7 @@ fn grips(ui: &mut Ui, rect: Rect, across: Across, shown: &PanelInput<'_>, asks: 
 }
 
 /// What is drawn over ruler and lanes: the reference's pin, and the playhead with its flag.
-pub(super) fn over(ui: &Ui, rect: Rect, across: Across, shown: &PanelInput<'_>) {
+pub(super) fn over(ui: &Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let scene = shown.document.scene();
     let painter = ui.painter().with_clip_rect(rect);

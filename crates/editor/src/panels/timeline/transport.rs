@@ -117,8 +117,8 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<A
         let (least, most) = if is_end { (first as f64, MAX_FRAME) } else { (-MAX_FRAME, last as f64) };
         let field = NumberField::new(name, &mut value, f64::NEG_INFINITY..=f64::INFINITY);
         let answer = field.limits(least..=most).unlabelled(50.0).show(ui);
-        let kept = if is_end { stored.last } else { stored.first } as f64;
-        asks.extend(asked(&answer, value, [before, kept], |to| match is_end {
+        let stored_value = if is_end { stored.last } else { stored.first } as f64;
+        asks.extend(asked(&answer, value, [before, stored_value], |to| match is_end {
             true => Time::SetRange(stored.first, to as i64),
             false => Time::SetRange(to as i64, stored.last),
         }));

@@ -2,7 +2,7 @@
 
 use egui::{Id, Rect, Ui};
 
-use super::across::Across;
+use super::across::FrameScale;
 
 /// The ruler shows at least this many frames.
 const FEWEST: f64 = 8.0;
@@ -16,7 +16,7 @@ struct VisibleFrames {
 
 /// `Ctrl` and the wheel zoom about the pointer, `Shift` and the wheel move along, a double click on the ruler shows all frames.
 /// The visible part follows the playhead.
-pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: Across, frame: f64) -> Across {
+pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: FrameScale, frame: f64) -> FrameScale {
     let id = Id::unique("frames that are seen");
     let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();
     let (pointer, zoom, along, is_double) = ui.input(|input| {
@@ -36,16 +36,16 @@ pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: Across, frame: f64) 
     // The range may have changed since the last pass.
     seen.frames = seen.frames.and_then(|frames| within(frames, whole));
     ui.data_mut(|data| data.insert_temp(id, seen));
-    seen.frames.map_or(whole, |[first, last]| Across { first, last, ..whole })
+    seen.frames.map_or(whole, |[first, last]| FrameScale { first, last, ..whole })
 }
 
 /// The visible frames after a turn of the wheel; none for all of them.
-fn zoomed(whole: Across, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: f32) -> Option<[f64; 2]> {
+fn zoomed(whole: FrameScale, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: f32) -> Option<[f64; 2]> {
     let [first, last] = frames.unwrap_or([whole.first, whole.last]);
     if !zoom.is_finite() || zoom <= 0.0 || (zoom == 1.0 && along_px == 0.0) {
         return frames;
     }
-    let now = Across { first, last, ..whole };
+    let now = FrameScale { first, last, ..whole };
     let place = now.place(x).clamp(first, last);
     let all = whole.last - whole.first;
     let span = ((last - first) / zoom).clamp(FEWEST.min(all), all);
@@ -56,7 +56,7 @@ fn zoomed(whole: Across, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: 
 }
 
 /// The frames shifted to lie within the whole; none where they span all of it.
-fn within([first, last]: [f64; 2], whole: Across) -> Option<[f64; 2]> {
+fn within([first, last]: [f64; 2], whole: FrameScale) -> Option<[f64; 2]> {
     let (all, span) = (whole.last - whole.first, last - first);
     if span >= all * (1.0 - 1e-9) {
         return None;
@@ -66,7 +66,7 @@ fn within([first, last]: [f64; 2], whole: Across) -> Option<[f64; 2]> {
 }
 
 /// As many frames as before, shifted so that `frame` is among them.
-fn holding([first, last]: [f64; 2], whole: Across, frame: f64) -> [f64; 2] {
+fn holding([first, last]: [f64; 2], whole: FrameScale, frame: f64) -> [f64; 2] {
     let span = last - first;
     let first = if frame > last {
         // Playback goes on to the right: leave most of the room there.
@@ -81,16 +81,16 @@ fn holding([first, last]: [f64; 2], whole: Across, frame: f64) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    const WHOLE: Across = Across { left: 200.0, right: 1200.0, first: 0.0, last: 100.0 };
+    const WHOLE: FrameScale = FrameScale { left: 200.0, right: 1200.0, first: 0.0, last: 100.0 };
 
     #[test]
     fn the_frame_under_the_pointer_stays_there() {
         let mut frames: Option<[f64; 2]> = None;
         for (zoom, x) in [(2.0, 700.0), (1.5, 700.0), (1.25, 700.0)] {
-            let before = frames.map_or(WHOLE, |[first, last]| Across { first, last, ..WHOLE }).place(x);
+            let before = frames.map_or(WHOLE, |[first, last]| FrameScale { first, last, ..WHOLE }).place(x);
             frames = zoomed(WHOLE, frames, zoom, x, 0.0);
             let [first, last] = frames.expect("zoomed in");
-            let after = Across { first, last, ..WHOLE }.place(x);
+            let after = FrameScale { first, last, ..WHOLE }.place(x);
             assert!((before - after).abs() < 1e-9, "{before} {after}");
         }
         let [first, last] = frames.expect("zoomed in");
@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(zoomed(WHOLE, Some([92.0, 100.0]), 1.0, 700.0, -5000.0), Some([92.0, 100.0]));
         assert_eq!(zoomed(WHOLE, Some([92.0, 100.0]), 1.0, 700.0, 500.0), Some([88.0, 96.0]));
         assert_eq!(zoomed(WHOLE, Some([20.0, 40.0]), f64::NAN, 700.0, 0.0), Some([20.0, 40.0]));
-        let still = Across { first: 4.0, last: 4.0, ..WHOLE };
+        let still = FrameScale { first: 4.0, last: 4.0, ..WHOLE };
         assert_eq!(zoomed(still, None, 2.0, 700.0, 3.0), None);
     }
 

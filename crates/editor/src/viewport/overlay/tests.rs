@@ -61,13 +61,13 @@ fn segments(shapes: &[Shape], colour: Color32) -> Vec<[Pos2; 2]> {
     shapes.iter().filter_map(segment).collect()
 }
 
-fn hair(angle_deg: f32, ink: HairInk) -> HairMark {
-    HairMark { at_px: DVec2::new(100.0, 50.0), angle_rad: angle_deg.to_radians(), ink, faint: false }
+fn direction_line(angle_deg: f32, ink: DirectionInk) -> DirectionMark {
+    DirectionMark { at_px: DVec2::new(100.0, 50.0), angle_rad: angle_deg.to_radians(), ink, faint: false }
 }
 
 #[test]
 fn a_hair_is_twelve_long_and_its_angle_counts_up_the_screen() {
-    let shapes = drawn(|sheet| hairs(sheet, &[hair(30.0, HairInk::Plain)]));
+    let shapes = drawn(|sheet| direction_lines(sheet, &[direction_line(30.0, DirectionInk::Plain)]));
     let [[from, to]] = segments(&shapes, Color32::WHITE)[..] else { panic!("one white line: {shapes:?}") };
     assert_eq!(from + (to - from) * 0.5, pos2(148.0, 130.0));
     assert!(((to - from).length() - 12.0).abs() < 1e-4);
@@ -77,7 +77,7 @@ fn a_hair_is_twelve_long_and_its_angle_counts_up_the_screen() {
 
 #[test]
 fn trust_is_told_by_pattern_as_well_as_by_colour() {
-    let of = |kappa| drawn(|sheet| hairs(sheet, &[hair(0.0, HairInk::Trust(kappa))]));
+    let of = |kappa| drawn(|sheet| direction_lines(sheet, &[direction_line(0.0, DirectionInk::Trust(kappa))]));
     assert_eq!(segments(&of(0.97), Color32::WHITE).len(), 1);
     assert_eq!(segments(&of(0.90), ink::OVER_PAINT.ochre).len(), 2);
     assert_eq!(segments(&of(0.72), ink::OVER_PAINT.ochre).len(), 2);

@@ -4,11 +4,11 @@ use egui::Context;
 use glam::DVec2;
 use impasto_editor_model::editor::Editor;
 use impasto_editor_model::stroke_fields::field_values;
-use impasto_editor_model::tools::Foreseen;
+use impasto_editor_model::tools::CombPreview;
 use impasto_painting::{FrameOptions, SurfacePlace};
 
 use super::picture::PictureFlow;
-use crate::viewport::overlay::{Comb, ForeseenStroke};
+use crate::viewport::overlay::{Comb, CombPreviewStroke};
 
 /// At most this many strokes are looked at, and those shown are at least `APART_PX` apart, so that the picture stays visible.
 const MOST: usize = 600;
@@ -20,19 +20,19 @@ const FADE_S: f32 = 0.15;
 
 /// The strokes of the last preview, and how far they have faded in.
 #[derive(Default)]
-pub(super) struct ForeseenStrokes {
-    of: Option<(Foreseen, u64)>,
-    strokes: Vec<ForeseenStroke>,
+pub(super) struct CombPreviewStrokes {
+    of: Option<(CombPreview, u64)>,
+    strokes: Vec<CombPreviewStroke>,
     comb: Option<Comb>,
     share: f32,
 }
 
-impl ForeseenStrokes {
+impl CombPreviewStrokes {
     /// Updates the preview for where the pointer is now.
     pub(super) fn follow(&mut self, ctx: &Context, editor: &Editor, picture_flow: &PictureFlow) {
         let held = editor.held();
-        let wanted = editor.tool_output().foreseen.filter(|_| !held.shift && !held.alt);
-        let id = egui::Id::unique("foreseen strokes");
+        let wanted = editor.tool_output().comb_preview.filter(|_| !held.shift && !held.alt);
+        let id = egui::Id::unique("comb_preview strokes");
         if editor.is_moving() {
             // During the gesture the picture itself shows the strokes turn.
             *self = Self::default();
@@ -40,34 +40,34 @@ impl ForeseenStrokes {
             return;
         }
         self.share = ctx.animate_bool_with_time(id, wanted.is_some(), FADE_S);
-        let Some(foreseen) = wanted else { return };
+        let Some(comb_preview) = wanted else { return };
         let options = &editor.session.options;
-        let along = if held.ctrl { -foreseen.along } else { foreseen.along };
+        let along = if held.ctrl { -comb_preview.along } else { comb_preview.along };
         self.comb = Some(Comb {
-            at_px: foreseen.at_px,
+            at_px: comb_preview.at_px,
             radius_px: options.radius_px,
             angle_rad: (along * DVec2::new(1.0, -1.0)).to_angle() as f32,
             strength: options.strength as f32,
             even: options.even,
         });
-        let of = Some((foreseen, picture_flow.prepared()));
+        let of = Some((comb_preview, picture_flow.prepared()));
         if self.of != of {
-            self.strokes = strokes(&foreseen, editor, picture_flow).unwrap_or_default();
+            self.strokes = strokes(&comb_preview, editor, picture_flow).unwrap_or_default();
             self.of = of;
         }
     }
 
     /// The strokes, the comb, and the opacity to draw them with; none if nothing is to be drawn.
-    pub(super) fn shown(&self) -> Option<(&[ForeseenStroke], Comb, f32)> {
+    pub(super) fn shown(&self) -> Option<(&[CombPreviewStroke], Comb, f32)> {
         self.comb.filter(|_| self.share > 0.0).map(|comb| (&self.strokes[..], comb, self.share))
     }
 }
 
 /// The strokes in the ring that belong to the region under the pointer: a comb turns no others.
-fn strokes(foreseen: &Foreseen, editor: &Editor, picture_flow: &PictureFlow) -> Option<Vec<ForeseenStroke>> {
+fn strokes(comb_preview: &CombPreview, editor: &Editor, picture_flow: &PictureFlow) -> Option<Vec<CombPreviewStroke>> {
     let painting = editor.painting()?;
     let scene = painting.scene();
-    scene.objects.get(foreseen.object)?;
+    scene.objects.get(comb_preview.object)?;
     let framing = picture_flow.layout().framings().first()?;
     let camera = framing.widened(&editor.camera());
     let size_px = framing.viewport().size();
@@ -77,26 +77,26 @@ fn strokes(foreseen: &Foreseen, editor: &Editor, picture_flow: &PictureFlow) -> 
         ..FrameOptions::new([size_px.x, size_px.y].map(|side| side.ceil().max(1.0) as u32))
     };
     let place = SurfacePlace {
-        object: foreseen.object,
-        position: foreseen.position_in_model,
-        normal: foreseen.normal_in_model,
-        radius: foreseen.radius,
+        object: comb_preview.object,
+        position: comb_preview.position_in_model,
+        normal: comb_preview.normal_in_model,
+        radius: comb_preview.radius,
     };
-    let region = foreseen.region.unwrap_or(scene.regions.len());
-    let of_scene = foreseen.region.filter(|region| *region < scene.regions.len());
+    let region = comb_preview.region.unwrap_or(scene.regions.len());
+    let of_scene = comb_preview.region.filter(|region| *region < scene.regions.len());
     let length_px = field_values(scene, of_scene)
         .iter()
         .find(|value| value.field.number.field == "length_px")
         .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
-    let hairs = painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
-    let stroke = |hair: &impasto_painting::StrokeDirection| ForeseenStroke {
-        at_px: DVec2::from(hair.position_px.map(f64::from)),
-        angle_rad: hair.angle_rad,
+    let direction_lines = painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
+    let stroke = |direction_line: &impasto_painting::StrokeDirection| CombPreviewStroke {
+        at_px: DVec2::from(direction_line.position_px.map(f64::from)),
+        angle_rad: direction_line.angle_rad,
         length_px: length_px.clamp(6.0, LONGEST_PX),
         directed: false,
     };
-    let mut apart: Vec<ForeseenStroke> = Vec::new();
-    for stroke in hairs.iter().filter(|hair| hair.region == region).map(stroke) {
+    let mut apart: Vec<CombPreviewStroke> = Vec::new();
+    for stroke in direction_lines.iter().filter(|direction_line| direction_line.region == region).map(stroke) {
         if apart.iter().all(|other| other.at_px.distance_squared(stroke.at_px) >= APART_PX * APART_PX) {
             apart.push(stroke);
         }

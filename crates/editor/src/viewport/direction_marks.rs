@@ -2,11 +2,11 @@
 
 use egui::Color32;
 use glam::DVec2;
-use impasto_editor_model::session::{Hairs, Overlays};
+use impasto_editor_model::session::{DirectionLines, Overlays};
 use impasto_painting::{FrameOptions, Painting, StrokeDirection};
 use impasto_scene::motion::CameraPose;
 
-use super::overlay::{HairInk, HairMark};
+use super::overlay::{DirectionInk, DirectionMark};
 use super::{Framing, surface_map::SurfaceMap};
 
 /// Lines are at least this far apart, points.
@@ -29,14 +29,14 @@ pub struct HairLook<'a> {
 
 /// The direction lines of a painting at a frame, seen through a camera (before widening) in a framing. `map` holds the
 /// surfaces that this camera sees.
-pub fn hair_marks(
+pub fn direction_marks(
     painting: &Painting,
     camera: &CameraPose,
     frame: f64,
     framing: &Framing,
     map: &SurfaceMap,
     look: &HairLook<'_>,
-) -> Vec<HairMark> {
+) -> Vec<DirectionMark> {
     let size = framing.viewport().size();
     let options = FrameOptions {
         shot_height_px: Some(framing.shot().height()),
@@ -49,22 +49,22 @@ pub fn hair_marks(
     while cells(apart) > MOST {
         apart *= 1.02;
     }
-    let place = |hair: &StrokeDirection| DVec2::from(hair.position_px.map(f64::from));
-    let shows = |hair: &StrokeDirection| map.shows(place(hair), f64::from(hair.depth), hair.object);
-    let hairs = painting.stroke_directions(&framing.widened(camera), frame, &options, apart as f32, &shows);
-    let ink = |hair: &StrokeDirection| match look.overlays {
-        Overlays { trust: true, .. } => HairInk::Trust(hair.kappa),
-        Overlays { hairs: Hairs::ByRegion, .. } => {
-            look.region_colours.get(hair.region).map_or(HairInk::Plain, |&colour| HairInk::Region(colour))
+    let place = |direction_line: &StrokeDirection| DVec2::from(direction_line.position_px.map(f64::from));
+    let shows = |direction_line: &StrokeDirection| map.shows(place(direction_line), f64::from(direction_line.depth), direction_line.object);
+    let direction_lines = painting.stroke_directions(&framing.widened(camera), frame, &options, apart as f32, &shows);
+    let ink = |direction_line: &StrokeDirection| match look.overlays {
+        Overlays { trust: true, .. } => DirectionInk::Trust(direction_line.kappa),
+        Overlays { direction_lines: DirectionLines::ByRegion, .. } => {
+            look.region_colours.get(direction_line.region).map_or(DirectionInk::Plain, |&colour| DirectionInk::Region(colour))
         }
-        _ => HairInk::Plain,
+        _ => DirectionInk::Plain,
     };
-    let mark = |hair: &StrokeDirection| HairMark {
-        at_px: place(hair),
-        angle_rad: hair.angle_rad,
-        ink: ink(hair),
-        faint: look.region.is_some_and(|region| region != hair.region)
-            || look.object.is_some_and(|object| object != hair.object),
+    let mark = |direction_line: &StrokeDirection| DirectionMark {
+        at_px: place(direction_line),
+        angle_rad: direction_line.angle_rad,
+        ink: ink(direction_line),
+        faint: look.region.is_some_and(|region| region != direction_line.region)
+            || look.object.is_some_and(|object| object != direction_line.object),
     };
-    hairs.iter().map(mark).collect()
+    direction_lines.iter().map(mark).collect()
 }

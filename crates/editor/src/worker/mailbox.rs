@@ -17,7 +17,7 @@ const MOST_FAILURES: usize = 8;
 
 /// Shared by both threads.
 #[derive(Default)]
-pub(super) struct Desk {
+pub(super) struct Mailbox {
     orders: Mutex<Orders>,
     changed: Condvar,
     tray: Mutex<Tray>,
@@ -53,7 +53,7 @@ pub(super) struct Order {
     ticket: u64,
 }
 
-impl Desk {
+impl Mailbox {
     pub(super) fn put(&self, job: Job, ahead: Vec<ViewJob>) {
         let mut orders = lock(&self.orders);
         if orders.closed {
@@ -86,7 +86,7 @@ impl Desk {
         if orders.closed { None } else { orders.job.take() }
     }
 
-    /// Whether a later job has come, or the desk is closed.
+    /// Whether a later job has come, or the mailbox is closed.
     pub(super) fn is_stale(&self, order: &Order) -> bool {
         self.newest.load(Ordering::Acquire) != order.ticket
     }
@@ -96,7 +96,7 @@ impl Desk {
         self.stopped.store(self.newest.load(Ordering::Acquire), Ordering::Release);
     }
 
-    /// Whether to give up preparing this job: it was stopped, or the desk is closed.
+    /// Whether to give up preparing this job: it was stopped, or the mailbox is closed.
     pub(super) fn gives_up(&self, order: &Order) -> bool {
         let is_closed = self.newest.load(Ordering::Acquire) == u64::MAX;
         is_closed || self.stopped.load(Ordering::Acquire) >= order.ticket

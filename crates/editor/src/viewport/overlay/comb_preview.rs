@@ -7,7 +7,7 @@ use super::ink::{self, Ink};
 
 /// A stroke under the ring, as it lies now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForeseenStroke {
+pub struct CombPreviewStroke {
     /// Its middle.
     pub at_px: DVec2,
     /// Its angle now: counter-clockwise from +X with Y up, radians.
@@ -18,7 +18,7 @@ pub struct ForeseenStroke {
     pub directed: bool,
 }
 
-impl ForeseenStroke {
+impl CombPreviewStroke {
     /// The angle that a comb would give it: a blend of its own with the comb's, which counts strength · (1 − (d/r)²)² (an even
     /// comb: strength) at distance d from the dot, for a ring of radius r. None outside the ring.
     fn combed_rad(&self, comb: &Comb) -> Option<f32> {
@@ -51,7 +51,7 @@ pub struct Comb {
 }
 
 /// Draws the strokes inside the ring as a comb would turn them. `shown` is the opacity, 0..=1.
-pub fn foreseen(sheet: &Sheet<'_>, strokes: &[ForeseenStroke], comb: &Comb, shown: f32) {
+pub fn comb_preview(sheet: &Sheet<'_>, strokes: &[CombPreviewStroke], comb: &Comb, shown: f32) {
     if shown <= 0.0 {
         return;
     }
@@ -72,8 +72,8 @@ mod tests {
     const COMB: Comb =
         Comb { at_px: DVec2::ZERO, radius_px: 46.0, angle_rad: 0.0, strength: 1.0, even: false };
 
-    fn stroke(at_px: DVec2, degrees: f32, directed: bool) -> ForeseenStroke {
-        ForeseenStroke { at_px, angle_rad: degrees.to_radians(), length_px: 20.0, directed }
+    fn stroke(at_px: DVec2, degrees: f32, directed: bool) -> CombPreviewStroke {
+        CombPreviewStroke { at_px, angle_rad: degrees.to_radians(), length_px: 20.0, directed }
     }
 
     #[test]

@@ -18,20 +18,20 @@ const FAINT: f32 = 0.35;
 
 /// One direction line: a short line along the strokes at a place in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HairMark {
+pub struct DirectionMark {
     /// Its middle, from the upper left corner of the picture.
     pub at_px: DVec2,
     /// Counter-clockwise from +X with Y up, radians.
     pub angle_rad: f32,
     /// How it is drawn.
-    pub ink: HairInk,
+    pub ink: DirectionInk,
     /// Whether it belongs to another region or object than the one that is painted or posed.
     pub faint: bool,
 }
 
 /// How a direction line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum HairInk {
+pub enum DirectionInk {
     /// White over black.
     Plain,
     /// In the colour of its region.
@@ -41,7 +41,7 @@ pub enum HairInk {
 }
 
 /// Draws direction lines.
-pub fn hairs(sheet: &Sheet<'_>, marks: &[HairMark]) {
+pub fn direction_lines(sheet: &Sheet<'_>, marks: &[DirectionMark]) {
     for mark in marks {
         let half = ink::along(mark.angle_rad) * (LENGTH * 0.5);
         let at = sheet.at(mark.at_px);
@@ -49,16 +49,16 @@ pub fn hairs(sheet: &Sheet<'_>, marks: &[HairMark]) {
     }
 }
 
-fn draw(painter: &Painter, ends: [Pos2; 2], hair: HairInk, share: f32) {
+fn draw(painter: &Painter, ends: [Pos2; 2], direction_line: DirectionInk, share: f32) {
     let ink = |colour: Color32| {
         Ink::new(WIDTH, colour.gamma_multiply(share), (WIDTH + 1.8, ink::black(0.7 * share)))
     };
-    match hair {
-        HairInk::Plain => ink(ink::WHITE).segment(painter, ends),
-        HairInk::Region(colour) => ink(colour).segment(painter, ends),
-        HairInk::Trust(kappa) if kappa > SURE => ink(ink::WHITE).segment(painter, ends),
-        HairInk::Trust(kappa) if kappa >= FAIR => ink(OVER_PAINT.ochre).dashed(painter, &ends, 5.0, 2.0),
-        HairInk::Trust(_) => {
+    match direction_line {
+        DirectionInk::Plain => ink(ink::WHITE).segment(painter, ends),
+        DirectionInk::Region(colour) => ink(colour).segment(painter, ends),
+        DirectionInk::Trust(kappa) if kappa > SURE => ink(ink::WHITE).segment(painter, ends),
+        DirectionInk::Trust(kappa) if kappa >= FAIR => ink(OVER_PAINT.ochre).dashed(painter, &ends, 5.0, 2.0),
+        DirectionInk::Trust(_) => {
             let (step, count) = ((ends[1] - ends[0]) / LENGTH, 4);
             for dot in 0..count {
                 let at = ends[0] + step * (LENGTH * (dot as f32 + 0.5) / count as f32);
