@@ -59,7 +59,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     assert!(matches!(refused, SaveError::Problems { count: 3, line: 4 }), "{refused}");
     assert!(document.save_as(&folder.path()).is_err());
     assert!(document.save_as(&folder.0.path().join("meshes/../s.ron")).is_err(), "the same file");
-    // A copy can be saved, and leaves the file what it is.
+    // A copy can be saved; the file itself stays unchanged.
     document.save_copy(&folder.0.path().join("copy.ron")).expect("saved");
     let step = document.fix_certain().expect("fixed");
     assert_eq!(step.text, "Fix 2 problems");
@@ -69,7 +69,7 @@ fn a_scene_with_losses_cannot_take_the_place_of_its_file_until_they_are_settled(
     assert_eq!(document.loss_count(), 1);
     assert!(document.is_edited() && document.save().is_err());
     assert_eq!(folder.text(), broken());
-    // Undone, the problems are back; done again, gone.
+    // Undo brings the problems back, redo removes them again.
     document.undo().expect("undone");
     assert_eq!((document.loss_count(), document.scene().strokes.width_px), (3, None));
     assert!(document.apply(&seed(3)).is_ok(), "a box stands in again");
@@ -93,7 +93,7 @@ fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
     document.fix_certain().expect("fixed");
     assert_eq!(document.scene().size, (640, 480));
     assert_eq!(document.scene().strokes.width_px, Some(9.0));
-    // Of one thing, they do not: nothing is lost, and the words say what to do.
+    // Two edits of the same thing conflict: nothing is lost, and the message says what to do.
     document.apply(&seed(4)).expect("done");
     let text = document.source().expect("a source").text.replace("\"x\"", "7");
     let refused = document.read_text(&text).expect_err("two hands");
@@ -148,15 +148,15 @@ fn what_somebody_else_wrote_is_not_saved_over_and_can_be_read_again() {
     document.reload().expect("read");
     assert_eq!((document.scene().seed, document.is_edited()), (9, false));
     assert!(!document.is_changed_outside());
-    // What was dropped is one undo away.
+    // One undo brings the dropped edits back.
     document.undo().expect("undone");
     assert_eq!((document.scene().seed, document.is_edited()), (1, true));
     document.save().expect("known by now");
-    // What cannot be read changes nothing.
+    // A file that cannot be read changes nothing.
     fs::write(folder.path(), "(version: 1, camera").expect("written");
     assert!(document.reload().is_err());
     assert_eq!(document.scene().seed, 1);
-    // Its own writing is no news.
+    // A file that the document wrote itself does not count as changed outside.
     document.save_as(&folder.path()).expect("chosen by hand");
     assert!(!document.is_changed_outside());
 }
@@ -195,7 +195,7 @@ fn a_scene_whose_mesh_or_folder_is_gone_is_saved_elsewhere_and_what_is_missing_i
         assert_eq!(editor.document().file(), Some(&*elsewhere.join("own.ron")));
         let again = Document::open_with_problems(&elsewhere.join("copy.ron"), &LoadOptions::default());
         assert_eq!(again.expect("opens").scene(), editor.document().scene());
-        // Where the scene is now, it is saved as any other.
+        // At its new place the scene is saved like any other.
         editor.save(None).expect("saved");
         assert_eq!(editor.take_said()[0].words, "Saved own.ron");
     }

@@ -1,4 +1,4 @@
-//! Tests of the editor by plain events: drags, cancelling, typed numbers, stroke previews.
+//! Tests of the editor through plain events: drags, cancelling, typed numbers, stroke previews.
 
 use std::path::Path;
 
@@ -60,7 +60,7 @@ fn key(editor: &mut Editor, key: Key) {
     assert!(editor.key(key, Modifiers::default(), false, &view), "{key:?} means nothing here");
 }
 
-/// Where the object that is seen largest shows.
+/// The middle, in pixels, of the object that covers most of the picture.
 fn middle_of_the_apple(editor: &Editor) -> DVec2 {
     let scene = editor.document().scene();
     let apple =
@@ -206,7 +206,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     assert_eq!(foreseen.along, DVec2::X);
     assert!((foreseen.at_px - at - DVec2::new(20.0, 0.0)).length() < 1e-6, "{foreseen:?}");
 
-    // What lies in the ring is what the whole picture has there.
+    // The strokes previewed in the ring are those that the whole picture has there.
     let painting = editor.painting().expect("it is prepared");
     let options = impasto_painting::FrameOptions::new([960, 540]);
     let camera = editor.camera();
@@ -232,7 +232,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
 
     let view = view(&editor);
     let moved_secs = editor.at_secs;
-    // The clock is told in every pass, as the window does.
+    // The editor gets the time in every pass, as the window gives it.
     for (rest_secs, rests) in [(0.2, false), (0.5, true)] {
         editor.tick(moved_secs + rest_secs);
         editor.rested(moved_secs + rest_secs, &view);

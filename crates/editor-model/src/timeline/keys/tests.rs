@@ -22,7 +22,7 @@ fn apple(frame: f64) -> KeyAt {
     (KeyOf::Object("apple".to_owned()), frame)
 }
 
-/// Four points a frame, lanes of 32 points.
+/// A place in lanes that are 32 points high, at 4 points a frame.
 fn at(frame: f64, lane: usize) -> LanePosition {
     LanePosition { x_px: frame * 4.0, y_px: lane as f64 * 32.0 + 16.0, frame, lane }
 }
@@ -68,7 +68,7 @@ fn keys_that_a_drag_would_replace_are_known_before_and_escape_leaves_no_trace() 
     hand.take(KeysEvent::Cancel, &lanes);
     assert_eq!((hand.dragged(), hand.selected()), (None, &[apple(60.0)][..]));
     assert_eq!(hand.take(KeysEvent::Release, &lanes), None);
-    // A key that goes along makes room for the one behind it; of copies, the keys themselves stay.
+    // Keys dragged together do not replace each other; copies do replace the keys they land on.
     hand.take(KeysEvent::Press { at: at(96.0, 1), key: Some(apple(96.0)), adds: true }, &lanes);
     hand.take(KeysEvent::Move(at(132.0, 1)), &lanes);
     assert_eq!(hand.dragged().map(|dragged| dragged.by), Some(36.0));
@@ -107,7 +107,7 @@ fn a_box_selects_across_lanes_and_a_click_between_keys_changes_the_ease() {
     assert!(hand.boxed().is_some());
     assert_eq!(hand.take(KeysEvent::Release, &lanes), None);
     assert_eq!(hand.selected().len(), 2);
-    // Between two keys a click changes the way from one to the other, and selects nothing else.
+    // A click between two keys changes the ease from one to the other, and the selection stays.
     let eased = |hand: &mut KeysHand, frame| {
         hand.take(press(None, at(frame, 1)), &lanes);
         time(hand.take(KeysEvent::Release, &lanes))
@@ -115,7 +115,7 @@ fn a_box_selects_across_lanes_and_a_click_between_keys_changes_the_ease() {
     assert_eq!(eased(&mut hand, 30.0), Some(Time::SetEase(vec![apple(0.0)], Ease::Linear)));
     assert_eq!(eased(&mut hand, 80.0), Some(Time::SetEase(vec![apple(60.0)], Ease::Step)));
     assert_eq!(hand.selected().len(), 2);
-    // Behind the last there is no way to change: nothing is selected.
+    // After the last key there is no ease to change: the click selects nothing.
     assert_eq!(eased(&mut hand, 110.0), None);
     assert_eq!(hand.selected(), []);
     assert!(!hand.has_focus());
