@@ -1,4 +1,4 @@
-//! The controls, driven by name, and how they look.
+//! Tests of the controls: what they do, and how they look. Controls are found by name.
 
 mod headless;
 mod page;
@@ -26,12 +26,12 @@ fn harness(theme: Theme) -> Harness<'static, Page> {
         .build_ui_state(|ui, page: &mut Page| page.ui(ui), Page::new(theme))
 }
 
-/// Other drivers round colours differently; a control out of place or of another colour is far more than this.
+/// Room for drivers that round colours differently; a misplaced or recoloured control is far over it.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }
 
-/// Compares the left and the right half of the page, so that no golden is large.
+/// Compares the left and the right half of the page separately, so that no stored picture is large.
 fn halves(harness: &mut Harness<'_, Page>, name: &str, results: &mut SnapshotResults) {
     let page = harness.render().expect("it renders");
     let (width, height) = (page.width() / 2, page.height());
@@ -157,7 +157,7 @@ fn a_drag_on_a_number_is_one_step() {
     }
     harness.drop_at(middle + vec2(40.0, 0.0));
     harness.run();
-    // 132 points are the whole range of 99.
+    // A drag over 132 points covers the whole range of 99.
     assert_eq!(harness.state().length_px, 34.0 + 40.0 * 99.0 / 132.0);
     let edits = &harness.state().edits;
     assert_eq!(edits.iter().filter(|edit| **edit == "began").count(), 1, "{edits:?}");
@@ -230,7 +230,7 @@ fn a_click_types_and_a_double_click_brings_the_default_back() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     harness.state_mut().coverage = 5.0;
-    // The clock of a test goes in large steps.
+    // The test's clock moves in large steps, so the delay has to be long.
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
     harness.run();
     let middle = harness.get_by_label("Coverage").rect().center();

@@ -1,4 +1,4 @@
-//! Frames in files: written whole, stopped, kept, and refused by the disk.
+//! Tests of rendering into files: frames are written whole, stopped, left as they are, and refused by the disk.
 
 use std::path::Path;
 
@@ -74,7 +74,7 @@ fn what_is_stopped_leaves_whole_frames_and_nothing_else() {
 #[test]
 fn an_error_names_frame_and_file_and_leaves_the_frames_before() {
     let folder = tempfile::tempdir().unwrap();
-    // Nothing can take the place of a folder.
+    // A file cannot replace a folder.
     std::fs::create_dir_all(folder.path().join("f_01.png/in the way")).unwrap();
     let rendering = Rendering::start(plan(folder.path(), "0-2"), Default::default(), || ()).unwrap();
     assert!(rendering.wait(LONG));

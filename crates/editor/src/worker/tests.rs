@@ -1,4 +1,4 @@
-//! The painting thread: which pictures come, in which order, and what it gives up.
+//! Tests of the painting thread: which pictures come, in which order, and which work it gives up.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -34,7 +34,7 @@ fn view(loaded: &LoadedScene, frame: f64) -> ViewJob {
     }
 }
 
-/// A worker, and what wakes the window.
+/// A worker, and the receiver of its calls that wake the window.
 fn worker() -> (Worker, mpsc::Receiver<()>) {
     let (sender, woken) = mpsc::channel();
     let sender = Mutex::new(sender);
@@ -42,7 +42,7 @@ fn worker() -> (Worker, mpsc::Receiver<()>) {
     (Worker::new(Driver::Auto, wake).unwrap(), woken)
 }
 
-/// Everything that is told until a report for which `last` holds.
+/// All reports up to and including the first for which `last` holds.
 fn until(worker: &(Worker, mpsc::Receiver<()>), last: impl Fn(&Report) -> bool) -> Vec<Report> {
     let mut told = Vec::new();
     let began = Instant::now();
@@ -141,18 +141,18 @@ fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
     let glimpse = pictures(&told)[0];
     assert!(!glimpse.exact && glimpse.strokes == 0);
     let small = ViewJob { size_px: glimpse.image.size.map(|side| side as u32), ..view(&loaded, 3.0) };
-    // A draft's shadows have hard edges.
+    // Drafts differ a little: their shadows have hard edges.
     let (seen, exact) = (bytes(glimpse), rendered(&loaded, &small, Some(Style::Reference)));
     let differs: usize = seen.iter().zip(&exact).map(|(one, other)| usize::from(one.abs_diff(*other))).sum();
     assert!(differs < 2 * seen.len(), "{differs} over {} bytes", seen.len());
     until(&worker, is_exact);
-    // An edit leaves the meshes as they were: the strokes stay in the picture.
+    // This edit leaves the meshes as they were, so the strokes stay in the picture.
     worker.0.show(job(2));
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.strokes > 0));
 }
 
-/// A viewport that is higher than the shot shows the shot in its middle as a file would get it, strokes and all.
+/// A viewport that is taller than the shot shows the shot in its middle exactly as in a file, strokes included.
 #[test]
 fn a_wider_picture_holds_the_shot() {
     let loaded = scene();
@@ -172,7 +172,7 @@ fn a_wider_picture_holds_the_shot() {
     assert_eq!(picture.image.size, [160, 130]);
     let middle = &bytes(picture)[20 * 160 * 4..110 * 160 * 4];
     let shot = rendered(&loaded, &alone, None);
-    // What lies outside the shot reaches in at its border: shade, strokes, the light on them.
+    // At the border, shade, strokes and light from outside the shot reach into it.
     let differ = middle.iter().zip(&shot).filter(|(one, other)| one.abs_diff(**other) > 24).count();
     assert!(differ * 100 < shot.len(), "{differ} of {}", shot.len());
 }
@@ -190,11 +190,11 @@ fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
         &worker,
         |report| matches!(report, Report::Picture(picture) if picture.view.frame == last_frame && picture.strokes > 0),
     );
-    // The job that was worked on, if any, and the last one: the others never reached the thread.
+    // Pictures of the job at work, if any, and of the last one; the thread never took the others.
     assert!(pictures(&told).len() <= 13);
     let first = *pictures(&told).last().unwrap();
     assert!(!first.exact && first.image.size[0] < 160, "{:?}", first.image.size);
-    // The hand lets go: the same view again, now exact.
+    // When the drag ends, the same view comes again, now exact.
     worker.0.show(Job { loaded: Arc::clone(&loaded), serial: 1, views: vec![view(&loaded, last_frame)] });
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.exact), "the draft stands there already");
@@ -260,7 +260,7 @@ fn a_panic_is_told_and_the_next_job_is_drawn() {
     let sender = Mutex::new(sender);
     let calls = AtomicUsize::new(0);
     let wake = move || {
-        // The first call comes from the midst of the work.
+        // The first call comes while a job is at work.
         if calls.fetch_add(1, Ordering::Relaxed) == 0 {
             panic!("planted");
         }

@@ -1,4 +1,4 @@
-//! The scene tree.
+//! Tests of the scene tree.
 
 use std::path::Path;
 
@@ -73,7 +73,7 @@ fn things_are_renamed_in_the_tree_and_in_the_head() {
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(harness.state().document.undo_text(), Some("Rename to rind"));
-    // Escape leaves the name.
+    // Escape keeps the old name.
     assert!(panels::rename(&ctx, &harness.state().document));
     harness.run();
     harness.event(egui::Event::Text("pith".to_owned()));

@@ -9,7 +9,7 @@ use crate::load::parse;
 use crate::mesh_file::Material;
 use crate::problem::Severity::{Error, Limit, Warning};
 
-/// A scene of the given fields beside a camera and objects that are right, where the fields do not bring their own.
+/// A scene with these fields, and with a valid camera and objects where the fields bring none.
 fn scene(fields: &str) -> Scene {
     let mut text = format!("(version: 1, {fields}");
     if !fields.contains("camera:") {
@@ -157,7 +157,7 @@ fn parents_exist_and_lead_to_a_root() {
     };
     assert_finds(&objects(&[("b", "a"), ("a", "root")]), &[]);
     assert_finds(&objects(&[("a", "a")]), &[(Error, "objects[0].parent")]);
-    // One finding per cycle, however many hang on it, and none for those that only lead into it.
+    // One finding per cycle, whatever its length, and none for objects whose parents only lead into it.
     assert_finds(
         &objects(&[("d", "b"), ("a", "c"), ("b", "a"), ("c", "b"), ("e", "d")]),
         &[(Error, "objects[1].parent")],

@@ -1,4 +1,4 @@
-//! Dialogs of the desktop that answer, are missing, break or never come.
+//! Tests of the desktop's file dialogs: ones that answer, are missing, break or never appear.
 
 use std::fs;
 use std::thread::sleep;
@@ -43,12 +43,12 @@ fn has_sheet(harness: &Harness<'_, Page>) -> bool {
     harness.query_by_label("File name").is_some()
 }
 
-/// The dialog hangs until the window offers its own.
+/// Waits, while the desktop's dialog hangs, until the window offers its own.
 fn wait_for_offer(harness: &mut Harness<'_, Page>) {
     let open = harness.state_mut().dialogs.open.as_mut().expect("open");
     open.since = open.since.checked_sub(PATIENCE).expect("a clock that runs");
     wait(harness, |harness| harness.query_by_label("Choose here instead").is_some());
-    // The bar knows its width after a pass, and where it stands after another.
+    // The bar knows its width after one pass, and its place after the next.
     harness.run_steps(2);
 }
 

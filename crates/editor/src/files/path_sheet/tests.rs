@@ -1,4 +1,4 @@
-//! The window's own file dialog, driven by name.
+//! Tests of the window's own file dialog; controls are found by their names.
 
 use std::fs;
 

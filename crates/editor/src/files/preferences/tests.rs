@@ -1,4 +1,4 @@
-//! Preferences are read back as they were saved; a broken file does no harm.
+//! Tests of preferences: they are read back as saved, and a broken file does no harm.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! The options bar has room for long words at every width.
+//! Tests that the options bar has room for long words at every width.
 
 use egui::{Rect, accesskit, pos2, vec2};
 use impasto_editor_model::keymap::Preset;
@@ -9,7 +9,7 @@ use super::*;
 use crate::panels::Numbers;
 use crate::theme::{self, Theme};
 
-/// As long as German says it, or longer.
+/// Words as long as the German ones, or longer.
 fn german(words: &'static str) -> &'static str {
     match words {
         "Along" => "Entlang",
@@ -45,7 +45,7 @@ fn german(words: &'static str) -> &'static str {
     }
 }
 
-/// The boxes of all controls of a bar `wide` points across, by name.
+/// The rectangles of all controls of a bar that is `wide` points wide, by name.
 fn boxes(session: &Session, (wide, window): (f32, f32), say: Say) -> Vec<(String, Rect)> {
     let ctx = egui::Context::default();
     ctx.enable_accesskit();
@@ -114,7 +114,7 @@ fn sessions() -> Vec<Session> {
 
 #[test]
 fn long_words_are_never_cut_and_never_overlap() {
-    // The bar beside the column at both sizes of the design, and in the smallest window.
+    // Beside the column in the two window sizes of the design, and in the smallest window.
     for (wide, window) in [(1000.0, 1280.0), (1584.0, 1920.0), (960.0, 960.0)] {
         for session in sessions() {
             for say in [german as Say, |words| words] {

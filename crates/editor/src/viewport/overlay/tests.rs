@@ -1,4 +1,4 @@
-//! Overlays are judged by the shapes that they draw.
+//! Tests of overlays by the shapes that they draw.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,12 +26,12 @@ fn view() -> View {
     View { camera, size_px: DVec2::new(400.0, 225.0) }
 }
 
-/// What something draws, flat.
+/// The shapes that `draw` makes, as one flat list.
 fn drawn(draw: impl Fn(&Sheet<'_>)) -> Vec<Shape> {
     let ctx = egui::Context::default();
     crate::theme::apply(&ctx, crate::theme::Theme::Dark, 1.0);
     let view = view();
-    // Fonts come with the second pass.
+    // Fonts are loaded from the second pass on.
     let mut shapes = Vec::new();
     for _ in 0..2 {
         let output = ctx.run_ui(egui::RawInput::default(), |ui| {
@@ -171,7 +171,7 @@ fn what_the_map_shows_is_what_rays_meet() {
         }
     }
     assert!(seen > 1000, "{seen}");
-    // A cell's middle on an edge may go to either face.
+    // A cell whose middle lies on an edge may belong to either face.
     assert!(other * 200 < columns * rows, "{other} of {}", columns * rows);
 }
 
@@ -197,7 +197,7 @@ fn a_guide_shows_only_where_its_surface_faces_the_eye() {
     let shown = GuideCurve::seen(&line, &line[..1], &sight);
     assert_eq!((shown.runs_px.len(), shown.handles_px.len(), shown.end_shows), (1, 1, true));
     assert!((shown.handles_px[0].1 - DVec2::new(150.0, 90.0)).length() < 1e-6);
-    // The other side of the body, and a point behind it.
+    // The back of the body, and a point behind it.
     let turned: Vec<[DVec3; 2]> = line.iter().map(|&[at, normal]| [at, -normal]).collect();
     assert!(GuideCurve::seen(&turned, &turned, &sight).runs_px.is_empty());
     let gaze = view.axes()[2];
