@@ -1,4 +1,4 @@
-//! Wrong arrows planted in small workspaces of their own, judged through the real `cargo metadata`.
+//! Tests of the layer check: wrong arrows are planted in small workspaces and judged through the real `cargo metadata`.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ const ARCHITECTURE: &str = "\
 <!-- outside:end -->
 ";
 
-/// A workspace with these crates: folder name, and its dependencies as Cargo.toml lines.
+/// Writes a workspace with these crates: folder names, and their dependencies as Cargo.toml lines.
 fn workspace(root: &Path, crates: &[(&str, &str)]) {
     let write = |path: &str, text: &str| {
         let path = root.join(path);
@@ -29,7 +29,7 @@ fn workspace(root: &Path, crates: &[(&str, &str)]) {
     };
     write("Cargo.toml", "[workspace]\nresolver = \"3\"\nmembers = [\"crates/*\"]\nexclude = [\"outside\"]\n");
     write("ARCHITECTURE.md", ARCHITECTURE);
-    // Outside crates stand in as path dependencies that are no members.
+    // Outside crates are replaced by path dependencies that are not members.
     for outside in ["glow", "middle"] {
         let dependencies = if outside == "middle" { "[dependencies]\nglow.path = \"../glow\"" } else { "" };
         let manifest = format!(
@@ -97,7 +97,7 @@ fn every_crate_has_a_row_and_every_row_a_crate() {
     assert!(error.contains("row for impasto-tests"), "{error}");
 }
 
-/// What is said of a crate with these files under `src`.
+/// The circles that are reported for a crate with these files under `src`.
 fn circles_in(files: &[(&str, &str)]) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, text) in files {
@@ -164,7 +164,7 @@ fn what_is_handed_on_comes_from_where_it_stands() {
         ("a/c.rs", "use crate::a::B; pub struct C(B);"),
     ]);
     assert!(found.len() == 1 && found[0].contains("a/c.rs uses `B` of a/b.rs"), "{found:?}");
-    // To hand something on is not to use it.
+    // A re-export alone is not a use.
     let found = circles_in(&[
         ("lib.rs", "mod a; mod b;"),
         ("a.rs", "pub use crate::b::B; pub struct A;"),

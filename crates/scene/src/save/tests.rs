@@ -1,3 +1,5 @@
+//! Tests of saving: what is saved reads back equal, reads like a person's file, and replaces the old file whole.
+
 mod any;
 
 use std::path::Path;
