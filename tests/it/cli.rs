@@ -335,7 +335,7 @@ fn info_doctor_and_completions_answer() {
 }
 
 #[test]
-fn edit_says_what_it_lacks() {
+fn edit_says_what_is_missing() {
     let folder = Folder::new();
     std::fs::write(folder.path("chair.glb"), "").unwrap();
     for (arguments, exit, told) in [

@@ -40,7 +40,7 @@ fn cut_quads_look_as_whole_ones_do() {
 
 /// Counts all fragments of the cut quads, also those that lay no paint, against the area of whole quads.
 #[test]
-fn fewer_pixels_are_asked_for_paint() {
+fn cut_quads_cover_fewer_pixels() {
     const NOTHING: &str = "if (alpha <= 0.0) discard;";
     assert!(FRAGMENTS.contains(NOTHING));
     let mut counted = ShaderTexts::default();

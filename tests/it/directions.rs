@@ -426,7 +426,7 @@ fn strokes_ride_a_morph_and_turn_with_it() {
 }
 
 #[test]
-fn sizes_follow_the_surface_as_far_as_they_are_told() {
+fn sizes_follow_the_surface_as_far_as_size_follow_says() {
     let sizes = |follow: f64| {
         let mut scene = combed(Direction::Up, Vec::new(), 6000);
         scene.strokes = StrokeSettings { size_follow: Some(follow), ..scene.strokes };

@@ -59,7 +59,7 @@ fn shipped_scenes_look_as_they_did_on_either_driver() {
 
 /// One stroke of 14 × 4 pixels, a little too light, is enough to fail.
 #[test]
-fn a_planted_stroke_is_no_golden() {
+fn a_planted_stroke_fails_the_golden() {
     for &(technique, scene, _) in SHOWN {
         let golden = read(&root().join(format!("tests/goldens/{technique}/{scene}.png")));
         assert!(Off::of(&golden, &golden).is_small(), "{scene}");

@@ -59,7 +59,7 @@ fn is_near(found: DVec2, wanted: DVec2, most: f64) -> bool {
 }
 
 #[test]
-fn row_4_there_and_back_in_convex_quads_of_all_kinds() {
+fn there_and_back_in_convex_quads_of_all_kinds() {
     for kind in KINDS {
         let mut worst = 0.0_f64;
         for index in 0..20_000 {
@@ -74,7 +74,7 @@ fn row_4_there_and_back_in_convex_quads_of_all_kinds() {
 }
 
 #[test]
-fn row_5_the_sources_root_is_wrong_wherever_the_corner_turns_left() {
+fn the_sources_root_is_wrong_wherever_the_corner_turns_left() {
     let (mut right, mut wrong) = (0, 0);
     for index in 0..20_000 {
         let corners = convex(index, Kind::General);
@@ -92,14 +92,14 @@ fn row_5_the_sources_root_is_wrong_wherever_the_corner_turns_left() {
 }
 
 #[test]
-fn row_5_the_sources_root_has_no_value_on_parallelograms() {
+fn the_sources_root_has_no_value_on_parallelograms() {
     let square = [DVec2::ZERO, DVec2::Y, DVec2::X, DVec2::ONE];
     assert!(as_the_source_has_it(DVec2::new(0.25, 0.75), square).is_nan());
     assert_eq!(inverse_bilinear(DVec2::new(0.25, 0.75), square), DVec2::new(0.75, 0.25));
 }
 
 #[test]
-fn row_7_corners_are_exact_in_both_windings() {
+fn corners_are_exact_in_both_windings() {
     let wanted = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
     let quad = [DVec2::new(3.0, 1.0), DVec2::new(11.0, 2.0), DVec2::new(2.0, 8.0), DVec2::new(9.0, 13.0)];
     // Wound the other way, p₁ and p₂ are swapped, and so are u and v.
@@ -143,7 +143,7 @@ fn inside_a_concave_quad_every_point_has_its_place() {
 }
 
 #[test]
-fn no_quad_and_no_point_gives_more_than_a_bounded_number() {
+fn every_quad_and_point_gives_a_bounded_number() {
     let coordinates = [0.0, 1.0, -1.0, 1e-30, 5e8, -1e30];
     let pick = |index: u32, which: u32| coordinates[(chance(index, which) * 6.0) as usize];
     for index in 0..200_000 {
@@ -199,7 +199,7 @@ const MOVED: [DVec2; 4] =
     [DVec2::new(0.0, 0.0), DVec2::new(100.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 40.0)];
 
 #[test]
-fn row_6_two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() {
+fn two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() {
     for corners in [SQUARE, SHEARED] {
         assert!(jump_over_the_diagonal(on_two_triangles, corners) < 1e-6);
         assert!(jump_over_the_diagonal(inverse_bilinear, corners) < 1e-6);
@@ -211,7 +211,7 @@ fn row_6_two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_n
 }
 
 #[test]
-fn row_8_the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
+fn the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
     assert!(jump_over_the_diagonal(projective, MOVED) < 1e-3);
     // A quarter along the bottom edge: a neighbour below does not share this quad's upper corners.
     let quarter = MOVED[0].lerp(MOVED[1], 0.25);

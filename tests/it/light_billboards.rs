@@ -66,7 +66,7 @@ fn difference(a: &Picture, b: &Picture) -> Option<([f32; 2], [f32; 2], f64)> {
 }
 
 #[test]
-fn row_1_an_icon_is_where_its_light_projects_to() {
+fn an_icon_is_where_its_light_projects_to() {
     let mut renderer = renderer(Driver::Egl);
     let frame = frame();
     let bare = renderer.render(&frame).unwrap();
@@ -82,7 +82,7 @@ fn row_1_an_icon_is_where_its_light_projects_to() {
 }
 
 #[test]
-fn row_2_corners_lie_on_a_plane_across_the_gaze_along_the_cameras_right_and_up() {
+fn corners_lie_on_a_plane_across_the_gaze_along_the_cameras_right_and_up() {
     let frame = frame();
     let view = &frame.view;
     let [right, up, back] = [0, 1, 2].map(|row| view.view_from_world.row(row).truncate());
@@ -97,7 +97,7 @@ fn row_2_corners_lie_on_a_plane_across_the_gaze_along_the_cameras_right_and_up()
 }
 
 #[test]
-fn row_2_of_the_two_sizes_one_is_kept_in_the_world_and_one_in_the_picture() {
+fn icons_keep_their_size_in_the_world_or_in_the_picture() {
     let frame = frame();
     let width = |size: BillboardSize, z: f32| {
         let billboard = LightBillboard { size, ..lamp(Vec3::new(0.0, 0.0, z)) };
@@ -121,7 +121,7 @@ fn in_a_parallel_picture_icons_have_their_size_too() {
 }
 
 #[test]
-fn what_stands_in_front_dims_an_icon_and_what_stands_behind_does_not() {
+fn bodies_in_front_dim_an_icon_and_bodies_behind_do_not() {
     let mut renderer = renderer(Driver::Egl);
     let frame = frame();
     let bare = renderer.render(&frame).unwrap();

@@ -62,7 +62,7 @@ fn at_key(translation: [f64; 3]) -> Vec<ObjectKey> {
 }
 
 #[test]
-fn row_4_vertices_move_as_in_the_sources_shader() {
+fn vertices_move_as_in_the_sources_shader() {
     for space in [NoiseSpace::World, NoiseSpace::Local] {
         let noise = VertexNoise { space, value: [0.37, 0.21], scale: 0.4, ..Default::default() };
         let mut scene = ball(moved_by(noise));
@@ -86,7 +86,7 @@ fn row_4_vertices_move_as_in_the_sources_shader() {
 }
 
 #[test]
-fn row_2_a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
+fn a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
     for (space, changes) in [(NoiseSpace::World, true), (NoiseSpace::Local, false)] {
         let scene = || ball(moved_by(VertexNoise { space, ..Default::default() }));
         let mut there = scene();
@@ -96,7 +96,7 @@ fn row_2_a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
 }
 
 #[test]
-fn row_3_time_scrolls_the_texture() {
+fn time_scrolls_the_texture() {
     // 24 frames scroll by 1/20 of the texture, as if every place were 0.05 / NV further along X and Y.
     let noise = VertexNoise { space: NoiseSpace::World, value: [0.1, 0.2], ..Default::default() };
     let scene = || ball(moved_by(noise.clone()));
@@ -110,7 +110,7 @@ fn row_3_time_scrolls_the_texture() {
 }
 
 #[test]
-fn row_4_a_half_taken_away_leaves_no_drift() {
+fn subtracting_a_half_leaves_no_drift() {
     // A sheet that covers the texture once.
     let noise = VertexNoise { space: NoiseSpace::Local, value: [0.5, 0.5], scale: 0.4, ..Default::default() };
     let mut scene = ball(moved_by(noise));
@@ -125,7 +125,7 @@ fn row_4_a_half_taken_away_leaves_no_drift() {
 }
 
 #[test]
-fn row_5_a_greater_value_is_a_busier_motion() {
+fn a_greater_value_is_a_busier_motion() {
     // The mean difference of neighbours, divided by the mean displacement.
     let busy = |value: f64| {
         let moves = moves(ball(moved_by(VertexNoise { value: [value; 2], ..Default::default() })), 0.0);
@@ -136,7 +136,7 @@ fn row_5_a_greater_value_is_a_busier_motion() {
 }
 
 #[test]
-fn row_6_the_scale_is_the_amplitude() {
+fn the_scale_is_the_amplitude() {
     let of = |scale: f64| moves(ball(moved_by(VertexNoise { scale, ..Default::default() })), 5.0);
     let (small, large) = (of(0.1), of(0.25));
     let worst = small.iter().zip(&large).map(|(a, b)| (*a * 2.5).distance(*b)).fold(0.0, f64::max);

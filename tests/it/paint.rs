@@ -136,7 +136,7 @@ fn a_picture_of_ones_own_is_a_brush() {
 }
 
 #[test]
-fn a_brush_that_is_none_is_told() {
+fn a_picture_that_cannot_be_a_brush_is_reported() {
     let whole = png_of(64, |x, _| x as u8);
     let cases: [(&str, Vec<u8>, &str); 5] = [
         ("empty", Vec::new(), "mark.png"),

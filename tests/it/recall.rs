@@ -26,7 +26,7 @@ fn places(frame: &Frame) -> BTreeSet<u32> {
 }
 
 #[test]
-fn what_there_was_is_asked_at_once_and_the_rest_within_sixteen_pictures() {
+fn present_strokes_are_drawn_at_once_and_the_others_within_sixteen_pictures() {
     let painting = still_life();
     let all = seen(&painting, None);
     assert!(all.strokes.len() > 10_000, "{}", all.strokes.len());
@@ -66,7 +66,7 @@ fn large_strokes_are_late_by_one_picture_at_most() {
 }
 
 #[test]
-fn another_painting_is_asked_for_all() {
+fn another_painting_draws_all_its_strokes() {
     let painting = still_life();
     let none = Recall::of(&painting, &seen(&painting, None), |_| false, 0);
     let again = still_life();

@@ -192,7 +192,7 @@ fn two_bodies(ink: SumiE) -> (Scene, [TriangleMesh; 2]) {
 }
 
 #[test]
-fn row_1_to_6_the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
+fn the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
     let ink = SumiE { tones: [0.1, 0.4, 0.7, 0.95], ..source() };
     for driver in [Driver::Egl, Driver::Osmesa] {
         let mut renderer = renderer(driver);
@@ -240,7 +240,7 @@ fn row_1_to_6_the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
 }
 
 #[test]
-fn row_1_the_silhouette_lies_between_its_two_cosines() {
+fn the_silhouette_lies_between_its_two_cosines() {
     let mut renderer = renderer(Driver::Egl);
     let mut scene = scene_in(SumiE { tones: [1.0; 4], ..source() });
     scene.size = (640, 360);
@@ -257,7 +257,7 @@ fn row_1_the_silhouette_lies_between_its_two_cosines() {
 }
 
 #[test]
-fn row_2_the_low_pass_has_nine_taps_two_apart() {
+fn the_low_pass_has_nine_taps_two_apart() {
     let mut renderer = renderer(Driver::Egl);
     let mut scene = scene_in(SumiE { tones: [0.0; 4], ..source() });
     // A cube of 0.6 pixels in the middle of a pixel; its front face has no silhouette.
@@ -278,7 +278,7 @@ fn row_2_the_low_pass_has_nine_taps_two_apart() {
 }
 
 #[test]
-fn row_3_the_highlight_stays_with_the_eye_or_with_the_scene() {
+fn the_highlight_stays_with_the_eye_or_with_the_scene() {
     let mut renderer = renderer(Driver::Egl);
     let mut from = |ink: SumiE, degrees: f64| {
         let mut scene = scene_in(ink);
@@ -298,7 +298,7 @@ fn row_3_the_highlight_stays_with_the_eye_or_with_the_scene() {
 }
 
 #[test]
-fn row_4_four_tones_with_soft_steps() {
+fn four_tones_with_soft_steps() {
     let mut renderer = renderer(Driver::Egl);
     let tones = [0.2, 0.4, 0.6, 0.8];
     let ink = SumiE { tones, softness: 0.03, silhouette_from: 0.0, silhouette_to: 1e-3, ..source() };
@@ -326,7 +326,7 @@ fn row_4_four_tones_with_soft_steps() {
 }
 
 #[test]
-fn row_5_inks_and_paper_add_up() {
+fn inks_and_paper_add_up() {
     let mut renderer = renderer(Driver::Egl);
     let tinted = SumiE { rule: InkRule::Source, ..SumiE::default() };
     let plain = drawn(&mut renderer, scene_in(source()));
@@ -342,7 +342,7 @@ fn row_5_inks_and_paper_add_up() {
 }
 
 #[test]
-fn row_6_only_the_source_wraps_at_the_edge() {
+fn only_the_source_wraps_at_the_edge() {
     let mut renderer = renderer(Driver::Egl);
     let mut left = |ink: SumiE| {
         let (scene, meshes) = two_bodies(ink);
@@ -355,7 +355,7 @@ fn row_6_only_the_source_wraps_at_the_edge() {
 }
 
 #[test]
-fn row_7_targets_are_white_and_of_the_pictures_size() {
+fn targets_are_white_and_of_the_pictures_size() {
     let mut renderer = renderer(Driver::Egl);
     for ink in [source(), wash()] {
         let ball = painting(scene_in(ink.clone()), [shapes::sphere(32, 16)]);
@@ -375,7 +375,7 @@ fn row_7_targets_are_white_and_of_the_pictures_size() {
 }
 
 #[test]
-fn row_8_any_model_can_be_drawn() {
+fn any_model_can_be_drawn() {
     let mut renderer = renderer(Driver::Egl);
     for name in ["apple", "fish", "turntable"] {
         for style in ["SumiE(rule: Source)", "SumiE(accent: 0)"] {

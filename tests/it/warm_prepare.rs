@@ -163,7 +163,7 @@ fn a_warm_prepare_gives_the_bits_of_a_cold_one() {
 }
 
 #[test]
-fn what_was_given_up_half_way_is_prepared_to_the_same_bits_after() {
+fn preparing_again_after_giving_up_gives_the_same_bits() {
     let mut preparer = Preparer::default();
     preparer.prepare(start()).unwrap();
     let mut given_up = 0;

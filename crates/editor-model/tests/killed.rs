@@ -40,7 +40,7 @@ fn painter() {
 }
 
 #[test]
-fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
+fn nothing_written_is_lost_when_killed_at_any_moment() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = folder.path().join("s.ron");
     let place = folder.path().join("recovery");

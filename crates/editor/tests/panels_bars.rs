@@ -219,7 +219,7 @@ fn what_cannot_be_done_is_not_asked_for() {
 }
 
 #[test]
-fn files_of_late_open_again_and_the_render_command_can_be_copied() {
+fn recent_files_open_again_and_the_render_command_can_be_copied() {
     let mut harness = paint();
     click(&mut harness, "File");
     click(&mut harness, "Open recent");
@@ -280,7 +280,7 @@ fn tools_are_taken_up_and_keep_their_settings() {
 }
 
 #[test]
-fn what_has_no_room_stands_behind_the_button() {
+fn settings_without_room_are_behind_the_button() {
     let mut harness = paint();
     assert!(harness.query_by_label("Even falloff").is_none());
     click(&mut harness, "More tool options");

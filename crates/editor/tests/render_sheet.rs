@@ -209,7 +209,7 @@ struct Line {
 }
 
 #[test]
-fn what_takes_its_time_stands_in_the_status_line_and_can_be_stopped() {
+fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
     let work = |words: &str, share, kind| Work { words: words.to_owned(), share, kind };
     let line = Line {
         document: Document::empty(Path::new("/pictures/pears")),

@@ -265,7 +265,7 @@ fn arrows_and_readers_step_a_number_and_its_reset_brings_it_back() {
 }
 
 #[test]
-fn words_stand_under_a_wrong_number() {
+fn an_explanation_is_shown_under_a_wrong_number() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     let before = harness.get_by_label("Coverage").rect().top();
@@ -308,7 +308,7 @@ fn a_combo_picks_from_its_menu() {
 }
 
 #[test]
-fn enter_does_the_safe_verb_and_escape_cancels() {
+fn enter_takes_the_safe_answer_and_escape_cancels() {
     for (key, answer) in [(Key::Enter, 2), (Key::Escape, 1)] {
         let mut harness = harness(Theme::Dark);
         harness.state_mut().asks = true;
@@ -355,7 +355,7 @@ fn tab_is_the_apps_until_something_has_the_focus() {
 }
 
 #[test]
-fn space_presses_nothing_after_a_click() {
+fn space_does_not_press_a_button_after_a_click() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     let at = harness.get_by_label("Loop").rect().center();

@@ -53,7 +53,7 @@ fn moments(picture: &Picture) -> [f64; 2] {
 }
 
 #[test]
-fn row_7_layers_are_those_of_the_sources_shader_on_either_driver() {
+fn layers_are_those_of_the_sources_shader_on_either_driver() {
     let tint = Color([1.0, 0.75, 0.4]);
     let tint_linear = [255u8, 191, 102].map(linear);
     let mut renderers = [Driver::Egl, Driver::Osmesa].map(|driver| (driver, renderer(driver)));
@@ -103,7 +103,7 @@ fn row_7_layers_are_those_of_the_sources_shader_on_either_driver() {
 }
 
 #[test]
-fn row_7_directions_are_turned_round() {
+fn directions_are_turned_round() {
     let mut renderer = renderer(Driver::Egl);
     let mut of = |forward, frame| {
         drawn(sheet(SurfaceNoise { forward, layer_count: 3, ..Default::default() }), frame, &mut renderer)
@@ -113,7 +113,7 @@ fn row_7_directions_are_turned_round() {
 }
 
 #[test]
-fn row_1_and_9_one_layer_is_the_tint_alone_and_light_changes_nothing() {
+fn one_layer_is_the_tint_alone_and_light_changes_nothing() {
     let mut renderer = renderer(Driver::Egl);
     let surface = SurfaceNoise { layer_count: 1, tint: Color([0.8, 0.4, 0.2]), ..Default::default() };
     let flat = drawn(sheet(surface.clone()), 5.0, &mut renderer);
@@ -133,7 +133,7 @@ fn row_1_and_9_one_layer_is_the_tint_alone_and_light_changes_nothing() {
 }
 
 #[test]
-fn row_1_what_is_behind_is_seen_through_as_much_as_alpha_says() {
+fn what_is_behind_is_seen_through_as_much_as_alpha_says() {
     let mut scene = sheet(SurfaceNoise {
         layer_count: 1,
         tint: Color([1.0, 0.0, 0.0]),
@@ -213,7 +213,7 @@ fn grey(surface: SurfaceNoise, grey: u8, renderer: &mut Renderer) -> Picture {
 }
 
 #[test]
-fn row_8_more_layers_are_darker_unless_the_mean_is_kept() {
+fn more_layers_are_darker_unless_the_mean_is_kept() {
     let mut renderer = renderer(Driver::Egl);
     let g = 128.0 / 255.0_f64;
     for layer_count in [2, 4, 10, 22] {
@@ -239,7 +239,7 @@ fn row_8_more_layers_are_darker_unless_the_mean_is_kept() {
 }
 
 #[test]
-fn row_9_many_layers_are_harder_and_other_patterns() {
+fn many_layers_are_harder_and_other_patterns() {
     let mut renderer = renderer(Driver::Egl);
     let contrast = |layer_count: u32| {
         let surface = SurfaceNoise { layer_count, tiling: [0.8; 2], ..Default::default() };

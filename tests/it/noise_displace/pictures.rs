@@ -11,7 +11,7 @@ use impasto_tests::scenes;
 use crate::hostile_scenes::{load_in_folder, scene_text};
 
 #[test]
-fn row_10_every_body_of_the_shipped_scenes_is_seen() {
+fn every_body_of_the_shipped_scenes_is_seen() {
     for (scene, frame) in [("noise_displace", 12.0), ("explosion", 30.0)] {
         let painting = scenes::painting(scene);
         let mut renderer = renderer(Driver::Egl);

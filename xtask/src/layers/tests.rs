@@ -73,7 +73,7 @@ fn a_planted_wrong_arrow_is_named() {
 }
 
 #[test]
-fn an_arrow_of_the_tests_alone_is_an_arrow_too() {
+fn a_dev_dependency_is_an_arrow_too() {
     let core = ("core", "[dev-dependencies]\nimpasto-tests.path = \"../tests\"");
     let error = verdict(&[core, SCENE, ("tests", "")]).expect_err("core may use nothing");
     assert!(error.contains("impasto-core -> impasto-tests"), "{error}");
@@ -156,7 +156,7 @@ fn a_child_may_use_its_parent_but_not_in_a_circle_through_others() {
 }
 
 #[test]
-fn what_is_handed_on_comes_from_where_it_stands() {
+fn a_re_export_counts_as_the_file_that_defines_it() {
     let found = circles_in(&[
         ("lib.rs", "mod a;"),
         ("a/mod.rs", "mod b; mod c; pub use b::B;"),

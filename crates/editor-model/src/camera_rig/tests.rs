@@ -153,7 +153,7 @@ fn axis_views_are_upright() {
 }
 
 #[test]
-fn parallel_rays_and_back() {
+fn orthographic_and_back_keeps_the_size_of_the_picture() {
     for mut view in views() {
         let before = view.clone();
         let size = view.view(SIZE_PX).px_per_unit(view.pose().target);

@@ -102,7 +102,7 @@ fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
 }
 
 #[test]
-fn another_mesh_settles_a_missing_one_and_undo_brings_the_box_back() {
+fn choosing_another_mesh_replaces_a_missing_one_and_undo_brings_the_box_back() {
     let folder = Folder::with(&scene("lost.obj", ""));
     let mut document = folder.open();
     let rows = document.problems();
@@ -136,7 +136,7 @@ fn a_guide_off_its_surface_is_listed_and_snaps_to_it() {
 }
 
 #[test]
-fn what_somebody_else_wrote_is_not_saved_over_and_can_be_read_again() {
+fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     let folder = Folder::with(&scene("meshes/leaf.obj", ""));
     let mut document = folder.open();
     document.apply(&seed(1)).expect("done");

@@ -98,7 +98,7 @@ fn one_drag_is_previewed_and_becomes_one_entry() {
 }
 
 #[test]
-fn escape_and_a_lost_focus_leave_no_trace() {
+fn escape_and_a_lost_focus_cancel_without_a_trace() {
     for by_escape in [true, false] {
         let mut editor = with_apple();
         act(&mut editor, Action::Paint);
@@ -138,7 +138,7 @@ fn painting_on_a_locked_region_is_refused_with_a_message() {
 }
 
 #[test]
-fn typed_numbers_move_the_whole_motion() {
+fn a_typed_move_shifts_all_keys() {
     let mut editor = with_apple();
     let name = editor.document().scene().objects[0].name.clone();
     editor.select(Selection::only(Item::Object(name)));

@@ -278,7 +278,7 @@ fn menus_write_keys_as_people_do() {
 }
 
 #[test]
-fn the_pointers_buttons() {
+fn pointer_buttons_orbit_pan_and_zoom() {
     let [ctrl, shift, alt] = ["Ctrl A", "Shift A", "Alt A"].map(|text| chord(text).held);
     let none = Modifiers::default();
     use Navigation::{Orbit, Pan, Zoom};

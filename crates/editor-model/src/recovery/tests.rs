@@ -89,7 +89,7 @@ fn the_copy_of_a_living_session_is_not_offered_and_one_copy_not_twice() {
 }
 
 #[test]
-fn only_so_many_copies_are_kept_and_what_a_session_left_besides_goes() {
+fn only_the_newest_copies_are_kept_and_litter_of_dead_sessions_is_removed() {
     let folder = tempfile::tempdir().expect("a folder");
     for index in 0..MAX_COPIES + 3 {
         crashed(folder.path(), &format!("{index}-1"), index as u64);
@@ -126,7 +126,7 @@ fn a_copy_that_is_not_whole_is_not_offered() {
 }
 
 #[test]
-fn a_scene_that_is_untitled_or_another_since_is_told_apart() {
+fn copies_of_untitled_scenes_and_of_files_changed_since_are_recognised() {
     let folder = tempfile::tempdir().expect("a folder");
     let scenes = tempfile::tempdir().expect("a folder");
     let own = scenes.path().join("s.ron");
@@ -149,7 +149,7 @@ fn a_scene_that_is_untitled_or_another_since_is_told_apart() {
 }
 
 #[test]
-fn the_thread_keeps_the_last_and_leaves_nothing_that_is_forgotten() {
+fn the_thread_writes_the_last_copy_and_removes_forgotten_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let keeper = Keeper::new(Recovery::open(folder.path(), "1-1").expect("opens")).expect("a thread");
     for at in 1..=30 {

@@ -91,7 +91,7 @@ fn a_command_is_offered_for_a_file_only_and_quoted_for_a_shell() {
 }
 
 #[test]
-fn words_say_how_far_it_is() {
+fn progress_is_put_into_words() {
     let mut progress = RenderProgress {
         stage: Stage::Drawing,
         total: 120,

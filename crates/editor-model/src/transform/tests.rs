@@ -54,7 +54,7 @@ fn shown(transform: &Transforming) -> DVec2 {
 }
 
 #[test]
-fn g_x_and_a_number() {
+fn typing_g_x_and_a_number_moves_along_x() {
     let mut transform = Transforming::new(Operation::Move, start(DVec2::new(300.0, 200.0)));
     transform.take(TransformEvent::Axis(Axis::X));
     assert_eq!(typed(&mut transform, "0.8"), TransformDelta::Move(DVec3::new(0.8, 0.0, 0.0)));
@@ -199,7 +199,7 @@ fn turning_follows_the_pointer_round_more_than_once() {
 }
 
 #[test]
-fn a_turned_axis_is_followed_from_behind_too() {
+fn an_axis_turn_follows_the_pointer_from_behind_too() {
     let mut start = start(DVec2::ZERO);
     // From the other side, +Z points away from the eye.
     start.view.camera.eye = DVec3::new(0.4, 0.3, -6.0);

@@ -79,7 +79,7 @@ fn bytes(picture: &Picture) -> Vec<u8> {
 }
 
 #[test]
-fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
+fn only_the_latest_job_is_taken_and_earlier_ones_are_stale() {
     let loaded = scene();
     let desk = Desk::default();
     let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: Vec::new() };
@@ -98,7 +98,7 @@ fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
 }
 
 #[test]
-fn a_later_job_ends_the_rest_of_the_one_before() {
+fn a_later_job_ends_the_wait_of_the_one_before() {
     let loaded = scene();
     let desk = Desk::default();
     desk.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Vec::new());
@@ -111,7 +111,7 @@ fn a_later_job_ends_the_rest_of_the_one_before() {
 }
 
 #[test]
-fn at_rest_comes_what_a_file_would_get() {
+fn at_rest_the_picture_is_the_one_a_file_would_get() {
     let loaded = scene();
     let worker = worker();
     for (shading, style) in [(Shading::Painted, None), (Shading::Shaded, Some(Style::Reference))] {
@@ -178,7 +178,7 @@ fn a_wider_picture_holds_the_shot() {
 }
 
 #[test]
-fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
+fn drafts_come_during_a_drag_and_the_last_job_is_shown() {
     let loaded = scene();
     let worker = worker();
     let last_frame = 12.0;

@@ -82,7 +82,7 @@ fn without_auto_key_a_pose_stays_at_its_frame_until_it_is_keyed() {
 }
 
 #[test]
-fn a_pose_that_was_left_without_a_key_can_be_taken_up_again() {
+fn an_unkeyed_pose_that_was_left_can_be_brought_back() {
     let (mut editor, name) = animating(60.0);
     editor.session.auto_key = false;
     let before = editor.document().scene().clone();
@@ -226,7 +226,7 @@ fn space_plays_whole_frames_and_any_edit_ends_it() {
 }
 
 #[test]
-fn a_scrub_pauses_and_what_played_plays_on_from_there() {
+fn a_scrub_pauses_and_playback_goes_on_from_there() {
     let (mut editor, _) = animating(0.0);
     for plays in [false, true] {
         if plays {
