@@ -103,7 +103,7 @@ fn layers_are_those_of_the_sources_shader_on_either_driver() {
 }
 
 #[test]
-fn directions_are_turned_round() {
+fn forward_even_and_time_change_the_layers() {
     let mut renderer = renderer(Driver::Egl);
     let mut of = |forward, frame| {
         drawn(sheet(SurfaceNoise { forward, layer_count: 3, ..Default::default() }), frame, &mut renderer)
@@ -239,7 +239,7 @@ fn more_layers_are_darker_unless_the_mean_is_kept() {
 }
 
 #[test]
-fn many_layers_are_harder_and_other_patterns() {
+fn other_layer_counts_give_other_patterns() {
     let mut renderer = renderer(Driver::Egl);
     let contrast = |layer_count: u32| {
         let surface = SurfaceNoise { layer_count, tiling: [0.8; 2], ..Default::default() };

@@ -54,7 +54,7 @@ fn a_needle_is_dragged_to_an_angle() {
 }
 
 #[test]
-fn clicks_and_keys_flip_and_turn_directions() {
+fn clicks_flip_and_drags_turn_directions() {
     let mut world = World::new();
     assert_eq!(world.hover(Tool::TurnDirection, HERE).status, "[Click] flip skin  [Middle] orbit");
     world.click(Tool::TurnDirection, HERE, NONE);
