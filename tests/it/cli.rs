@@ -1,4 +1,4 @@
-//! The command line as a user meets it: exit codes, messages, files that are whole or not there.
+//! Tests of the command line as a user meets it: exit codes, messages, and files that are written whole or not at all.
 
 use std::collections::BTreeMap;
 use std::io::Read as _;
@@ -25,7 +25,7 @@ const SCENE: &str = "#![enable(implicit_some)]
 )
 ";
 
-/// A folder with a cube and a scene of it.
+/// A folder with the mesh of a cube, and a scene that shows it.
 struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -79,7 +79,7 @@ fn render_writes_whole_frames_by_their_pattern() {
     for name in folder.names("out") {
         assert!(is_whole_png(&folder.path("out").join(name)));
     }
-    // Frames that are there stay; the others are made.
+    // Existing frames stay; the missing ones are rendered.
     std::fs::write(folder.path("out/f_01.png"), "mine").unwrap();
     std::fs::remove_file(folder.path("out/f_02.png")).unwrap();
     let output =
@@ -94,7 +94,7 @@ fn render_writes_whole_frames_by_their_pattern() {
     assert_eq!(frames, [2]);
 }
 
-/// The same bytes from one painter and from three, told of in their order.
+/// One painter and three give the same bytes, and report frames in order.
 #[test]
 fn frames_do_not_depend_on_how_many_draw_them() {
     let folder = Folder::new();
@@ -129,7 +129,7 @@ fn frames_do_not_depend_on_how_many_draw_them() {
     assert_eq!(folder.names("one"), folder.names("three"));
     for name in folder.names("one") {
         let [one, three] = ["one", "three"].map(|from| std::fs::read(folder.path(from).join(&name)).unwrap());
-        // One sheet lacks a frame.
+        // Frame 5 of `three` was there before, so it and the sheet may differ.
         assert!(name == "f_sheet.png" || name == "f_05.png" || one == three, "{name}");
     }
 }
@@ -223,7 +223,7 @@ fn what_does_not_fit_into_memory_is_refused_with_a_mend() {
     assert!(!folder.path("a.png").exists());
     let fits = render("1.5GiB");
     assert_eq!(code(&fits), 0, "{}", words(&fits.stderr));
-    // Each step with the most memory that was held in it.
+    // Each step is printed with its peak memory.
     let said = words(&fits.stderr);
     let step = said.lines().find(|line| line.trim_start().starts_with("sampling")).unwrap_or_default();
     assert!(step.contains(" ms") && (!cfg!(target_os = "linux") || step.ends_with("MiB")), "{said}");
@@ -322,7 +322,7 @@ fn info_doctor_and_completions_answer() {
     assert_eq!(code(&doctor), 0, "{}", words(&doctor.stdout));
     for line in words(&doctor.stdout).lines() {
         let found: serde_json::Value = serde_json::from_str(line).unwrap();
-        // A window needs a display, and there is none here; that is nothing to fail for.
+        // There is no display here, so no window; doctor does not fail for that.
         let (name, works) = if found["driver"].is_string() { ("works", true) } else { ("window", false) };
         assert_eq!(found[name], works, "{line}");
     }
@@ -335,7 +335,7 @@ fn info_doctor_and_completions_answer() {
 }
 
 #[test]
-fn edit_says_what_it_lacks() {
+fn edit_says_what_is_missing() {
     let folder = Folder::new();
     std::fs::write(folder.path("chair.glb"), "").unwrap();
     for (arguments, exit, told) in [
@@ -380,13 +380,13 @@ fn an_interrupted_run_leaves_whole_frames_only() {
     }
 }
 
-/// Also where the shell has it ignore Ctrl-C, as shells do with what runs in the background.
+/// Even when the shell starts it with Ctrl-C ignored, as shells do with background jobs.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {
     use std::os::unix::process::ExitStatusExt as _;
     let folder = Folder::new();
-    // It takes many times longer than the signals take to come.
+    // So many particles that preparing takes far longer than the signals.
     let many = "objects[0].particles=2000000";
     for arguments in [
         &["render", "scene.ron", "--set", many, "-o", "a.png", "--frames", "0"][..],
@@ -408,7 +408,7 @@ fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {
             if let Some(status) = child.try_wait().unwrap() {
                 break status;
             }
-            // Those that come before the command watches for them are ignored.
+            // Signals that come before the command listens for them are ignored.
             let interrupt = format!("kill -INT {} 2>/dev/null", child.id());
             Command::new("sh").args(["-c", &interrupt]).status().unwrap();
             std::thread::sleep(std::time::Duration::from_millis(20));
@@ -418,7 +418,7 @@ fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {
     }
 }
 
-/// Through a pipe, because a fault must not cost this machine its `/dev/null`.
+/// Tested with a pipe, since a bug here would replace the machine's `/dev/null`.
 #[cfg(unix)]
 #[test]
 fn what_is_no_regular_file_is_written_into_and_stays() {
@@ -481,7 +481,7 @@ fn frames_are_piped_to_ffmpeg_where_it_is_installed() {
     let without = render();
     assert_eq!(code(&without), 3);
     assert!(words(&without.stderr).contains("ffmpeg, which is not installed; install it"));
-    // Writes what it is given to its last argument.
+    // A stand-in for ffmpeg that copies its input into the file of its last argument.
     let install = |script: &str| {
         let path = programs.join("ffmpeg");
         std::fs::write(&path, script).unwrap();

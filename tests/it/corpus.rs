@@ -1,5 +1,5 @@
-//! Good and hostile files: those of a small corpus made here, always; those of the large one where `IMPASTO_CORPUS` names it.
-//! The real command checks them with little memory and little time.
+//! Tests with good and hostile files: always those of a small corpus made here, and those of the large corpus if
+//! `IMPASTO_CORPUS` names its folder. The real command checks them with little memory and little time.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,7 +10,7 @@ use impasto_scene::obj;
 use impasto_tests::command::impasto;
 use impasto_tests::corpus::{self, Outcome};
 
-/// Address space and time for all files of one kind.
+/// Limits of address space and time for all files of one kind together.
 const MEMORY_KIB: u32 = 1 << 20;
 const SECONDS: u32 = 120;
 
@@ -33,7 +33,7 @@ impl Checked {
     }
 }
 
-/// What one run of `impasto check FILE …`, within its limits, says of each file.
+/// Runs `impasto check FILE …` once, within the limits; returns what it says of each file.
 fn check(files: &[PathBuf]) -> Vec<Checked> {
     let script = format!("ulimit -v {MEMORY_KIB} && exec timeout {SECONDS} \"$0\" check \"$@\" 2>&1");
     let output =
@@ -119,7 +119,7 @@ fn assert_ends_as_expected(cases: &[corpus::Case]) {
     let mut failures = Vec::new();
     for (case, checked) in cases.iter().zip(check(&files)) {
         let found = checked.outcome();
-        // A warning is no harm to what is good.
+        // A good file may have warnings.
         let is_fine = found == case.expected || (case.expected, found) == (Outcome::Taken, Outcome::Warned);
         if !is_fine {
             failures.push(format!("{}: {:?}, not {:?}: {}", case.name, found, case.expected, checked.said));
@@ -131,7 +131,7 @@ fn assert_ends_as_expected(cases: &[corpus::Case]) {
 #[test]
 fn real_models_are_read_or_refused_with_a_reason() {
     let Some(corpus) = corpus::shared("real_models_are_read_or_refused_with_a_reason") else { return };
-    // Some models of the list may not be passed on, and so are not there.
+    // Some models in the list may not be redistributed, so their files are missing.
     let is_here = |file: &Path| file.extension().is_some_and(|extension| extension == "obj") && file.exists();
     let models: Vec<_> = rows(&corpus.join("models.csv"))
         .into_iter()
@@ -154,7 +154,7 @@ fn real_models_are_read_or_refused_with_a_reason() {
     assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), models.len(), failures.join("\n"));
 }
 
-/// Models of the small corpus with bytes changed, lost and doubled by a fixed chance; of the large one what a fuzzer left.
+/// Models of the small corpus with bytes changed, lost and doubled, pseudo-randomly; and a fuzzer's files of the large one.
 #[test]
 fn fuzzed_files_neither_crash_nor_hang() {
     let scratch = tempfile::tempdir().unwrap();
@@ -178,7 +178,7 @@ fn fuzzed_files_neither_crash_nor_hang() {
     check(&files);
 }
 
-/// Wears the material `a` of `case.mtl`.
+/// An OBJ triangle with the material `a` of `case.mtl`.
 const WORN: &str = "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
 
 /// Two hundred changed copies of the small corpus's good models, each in a folder of its own.
@@ -215,12 +215,12 @@ fn changed_models(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Pictures are wrapped in a triangle that wears them: a good one is taken, a bad one is left out with a warning.
+/// Each picture is the texture of a triangle: a good one is used, a bad one is left out with a warning.
 #[test]
 fn real_pictures_are_worn_or_left_out() {
     let scratch = tempfile::tempdir().unwrap();
     let made = corpus::made(scratch.path()).into_iter().filter(|case| case.name.starts_with("picture_"));
-    // One that claims too much is refused with its model.
+    // A picture that claims too large a size makes its model fail.
     let made = made.filter(|case| case.expected != Outcome::TooMuch);
     let mut pictures: Vec<(String, PathBuf, bool)> =
         made.map(|case| (case.name, case.file, case.expected == Outcome::Warned)).collect();
@@ -246,7 +246,7 @@ fn real_pictures_are_worn_or_left_out() {
     }
 }
 
-/// Whatever mesh is taken keeps every promise of the type.
+/// Every mesh that is read keeps the invariants of its type.
 #[test]
 fn meshes_that_are_read_are_sound() {
     let scratch = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What regions cover, and what is left out of a picture.
+//! Tests of what regions cover, and of what hidden regions and objects leave out of a picture.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ fn dab(x: f64, radius: f64, take_away: bool) -> Dab {
     Dab { at: [x, 0.0, 0.0], normal: [0.0, 0.0, 1.0], radius, take_away }
 }
 
-/// For each particle of a sheet (from -1.2 to 1.2) that faces us: its x, and whether the region `on` has it.
+/// For each particle on the front of a sheet (from -1.2 to 1.2): its position, and whether the region `on` covers it.
 fn on_a_sheet(on: Selector) -> Vec<(Vec3, bool)> {
     let mut scene = shapes::scene(vec![shapes::object("thing", 6000)]);
     scene.regions = vec![Region { direction: Direction::Angle(20.0), ..Region::new("on", on) }];
@@ -108,7 +108,7 @@ fn a_flood_stops_at_the_edges_of_a_cube() {
     assert_eq!(front, patched);
 }
 
-/// Two spheres, one before the other, and a sheet behind both, each with a region of its own.
+/// Two spheres, one in front of the other, and a sheet behind both, each with a region of its own.
 fn three_things(edit: impl FnOnce(&mut Scene)) -> std::sync::Arc<LoadedScene> {
     let names = ["front", "back", "wall"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 3000)).into());
@@ -175,7 +175,7 @@ fn a_hidden_body_is_not_drawn_and_casts_no_shadow() {
     let (hidden, hidden_ids) = picture(&|scene| scene.objects[0].hidden = true);
     assert!([1, 2, 3].iter().all(|id| shown_ids.contains(id)));
     assert!(!hidden_ids.contains(&1) && hidden_ids.contains(&2) && hidden_ids.contains(&3));
-    // On the wall, where the wall shows in both, its shadow is gone and nothing has grown darker.
+    // Where the wall shows in both pictures, the shadow is gone and nothing is darker.
     let light = |rgba8: &[u8], pixel: usize| {
         rgba8[4 * pixel..4 * pixel + 3].iter().map(|&value| i32::from(value)).sum::<i32>()
     };

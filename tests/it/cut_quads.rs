@@ -1,4 +1,5 @@
-//! Quads are cut to where their marks have paint: the picture is that of whole quads but for roundings, in fewer pixels.
+//! Tests of cutting a stroke's quad to where its mark has paint: up to rounding the picture is that of whole quads, from
+//! fewer pixels.
 
 use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
@@ -18,7 +19,7 @@ fn cut_quads_look_as_whole_ones_do() {
     let (mut cut, mut whole) = (renderer(Driver::Egl), renderer(Driver::Egl));
     whole.replace_shaders(&whole_quads).unwrap();
     let painting = scenes::painting("roll");
-    // Near, and from afar with the marks in coarse levels.
+    // At full size, and so small that marks are read from coarse levels.
     for (size_px, quality) in
         [([320, 180], Quality::Exact), ([96, 54], Quality::Exact), ([96, 54], Quality::Draft)]
     {
@@ -28,7 +29,7 @@ fn cut_quads_look_as_whole_ones_do() {
             cut.iter().zip(&whole).map(|(a, b)| a.abs_diff(*b)).filter(|&off| off > 0).collect();
         let far_off = off.iter().filter(|&&off| off > 8).count();
         println!("{size_px:?}: {} of {} bytes differ, {far_off} by more than 8", off.len(), cut.len());
-        // By a rounding a pixel may lie on another body; paint that is cut away leaves holes.
+        // Rounding may put a few pixels on another body; cutting away paint would leave holes.
         assert!(
             off.len() * 200 < cut.len() && far_off <= 4 + cut.len() / 20_000,
             "{size_px:?}: {}, {far_off}",
@@ -37,9 +38,9 @@ fn cut_quads_look_as_whole_ones_do() {
     }
 }
 
-/// The fragments of whole quads, most of which lay nothing.
+/// Counts all fragments of the cut quads, also those that lay no paint, against the area of whole quads.
 #[test]
-fn fewer_pixels_are_asked_for_paint() {
+fn cut_quads_cover_fewer_pixels() {
     const NOTHING: &str = "if (alpha <= 0.0) discard;";
     assert!(FRAGMENTS.contains(NOTHING));
     let mut counted = ShaderTexts::default();

@@ -1,5 +1,5 @@
-//! Painted directions: what is combed is what is seen, it holds when more is painted or sampled, and what the reference
-//! never saw joins it.
+//! Tests of painted directions: strokes show as they were combed, they stay so when more is painted or sampled, and strokes
+//! that the reference never saw join them.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -44,7 +44,7 @@ pub(crate) fn body_strokes(frame: &Frame) -> BTreeMap<u32, Seen> {
         .collect()
 }
 
-/// Between undirected lines, degrees.
+/// The angle between two undirected lines, degrees.
 fn lines_apart(a: f64, b: f64) -> f64 {
     let off = (a - b).rem_euclid(PI);
     off.min(PI - off).to_degrees()
@@ -54,7 +54,7 @@ fn seen_by(painting: &Painting, camera: &CameraPose) -> BTreeMap<u32, Seen> {
     body_strokes(&painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX)))
 }
 
-/// One object with many particles, without chance, and one region with these directions and guides.
+/// One object without jitter, and one region with this direction and these guides.
 fn combed(direction: Direction, guides: Vec<Guide>, particles: u64) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("thing", particles)]);
     scene.strokes.contour = Some(0.0);
@@ -69,7 +69,7 @@ fn painted(scene: Scene, mesh: TriangleMesh) -> Painting {
     prepare(shapes::loaded(scene, [mesh])).unwrap()
 }
 
-/// Views of a thing at `height` from 0, 30, 60 degrees off the reference, sideways and from above.
+/// Views of a point at `height`, 0, 30 and 60 degrees off the reference, sideways and from above.
 fn off_the_reference(height: f64) -> Vec<(f64, CameraPose)> {
     let eye = |yaw: f64, pitch: f64| {
         let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
@@ -94,13 +94,13 @@ fn what_is_combed_is_what_is_seen() {
                 scene.camera.keys[0] = shapes::camera_key(0.0, [0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);
                 scene.strokes.flatness = Some(flatness);
                 let painting = painted(scene, mesh.clone());
-                // Strokes whose centre lies on the gesture, within a pixel.
+                // Strokes whose centre lies within a pixel of the gesture.
                 let along = (ends[1] - ends[0]).normalize();
                 let errors: Vec<f64> = seen_by(&painting, &view)
                     .values()
                     .filter(|seen| {
                         let from = seen.at_px - ends[0];
-                        // Not those that look through from the far wall of the dimple.
+                        // Without those on the far wall of the dimple.
                         seen.facing > 0.35
                             && from.perp_dot(along).abs() < 1.0
                             && (4.0..48.0).contains(&from.dot(along))
@@ -162,7 +162,7 @@ fn twice_the_particles_are_combed_alike() {
         .filter_map(|(particle, seen)| Some(lines_apart(seen.angle_rad, twice.get(particle)?.angle_rad)))
         .collect();
     let mean = apart.iter().sum::<f64>() / apart.len() as f64;
-    // Strokes of another rank lie between the old ones: each against the nearest old one on the surface.
+    // New strokes lie between the old ones: compare each with the nearest old one on the surface.
     let to_nearest: Vec<f64> = twice
         .iter()
         .filter(|(particle, seen)| **particle >= 10_000 && seen.facing > 0.3)
@@ -197,7 +197,7 @@ fn guides_rule_the_whole_of_an_automatic_region_and_only_their_reach_elsewhere()
     };
     let automatic = far(Direction::Auto);
     assert!(automatic.len() >= 500);
-    // A plane has no curvature: transport leaves the direction as it is, seen straight on.
+    // A plane has no curvature, so transport does not change the direction seen straight on.
     let worst = automatic.iter().map(|&angle| lines_apart(angle, drawn_rad)).fold(0.0, f64::max);
     assert!(worst < 0.5, "{worst}");
     let stated = far(Direction::Angle(20.0));
@@ -222,7 +222,7 @@ fn a_later_gesture_goes_over_an_earlier_one() {
     assert!(middle.len() >= 3 && middle.iter().all(|&error| error < 1.0), "{middle:?}");
 }
 
-/// The largest step of the angle between neighbours on a sheet whose right half is dabbed over.
+/// The largest step of the angle between neighbours on a sheet whose right half is covered by dabs of another region.
 fn step_over_a_seam(seam: Seam) -> f64 {
     let dabs: Vec<Dab> = (0..40)
         .map(|index| Dab {
@@ -267,10 +267,10 @@ fn seams_are_hard_or_soft_as_the_region_says() {
     assert!(soft < 12.0, "{soft}");
 }
 
-/// An open tube round Y with flat ends left out.
+/// A tube round Y, open at both ends.
 fn tube() -> TriangleMesh {
     let mut mesh = shapes::sphere(64, 24);
-    // A sphere's grid, its rows laid out along a straight tube.
+    // The grid of a sphere, with its rows spread along a straight tube.
     for (position, normal) in mesh.positions.iter_mut().zip(&mut mesh.normals) {
         let round = Vec3::new(normal.x, 0.0, normal.z).normalize_or(Vec3::Z);
         *position = round * 0.4 + Vec3::Y * normal.y.asin();
@@ -313,8 +313,8 @@ fn toward_a_point_runs_there() {
     assert!(strokes.len() >= 500 && worst < 0.05, "{worst}");
 }
 
-/// M6: the angle of every stroke that the reference turned its back on to its ten nearest neighbours; median and 95th of a
-/// hundred, degrees.
+/// M6: the angle between each stroke that faces away from the reference and its ten nearest neighbours: median and 95th
+/// percentile, degrees, and the number of such strokes.
 fn coherence(painting: &Painting, now: &CameraPose, reference: DVec3) -> (f64, f64, usize) {
     let strokes = seen_by(painting, now);
     let particles = painting.particles(0);
@@ -426,7 +426,7 @@ fn strokes_ride_a_morph_and_turn_with_it() {
 }
 
 #[test]
-fn sizes_follow_the_surface_as_far_as_they_are_told() {
+fn sizes_follow_the_surface_as_far_as_size_follow_says() {
     let sizes = |follow: f64| {
         let mut scene = combed(Direction::Up, Vec::new(), 6000);
         scene.strokes = StrokeSettings { size_follow: Some(follow), ..scene.strokes };

@@ -1,4 +1,5 @@
-//! What is dragged in the editor is what is seen, in any view: from pixels through rays, paths and guides to painted strokes.
+//! Tests that strokes show as they were dragged in the editor, in any view: from pixels through rays, paths and guides to
+//! painted strokes.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -18,14 +19,14 @@ use impasto_scene::document::{
 use impasto_scene::motion::{self, CameraPose};
 use impasto_tests::shapes;
 
-/// The viewport: of another size and shape than the scene's picture.
+/// The size of the viewport, which has another shape than the scene's picture.
 const SIZE_PX: [u32; 2] = [900, 640];
 
 fn size_px() -> DVec2 {
     DVec2::new(f64::from(SIZE_PX[0]), f64::from(SIZE_PX[1]))
 }
 
-/// A thing, moved, turned and enlarged, and its region with these guides.
+/// An object that is moved, turned and enlarged, and its region with these guides.
 fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("thing", 25_000)]);
     scene.strokes.contour = Some(0.0);
@@ -43,7 +44,7 @@ fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     scene
 }
 
-/// Strokes so near to a drag lie in its core: at 2.5 of 45 px a brush still has 0.99 of its strength.
+/// Strokes this near to a drag count: 2.5 px from the middle of a brush of 45 px it still has 0.99 of its strength.
 const CORE_PX: f64 = 2.5;
 
 struct Bench {
@@ -74,7 +75,7 @@ impl Bench {
         path.finished(&mut pick).guides(&style(), &seen, &reference)
     }
 
-    /// A view and the reference, as the thing sees them.
+    /// A view and the reference, in the object's space.
     fn views(&self, view: &View) -> [ObjectView; 2] {
         let shot = motion::camera_at(self.painting.scene(), 0.0);
         [&view.camera, &shot].map(|camera| ObjectView::new(camera, self.poses[0]))
@@ -110,7 +111,7 @@ fn lines_apart(a: f64, b: f64) -> f64 {
     off.min(PI - off).to_degrees()
 }
 
-/// How far strokes within `reach_px` of a drag are off its tangent, degrees, away from its ends.
+/// The angle between the drag's tangent and each stroke within `reach_px` of it, degrees; its ends are left out.
 fn errors(strokes: &[(DVec2, f64)], drag: impl Fn(f64) -> DVec2, reach_px: f64) -> Vec<f64> {
     let steps = 400;
     let way: Vec<DVec2> = (0..=steps).map(|step| drag(f64::from(step) / f64::from(steps))).collect();
@@ -256,7 +257,7 @@ fn a_shipped_scene_is_picked_where_it_is_painted() {
         let at = poses[object].transform_point3(particle.position.as_dvec3());
         let Some(at_px) = view.project(at) else { continue };
         let Some(hit) = picker.pick(&view.ray(at_px), &poses, |_| true) else { continue };
-        // What is picked lies there, or in front of it.
+        // The hit is at the stroke, or in front of it.
         assert!(hit.distance < view.ray(at_px).origin.distance(at) + 1e-4);
         all += 1;
         same += usize::from(hit.position_in_world.distance(at) < 1e-3);

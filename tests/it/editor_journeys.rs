@@ -1,4 +1,4 @@
-//! What people come to the editor for, from start to end in the real window, with a picture of each step.
+//! Whole tasks in the editor's real window, from start to end, with a picture of each step.
 
 use std::path::Path;
 use std::process::Command;
@@ -18,14 +18,14 @@ fn orbit(editor: &mut EditorWindow<'_>, by_px: [i32; 2]) {
     editor.screen.hand(&["mousemove", &to[0], &to[1], "mouseup", "2"]);
 }
 
-/// Drags with the left button between two places, from the viewport's middle.
+/// Drags with the left button between two places, given from the viewport's middle.
 fn comb(editor: &mut EditorWindow<'_>, from_px: [i32; 2], to_px: [i32; 2]) {
     let middle = editor.control("Viewport").middle();
     let place = |px: [i32; 2]| [middle[0] + px[0], middle[1] + px[1]];
     editor.screen.drag(place(from_px), place(to_px));
 }
 
-/// Types a number into a field in place of its own.
+/// Replaces the number in a field by typing.
 fn type_number(editor: &mut EditorWindow<'_>, name: &str, number: &str) {
     editor.click(name);
     editor.keys(&["ctrl+a"]);
@@ -83,7 +83,7 @@ fn from_a_mesh_to_a_saved_film() {
     editor.wait_for_value("Animate, select, shot camera, frame 0, reference");
     type_number(&mut editor, "Current frame", "60");
     editor.wait_for_value("Animate, select, shot camera, frame 60");
-    // The object is the thing in the middle of the picture.
+    // The object is in the middle of the picture.
     editor.click("Viewport");
     editor.keys(&["g", "x", "period", "3", "Return"]);
     shown = editor.rest_after(shown);
@@ -114,7 +114,7 @@ fn from_a_mesh_to_a_saved_film() {
             std::fs::read_dir(folder.path().join("out")).ok()?.flatten().map(|entry| entry.path());
         files.find(|path| path.extension().is_some_and(|extension| extension == "png"))
     });
-    // Once it is finished it can be begun again.
+    // The button is back once rendering is finished.
     editor.control("Start rendering");
     editor.keep_picture("11_rendered");
     editor.keys(&["Escape"]);
@@ -191,7 +191,7 @@ fn a_broken_scene_is_mended() {
     editor.keys(&["Escape"]);
     editor.wait_until_gone("Show the problem");
 
-    // Text that was typed is asked about before the window closes, and read by Ctrl Enter.
+    // The window asks about typed text before it closes; Ctrl Enter reads the text.
     let text_place = editor.control("Problems").at([0.8, 0.5]);
     screen.click(text_place);
     editor.keys(&["ctrl+End"]);

@@ -1,4 +1,4 @@
-//! The page of keys is made from the editor's own table.
+//! Checks that `docs/editor_keys.md` is what the editor's own table of keys makes.
 
 use std::path::Path;
 

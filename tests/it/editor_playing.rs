@@ -1,5 +1,5 @@
-//! A film in the editor: frames come up in order, those that are left out are counted, and every frame is what the renderer
-//! makes of it. That frames keep to the clock is tested with a clock of its own, in `playback` of the editor's model.
+//! Tests of playing in the editor: frames come in order, dropped ones are counted, and each is what the renderer makes of it.
+//! That frames keep time is tested with a simulated clock in the editor model's `playback`.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::editor_window::apple_alone;
 /// Frames of the film.
 const FRAMES: f64 = 120.0;
 
-/// A folder with a film of 120 frames: the apple alone, of few particles, rolls while the camera goes by.
+/// A folder with a scene of 120 frames: the apple alone, of few particles, rolls while the camera passes.
 fn folder() -> tempfile::TempDir {
     let (folder, alone) = apple_alone(1500);
     let key = "keys: [(frame: 0, translation: (0, 0, 0), rotation_deg: (0, -25, 0))]";
@@ -31,7 +31,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// A frame that came up, where the clock stood (in frames), and what had been dropped by then.
+/// A frame that was shown, the clock at that moment (in frames), and the number of frames dropped by then.
 #[derive(Clone, Copy, Debug)]
 struct CameUp {
     frame: f64,
@@ -49,7 +49,7 @@ fn came_up(editor: &EditorWindow<'_>) -> Vec<CameUp> {
     editor.told("playing: ").into_iter().map(line).collect()
 }
 
-/// From the first to the second on a film that begins again.
+/// The number of frames from one to another in a film that loops.
 fn onward(from: f64, to: f64) -> f64 {
     (to - from).rem_euclid(FRAMES)
 }
@@ -90,7 +90,7 @@ fn what_is_played_scrubbed_to_and_rendered_is_the_same_to_the_bit() {
     let path = folder.path().join("film.ron");
     let document = Document::open(&path, &LoadOptions::default()).unwrap();
     let painting = prepare(Arc::clone(document.loaded())).unwrap();
-    // What `impasto render` prepares: the file, read anew.
+    // What `impasto render` prepares: the file, read again.
     let rendered =
         prepare(Arc::clone(Document::open(&path, &LoadOptions::default()).unwrap().loaded())).unwrap();
     let options = FrameOptions::new([320, 180]);

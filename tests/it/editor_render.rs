@@ -1,4 +1,4 @@
-//! What the editor renders is what `impasto render` renders: to the byte, and the command that it offers says so.
+//! Tests that the editor renders what `impasto render` renders, byte for byte, and that the command it offers does the same.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,7 +14,7 @@ use impasto_editor_model::render_settings::{
 use impasto_scene::load::LoadOptions;
 use impasto_tests::command::{impasto, root};
 
-/// A scene of two moving cubes, with frames enough for two painters, saved in a folder whose name a shell has to be told in quotes.
+/// A scene of two moving cubes, with enough frames for two painters, saved in a folder whose name a shell needs quoted.
 fn document(folder: &Path) -> Document {
     std::fs::create_dir(folder).unwrap();
     std::fs::copy(root().join("scenes/meshes/cube.obj"), folder.join("cube.obj")).unwrap();
@@ -41,7 +41,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     entries.map(named).collect()
 }
 
-/// The files that the editor writes; the folder is gone after.
+/// The files that the editor writes; removes the folder afterwards.
 fn rendered(plan: RenderPlan) -> BTreeMap<String, Vec<u8>> {
     let folder = plan.folder().to_owned();
     let rendering = Rendering::start(plan, Default::default(), || ()).unwrap();
@@ -52,12 +52,12 @@ fn rendered(plan: RenderPlan) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// The files that a shell writes that is given the command.
+/// The files that the plan's command writes in a shell; removes the folder afterwards.
 fn commanded(plan: &RenderPlan, document: &Document) -> BTreeMap<String, Vec<u8>> {
     let words = plan.command(document).unwrap();
     let program = impasto().to_str().unwrap();
     let mut shell = Process::new("sh");
-    // Somewhere else: a command means the same in every folder.
+    // In another folder: the command has to work in any.
     shell.arg("-c").arg(shell_words(program, &words)).current_dir(std::env::temp_dir());
     let output = shell.output().unwrap();
     assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
@@ -122,7 +122,7 @@ fn what_is_rendered_is_the_document_as_it_was() {
     };
     let plan = settings.plan(&document, 2.0).unwrap();
     let before = commanded(&plan, &document);
-    // Edited and even saved after the button was pressed.
+    // The document is edited and even saved after rendering began.
     document.apply(&Command::Scene(SceneEdit::SetSeed(6))).unwrap();
     document.save().unwrap();
     assert!(commanded(&plan, &document) != before, "another seed is another picture");

@@ -1,5 +1,5 @@
-//! A script of commands builds the still life from its meshes, and what it saves is checked and rendered alike by the
-//! command line.
+//! Builds the still life from its meshes with a script of commands; the command line checks the saved file and gives the
+//! same strokes.
 
 use std::path::Path;
 use std::process::Command as Process;
@@ -21,7 +21,7 @@ fn run(document: &mut Document, command: Command) {
     assert!(!step.text.is_empty(), "did nothing: {command:?}");
 }
 
-/// Everything of one object of `wanted`, from its mesh file on.
+/// Builds one object of the wanted scene, beginning with the import of its mesh.
 fn build_object(document: &mut Document, wanted: &Object) {
     let before: Vec<String> = document.scene().regions.iter().map(|region| region.name.clone()).collect();
     document.import(&wanted.mesh).unwrap();
@@ -29,7 +29,7 @@ fn build_object(document: &mut Document, wanted: &Object) {
     if made != wanted.name {
         run(document, Command::Edit(Edit::Rename(Item::Object(made), wanted.name.clone())));
     }
-    // It came with a region for each of its groups; this script makes its own.
+    // The import adds a region for each group; this script makes its own instead.
     let regions = document.scene().regions.iter().map(|region| region.name.clone());
     let regions: Vec<Item> = regions.filter(|name| !before.contains(name)).map(Item::Region).collect();
     assert!(!regions.is_empty(), "{} came without regions", wanted.name);
@@ -42,7 +42,7 @@ fn build_object(document: &mut Document, wanted: &Object) {
     if wanted.material.is_some() {
         run(document, Command::Arrange(Arrange::SetMaterial(name.clone(), wanted.material.clone())));
     }
-    // Wherever the import put it, it goes to the origin first.
+    // First the object goes from where the import put it to the origin.
     let placed = motion::key_at(document.scene(), document.scene().objects.last().unwrap(), 0.0);
     let shift =
         Shift { world_from_world: DAffine3::from_translation(-DVec3::from(placed.translation)), frame: 0.0 };
@@ -76,7 +76,7 @@ fn build_object(document: &mut Document, wanted: &Object) {
 fn build(document: &mut Document, wanted: &Scene) {
     run(document, Command::Scene(SceneEdit::SetSeed(wanted.seed)));
     run(document, Command::Scene(SceneEdit::SetBackground(wanted.background)));
-    // A new scene may have the wanted range already.
+    // Another range first: a new scene may already have the wanted one.
     run(document, Command::Time(Time::SetRange(0, 1)));
     run(document, Command::Time(Time::SetRange(wanted.timeline.first, wanted.timeline.last)));
     let lights = document.scene().lights.iter().map(|light| Item::Light(light.name.clone())).collect();
@@ -155,7 +155,7 @@ fn a_script_builds_the_still_life_from_its_meshes() {
     document.save_as(&file).unwrap();
     assert!(!document.is_edited() && document.undo_text() == Some("Draw guide"));
 
-    // As the command line reads it, the same strokes to the bit.
+    // The file as the command line reads it has the same strokes, bit for bit.
     let loaded = load(&file, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
     assert_eq!(loaded.scene, *document.scene());
     let options = FrameOptions::new([480, 270]);

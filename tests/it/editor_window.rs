@@ -1,5 +1,4 @@
-//! The editor's real window on an Xvfb of its own, worked with a real mouse and real keys; what it saves is judged by the
-//! command line.
+//! Tests of the editor's real window, on an Xvfb and with mouse and keys from xdotool; the command line judges what it saves.
 
 use std::path::Path;
 use std::process::Command;
@@ -10,7 +9,7 @@ use impasto_scene::load::{LoadOptions, load};
 use impasto_tests::command::{impasto, root};
 use impasto_tests::screen::{ControlRect, EditorWindow, Screen};
 
-/// A folder with the apple, alone and of fewer particles that it is soon painted, whose strokes lie just as they are directed.
+/// A folder with the apple alone, with few particles so that it is quickly painted, and strokes without jitter.
 pub(crate) fn folder() -> tempfile::TempDir {
     let (folder, alone) = apple_alone(12_000);
     let strokes = "    strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0),\n";
@@ -22,7 +21,7 @@ pub(crate) fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// A folder with the shipped apple's mesh, and the text of its scene without the wall and with so many particles.
+/// A folder with the shipped apple's mesh, and the text of its scene without the wall and with `particles` particles.
 pub(crate) fn apple_alone(particles: usize) -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().unwrap();
     let scenes = root().join("scenes");
@@ -47,8 +46,8 @@ fn guides(folder: &Path) -> Vec<Guide> {
     std::mem::take(&mut region.guides)
 }
 
-/// A place of the window as one of the rendered picture: pixels from its lower left corner, Y up. The shot is as wide as the
-/// viewport, and in its middle.
+/// A place in the window as a place in the rendered picture: pixels from its lower left corner, Y up. The shot is as wide as
+/// the viewport, and in its middle.
 fn in_picture(at: [i32; 2], viewport: &ControlRect, size: (u32, u32)) -> DVec2 {
     let plain = |[x, y]: [i32; 2]| DVec2::new(f64::from(x), f64::from(y));
     let size = DVec2::new(f64::from(size.0), f64::from(size.1));
@@ -94,7 +93,7 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     hover(x);
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
-    // The strength from 80 % to 100 %, that strokes under the hand lie just as it went.
+    // Strength from 80 % to 100 %, so that strokes follow the drag exactly.
     editor.keys(&["shift+f"]);
     hover(x + 56);
     hover(x + 96);
@@ -138,7 +137,7 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     let [from, to] = [from, to].map(|at| in_picture(at, &viewport, size));
     let way = to - from;
     let dragged_deg = way.to_angle().to_degrees();
-    // Where a stroke lies along the drag (0 to 1), how far from it in pixels, and how far off its angle in degrees.
+    // For each stroke: its place along the drag (0 to 1), its distance from it in pixels, and its angle to it in degrees.
     let seen: Vec<(f64, f64, f64)> = strokes(folder.path(), "combed.ron")
         .into_iter()
         .map(|(at, angle_deg)| {

@@ -1,5 +1,5 @@
-//! Shipped scenes of each technique, small, as they were looked at and found good, through either driver. `IMPASTO_BLESS=1` writes
-//! them anew: look at each.
+//! Compares small pictures of each technique's shipped scenes, through both drivers, with stored pictures that a person found
+//! good. `IMPASTO_BLESS=1` rewrites them: look at each.
 
 use std::path::PathBuf;
 
@@ -24,12 +24,12 @@ const SHOWN: &[(&str, &str, f64)] = &[
     ("light_billboards", "roll", 7.0),
 ];
 
-/// Strokes may lie in another order by a rounding, so that single pixels change; a stroke that is wrong may not hide among
-/// them.
+/// How many pixels may be wrong. Rounding can swap the order of strokes and change single pixels; the limit is too small to
+/// hide a wrong stroke.
 const MOST_WRONG_PIXELS: usize = 20;
 /// A pixel is wrong when one of its channels is off by more than this, of 255.
 const MOST_OFF: u8 = 16;
-/// The whole picture may be off by this much on average, of 255.
+/// The mean difference that the whole picture may have, of 255.
 const MOST_MEAN_OFF: f64 = 0.2;
 
 #[test]
@@ -57,9 +57,9 @@ fn shipped_scenes_look_as_they_did_on_either_driver() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// One stroke of 14 × 4 pixels, a shade too light, is enough.
+/// One stroke of 14 × 4 pixels, a little too light, is enough to fail.
 #[test]
-fn a_planted_stroke_is_no_golden() {
+fn a_planted_stroke_fails_the_golden() {
     for &(technique, scene, _) in SHOWN {
         let golden = read(&root().join(format!("tests/goldens/{technique}/{scene}.png")));
         assert!(Off::of(&golden, &golden).is_small(), "{scene}");
@@ -99,7 +99,7 @@ impl Off {
     }
 }
 
-/// One of each, in a row over the scene.
+/// One icon of each kind, in a row over the scene.
 fn icons() -> Vec<LightBillboard> {
     let all = [BillboardIcon::Sun, BillboardIcon::Point, BillboardIcon::Ambient, BillboardIcon::Ring];
     let icon = |(index, icon): (usize, BillboardIcon)| LightBillboard {

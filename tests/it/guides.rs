@@ -1,4 +1,4 @@
-//! Guides that smooth and guides that turn: what they change, and what they leave alone.
+//! Tests of guides that smooth and guides that turn: what they change, and what they leave alone.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -39,7 +39,7 @@ fn gesture(from: [f64; 2], to: [f64; 2]) -> Guide {
     drag(&shapes::sheet(20), &straight_on(), 360.0, ends).unwrap()
 }
 
-/// Bands that lie side by side, combed at 0 degrees on the left and at `angle_deg` on the right.
+/// Two bands side by side, combed at 0 degrees on the left and at `angle_deg` on the right.
 fn two_combs(angle_deg: f64) -> Vec<Guide> {
     let comb = |x: f64, degrees: f64| {
         let half = DVec2::from_angle(degrees.to_radians()) * 0.05;
@@ -56,7 +56,7 @@ fn smooth(strength: f64, radius: f64) -> Guide {
     Guide { mode: GuideMode::Smooth, strength, radius, ..gesture([0.0, -0.8], [0.0, 0.8]) }
 }
 
-/// The mean angle between strokes that lie within 6 pixels of each other, where `counts`; degrees.
+/// The mean angle between strokes for which `counts` holds and that lie within 6 pixels of each other; degrees.
 fn mean_step(strokes: &BTreeMap<u32, Seen>, turns: f64, counts: impl Fn(&Seen) -> bool) -> f64 {
     let under: Vec<&Seen> = strokes.values().filter(|seen| counts(seen)).collect();
     let mut steps = Vec::new();
@@ -68,7 +68,7 @@ fn mean_step(strokes: &BTreeMap<u32, Seen>, turns: f64, counts: impl Fn(&Seen) -
     steps.iter().sum::<f64>() / steps.len() as f64
 }
 
-/// Between two directions that repeat every `period_rad`, degrees.
+/// The angle between two directions that repeat every `period_rad`, degrees.
 fn apart(a: f64, b: f64, period_rad: f64) -> f64 {
     let off = (a - b).rem_euclid(period_rad);
     off.min(period_rad - off).to_degrees()
@@ -87,7 +87,7 @@ fn a_smooth_guide_relaxes_the_seam_of_two_combs_and_nothing_beyond_its_radius() 
             let smoothed = combed.iter().cloned().chain([smooth(1.0, radius)]).collect();
             let [before, after] =
                 [combed, smoothed].map(|guides| seen(&painted(direction.clone(), sense, guides)));
-            // A turn that is only spread keeps its sum: what falls is the step where the seam was.
+            // Smoothing spreads a turn but keeps its sum: only the step at the old seam gets smaller.
             let at_seam = |seen: &Seen| {
                 seen.at_px.x.abs() < 0.25 * radius * PX_PER_UNIT && seen.at_px.y.abs() < 0.7 * PX_PER_UNIT
             };
@@ -176,7 +176,7 @@ fn points_turn_strokes_from_the_gestures_own_line() {
                 .collect();
             let worst = errors.iter().copied().fold(0.0, f64::max);
             println!("{yaw_deg}, {turns_deg:?}, flatness {flatness}: {worst:.3} over {}", errors.len());
-            // Between two ends of different turns, a stroke's place in the picture is not quite its place on the guide.
+            // Where the turn changes along the guide, a stroke's place in the picture gives its turn only roughly.
             let most = if turns_deg[0] == turns_deg[1] { 0.5 } else { 3.0 };
             assert!(errors.len() >= 5 && worst <= most, "{yaw_deg} {turns_deg:?}: {worst}");
         }
@@ -219,7 +219,7 @@ fn a_region_turns_all_its_directions_as_seen_in_the_reference() {
             let off = |(particle, seen): (&u32, &Seen)| {
                 apart(after[particle].angle_rad, seen.angle_rad + turn_deg.to_radians(), 2.0 * PI)
             };
-            // Where the reference faces the surface, it is exact; at the limb a blend of views is turned.
+            // The turn is exact where the reference faces the surface; at the limb a blend of views is turned.
             let faced = before.iter().filter(|(_, seen)| seen.facing > 0.5).map(off);
             let worst = faced.fold(0.0, f64::max);
             println!("{direction:?} turned by {turn_deg}: {worst:.4} off");

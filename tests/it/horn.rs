@@ -1,4 +1,4 @@
-//! The baked solvers against sums over neighbours, written out here from the paper's equations.
+//! Tests of the baked solvers against the paper's sums over neighbours, written out here from its equations.
 
 use glam::{DAffine3, DMat4, DQuat, DVec2, DVec3, Vec3};
 use impasto_core::hash;
@@ -27,7 +27,7 @@ fn view(seed: u32, fov_y_deg: f64, distance: f64) -> View {
     let view = DMat4::from_rotation_translation(rotation, aside - DVec3::Z * distance);
     let fov_y = fov_y_deg.to_radians();
     let focal_px = 0.5 * SIZE_PX.y / (0.5 * fov_y).tan();
-    // OpenGL's matrix, by hand.
+    // OpenGL's projection matrix, written out.
     let (cot, near, far) = (1.0 / (0.5 * fov_y).tan(), 0.01, 1000.0);
     let clip_from_view = DMat4::from_cols_array_2d(&[
         [cot * SIZE_PX.y / SIZE_PX.x, 0.0, 0.0, 0.0],
@@ -45,7 +45,7 @@ fn cloud(count: usize) -> Vec<Particle> {
     progressive(&Surface::new(&sphere(48, 24), |_| true), count, 5)
 }
 
-/// Lists within `share` of the sphere's diameter.
+/// Neighbour lists with a radius of `share` of the sphere's diameter.
 fn lists(particles: &[Particle], share: f32) -> Neighbours {
     let positions: Vec<Vec3> = particles.iter().map(|particle| particle.position).collect();
     let normals: Vec<Vec3> = particles.iter().map(|particle| particle.normal).collect();
@@ -57,7 +57,7 @@ fn degrees_apart(first: f64, second: f64) -> f64 {
     turn.min(std::f64::consts::TAU - turn).to_degrees()
 }
 
-/// Depth in a clip view: w of the clip position.
+/// Depth in a view: w of the clip position.
 fn depth(view: &ClipView, at: DVec3) -> f64 {
     (view.clip_from_model * at.extend(1.0)).w
 }
@@ -140,7 +140,7 @@ fn horn_is_close_to_the_papers_unweighted_sum() {
     assert!(cases.len() > 25_000, "{} strokes with neighbours", cases.len());
     let mut errors: Vec<f64> = Vec::new();
     for (index, fov) in [20.0, 40.0, 60.0, 80.0, 100.0].into_iter().enumerate() {
-        // Framed: the sphere fills the picture's height.
+        // The sphere fills the picture's height.
         let distance = 1.15 / (0.5 * fov * std::f64::consts::PI / 180.0).sin();
         let seed = 100 + 2 * index as u32;
         let (reference, now) = (view(seed, fov, distance), view(seed + 1, fov, distance));
@@ -170,7 +170,7 @@ fn a_neighbour_list_of_another_body_is_noticed() {
     let at = |index: usize| particles[index].position.as_dvec3();
     let mut errors = 0;
     for index in 0..1000 {
-        // The planted fault: a neighbour's list in place of one's own.
+        // The planted fault: the neighbour list of another particle.
         let wrong: Vec<DVec3> =
             lists.of((index + 1500) % 3000).iter().map(|&other| at(other as usize)).collect();
         let right: Vec<DVec3> = lists.of(index).iter().map(|&other| at(other as usize)).collect();

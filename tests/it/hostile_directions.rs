@@ -1,5 +1,5 @@
-//! Painted directions that contradict each other, lie beside the surface, or are about things that are gone: each with its
-//! word and its place, and a picture all the same where that is honest.
+//! Tests of painted directions that contradict each other, lie beside the surface, or refer to missing things: each is
+//! reported with its place, and still gives a picture where that is honest.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use impasto_scene::problem::Severity;
 
 use crate::hostile_scenes::{load_in_folder, scene_text};
 
-/// Fields of the scene from line 2 on, what is said, and whether there is a picture.
+/// Fields of the scene from line 2 on, a part of the expected message, and whether there is a picture.
 const CASES: [(&str, &str, &str, bool); 24] = [
     (
         "contradicting regions",

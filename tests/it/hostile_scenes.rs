@@ -1,4 +1,4 @@
-//! Scenes that ask for the wrong thing, each written into a folder of its own and loaded from there.
+//! Tests of invalid and hostile scenes, each written into a folder of its own and loaded from there.
 
 use std::fs;
 use std::path::Path;
@@ -15,19 +15,19 @@ const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outcome {
-    /// No word.
+    /// Loads without a message.
     Ok,
-    /// Taken, with a warning.
+    /// Loads with a warning.
     Warn,
-    /// An error.
+    /// Refused with an error.
     Reject,
-    /// Too much.
+    /// Refused because it exceeds a limit.
     Limit,
 }
 
 use Outcome::{Limit, Ok as Good, Reject, Warn};
 
-/// One case.
+/// A scene and what should become of it.
 struct Case {
     name: &'static str,
     /// The fields of the scene; camera and objects are added where they are left out.
@@ -73,7 +73,7 @@ const CASES: [Case; 35] = [
         Good,
         "",
     ),
-    // Keys belong to objects, so a track for none of them cannot be written.
+    // Keys belong to objects, so a scene cannot have a track for an unknown object.
     case(
         "track_unknown",
         r#"animation: [(target: "b")]"#,
@@ -126,7 +126,7 @@ const CASES: [Case; 35] = [
         "scene.ron:2:68: error: two keys stand at frame 1",
     ),
     case("keys_one", r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0)])]"#, Good, ""),
-    // Rotations are three angles; four numbers, zero or not, are none.
+    // Rotations are three angles; four numbers are an error, zero or not.
     case(
         "quat_zero",
         r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0, rotation_deg: (0, 0, 0, 0))])]"#,
@@ -207,7 +207,7 @@ const CASES: [Case; 35] = [
     case("seed_same", "seed: 1", Good, ""),
 ];
 
-/// Cases of other tests here, and those about where pictures go, which are no business of a scene.
+/// Cases that other tests cover, and cases about output files, which are not part of a scene.
 const CASES_ELSEWHERE: [&str; 4] = ["particles_sum", "text_crlf", "output_is_input", "output_unwritable"];
 
 pub(crate) fn scene_text(fields: &str) -> String {
@@ -224,7 +224,7 @@ pub(crate) fn scene_text(fields: &str) -> String {
     text + ")\n"
 }
 
-/// A folder with meshes, a picture whose header claims 3.6 thousand million pixels, and the scene.
+/// Writes meshes, a picture whose header claims 3.6 thousand million pixels, and the scene into a folder; loads the scene.
 pub(crate) fn load_in_folder(folder: &Path, scene: &[u8]) -> Result<LoadedScene, Report> {
     fs::create_dir_all(folder.join("sub")).expect("a temporary folder can be written to");
     fs::write(folder.join("cube.obj"), CUBE).expect("a temporary folder can be written to");
@@ -256,7 +256,7 @@ fn every_case_ends_as_it_should_and_says_why() {
         let (found, said) = outcome(&load_in_folder(folder.path(), scene_text(case.fields).as_bytes()));
         assert_eq!(found, case.expected, "{}: {said}", case.name);
         assert!(said.contains(case.says), "{}: {said}\nexpected: {}", case.name, case.says);
-        // One fault, one problem.
+        // One fault gives one problem.
         assert!(said.lines().count() <= 1, "{}: {said}", case.name);
     }
 }
@@ -332,7 +332,7 @@ fn nothing_outside_the_scenes_folder_is_read() {
         assert_eq!(found, Reject, "{mesh}: {said}");
         assert!(said.contains("scene.ron:2:29: error: "), "{mesh}: {said}");
     }
-    // The same mesh is read once its folder is named.
+    // The same mesh is read when its folder is named.
     let mut options = LoadOptions::default();
     options.folders.extra.push(folder.path().to_owned());
     let text = scene_text("objects: [(name: \"a\", mesh: \"secret.obj\")]");
@@ -372,7 +372,7 @@ fn a_bare_mesh_is_a_scene() {
     assert!(report.to_string().starts_with("--set size=(0, 0): error: "), "{report}");
 }
 
-/// As the window would: what cannot be read at all is refused with a reason, what can be read in part is not saved over.
+/// Opens as the window does: a file that cannot be read is refused with a reason, one read in part is not saved over.
 #[test]
 fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
     let folder = tempfile::tempdir().unwrap();
@@ -399,8 +399,8 @@ fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
     assert!(refused > 5 && losses > 3, "{refused} refused, {losses} opened with losses");
 }
 
-/// With `IMPASTO_CORPUS`, the folder of the shared cases: every hostile RON file is refused with a place, and the
-/// table above has every case of the list.
+/// With the large corpus (`IMPASTO_CORPUS`): every hostile RON file is refused with a place, and the table above has every
+/// case of its list.
 #[test]
 fn the_corpus_of_hostile_scenes_is_covered() {
     let Some(corpus) = corpus::shared("the_corpus_of_hostile_scenes_is_covered") else { return };

@@ -1,4 +1,4 @@
-//! Inverse bilinear interpolation: the maths against the formula of its source, and tapered and bent strokes as they are drawn.
+//! Tests of inverse bilinear interpolation: the maths against the source's formula, and tapered and bent strokes as drawn.
 
 use glam::{DMat3, DVec2};
 use impasto_core::hash;
@@ -10,7 +10,7 @@ fn chance(index: u32, which: u32) -> f64 {
     f64::from(hash::unit(hash::combine(index, which)))
 }
 
-/// What quads there are.
+/// The kinds of quads that are tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     General,
@@ -21,7 +21,7 @@ enum Kind {
 
 const KINDS: [Kind; 4] = [Kind::General, Kind::Trapezoid, Kind::Parallelogram, Kind::Rectangle];
 
-/// The `index`th of many convex quads; every other is wound clockwise.
+/// The `index`th of many convex quads; every second one is wound clockwise.
 fn convex(index: u32, kind: Kind) -> [DVec2; 4] {
     let between = |which: u32, low: f64, high: f64| low + (high - low) * chance(index, which);
     let corner_deg = if kind == Kind::Rectangle { 90.0 } else { between(3, 10.0, 170.0) };
@@ -42,7 +42,7 @@ fn convex(index: u32, kind: Kind) -> [DVec2; 4] {
     [p0, p0 + b1, p0 + b2, p0 + b1 * s + b2 * t]
 }
 
-/// The source's own formula, with "+" before the root and u by one component.
+/// The source's own formula, with "+" before the root and u from one component.
 fn as_the_source_has_it(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
     let wedge = |a: DVec2, b: DVec2| a.x * b.y - a.y * b.x;
     let (q, b1, b2, b3) = (point - p0, p1 - p0, p2 - p0, p0 - p1 - p2 + p3);
@@ -59,7 +59,7 @@ fn is_near(found: DVec2, wanted: DVec2, most: f64) -> bool {
 }
 
 #[test]
-fn row_4_there_and_back_in_convex_quads_of_all_kinds() {
+fn there_and_back_in_convex_quads_of_all_kinds() {
     for kind in KINDS {
         let mut worst = 0.0_f64;
         for index in 0..20_000 {
@@ -74,7 +74,7 @@ fn row_4_there_and_back_in_convex_quads_of_all_kinds() {
 }
 
 #[test]
-fn row_5_the_sources_root_is_wrong_wherever_the_corner_turns_left() {
+fn the_sources_root_is_wrong_wherever_the_corner_turns_left() {
     let (mut right, mut wrong) = (0, 0);
     for index in 0..20_000 {
         let corners = convex(index, Kind::General);
@@ -87,22 +87,22 @@ fn row_5_the_sources_root_is_wrong_wherever_the_corner_turns_left() {
             right += u32::from(is_near(theirs, at, 1e-3));
         }
     }
-    // Where the quad is nearly a parallelogram, its root loses its digits.
+    // On a quad that is nearly a parallelogram, the source's root loses its digits.
     assert!(wrong == 10_000 && right > 9_900, "{wrong} wrong, {right} right");
 }
 
 #[test]
-fn row_5_the_sources_root_has_no_value_on_parallelograms() {
+fn the_sources_root_has_no_value_on_parallelograms() {
     let square = [DVec2::ZERO, DVec2::Y, DVec2::X, DVec2::ONE];
     assert!(as_the_source_has_it(DVec2::new(0.25, 0.75), square).is_nan());
     assert_eq!(inverse_bilinear(DVec2::new(0.25, 0.75), square), DVec2::new(0.75, 0.25));
 }
 
 #[test]
-fn row_7_corners_are_exact_in_both_windings() {
+fn corners_are_exact_in_both_windings() {
     let wanted = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
     let quad = [DVec2::new(3.0, 1.0), DVec2::new(11.0, 2.0), DVec2::new(2.0, 8.0), DVec2::new(9.0, 13.0)];
-    // Wound the other way p₁ and p₂ change places, and so do u and v.
+    // Wound the other way, p₁ and p₂ are swapped, and so are u and v.
     let clockwise = [quad[0], quad[2], quad[1], quad[3]];
     for index in 0..4 {
         assert!(is_near(inverse_bilinear(quad[index], quad), wanted[index], 1e-15), "corner {index}");
@@ -116,7 +116,7 @@ fn a_triangle_is_a_quad_whichever_corner_it_has_twice() {
     let [a, b, c] = [DVec2::new(1.0, 2.0), DVec2::new(40.0, 7.0), DVec2::new(9.0, 33.0)];
     for corners in [[a, a, b, c], [a, b, a, c], [a, b, c, b], [a, b, c, c]] {
         for index in 0..1000 {
-            // Not at the tip itself, where all of one side lies.
+            // Not at the tip itself, which a whole side shares.
             let at = DVec2::new(chance(index, 0), chance(index, 1)) * 0.9 + 0.05;
             let found = inverse_bilinear(bilinear(at, corners), corners);
             assert!(is_near(found, at, 1e-9), "{corners:?}: {found} for {at}");
@@ -143,7 +143,7 @@ fn inside_a_concave_quad_every_point_has_its_place() {
 }
 
 #[test]
-fn no_quad_and_no_point_gives_more_than_a_bounded_number() {
+fn every_quad_and_point_gives_a_bounded_number() {
     let coordinates = [0.0, 1.0, -1.0, 1e-30, 5e8, -1e30];
     let pick = |index: u32, which: u32| coordinates[(chance(index, which) * 6.0) as usize];
     for index in 0..200_000 {
@@ -153,7 +153,7 @@ fn no_quad_and_no_point_gives_more_than_a_bounded_number() {
     }
 }
 
-/// (u, v) as two triangles have it that share the diagonal from p₁ to p₂: affine in each.
+/// (u, v) by two triangles that share the diagonal from p₁ to p₂: affine in each.
 fn on_two_triangles(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
     let affine = |corner: DVec2, along: DVec2, across: DVec2| {
         let area = along.perp_dot(across);
@@ -167,9 +167,9 @@ fn on_two_triangles(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
     }
 }
 
-/// (u, v) as the projective map through the four corners has it.
+/// (u, v) by the projective map through the four corners.
 fn projective(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
-    // Heckbert: from the unit square to the quad, then turned round.
+    // Heckbert's map from the unit square to the quad, inverted.
     let (sum, d1, d2) = (p0 - p1 + p3 - p2, p1 - p3, p2 - p3);
     let area = d1.perp_dot(d2);
     let (g, h) = (sum.perp_dot(d2) / area, d1.perp_dot(sum) / area);
@@ -191,15 +191,15 @@ fn jump_over_the_diagonal(map: Map, corners: [DVec2; 4]) -> f64 {
 
 const SQUARE: [DVec2; 4] =
     [DVec2::new(0.0, 0.0), DVec2::new(100.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 100.0)];
-/// Scaled, turned and sheared.
+/// A parallelogram: scaled, turned and sheared.
 const SHEARED: [DVec2; 4] =
     [DVec2::new(5.0, 9.0), DVec2::new(90.0, 50.0), DVec2::new(-30.0, 70.0), DVec2::new(55.0, 111.0)];
-/// One corner of the square moved.
+/// A square with one corner moved.
 const MOVED: [DVec2; 4] =
     [DVec2::new(0.0, 0.0), DVec2::new(100.0, 0.0), DVec2::new(0.0, 100.0), DVec2::new(100.0, 40.0)];
 
 #[test]
-fn row_6_two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() {
+fn two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() {
     for corners in [SQUARE, SHEARED] {
         assert!(jump_over_the_diagonal(on_two_triangles, corners) < 1e-6);
         assert!(jump_over_the_diagonal(inverse_bilinear, corners) < 1e-6);
@@ -211,9 +211,9 @@ fn row_6_two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_n
 }
 
 #[test]
-fn row_8_the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
+fn the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
     assert!(jump_over_the_diagonal(projective, MOVED) < 1e-3);
-    // A quarter along the bottom edge; a neighbour below knows nothing of this quad's other corners.
+    // A quarter along the bottom edge: a neighbour below does not share this quad's upper corners.
     let quarter = MOVED[0].lerp(MOVED[1], 0.25);
     assert!((projective(quarter, MOVED).x - 0.25).abs() > 0.05, "{}", projective(quarter, MOVED));
     assert!((inverse_bilinear(quarter, MOVED).x - 0.25).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Lights as icons over the picture: where they are, how large, what hides them, and that no file ever has one.
+//! Tests of light icons over the picture: their places and sizes, what dims them, and that no file ever shows one.
 
 use std::sync::LazyLock;
 
@@ -15,7 +15,7 @@ mod window;
 
 const SIZE_PX: [u32; 2] = [320, 200];
 
-/// A sheet of side 2 in the plane z = 0, on the left half of the picture; the eye at (0, 0, 4).
+/// A sheet of side 2 in the plane z = 0, in the left half of the picture, seen from (0, 0, 4).
 fn frame() -> Frame {
     static FRAME: LazyLock<Frame> = LazyLock::new(|| painting(Lens::default()));
     FRAME.clone()
@@ -47,7 +47,7 @@ fn shown_at(frame: &Frame, position: Vec3) -> [f32; 2] {
     [(at.x * 0.5 + 0.5) * SIZE_PX[0] as f32, (0.5 - at.y * 0.5) * SIZE_PX[1] as f32]
 }
 
-/// The middle of the pixels that differ, half the size of the box round them, and by how much all differ.
+/// The middle of the pixels that differ, half the size of the box round them, and the sum of their differences.
 fn difference(a: &Picture, b: &Picture) -> Option<([f32; 2], [f32; 2], f64)> {
     let (mut low, mut high, mut sum) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2], 0.0);
     for (index, (a, b)) in a.rgba8.chunks(4).zip(b.rgba8.chunks(4)).enumerate() {
@@ -66,7 +66,7 @@ fn difference(a: &Picture, b: &Picture) -> Option<([f32; 2], [f32; 2], f64)> {
 }
 
 #[test]
-fn row_1_an_icon_is_where_its_light_projects_to() {
+fn an_icon_is_where_its_light_projects_to() {
     let mut renderer = renderer(Driver::Egl);
     let frame = frame();
     let bare = renderer.render(&frame).unwrap();
@@ -82,7 +82,7 @@ fn row_1_an_icon_is_where_its_light_projects_to() {
 }
 
 #[test]
-fn row_2_corners_lie_on_a_plane_across_the_gaze_along_the_cameras_right_and_up() {
+fn corners_lie_on_a_plane_across_the_gaze_along_the_cameras_right_and_up() {
     let frame = frame();
     let view = &frame.view;
     let [right, up, back] = [0, 1, 2].map(|row| view.view_from_world.row(row).truncate());
@@ -97,7 +97,7 @@ fn row_2_corners_lie_on_a_plane_across_the_gaze_along_the_cameras_right_and_up()
 }
 
 #[test]
-fn row_2_of_the_two_sizes_one_is_kept_in_the_world_and_one_in_the_picture() {
+fn icons_keep_their_size_in_the_world_or_in_the_picture() {
     let frame = frame();
     let width = |size: BillboardSize, z: f32| {
         let billboard = LightBillboard { size, ..lamp(Vec3::new(0.0, 0.0, z)) };
@@ -121,7 +121,7 @@ fn in_a_parallel_picture_icons_have_their_size_too() {
 }
 
 #[test]
-fn what_stands_in_front_dims_an_icon_and_what_stands_behind_does_not() {
+fn bodies_in_front_dim_an_icon_and_bodies_behind_do_not() {
     let mut renderer = renderer(Driver::Egl);
     let frame = frame();
     let bare = renderer.render(&frame).unwrap();
@@ -129,7 +129,7 @@ fn what_stands_in_front_dims_an_icon_and_what_stands_behind_does_not() {
         renderer.set_billboards(&[lamp(position)]);
         difference(&bare, &renderer.render(&frame).unwrap()).unwrap().2
     };
-    // On one line from the eye, before and behind the sheet.
+    // Two places on one ray from the eye, in front of the sheet and behind it.
     let (before, behind) = (strength(Vec3::new(-0.25, 0.1, 2.0)), strength(Vec3::new(-0.75, 0.3, -2.0)));
     assert!(behind < 0.5 * before && behind > 0.15 * before, "{before} {behind}");
 }
@@ -165,7 +165,7 @@ fn a_ring_is_a_whole_thin_line_round_its_middle() {
     renderer.set_billboards(&[ring]);
     let picture = renderer.render(&frame).unwrap();
     let middle = shown_at(&frame, center);
-    // How far out the line lies, all the way round.
+    // The radius at which the ring's line lies, all the way round.
     let changed = |at: [f32; 2]| {
         let index = (at[1] as usize * SIZE_PX[0] as usize + at[0] as usize) * 4;
         (0..3).map(|c| u32::from(picture.rgba8[index + c].abs_diff(bare.rgba8[index + c]))).sum::<u32>()
@@ -199,7 +199,7 @@ fn icons_come_and_go_without_the_picture_being_drawn_again() {
     egl.set_billboards(&[]);
     assert!(egl.with_other_billboards().unwrap().unwrap() == bare, "they leave nothing behind");
     assert!(egl.render(&frame).unwrap() == bare);
-    // A picture that was given up is none.
+    // After a picture that was given up there is none to draw icons over.
     assert_eq!(egl.render_unless(&frame, &mut || true).unwrap(), None);
     assert_eq!(egl.with_other_billboards().unwrap(), None);
 }

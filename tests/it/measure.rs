@@ -1,4 +1,4 @@
-//! Each measure against a fault that is planted: it must turn red, and stay green without.
+//! Tests of each measure with a planted fault: it must fail with the fault, and pass without.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_6;
@@ -34,7 +34,7 @@ use impasto_tests::shapes;
 
 const SMALL: [u32; 2] = [320, 180];
 
-/// Hardly any strokes, on the model and on its backdrop.
+/// Options for very few strokes on the model and on its backdrop.
 const FEW: [&str; 2] = ["objects[0].particles=30", "objects[1].particles=30"];
 
 fn options(rotation: Rotation) -> FrameOptions {
@@ -127,7 +127,7 @@ fn m3_m7_m10_see_wrong_and_trembling_angles() {
     assert!(now.len() > 300 && errors(&now).max <= 0.01, "{:?}", errors(&now));
     let still = turns(&painting, 25.0, Rotation::Off);
     assert!(errors(&still).max > 1.0);
-    // The turn of another stroke, as a list of the wrong body's neighbours would give.
+    // Each stroke gets another stroke's turn, as neighbour lists of the wrong body would give it.
     let mut others = now.clone();
     let truths: Vec<_> = now.values().map(|turn| turn.truth).collect();
     for (turn, truth) in others.values_mut().zip(truths.iter().rev()) {
@@ -304,7 +304,7 @@ fn m9_sees_a_bare_region_and_foreign_colours() {
     };
     let covered = holes(&two_balls(|_| ()));
     assert!(covered <= 0.005, "{covered}");
-    // One of the two has no paint.
+    // One of the two balls has no paint.
     let bare = holes(&two_balls(|scene| {
         let mut region = scene.regions[0].clone();
         region.name = "bare".to_owned();
@@ -328,7 +328,7 @@ fn m9_sees_a_bare_region_and_foreign_colours() {
     let colors = [0, 1].map(|object| flat_color(object).0.map(impasto_core::color::linear_from_srgb));
     let (bled, pixels) = bleed(&Bodies { size_px, ids: &ids }, &paint, &colors);
     assert!(pixels > 3000 && bled == 0, "{bled} of {pixels}");
-    // Colours taken without a look at whose they are.
+    // Swapped bodies: colours are taken from the wrong one.
     let swapped: Vec<u32> = ids.iter().map(|&id| if id > 0 { 3 - id } else { 0 }).collect();
     assert!(bleed(&Bodies { size_px, ids: &swapped }, &paint, &colors).0 > 3000);
 }
@@ -337,7 +337,7 @@ fn m9_sees_a_bare_region_and_foreign_colours() {
 fn m14_sees_too_many_strokes_and_a_random_order() {
     let side = 1024;
     let mut version = sheet::sheet(&ball(), Some(0), side).unwrap();
-    // More than twice what is wanted on either side, so that the order decides which ones show.
+    // More than twice the particles wanted on either side, so that the order decides which ones show.
     version.scene.objects[0].particles = Some(120_000);
     let strokes = prepare(Arc::new(version)).unwrap().seen_by(
         &sheet::camera(0.0),
@@ -357,7 +357,7 @@ fn m14_sees_too_many_strokes_and_a_random_order() {
     let doubled: Vec<PlacedStroke> =
         placed.iter().map(|place| PlacedStroke { wanted_area_px: 2.0 * wanted_area_px, ..*place }).collect();
     assert!(shown_over_wanted(&doubled, pixels) > 1.1);
-    // As many, but whichever.
+    // As many strokes, chosen at random.
     let unit = |at: [f64; 2]| impasto_core::hash::unit(impasto_core::hash::scramble((at[0] * 64.0) as u32));
     let scattered: Vec<PlacedStroke> = (0..shown)
         .map(|index| {

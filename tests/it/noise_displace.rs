@@ -1,5 +1,5 @@
-//! Noise-displaced materials: each row of what the source claims, by a judge that is its own shader line by line; then what
-//! goes beyond it.
+//! Tests of noise-displaced materials: what the source claims, judged by its own shader rewritten line by line (`seed`), then
+//! what goes beyond it.
 
 mod material;
 mod normals;
@@ -25,7 +25,7 @@ fn material(noise: NoiseDisplace) -> Option<MaterialOverride> {
     Some(MaterialOverride { noise_displace: Some(noise), ..Default::default() })
 }
 
-/// Noise of vertices alone.
+/// A material that only moves vertices.
 fn moved_by(vertex: VertexNoise) -> NoiseDisplace {
     NoiseDisplace { vertex: Some(vertex), surface: None, period_secs: None }
 }
@@ -62,7 +62,7 @@ fn at_key(translation: [f64; 3]) -> Vec<ObjectKey> {
 }
 
 #[test]
-fn row_4_vertices_move_as_in_the_sources_shader() {
+fn vertices_move_as_in_the_sources_shader() {
     for space in [NoiseSpace::World, NoiseSpace::Local] {
         let noise = VertexNoise { space, value: [0.37, 0.21], scale: 0.4, ..Default::default() };
         let mut scene = ball(moved_by(noise));
@@ -86,7 +86,7 @@ fn row_4_vertices_move_as_in_the_sources_shader() {
 }
 
 #[test]
-fn row_2_a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
+fn a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
     for (space, changes) in [(NoiseSpace::World, true), (NoiseSpace::Local, false)] {
         let scene = || ball(moved_by(VertexNoise { space, ..Default::default() }));
         let mut there = scene();
@@ -96,8 +96,8 @@ fn row_2_a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
 }
 
 #[test]
-fn row_3_time_scrolls_the_texture() {
-    // 24 frames are 1/20 of the texture: as if every place were 0.05 / NV further along X and Y.
+fn time_scrolls_the_texture() {
+    // 24 frames scroll by 1/20 of the texture, as if every place were 0.05 / NV further along X and Y.
     let noise = VertexNoise { space: NoiseSpace::World, value: [0.1, 0.2], ..Default::default() };
     let scene = || ball(moved_by(noise.clone()));
     let mut there = scene();
@@ -110,7 +110,7 @@ fn row_3_time_scrolls_the_texture() {
 }
 
 #[test]
-fn row_4_a_half_taken_away_leaves_no_drift() {
+fn subtracting_a_half_leaves_no_drift() {
     // A sheet that covers the texture once.
     let noise = VertexNoise { space: NoiseSpace::Local, value: [0.5, 0.5], scale: 0.4, ..Default::default() };
     let mut scene = ball(moved_by(noise));
@@ -125,8 +125,8 @@ fn row_4_a_half_taken_away_leaves_no_drift() {
 }
 
 #[test]
-fn row_5_a_greater_value_is_a_busier_motion() {
-    // The mean difference of neighbours, over the mean size.
+fn a_greater_value_is_a_busier_motion() {
+    // The mean difference of neighbours, divided by the mean displacement.
     let busy = |value: f64| {
         let moves = moves(ball(moved_by(VertexNoise { value: [value; 2], ..Default::default() })), 0.0);
         let steps: f64 = moves.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
@@ -136,7 +136,7 @@ fn row_5_a_greater_value_is_a_busier_motion() {
 }
 
 #[test]
-fn row_6_the_scale_is_the_amplitude() {
+fn the_scale_is_the_amplitude() {
     let of = |scale: f64| moves(ball(moved_by(VertexNoise { scale, ..Default::default() })), 5.0);
     let (small, large) = (of(0.1), of(0.25));
     let worst = small.iter().zip(&large).map(|(a, b)| (*a * 2.5).distance(*b)).fold(0.0, f64::max);
@@ -157,7 +157,7 @@ fn along_the_normal_the_first_channel_moves() {
     }
 }
 
-/// The depth of the nearest surface at pixels that lie well inside a triangle, of triangles seen along −Z from a far eye.
+/// The depth of the nearest triangle at pixels well inside it, seen along −Z from far away.
 fn nearest_depths(triangles: &[[DVec3; 3]], size: usize, units_per_px: f64) -> Vec<f64> {
     let mut nearest = vec![f64::INFINITY; size * size];
     let to_px = |at: DVec3| {
@@ -217,7 +217,7 @@ fn drivers_put_vertices_where_the_source_does() {
         }
         off.sort_by(f64::total_cmp);
         assert!(compared > 7000, "{compared} pixels");
-        // A pixel on an edge may show the triangle beside it: those few are left out.
+        // A pixel on an edge may show the next triangle, so the worst percent is left out.
         let worst = off[off.len() * 99 / 100];
         println!("{driver:?}: depth is off by at most {worst:.2e} in 99 % of {compared} pixels");
         assert!(worst <= 1e-4 * 2.0, "{driver:?}: off by {worst}");
@@ -280,7 +280,7 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
         (picture, renderer.read_reference().body_id)
     };
     let ((still, ids), (moved, ids_moved)) = (picture(0.0), picture(0.9));
-    // On the sheet, which itself does not move, pixels that change are in the shadow.
+    // The sheet does not move, so pixels that change on it are in the shadow.
     let on_sheet = (0..320 * 180).filter(|&index| ids[index] == 2 && ids_moved[index] == 2);
     let changed =
         on_sheet.filter(|index| still.rgba8[index * 4].abs_diff(moved.rgba8[index * 4]) > 20).count();

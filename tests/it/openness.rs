@@ -1,4 +1,5 @@
-//! How far the openness pass of the plain render looks: to 0.83 of a radius of 5.5 % of the picture's height across an edge.
+//! Tests how far the plain render's openness pass looks: across an edge to 0.83 of its radius, which is 5.5 % of the picture's
+//! height.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
@@ -8,12 +9,12 @@ use impasto_tests::pictures::{Grey, faulty_renderer, renderer};
 use impasto_tests::shapes;
 
 const SIDE_PX: u32 = 360;
-/// World units that the picture is high.
+/// The height of the picture in world units.
 const HEIGHT: f64 = 2.0;
 const RADIUS: f64 = 0.055 * HEIGHT;
 
-/// The light, 0..255, on the middle line of a canyon's floor in light from all around; its walls stand `half_width` radii to
-/// either side and are 0.45 radii high.
+/// The light, 0..255, along the middle of a canyon's floor, lit from all around. Its walls are `half_width` radii away on
+/// either side and 0.45 radii high.
 fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     let names = ["floor", "left", "right"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 100)).into());
@@ -44,7 +45,7 @@ fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     (middle - 20..middle + 20).map(|y| grey.at(middle, y)).sum::<f64>() / 40.0
 }
 
-/// How much light walls at 0.25, 0.65 and 1 radii take from the floor between them, of 255.
+/// How much light, of 255, walls at 0.25, 0.65 and 1 radii take from the floor between them.
 fn darkening(renderer: &mut Renderer) -> [f64; 3] {
     let open = light_in_a_canyon(renderer, 3.0);
     [0.25, 0.65, 1.0].map(|half_width| open - light_in_a_canyon(renderer, half_width))
@@ -56,7 +57,7 @@ fn surroundings_darken_as_far_as_the_radius_and_no_farther() {
     assert!(near > 20.0, "what touches is not dark: {near}");
     assert!(middle > 4.0, "openness does not look as far as its radius: {middle}");
     assert!(beyond.abs() < 0.5, "openness looks farther than its radius: {beyond}");
-    // Looking a quarter as far, or farther, is seen.
+    // Planted faults: a radius a quarter as large, and one that is too large.
     let planted =
         |radius: &str| darkening(&mut faulty_renderer("reference/openness.frag", "RADIUS = 0.055", radius));
     let [_, middle, _] = planted("RADIUS = 0.055 / 4.0");

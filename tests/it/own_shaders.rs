@@ -1,4 +1,4 @@
-//! Shaders of one's own in place of the program's: whole, or not at all.
+//! Tests of a user's own shaders: they replace the program's all together, or not at all.
 
 use std::path::Path;
 use std::process::Command;
@@ -26,7 +26,7 @@ fn texts(text: &str) -> ShaderTexts {
     texts
 }
 
-/// What is red in the picture is what the shader says, in files and in drafts; a broken shader changes nothing.
+/// A shader that paints red is used for files and for drafts; a broken shader changes nothing.
 #[test]
 fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     let painting = painting();
@@ -42,7 +42,7 @@ fn a_text_takes_the_place_of_a_file_and_a_broken_one_leaves_the_last_good() {
     let broken = ENCODE.replace("mix(high, low,", "mix(high, lower,");
     let words = renderer.replace_shaders(&texts(&broken)).unwrap_err().to_string();
     assert!(words.contains("shared/encode.glsl:5") && words.contains("lower"), "{words}");
-    // Broken in drafts alone: found as soon as it is there.
+    // A shader that is broken only in drafts is refused at once.
     let draft_only = format!("{ENCODE}\n#ifdef DRAFT\nbroken\n#endif\n");
     renderer.replace_shaders(&texts(&draft_only)).unwrap_err();
     assert!(renderer.render(&exact).unwrap().rgba8.starts_with(&[255, 0, 0, 255]));

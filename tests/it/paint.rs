@@ -1,5 +1,4 @@
-//! The paint: layers that can each be turned down to nothing, brushes and colours that are hard to take, the same picture at
-//! any size.
+//! Tests of the paint: layers that can be turned down to nothing, difficult brushes and colours, the same picture at any size.
 
 use std::path::Path;
 
@@ -18,7 +17,7 @@ fn options(size_px: [u32; 2]) -> FrameOptions {
     FrameOptions::new(size_px)
 }
 
-/// A shipped scene with some of its values replaced.
+/// The number of strokes in layers of this kind.
 fn strokes_of(frame: &Frame, kind: LayerKind) -> usize {
     frame.layers.iter().filter(|run| run.kind == kind).map(|run| run.count as usize).sum()
 }
@@ -50,7 +49,7 @@ fn relief_canvas_and_varnish_each_show_and_each_go() {
     let mut renderer = renderer(Driver::Egl);
     let bare = [("style.relief", "0"), ("style.weave", "0"), ("style.varnish", "0")];
     let mut picture = |set: &[(&str, &str)]| {
-        // Large enough that threads of the canvas are more than a pixel apart.
+        // Large enough for threads of the canvas to be more than a pixel apart.
         let frame = scenes::painting_with("apple", set).at(0.0, &options([960, 540]));
         renderer.render(&frame).unwrap().rgba8
     };
@@ -82,7 +81,7 @@ fn a_palette_keeps_values_and_takes_its_hues_only() {
         let values: Vec<f32> = shown.iter().map(|lab| lab[0]).collect();
         let spread =
             values.iter().fold(0.0f32, |a, &b| a.max(b)) - values.iter().fold(1.0f32, |a, &b| a.min(b));
-        // Chroma across the palette's own hue: how far a colour lies off the line from grey to the pigment.
+        // How far a colour lies from the line between grey and the pigment.
         let pigment = impasto_core::color::oklab_from_linear(
             [0x4a, 0x6a, 0x9a].map(|byte: u8| impasto_core::color::linear_from_srgb(f32::from(byte) / 255.0)),
         );
@@ -98,7 +97,7 @@ fn a_palette_keeps_values_and_takes_its_hues_only() {
     assert!(off > 0.08, "the measure must see other hues: {off}");
 }
 
-/// A folder with a scene of the apple and a brush of that name.
+/// Prepares the apple with a brush whose picture is these bytes.
 fn with_brush(folder: &Path, brush: &[u8]) -> Result<Painting, String> {
     let scenes = root().join("scenes");
     std::fs::create_dir_all(folder.join("meshes")).unwrap();
@@ -137,7 +136,7 @@ fn a_picture_of_ones_own_is_a_brush() {
 }
 
 #[test]
-fn a_brush_that_is_none_is_told() {
+fn a_picture_that_cannot_be_a_brush_is_reported() {
     let whole = png_of(64, |x, _| x as u8);
     let cases: [(&str, Vec<u8>, &str); 5] = [
         ("empty", Vec::new(), "mark.png"),
@@ -170,7 +169,7 @@ fn crc32(bytes: &[u8]) -> u32 {
     })
 }
 
-/// A sphere with the given settings, as many particles as it needs.
+/// A sphere with the given settings and as many particles as its strokes need.
 fn sphere(edit: impl FnOnce(&mut Scene)) -> Painting {
     let mut scene = shapes::scene(vec![impasto_scene::document::Object {
         particles: None,
@@ -190,7 +189,7 @@ fn extreme_settings_still_give_a_picture() {
         ("huge strokes", |scene| {
             (scene.strokes.length_px, scene.strokes.width_px) = (Some(4096.0), Some(4096.0));
         }),
-        ("direction_line-thin strokes", |scene| scene.strokes.width_px = Some(0.001)),
+        ("hair-thin strokes", |scene| scene.strokes.width_px = Some(0.001)),
         ("wild colours", |scene| {
             (scene.strokes.color_jitter, scene.strokes.temperature) = (Some(10.0), Some(10.0));
         }),
@@ -205,7 +204,7 @@ fn extreme_settings_still_give_a_picture() {
     }
 }
 
-/// Colour of every pixel after the picture has been reduced to this size by averaging.
+/// The colours of the pixels after the picture was reduced to `small` by averaging.
 fn reduced(renderer: &mut Renderer, painting: &Painting, size_px: [u32; 2], small: [u32; 2]) -> Vec<f64> {
     let picture = renderer.render(&painting.at(0.0, &options(size_px))).unwrap();
     let by = [size_px[0] / small[0], size_px[1] / small[1]];

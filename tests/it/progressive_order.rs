@@ -1,12 +1,12 @@
-//! Every beginning of the particle order is blue noise, and more particles keep those that fewer give.
+//! Tests of the particle order: every beginning of it is blue noise, and more particles begin with those of fewer.
 
 use glam::Vec3;
 use impasto_core::TriangleMesh;
 use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 use impasto_tests::shapes::{cube, sheet, sphere};
 
-/// Mean and 1st percentile of the nearest-neighbour distance on the same side, over the hexagonal spacing. Brute
-/// force over a few hundred particles, so that it shares nothing with the sampler.
+/// Mean and 1st percentile of the distance to the nearest neighbour on the same side, as a share of the hexagonal lattice's
+/// spacing. Brute force over a few hundred particles, so that it shares nothing with the sampler.
 fn spacing(particles: &[Particle], area: f64) -> (f64, f64) {
     let stride = (particles.len() / 700).max(1);
     let mut nearest: Vec<f64> = (0..particles.len())

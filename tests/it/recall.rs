@@ -1,4 +1,4 @@
-//! Pictures of a moving view ask the strokes that there were before, and some of the others.
+//! Tests of drafts with a recall: they draw the strokes that were present in the picture before, and some of the others.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -26,11 +26,11 @@ fn places(frame: &Frame) -> BTreeSet<u32> {
 }
 
 #[test]
-fn what_there_was_is_asked_at_once_and_the_rest_within_sixteen_pictures() {
+fn present_strokes_are_drawn_at_once_and_the_others_within_sixteen_pictures() {
     let painting = still_life();
     let all = seen(&painting, None);
     assert!(all.strokes.len() > 10_000, "{}", all.strokes.len());
-    // Every third stroke is said to have been there.
+    // Every third stroke counts as present before.
     let there = |index: usize| index.is_multiple_of(3);
     let mut found = BTreeSet::new();
     for turn in 0..16 {
@@ -41,7 +41,7 @@ fn what_there_was_is_asked_at_once_and_the_rest_within_sixteen_pictures() {
         for (index, source) in all.sources.iter().enumerate().filter(|(index, _)| there(*index)) {
             assert!(now.contains(&source.place), "{turn}: stroke {index} was there");
         }
-        // Those that are there are as they would be without recall, in the same order.
+        // The strokes that are drawn are as without a recall, in the same order.
         let same = all.sources.iter().zip(&all.strokes).filter(|(source, _)| now.contains(&source.place));
         assert!(same.map(|(_, stroke)| stroke).eq(&frame.strokes), "{turn}");
         assert_eq!(frame.layers.iter().map(|run| run.count as usize).sum::<usize>(), frame.strokes.len());
@@ -66,7 +66,7 @@ fn large_strokes_are_late_by_one_picture_at_most() {
 }
 
 #[test]
-fn another_painting_is_asked_for_all() {
+fn another_painting_draws_all_its_strokes() {
     let painting = still_life();
     let none = Recall::of(&painting, &seen(&painting, None), |_| false, 0);
     let again = scenes::painting_with("still_life", &[]);

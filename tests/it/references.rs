@@ -1,5 +1,5 @@
-//! How far a reference states the directions of a surface that it sees at a slant: wholly where it faces it by a cosine of
-//! 0.5 or more, not at all below 0.2, and blended between (docs/techniques/rotating_strokes.md).
+//! Tests how far a reference decides the directions of a surface that it sees at a slant: wholly from a cosine of 0.5 on, not
+//! at all below 0.2, and blended between (docs/techniques/rotating_strokes.md).
 
 use glam::{DMat2, DMat3, DVec2, DVec3};
 use impasto_painting::frame::LayerKind;
@@ -11,16 +11,16 @@ use impasto_tests::shapes;
 const ANGLE_DEG: f64 = 35.0;
 const LENS: Lens = Lens::Orthographic { height: 3.0, near: 0.05, far: 100.0 };
 
-/// Where the later view stands: strongly slanted to the sheet in two directions.
+/// The eye of the later view, which sees the sheet strongly slanted in two directions.
 const LATER_EYE: DVec3 = DVec3::new(1.5, 3.4, 1.9);
 
-/// The sheet's own axes and normal, turned about Y until the reference faces it by this cosine.
+/// The sheet's axes and normal, turned about Y so that the reference sees it at this cosine.
 fn sheet_axes(facing: f64) -> DMat3 {
     DMat3::from_rotation_y(facing.acos())
 }
 
-/// The angle at which a stroke stated in the reference shows in the later view, where the reference holds `share` of it and a
-/// camera straight before the sheet the rest.
+/// The angle in the later view of a stroke that is stated in the reference, when the reference decides `share` of it and a
+/// camera straight in front of the sheet the rest.
 fn expected_deg(facing: f64, share: f64) -> f64 {
     let axes = sheet_axes(facing);
     let gaze = -LATER_EYE.normalize();
@@ -28,7 +28,7 @@ fn expected_deg(facing: f64, share: f64) -> f64 {
     let up = right.cross(gaze);
     let shown = |axis: DVec3| DVec2::new(right.dot(axis), up.dot(axis));
     let later_from_sheet = DMat2::from_cols(shown(axes.x_axis), shown(axes.y_axis));
-    // The reference sees the sheet narrowed by `facing`; the camera before it sees it as it is.
+    // The reference sees the sheet narrowed by `facing`; the camera in front sees it undistorted.
     let sheet_from_reference = DMat2::from_diagonal(DVec2::new(1.0 / facing, 1.0));
     let turn = |map: DMat2| DVec2::new(map.x_axis.x + map.y_axis.y, map.x_axis.y - map.y_axis.x);
     let stated = turn(later_from_sheet * sheet_from_reference);
@@ -76,7 +76,7 @@ fn a_reference_is_blended_in_between_cosines_of_0_2_and_0_5() {
             "references do not blend in from 0.2 to 0.5: facing {facing} gives {found}, not {expected} degrees"
         );
     }
-    // The angles tell: with another end of the blend they would be others.
+    // The angles would differ if the blend ended elsewhere.
     let off = expected_deg(0.3, share(0.3, 0.35)) - expected_deg(0.3, share(0.3, 0.5));
     assert!(off.abs() > 0.5, "the test sees nothing: {off}");
 }

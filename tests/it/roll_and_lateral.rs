@@ -1,4 +1,4 @@
-//! M2 and M3: stroke angles against answers in closed form. The oracles use the document's numbers and plain
+//! Tests of stroke angles (M2 and M3) against answers in closed form. The oracles use the document's numbers and plain
 //! trigonometry, none of the code under test.
 
 use std::f64::consts::TAU;
@@ -35,7 +35,7 @@ fn with_solver(mut scene: Scene, solver: Solver) -> Scene {
     scene
 }
 
-/// A sphere seen a little from above, off the middle, with strokes of three kinds of direction.
+/// A sphere off the middle, seen a little from above, with three kinds of directions.
 fn rolling_scene(size: (u32, u32), roll_deg: f64) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 20_000)]);
     scene.size = size;
@@ -77,7 +77,7 @@ fn a_camera_roll_turns_every_stroke_back() {
     }
 }
 
-/// A sheet tilted by 40° about an odd axis, the camera moving sideways: A = I + t⊗n/d in camera space.
+/// A sheet tilted by 40° about an oblique axis, with a camera that moves sideways: A = I + t⊗n/d in camera space.
 fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     let mut scene = shapes::scene(vec![shapes::object("sheet", 6000)]);
     scene.camera.lens = lens;
@@ -96,9 +96,8 @@ fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     (scene, pose)
 }
 
-/// φ(A) in degrees of a plane n·X = d (camera space, before the move) when the camera moves by `shift` in the picture
-/// plane, seen at the plane's own point X: all points of the plane keep their plane, so the picture changes by a
-/// homography; its linear part at the point is what a stroke sees.
+/// φ(A) in degrees at a point X of the plane n·X = d (camera space, before the move) when the camera moves by `shift` in the
+/// picture plane. The picture of a plane changes by a homography; a stroke sees its linear part at the point.
 fn homography_angle(normal: DVec3, distance: f64, shift: DVec2, at: DVec3) -> f64 {
     // x' = (X − s)/Z' with Z' = Z: the homography I − s nᵀ/d acting on (x, y, 1), x = X/Z.
     let s = shift.extend(0.0);
@@ -167,7 +166,7 @@ fn a_lateral_move_of_an_orthographic_camera_turns_nothing() {
 
 #[test]
 fn a_turning_object_is_a_turning_camera_seen_backwards() {
-    // The object turns by −a about the gaze: the same picture as a camera that rolls by +a.
+    // An object that turns by −a about the gaze gives the picture of a camera that rolls by +a.
     let mut scene = shapes::scene(vec![shapes::object("sphere", 8000)]);
     scene.timeline.last = 1;
     let key = |frame: f64, z: f64| ObjectKey {
@@ -216,7 +215,7 @@ fn back_at_the_reference_every_stroke_is_as_it_was() {
     let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
     let (first, last) = (painting.at(0.0, &options([640, 360])), painting.at(2.0, &options([640, 360])));
     assert_eq!(first.strokes, last.strokes);
-    // Strokes that the reference faces squarely stand at the stated angle.
+    // Strokes that the reference faces well stand at the stated angle.
     for (stroke, source) in first.strokes.iter().zip(&first.sources) {
         if source.facing >= 0.5 {
             assert!(degrees_apart(f64::from(stroke.angle_rad), 20f64.to_radians()) < 1e-3);
@@ -237,7 +236,7 @@ fn strokes_can_be_kept_from_turning_and_turned_by_chance() {
         };
     let still = apart(&at(0.0, Rotation::Off), &at(1.0, Rotation::Off));
     assert!(still.len() > 500 && still.iter().all(|&off| off == 0.0), "off: {} strokes", still.len());
-    // In the reference pose there is nothing to turn where that sees the surface well.
+    // In the reference pose nothing turns where the reference sees the surface well.
     let unturned = apart(&at(0.0, Rotation::Off), &at(0.0, Rotation::On));
     let same = unturned.iter().filter(|&&off| off < 1e-3).count();
     assert!(2 * same > unturned.len(), "{same} of {} strokes lie as in the reference pose", unturned.len());

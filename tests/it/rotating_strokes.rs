@@ -1,4 +1,4 @@
-//! What is drawn: orientation, size, order, colour, coverage and occlusion, read from pixels and read back.
+//! Tests of strokes as drawn: orientation, size, order, colour, coverage and occlusion, from pixels and from strokes read back.
 
 use std::sync::Arc;
 
@@ -19,8 +19,8 @@ fn unlit(color: [f32; 3]) -> Option<MaterialOverride> {
     Some(MaterialOverride { color: Some(Color(color)), unlit: true, ..Default::default() })
 }
 
-/// A frame with these strokes and nothing else, on a black ground: body 1, red to white as `colors` say, left of the
-/// middle, body 2 right of it, both flat and unlit, far behind every stroke.
+/// A frame with these strokes and nothing else, on a black ground. Body 1 is left of the middle, body 2 right of it, in these
+/// `colors`, flat and unlit, far behind every stroke.
 fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) -> Frame {
     let halves = [("left", -50.0, colors[0]), ("right", 50.0, colors[1])].map(|(name, x, color)| {
         let mut half = shapes::object(name, 1);
@@ -56,7 +56,7 @@ fn stroke(center_px: [f32; 2], angle_deg: f32) -> Stroke {
         body_id: 1,
         albedo_srgb8: 0x00ff_ffff,
         normal_in_world: [0.0, 0.0, 1.0],
-        // No limit to how far paint may run past its body.
+        // Paint may run past its body without limit.
         overrun_px: Stroke::FREE,
         ..Stroke::default()
     }
@@ -66,7 +66,7 @@ fn stroke(center_px: [f32; 2], angle_deg: f32) -> Stroke {
 fn a_lone_stroke_lies_at_its_angle() {
     let mut renderer = renderer(Driver::Egl);
     for angle_deg in [7.0f32, 30.0, 137.0] {
-        // All marks, as made and flipped, so that the shape of one does not decide.
+        // All marks, plain and flipped, so that no single mark's shape decides.
         let mut sum = (0.0, 0.0);
         for mark in 0..24u32 {
             let mut one = stroke([158.0, 90.0], angle_deg);
@@ -123,7 +123,7 @@ fn presence_erodes_a_stroke_without_a_step() {
         one.facing_fade = presence;
         let picture = renderer.render(&lone_strokes([200, 100], vec![one], WHITE)).unwrap();
         let values = Grey::of(&picture).values;
-        // Solid paint where there is any: what fades is the area, not the paint.
+        // What fades is the area of a mark, not the opacity of its paint.
         (
             values.iter().filter(|&&value| value > 127.0).count() as f64,
             values.iter().fold(0.0f64, |a, &b| a.max(b)),
@@ -208,7 +208,7 @@ fn paint_stays_near_its_own_body_and_behind_what_hides_it() {
             if id(x, y) == 0 && !near(1) && !near(2) {
                 assert!(pixel[0] > 200 && pixel[1] > 200, "paint far from every body at {x}, {y}");
             }
-            // The blue cube stands in front: red paint ends at its edge.
+            // The blue cube stands in front, so red paint ends at its edge.
             let inside = (-2..=2).all(|dy| (-2..=2).all(|dx| id(x + dx, y + dy) == 2));
             red_on_blue += u32::from(inside && pixel[0] > 200 && pixel[2] < 60);
         }
@@ -232,7 +232,7 @@ fn hidden_strokes_are_absent_and_open_ones_whole() {
         if !(14.0..626.0).contains(&x) || !(14.0..346.0).contains(&y) {
             continue;
         }
-        // By pixels alone: bodies within reach of the occlusion taps.
+        // From pixels alone: the bodies within reach of the occlusion taps.
         let around: Vec<u32> = (-14..=14)
             .flat_map(|dy| (-14..=14).map(move |dx| (dx, dy)))
             .map(|(dx, dy)| {
@@ -264,7 +264,7 @@ fn sphere_scene(size: (u32, u32)) -> Scene {
     scene
 }
 
-/// Flat paint on a smooth board: the light on the relief and the canvas stay where they are when the picture turns.
+/// Flat paint on a smooth board, since light on the relief and the canvas would not turn with the picture.
 fn flat(scene: &mut Scene) {
     scene.style = Style::RotatingStrokes(RotatingStrokes {
         canvas: Canvas::Board,
@@ -274,7 +274,7 @@ fn flat(scene: &mut Scene) {
     });
 }
 
-/// M9: share of the surface mask with less than half a coat of paint.
+/// M9: share of the surface with less than half a coat of paint, and the surface's pixels.
 fn holes(renderer: &mut Renderer, frame: &Frame) -> (f64, usize) {
     renderer.render(frame).unwrap();
     let paint = renderer.read_paint();
@@ -313,7 +313,7 @@ fn the_surface_is_covered() {
 const SIDE: usize = 512;
 const HALF: f64 = (SIDE as f64 - 1.0) * 0.5;
 
-/// M1. Rolls the camera; lights stand in the world, so the picture should turn as a whole.
+/// The scene of M1 with its camera rolled; lights stand in the world, so the picture should turn as a whole.
 fn rolled(roll_deg: f64) -> Scene {
     let mut scene = sphere_scene((SIDE as u32, SIDE as u32));
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(34.0), Some(11.0));
@@ -326,7 +326,7 @@ fn rolled(roll_deg: f64) -> Scene {
 }
 
 fn roll_pictures(renderer: &mut Renderer, roll_deg: f64, fixed: bool) -> (Picture, Picture, Vec<u32>) {
-    // Speckled, so that there are streaks to see: strokes of one plain colour hardly differ from each other.
+    // Speckled, so that streaks show: strokes of one colour hardly differ.
     let loaded = shapes::speckled(&shapes::loaded(rolled(roll_deg), [shapes::sphere(48, 24)]));
     let painting = prepare(loaded).unwrap();
     let before = painting.at(0.0, &options([SIDE as u32; 2]));
@@ -374,7 +374,7 @@ fn a_quarter_turn_of_the_camera_turns_the_picture() {
         println!("roll {roll_deg}: mean difference {mean:.3}/255, over 16: {:.3} %", over * 100.0);
         assert!(mean <= 2.0 && over <= 0.01, "roll {roll_deg}: mean {mean}, over 16: {over}");
         if roll_deg != 180.0 {
-            // The planted fault: strokes that hang still.
+            // The planted fault: strokes that do not turn.
             let (first, after, ids) = roll_pictures(&mut renderer, roll_deg, true);
             let (_, over) = compare(&first, &after, &ids);
             assert!(over > 0.01, "strokes that do not turn must show: {over}");
@@ -406,9 +406,9 @@ fn an_odd_turn_of_the_camera_turns_the_streaks() {
                     }
                 }
             }
-            // Both a little blurred, so that the pixel grid has no say.
+            // Both are blurred a little, so that the pixel grid does not matter.
             let (turned, after) = (turned.blurred(1.5), after.blurred(1.5));
-            // Well inside the mask, so that the outline has no say either.
+            // Well inside the mask, so that the outline does not matter either.
             let inside = |x: usize, y: usize| {
                 let at = |dx: i32, dy: i32| known[(y as i32 + dy) as usize * SIDE + (x as i32 + dx) as usize];
                 (-4..=4).all(|dy| (-4..=4).all(|dx| at(dx, dy)))
@@ -445,7 +445,7 @@ fn egl_and_osmesa_draw_the_same_bytes() {
     let (a, b) = (egl.render(&frame).unwrap(), osmesa.render(&frame).unwrap());
     assert!(a.rgba8.chunks(4).any(|pixel| pixel[0] > 200 && pixel[2] < 60), "there is paint to compare");
     assert!(a == b, "EGL and OSMesa differ");
-    // A frame alone and the same frame after others.
+    // The same frame after another of a different size.
     egl.render(&painting.at(0.0, &options([64, 400]))).unwrap();
     assert!(egl.render(&frame).unwrap() == a, "what was drawn before must not matter");
     let mut other = frame.clone();

@@ -1,4 +1,4 @@
-//! The shipped scenes in motion: facets, popping as drawn, stillness of what does not move, hostile viewpoints.
+//! Tests of the shipped scenes in motion: no facets, no popping as drawn, still objects stay still, hostile viewpoints.
 
 use std::collections::HashMap;
 
@@ -91,7 +91,7 @@ fn flat_normals_would_show_facets() {
     assert!(differing > particles.len() / 4, "only {differing} normals differ from their facet's");
 }
 
-/// M4 as drawn, on the bodies that move: the area of strokes whose alpha jumps by more than 0.2, over the area shown.
+/// M4 as drawn, on moving bodies: the area of strokes whose alpha jumps by more than 0.2, as a share of the area shown.
 fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
     let [before, after] = [frame, frame + 1.0].map(|frame| {
         let frame = painting.at(frame, &OPTIONS);
@@ -190,7 +190,7 @@ fn a_closed_path_of_the_camera_closes_the_picture() {
     let end = renderer.render(&painting.at(last, &small)).unwrap();
     assert!(begin == end, "the path closes, so must the picture");
     assert!(begin != middle, "the camera moves");
-    // A frame alone, by another painting and another renderer.
+    // One frame alone, through another renderer.
     let alone = impasto_tests::pictures::renderer(Driver::Egl)
         .render(&painting.at((first + last) * 0.5, &small))
         .unwrap();
@@ -199,7 +199,7 @@ fn a_closed_path_of_the_camera_closes_the_picture() {
 
 #[test]
 fn grain_stays_along_the_falling_log() {
-    // Without chance, which has nothing to do with how the grain is kept.
+    // Without jitter, so that strokes follow the grain exactly.
     let painting = scenes::painting_with(
         "falling_log",
         &[("strokes.angle_jitter_deg", "0"), ("strokes.swing_deg", "0")],

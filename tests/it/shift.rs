@@ -1,4 +1,4 @@
-//! Strokes near the border of their body are shifted along themselves, so that they lie on it as far as they can.
+//! Tests that strokes near the border of their body are shifted along themselves, to lie on it as far as they can.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
@@ -15,15 +15,15 @@ const RIGHT_PX: f32 = 440.0;
 const BOTTOM_PX: f32 = 60.0;
 const TOP_PX: f32 = 300.0;
 
-/// The shift along a level stroke whose centre lies so many pixels inside of an upright border. An end may lie past the
-/// border by a fifth of the length; a half that reaches farther pushes by half of what is too much.
+/// The shift of a level stroke whose centre is `inside_px` inside an upright border. An end may lie past the border by a fifth
+/// of the length; a half that reaches farther shifts the stroke by half the excess.
 fn expected_px(inside_px: f32, length_px: f32) -> f32 {
     let half_px = 0.5 * length_px;
     let on_body = (inside_px / half_px).min(1.0);
     0.5 * half_px * (1.0 - (on_body + 0.4).min(1.0))
 }
 
-/// How far strokes are from where they should be.
+/// How far strokes are from where they should lie, in pixels.
 #[derive(Debug, Default)]
 struct Errors {
     at_border: Vec<f32>,
@@ -75,7 +75,7 @@ fn strokes_at_the_border_are_shifted_onto_their_body() {
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(1)])).unwrap();
     let frame = painting.at(0.0, &FrameOptions::new(SIZE_PX));
     let found = errors(&frame, &mut renderer(Driver::Egl));
-    // A tap is a twenty-fourth of the half of a stroke.
+    // Taps are a twenty-fourth of half a stroke apart.
     let off = largest(&found.at_border);
     assert!(off < 2.0, "strokes at the border are not shifted onto their body: off by {off} px");
     let off = largest(&found.inside);

@@ -1,4 +1,4 @@
-//! The scenes that are shipped: good, complete, and those of the paper's counts.
+//! Tests of the shipped scenes: they load without a message, are saved equal, and have the paper's counts where it has them.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! M4 and M8 as far as the frame decides them: no stroke pops, none changes its size with distance.
+//! Tests of M4 and M8 on frames, before drawing: no stroke pops, and none changes its size with distance.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
-/// M4 without what occlusion and the picture decide: the popping share, and the largest step of presence.
+/// M4 without occlusion and other effects of the picture: the share that pops, and the largest step of presence.
 fn popping(before: &Frame, after: &Frame) -> (f64, f64) {
     let found = measure::popping(&strokes_by_key(before, &[]), &strokes_by_key(after, &[]), OPTIONS.size_px);
     (found.share, found.largest_step)
@@ -69,7 +69,7 @@ fn nothing_pops_on_a_zoom() {
         shapes::camera_key(0.0, [0.0, 0.0, 16.0], [0.0; 3]),
         shapes::camera_key(200.0, [0.0, 0.0, 16.0], [0.0; 3]),
     ];
-    // One percent closer a frame.
+    // The camera comes one percent closer per frame.
     for frame in 0..=200 {
         let distance = 16.0 * 0.99f64.powi(frame);
         let key = shapes::camera_key(f64::from(frame), [0.0, 0.0, distance], [0.0; 3]);

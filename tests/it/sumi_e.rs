@@ -1,4 +1,4 @@
-//! Ink on paper: the source's five passes against a twin that shares nothing with them, then what ours does better.
+//! Tests of ink on paper: the source's five passes against a twin on the CPU that shares no code, then what our rule adds.
 
 use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
@@ -49,7 +49,7 @@ fn red(picture: &Picture, x: usize, y: usize) -> i32 {
     i32::from(picture.rgba8[(y * picture.size_px[0] as usize + x) * 4])
 }
 
-/// The source's rule, written down from its listing alone. Values are bytes, as its targets hold them; rows from the top.
+/// The source's rule, written from its listing alone. Values are bytes, as in its targets; rows from the top.
 struct Twin {
     width: i64,
     height: i64,
@@ -57,7 +57,7 @@ struct Twin {
     interior: Vec<u8>,
 }
 
-/// What the twin looks at: corners and normals of all triangles in world space, and how it is looked at.
+/// What the twin sees: corners and normals of all triangles in world space, and the view.
 struct Seen<'a> {
     triangles: Vec<[(DVec3, DVec3); 3]>,
     eye: DVec3,
@@ -105,7 +105,7 @@ impl Twin {
             .collect()
     }
 
-    /// Direct3D 9 reads a screen pixel at the corner that its texel shares with those above and to the left.
+    /// Direct3D 9 samples a screen pixel at the corner that its texel shares with those above and to the left.
     fn at_corner(&self, picture: &[u8], x: i64, y: i64, wraps: bool) -> f64 {
         let texel = |x: i64, y: i64| {
             let (x, y) = if wraps {
@@ -163,7 +163,7 @@ impl Seen<'_> {
             let v = to_eye.dot(across) / determinant;
             let w = ray.dot(to_eye.cross(ab)) / determinant;
             let distance = ac.dot(to_eye.cross(ab)) / determinant;
-            // How far outside: a pixel that the driver's rounding has covered takes the triangle that it misses least.
+            // The driver's rounding may cover a pixel that just misses every triangle; it takes the one it misses least.
             let outside = (-v).max(-w).max(v + w - 1.0).max(0.0);
             let outside = if outside < 1e-9 { 0.0 } else { outside };
             if distance > 0.0 && (outside, distance) < (best.0, best.1) {
@@ -192,7 +192,7 @@ fn two_bodies(ink: SumiE) -> (Scene, [TriangleMesh; 2]) {
 }
 
 #[test]
-fn row_1_to_6_the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
+fn the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
     let ink = SumiE { tones: [0.1, 0.4, 0.7, 0.95], ..source() };
     for driver in [Driver::Egl, Driver::Osmesa] {
         let mut renderer = renderer(driver);
@@ -228,7 +228,7 @@ fn row_1_to_6_the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
         });
         let worst = worst.max().unwrap();
         assert!(worst <= 2, "{driver:?}: off by {worst} of 255");
-        // The comparison can see: every tone is there, and the twin without the wrap is another picture.
+        // The comparison can see faults: all tones occur, and the wrap at the edge shows.
         assert!(expected.contains(&255) && expected.iter().any(|&value| value < 10));
         let left = |rows: std::ops::Range<usize>| rows.map(|y| expected[y * SIZE_PX[0] as usize]).min();
         assert!(
@@ -240,12 +240,12 @@ fn row_1_to_6_the_sources_five_passes_are_those_of_a_twin_on_the_cpu() {
 }
 
 #[test]
-fn row_1_the_silhouette_lies_between_its_two_cosines() {
+fn the_silhouette_lies_between_its_two_cosines() {
     let mut renderer = renderer(Driver::Egl);
     let mut scene = scene_in(SumiE { tones: [1.0; 4], ..source() });
     scene.size = (640, 360);
     let picture = drawn(&mut renderer, scene);
-    // The ball's radius is 160 pixels; Direct3D's corner moves the picture by half a pixel.
+    // The ball's radius is 160 pixels; Direct3D's sampling at corners moves the picture by half a pixel.
     let at =
         |cosine: f64| red(&picture, (320.0 + 160.0 * (1.0 - cosine * cosine).sqrt()).round() as usize, 180);
     assert!(at(0.24) <= 3, "{}", at(0.24));
@@ -257,10 +257,10 @@ fn row_1_the_silhouette_lies_between_its_two_cosines() {
 }
 
 #[test]
-fn row_2_the_low_pass_has_nine_taps_two_apart() {
+fn the_low_pass_has_nine_taps_two_apart() {
     let mut renderer = renderer(Driver::Egl);
     let mut scene = scene_in(SumiE { tones: [0.0; 4], ..source() });
-    // A cube of 0.6 pixels about the middle of a pixel, whose face shows no silhouette.
+    // A cube of 0.6 pixels in the middle of a pixel; its front face has no silhouette.
     let px = 2.25 / 180.0;
     let mut cube = shapes::cube();
     let centre = Vec3::new(0.5 * px, 0.5 * px, 0.0);
@@ -268,7 +268,7 @@ fn row_2_the_low_pass_has_nine_taps_two_apart() {
     scene.size = (SIZE_PX[0], SIZE_PX[1]);
     let frame = painting(scene, [cube]).at(0.0, &FrameOptions::new(SIZE_PX));
     let picture = renderer.render(&frame).unwrap();
-    // Nine dots of 1/9, and each of them read by four pixels of the mix, by a quarter: 28/4 of 255.
+    // Nine dots of 1/9, each read by four pixels of the mix with a weight of a quarter: 28/4 of 255.
     for y in 0..180 {
         for x in 0..320 {
             let inside = (158..164).contains(&x) && (87..93).contains(&y);
@@ -278,7 +278,7 @@ fn row_2_the_low_pass_has_nine_taps_two_apart() {
 }
 
 #[test]
-fn row_3_the_highlight_stays_with_the_eye_or_with_the_scene() {
+fn the_highlight_stays_with_the_eye_or_with_the_scene() {
     let mut renderer = renderer(Driver::Egl);
     let mut from = |ink: SumiE, degrees: f64| {
         let mut scene = scene_in(ink);
@@ -291,14 +291,14 @@ fn row_3_the_highlight_stays_with_the_eye_or_with_the_scene() {
         let sum: u64 = a.rgba8.iter().zip(&b.rgba8).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
         sum as f64 / a.rgba8.len() as f64
     };
-    // A turned ball is another polyhedron, so a little differs.
+    // The turned ball is a slightly different polyhedron, so a little differs.
     assert!(difference(&source()) < 0.5);
     assert!(difference(&SumiE { light: InkLight::Eye, ..wash() }) < 0.5);
     assert!(difference(&wash()) > 4.0);
 }
 
 #[test]
-fn row_4_four_tones_with_soft_steps() {
+fn four_tones_with_soft_steps() {
     let mut renderer = renderer(Driver::Egl);
     let tones = [0.2, 0.4, 0.6, 0.8];
     let ink = SumiE { tones, softness: 0.03, silhouette_from: 0.0, silhouette_to: 1e-3, ..source() };
@@ -313,7 +313,7 @@ fn row_4_four_tones_with_soft_steps() {
         let near: usize = histogram[at - 1..=at + 1].iter().sum();
         assert!(near * 12 > body, "the tone {tone} has {near} of {body} pixels");
     }
-    // From the dark side to the light one it only gets lighter, and by small steps.
+    // From the dark side to the light side it only gets lighter, in small steps.
     let along: Vec<i32> = (-128..130)
         .map(|step| {
             let (x, y) = (320.0 + 0.96 * f64::from(step), 180.0 - 0.64 * f64::from(step));
@@ -326,7 +326,7 @@ fn row_4_four_tones_with_soft_steps() {
 }
 
 #[test]
-fn row_5_inks_and_paper_add_up() {
+fn inks_and_paper_add_up() {
     let mut renderer = renderer(Driver::Egl);
     let tinted = SumiE { rule: InkRule::Source, ..SumiE::default() };
     let plain = drawn(&mut renderer, scene_in(source()));
@@ -342,7 +342,7 @@ fn row_5_inks_and_paper_add_up() {
 }
 
 #[test]
-fn row_6_only_the_source_wraps_at_the_edge() {
+fn only_the_source_wraps_at_the_edge() {
     let mut renderer = renderer(Driver::Egl);
     let mut left = |ink: SumiE| {
         let (scene, meshes) = two_bodies(ink);
@@ -355,7 +355,7 @@ fn row_6_only_the_source_wraps_at_the_edge() {
 }
 
 #[test]
-fn row_7_targets_are_white_and_of_the_pictures_size() {
+fn targets_are_white_and_of_the_pictures_size() {
     let mut renderer = renderer(Driver::Egl);
     for ink in [source(), wash()] {
         let ball = painting(scene_in(ink.clone()), [shapes::sphere(32, 16)]);
@@ -375,7 +375,7 @@ fn row_7_targets_are_white_and_of_the_pictures_size() {
 }
 
 #[test]
-fn row_8_any_model_can_be_drawn() {
+fn any_model_can_be_drawn() {
     let mut renderer = renderer(Driver::Egl);
     for name in ["apple", "fish", "turntable"] {
         for style in ["SumiE(rule: Source)", "SumiE(accent: 0)"] {

@@ -1,4 +1,4 @@
-//! A painting prepared after an edit is, to the bit, the one that is prepared from nothing.
+//! Tests that a painting prepared after an edit equals, bit for bit, one prepared from nothing.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -20,7 +20,7 @@ fn start() -> Arc<LoadedScene> {
     scene.style = Style::default();
     scene.strokes = Default::default();
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(26.0), Some(9.0));
-    // Of the body layer's count too.
+    // Counts follow from the view, also that of the body layer.
     scene.objects.iter_mut().for_each(|object| object.particles = None);
     scene.size = (480, 320);
     scene.timeline.last = 10;
@@ -118,7 +118,7 @@ fn edits() -> Vec<Edit> {
     ]
 }
 
-/// An edited scene, and what is prepared from it and nothing else.
+/// An edited scene, and the painting prepared from it alone.
 struct Version {
     name: &'static str,
     loaded: Arc<LoadedScene>,
@@ -158,12 +158,12 @@ fn a_warm_prepare_gives_the_bits_of_a_cold_one() {
         }
         counts.push(warm.particle_total());
     }
-    // The edits did what they say.
+    // The edits had an effect: many of them changed the number of particles.
     assert!(counts.windows(2).filter(|pair| pair[0] != pair[1]).count() > 6, "{counts:?}");
 }
 
 #[test]
-fn what_was_given_up_half_way_is_prepared_to_the_same_bits_after() {
+fn preparing_again_after_giving_up_gives_the_same_bits() {
     let mut preparer = Preparer::default();
     preparer.prepare(start()).unwrap();
     let mut given_up = 0;

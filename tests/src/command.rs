@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The binary beside the running tests. `cargo test --workspace` has built it already; for a run of fewer packages it is built
-/// now, as the whole workspace would build it, so that it is never an old one and nothing is compiled twice.
+/// The binary beside the running tests. `cargo test --workspace` has already built it. A run of fewer packages builds it now,
+/// with the workspace's features, so that it is never out of date and nothing is compiled twice.
 ///
 /// # Panics
 /// When it cannot be built.
@@ -16,7 +16,7 @@ pub fn impasto() -> &'static Path {
         // target/debug/deps/it-… -> target/debug
         let folder = here.parent().and_then(Path::parent).expect("tests are two folders down").to_path_buf();
         let mut build = Command::new(env!("CARGO"));
-        // The test `binary` of the command line needs the command.
+        // The command line's test `binary` needs the command, so this builds it.
         build.args(["test", "--quiet", "--no-run", "--workspace", "--test", "binary"]).arg("--target-dir");
         build.arg(folder.parent().expect("a profile's folder lies in the target folder"));
         build.current_dir(root());

@@ -1,5 +1,4 @@
-//! Files that tests read: a small corpus of good and hostile ones, made here, and a large one where `IMPASTO_CORPUS` names
-//! its folder.
+//! Test files, good and hostile: a small corpus that is made here, and a large one if `IMPASTO_CORPUS` names its folder.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -10,13 +9,13 @@ use crate::shapes;
 /// What should become of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Read without a word.
+    /// Read without a message.
     Taken,
     /// Read, with a warning.
     Warned,
     /// Refused with an error.
     Refused,
-    /// Refused as too much.
+    /// Refused because it exceeds a limit.
     TooMuch,
 }
 
@@ -30,11 +29,11 @@ pub struct Case {
     pub expected: Outcome,
 }
 
-/// The folder of the large corpus; `None`, with a line on stderr that names the test, where there is none.
+/// The folder of the large corpus; without one `None`, with a line on stderr that names the test.
 pub fn shared(test: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from);
     if folder.is_none() {
-        // Not by a macro: those are heard only of tests that fail.
+        // Not `eprintln!`: the test runner shows its output only for failing tests.
         let _ = writeln!(std::io::stderr(), "skipped in part: {test}: IMPASTO_CORPUS names no folder");
     }
     folder
@@ -43,11 +42,11 @@ pub fn shared(test: &str) -> Option<PathBuf> {
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
     f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
-/// Wears the material `a` of `case.mtl`.
+/// An OBJ triangle with the material `a` of `case.mtl`.
 const WORN: &str =
     "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
 
-/// Writes the small corpus into a folder, each case into one of its own.
+/// Writes the small corpus into a folder, each case into a folder of its own.
 ///
 /// # Panics
 /// When the folder cannot be written.
@@ -159,7 +158,7 @@ fn pictures() -> Vec<Made> {
     ]
 }
 
-/// A grey PNG of this size; without pixels, its header alone.
+/// A grey PNG of this size; without pixels only its header.
 fn png(size_px: [u32; 2], with_pixels: bool) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size_px[0], size_px[1]);
@@ -171,7 +170,7 @@ fn png(size_px: [u32; 2], with_pixels: bool) -> Vec<u8> {
         writer.write_image_data(&pixels).expect("pixels");
         writer.finish().expect("an end");
     } else {
-        // What is dropped writes an end; a header is what is wanted.
+        // Dropping the writer would write an end, and only the header is wanted.
         std::mem::forget(writer);
     }
     bytes

@@ -1,4 +1,4 @@
-//! Gestures on a surface, as a hand would draw them in a view: a ray through each pixel, the first triangle that it meets.
+//! Gestures on a surface as if drawn in a view: a ray through each pixel, to the first triangle that it hits.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use impasto_core::TriangleMesh;
@@ -15,8 +15,8 @@ pub fn camera(eye: [f64; 3], target: [f64; 3]) -> CameraPose {
     }
 }
 
-/// A straight gesture on the mesh, from one place of the picture to another (pixels from its centre, Y up), by 24 points;
-/// `None` where a ray misses.
+/// A straight gesture of 24 points on the mesh, from one place of the picture to another (pixels from its centre, Y up);
+/// `None` if a ray misses.
 pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [DVec2; 2]) -> Option<Guide> {
     let world_from_view: DMat4 = camera.view_from_world().inverse();
     let focal_px = 0.5 * height_px / 17.5f64.to_radians().tan();
@@ -40,7 +40,7 @@ pub fn drag(mesh: &TriangleMesh, camera: &CameraPose, height_px: f64, ends_px: [
     })
 }
 
-/// The nearest triangle that a ray meets (Möller and Trumbore 1997): the place and its smooth normal.
+/// Where a ray hits its nearest triangle (Möller and Trumbore 1997): the place and its smooth normal.
 fn first_hit(mesh: &TriangleMesh, from: DVec3, ray: DVec3) -> Option<(DVec3, DVec3)> {
     let mut nearest: Option<(f64, DVec3)> = None;
     for (triangle, corners) in mesh.triangles.iter().enumerate() {

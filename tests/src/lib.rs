@@ -1,4 +1,4 @@
-//! Measuring tools that the tests share: shapes whose answers are known, pictures read and compared.
+//! Tools that the tests share: shapes with known answers, pictures to read and compare, the command, a screen.
 
 pub mod command;
 pub mod corpus;

@@ -5,16 +5,16 @@ use impasto_gl_render::{Picture, Renderer, ShaderTexts};
 
 use crate::command::root;
 
-/// A renderer that fails where the driver complains.
+/// A renderer that panics when the driver reports an error.
 ///
 /// # Panics
-/// When the driver is not there: a machine that runs these tests has both (see `cargo xtask test`).
+/// When the driver is missing; `cargo xtask test` installs both.
 pub fn renderer(driver: Driver) -> Renderer {
     let context = open(driver, &OpenOptions { debug: true }).unwrap_or_else(|error| panic!("{error}"));
     Renderer::new(context).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A renderer with a fault planted in a shader file: `from` stands there as `to`.
+/// A renderer with a fault planted in a shader file: `from` is replaced by `to`.
 ///
 /// # Panics
 /// When `from` is not in the file, or the faulty shader does not compile.
@@ -59,7 +59,7 @@ impl Grey {
         (gx * gx - gy * gy, 2.0 * gx * gy)
     }
 
-    /// The structure tensor of every pixel of a mask, its second moments averaged over a Gaussian of this many pixels.
+    /// The structure tensor of every pixel of a mask: second moments averaged over a Gaussian of this many pixels.
     pub fn tensor_field(&self, mask: &[bool], sigma_px: f64) -> Vec<(f64, f64)> {
         let width = self.size_px[0];
         let moments = mask.iter().enumerate().map(|(index, &known)| {
@@ -105,7 +105,7 @@ impl Grey {
         pass(&pass(self, 1, 0), 0, 1)
     }
 
-    /// Bilinear value at pixel-centre coordinates, Y down; `None` off the picture.
+    /// Bilinear value, with pixel centres at whole coordinates, Y down; `None` outside the picture.
     pub fn sample(&self, x: f64, y: f64) -> Option<f64> {
         let (left, top) = (x.floor(), y.floor());
         let inside = left >= 0.0 && top >= 0.0;

@@ -1,4 +1,4 @@
-//! The shipped scenes, each prepared once for all tests of a run.
+//! The shipped scenes, each prepared once per run for all tests.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -10,7 +10,7 @@ use crate::command::root;
 
 type Cell = Arc<OnceLock<Arc<Painting>>>;
 
-/// A shipped scene as it is; whoever asks second for one that is being prepared waits for it.
+/// A shipped scene as it is. While one test prepares it, others that ask for it wait.
 ///
 /// # Panics
 /// When it does not load or prepare.

@@ -1,4 +1,4 @@
-//! A screen that nobody sees (Xvfb) and a hand on it (xdotool), for tests of the real window.
+//! An invisible screen (Xvfb) with mouse and keys (xdotool), for tests of the editor's real window.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -9,16 +9,16 @@ use crate::command::impasto;
 
 /// The longest that anything may take on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
-/// Between two looks at what is waited for.
+/// The time between two checks while waiting.
 const LOOK: Duration = Duration::from_millis(30);
 
 /// Width and height of a screen in pixels: the window's own size.
 pub const SIZE_PX: [usize; 2] = [1280, 800];
 
-/// Runs `look` until it gives something.
+/// Repeats `look` until it returns something.
 ///
 /// # Panics
-/// When it never does; the message says what was waited for.
+/// When it does not within `PATIENCE`; the message says what was awaited.
 pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
@@ -30,7 +30,7 @@ pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// An Xvfb of its own. Dropping it ends it; so does the end of the tests, however they end.
+/// An Xvfb of its own. It ends when dropped, and when the tests end in any way.
 pub struct Screen {
     leash: Child,
     display: String,
@@ -38,7 +38,7 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// A screen; `None`, with a line that says so, where Xvfb or xdotool is missing.
+    /// Opens a screen; `None`, with a line on stderr, if Xvfb or xdotool is missing.
     ///
     /// # Panics
     /// When one of them is missing in CI (`CI` is set), or Xvfb does not start.
@@ -49,13 +49,13 @@ impl Screen {
                 continue;
             }
             assert!(std::env::var_os("CI").is_none(), "{program} is missing; `cargo xtask test` installs it");
-            // Not by a macro: those are heard only of tests that fail.
+            // Not `eprintln!`: the test runner shows its output only for failing tests.
             let _ =
                 writeln!(std::io::stderr(), "ignored: {program} is missing; `cargo xtask test` installs it");
             return None;
         }
         let folder = tempfile::tempdir().expect("a temporary folder");
-        // It ends when the pipe to `cat` closes. Its own end closes the pipe that the display's number comes through.
+        // The shell ends Xvfb when the pipe to `cat` closes. If Xvfb ends by itself, the pipe with the display's number closes.
         let script = r#"trap "" INT; "$@" & exec >/dev/null; cat; kill $! 2>/dev/null; wait"#;
         let mut leash = Command::new("sh")
             .args([
@@ -88,17 +88,17 @@ impl Screen {
         Some(screen)
     }
 
-    /// What is on the screen as a PNG in `editor_window/` of the target folder, for people; where it lies.
+    /// Saves the screen as a PNG in `editor_window/` of the target folder, for people to look at; returns its path.
     ///
     /// # Panics
-    /// When Xvfb's picture is not what it says of itself.
+    /// When Xvfb's picture does not match its header.
     pub fn keep_picture(&self, name: &str) -> PathBuf {
         let target = impasto().ancestors().nth(2).expect("target/debug/impasto lies two folders down");
         let folder = target.join("editor_window");
         std::fs::create_dir_all(&folder).expect("a folder for pictures");
         let path = folder.join(format!("{name}.png"));
         let xwd = std::fs::read(self.folder.path().join("Xvfb_screen0")).expect("Xvfb's picture");
-        // The header of X11/XWDFile.h: words of 32 bits, most significant byte first.
+        // The header in X11/XWDFile.h: words of 32 bits, most significant byte first.
         let word = |index: usize| {
             let bytes = xwd[4 * index..4 * index + 4].try_into().expect("four bytes");
             u32::from_be_bytes(bytes) as usize
@@ -118,7 +118,7 @@ impl Screen {
         path
     }
 
-    /// Has xdotool do this; what it prints, `None` where it could not.
+    /// Runs xdotool with these words; returns what it prints, or `None` if it fails.
     pub fn try_hand(&self, words: &[&str]) -> Option<String> {
         let mut hand = Command::new("xdotool")
             .args(words)
@@ -133,10 +133,10 @@ impl Screen {
         status.success().then(|| said.trim_end().to_owned())
     }
 
-    /// Has xdotool do this.
+    /// Runs xdotool with these words.
     ///
     /// # Panics
-    /// When it could not.
+    /// When xdotool fails.
     pub fn hand(&self, words: &[&str]) {
         assert!(self.try_hand(words).is_some(), "xdotool {} failed", words.join(" "));
     }
@@ -227,8 +227,8 @@ pub struct EditorWindow<'a> {
 }
 
 impl<'a> EditorWindow<'a> {
-    /// Opens a file of a folder and waits until it is painted. Preferences and everything else that the editor keeps of
-    /// its user lie in the folder too. Pictures of the screen have `name`.
+    /// Opens a file of a folder and waits until it is painted. Preferences and the editor's other files of its user go into
+    /// the folder too. Names of saved pictures begin with `name`.
     ///
     /// # Panics
     /// When the window does not come.
@@ -238,7 +238,7 @@ impl<'a> EditorWindow<'a> {
         editor
     }
 
-    /// As [`EditorWindow::open`] with these arguments, none for an empty window; waits for the window alone.
+    /// Like [`EditorWindow::open`] with these arguments (none for an empty window), but waits only for the window.
     ///
     /// # Panics
     /// When the window does not come.
@@ -266,7 +266,7 @@ impl<'a> EditorWindow<'a> {
             let found = screen.try_hand(&["search", "--onlyvisible", "--name", " - Impasto$"])?;
             found.lines().next().map(str::to_owned)
         });
-        // Without a window manager nobody else does it.
+        // There is no window manager to place and focus the window.
         screen.hand(&[
             "windowmove",
             "--sync",
@@ -286,13 +286,13 @@ impl<'a> EditorWindow<'a> {
         }
     }
 
-    /// The lines that it wrote so far.
+    /// The lines that the editor has printed so far.
     fn lines(&self) -> Vec<String> {
         let words = std::fs::read(&self.words).unwrap_or_default();
         String::from_utf8_lossy(&words).lines().map(str::to_owned).collect()
     }
 
-    /// The version that it last showed at rest, and what a screen reader says of it; 0 before the first.
+    /// The version of the document that was last shown at rest (0 before the first), and what a screen reader says of it.
     pub fn rest(&self) -> (u64, String) {
         let of_line = |line: &String| {
             let (version, value) = line.strip_prefix("impasto edit: at rest, version ")?.split_once(": ")?;
@@ -301,13 +301,13 @@ impl<'a> EditorWindow<'a> {
         self.lines().iter().rev().find_map(of_line).unwrap_or_default()
     }
 
-    /// What it told of this kind so far, in order: the rest of each line that begins with `impasto edit: ` and these words.
+    /// What it has printed of this kind so far, in order: the rest of each line that begins with `impasto edit: ` and `kind`.
     pub fn told(&self, kind: &str) -> Vec<String> {
         let begin = format!("impasto edit: {kind}");
         self.lines().iter().filter_map(|line| line.strip_prefix(&begin)).map(str::to_owned).collect()
     }
 
-    /// Waits until it shows a later version than `version` at rest, and tells which.
+    /// Waits until it shows a later version than `version` at rest, and returns that version.
     ///
     /// # Panics
     /// When it never does.
@@ -329,7 +329,7 @@ impl<'a> EditorWindow<'a> {
         });
     }
 
-    /// The controls of this name, as the window told them last.
+    /// The controls of this name, as the window last listed them.
     pub fn controls_named(&self, name: &str) -> Vec<ControlRect> {
         let lines = self.lines();
         let mut told = lines.iter().rev().filter_map(|line| line.strip_prefix("impasto edit: controls:\t"));
@@ -346,10 +346,10 @@ impl<'a> EditorWindow<'a> {
             .collect()
     }
 
-    /// Waits for the control of this name, and tells where it lies.
+    /// Waits for the control of this name, and returns where it lies.
     ///
     /// # Panics
-    /// When it never comes, or two have the name.
+    /// When it never appears, or two controls have the name.
     pub fn control(&mut self, name: &str) -> ControlRect {
         wait_for(&format!("the control {name:?}"), || {
             self.assert_runs();
@@ -362,7 +362,7 @@ impl<'a> EditorWindow<'a> {
     /// Waits until no control has this name.
     ///
     /// # Panics
-    /// When one keeps it.
+    /// When one still has it in the end.
     pub fn wait_until_gone(&mut self, name: &str) {
         wait_for(&format!("the end of the control {name:?}"), || {
             self.assert_runs();
@@ -408,10 +408,10 @@ impl<'a> EditorWindow<'a> {
         self.screen.keep_picture(&format!("{}_{moment}", self.name))
     }
 
-    /// Quits by its key, waits for the end, and tells the exit code.
+    /// Quits by its key, waits for the end, and returns the exit code.
     ///
     /// # Panics
-    /// When it stays.
+    /// When it does not end.
     pub fn quit(mut self) -> Option<i32> {
         self.keys(&["ctrl+q"]);
         wait_for("the end, by Ctrl Q", || self.process.try_wait().ok().flatten()).code()

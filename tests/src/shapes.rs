@@ -1,4 +1,4 @@
-//! Meshes and scenes whose answers are known in closed form.
+//! Meshes and scenes for which the right answers are known in closed form.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ pub fn sphere(columns: u32, rows: u32) -> TriangleMesh {
     for row in 0..=rows {
         for column in 0..=columns {
             let polar = std::f32::consts::PI * row as f32 / rows as f32;
-            // The seam and the poles repeat positions exactly, so that the shell is closed.
+            // Positions at the seam and the poles repeat exactly, so that the shell is closed.
             let around = std::f32::consts::TAU * (column % columns) as f32 / columns as f32;
             let radius = if row == 0 || row == rows { 0.0 } else { polar.sin() };
             let position = Vec3::new(radius * around.sin(), polar.cos(), radius * around.cos());
@@ -118,7 +118,7 @@ fn push_polygon(mesh: &mut TriangleMesh, triangles: &[[u32; 3]]) {
     }
 }
 
-/// An object of a scene that is put together in a test.
+/// An object for a test's own scene.
 pub fn object(name: &str, particles: u64) -> Object {
     Object { particles: Some(particles), ..Object::new(name, format!("{name}.obj")) }
 }
@@ -164,8 +164,8 @@ pub fn scene(objects: Vec<Object>) -> Scene {
     }
 }
 
-/// Settings of the layers that leave out all but the body layer, for tests that look at no other: the layers have particles of
-/// their own, and those of small strokes are many.
+/// Layer settings that leave out all but the body layer, for tests that look at no other. Each layer has particles of its own,
+/// and layers of small strokes have many.
 pub fn body_layer_alone() -> Vec<LayerSettings> {
     let others = LayerKind::ALL.into_iter().filter(|kind| *kind != LayerKind::Body);
     let absent = |kind: LayerKind| LayerSettings {
@@ -176,7 +176,7 @@ pub fn body_layer_alone() -> Vec<LayerSettings> {
     others.map(absent).collect()
 }
 
-/// Puts meshes under the names of a scene's objects, in their order, as if they had been read from files.
+/// Gives a scene's objects these meshes, in order, as if they had been read from files.
 pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> Arc<LoadedScene> {
     let meshes: BTreeMap<String, Arc<MeshFile>> = scene
         .objects
@@ -206,7 +206,7 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
     })
 }
 
-/// The same scene with every mesh speckled: cells of random greys, so that each stroke differs from its neighbours.
+/// The same scene with every mesh textured with cells of random grey, so that each stroke differs from its neighbours.
 pub fn speckled(loaded: &LoadedScene) -> Arc<LoadedScene> {
     let size_px = [128, 64];
     let cell = |index: u32| {

@@ -1,5 +1,5 @@
-//! The command itself, once. That there is a test here has cargo build it before any test runs, with the features that the
-//! whole workspace shares: tests in `tests/` run it.
+//! Runs the command once. Because of this test cargo builds the binary before any test runs, with the workspace's shared
+//! features; the tests in `tests/` run that binary.
 
 use std::process::Command;
 

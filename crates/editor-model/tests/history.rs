@@ -1,4 +1,4 @@
-//! Every command can be undone: after a thousand random ones and as many undos, the document is the first one again.
+//! Every command can be undone: after a thousand random commands and as many undos, the document equals the first one.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ use impasto_scene::motion;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-/// What one random command is made from.
+/// The random numbers that one command is made from.
 type Dice = (u8, u8, u8, f64, f64);
 
 fn scene_of(name: &str) -> Document {
@@ -34,7 +34,7 @@ fn guide(x: f64, y: f64) -> Guide {
         object: None,
         view: None,
         points: vec![point(0.0), point(0.3), point(0.7)],
-        // It reaches the surface, whatever the surface.
+        // Large enough to reach any of the surfaces.
         radius: 0.9 + x.abs() * 0.01,
         strength: 0.8,
         falloff: Default::default(),
@@ -43,7 +43,7 @@ fn guide(x: f64, y: f64) -> Guide {
     }
 }
 
-/// A command for this scene; it may well be refused.
+/// A random command for this scene; the document may refuse it.
 fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
     let pick = |names: Vec<&str>, which: u8| -> String {
         names.get(usize::from(which) % names.len().max(1)).map_or("nobody", |name| *name).to_owned()
@@ -242,7 +242,7 @@ fn dice() -> impl Strategy<Value = Dice> {
     (any::<u8>(), any::<u8>(), any::<u8>(), -4.0..4.0, -4.0..4.0)
 }
 
-/// Applies what is not refused, checking that each is taken back and done again exactly, then takes everything back.
+/// Applies the commands that are not refused, checks that undo and redo of each are exact, then undoes everything.
 fn walk(scene: &str, dice: &[Dice]) -> Result<(usize, usize), TestCaseError> {
     let mut document = scene_of(scene);
     let first = document.scene().clone();

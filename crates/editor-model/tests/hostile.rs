@@ -1,6 +1,6 @@
-//! Opens hostile files of the folder that `IMPASTO_CORPUS` names, one after the other, in a process with little memory and time. Each
-//! must end with a document or with an error message, and leave the file as it was. Without the corpus it opens shipped scenes with
-//! bytes changed; `tests/it/hostile_scenes.rs` opens a small corpus.
+//! Opens the hostile files of the folder `IMPASTO_CORPUS`, one after the other, in a process with little memory and time. Each
+//! must give a document or an error message, and the file must stay as it was. Without the corpus it opens shipped scenes
+//! with changed bytes; `tests/it/hostile_scenes.rs` opens a small corpus.
 
 #![cfg(unix)]
 
@@ -12,18 +12,18 @@ use impasto_editor_model::Document;
 use impasto_scene::load::LoadOptions;
 use impasto_scene::load::salvage;
 
-/// Address space and time for all files.
+/// Limits of address space and time for all files together.
 const MEMORY_KIB: u32 = 1 << 20;
 const SECONDS: u32 = 240;
 
-/// Names a file that lists the files to open.
+/// The environment variable that names a file with the list of files to open.
 const LIST: &str = "IMPASTO_TEST_OPENS";
 
 fn tell(words: &str) {
     writeln!(std::io::stdout(), "\n{words}").expect("told");
 }
 
-/// Opens files, asks everything of them that the window would, and says how that went.
+/// Opens the listed files, reads everything from them that the window would, and prints the outcome.
 #[test]
 #[ignore = "the test below starts it"]
 fn opener() {
@@ -42,7 +42,7 @@ fn open(file: &Path) {
         }
         Ok(mut document) => {
             let (rows, losses) = (document.problems().len(), document.loss_count());
-            // What was opened is well: an edit of nothing is taken.
+            // What was opened is sound: an empty edit is accepted.
             let loaded = document.loaded();
             let again = loaded.with_scene(loaded.scene.clone(), &Default::default());
             assert!(again.is_ok(), "{:?}", again.map(drop));
@@ -59,7 +59,7 @@ fn open(file: &Path) {
 
 fn hostile_files() -> Option<Vec<PathBuf>> {
     let Some(corpus) = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from) else {
-        // Not by a macro: those are heard only of tests that fail.
+        // Not `eprintln!`: the test runner shows its output only for failing tests.
         let test = "hostile_files_open_or_are_refused_and_stay_what_they_are";
         let _ = writeln!(std::io::stderr(), "skipped: {test}: IMPASTO_CORPUS names no folder");
         return None;
@@ -112,7 +112,7 @@ fn hostile_files_open_or_are_refused_and_stay_what_they_are() {
     }
 }
 
-/// The bytes of a scene of the house, changed here and there by a fixed chance.
+/// Shipped scenes with some bytes changed, pseudo-randomly but always in the same way.
 #[test]
 fn scenes_with_bytes_changed_open_or_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");

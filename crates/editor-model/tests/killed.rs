@@ -1,5 +1,5 @@
-//! Kills a process that paints, copies and saves at random moments, a hundred times: no copy that was reported as written is lost,
-//! and the scene file is always whole.
+//! Kills a process that paints, writes recovery copies and saves, at random moments and a hundred times: no copy that was
+//! reported as written is lost, and the scene file is always whole.
 
 #![cfg(unix)]
 
@@ -17,7 +17,7 @@ const FOLDER: &str = "IMPASTO_TEST_KILLED_IN";
 const SCENE: &str = "(version: 1, camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]), \
     objects: [(name: \"wall\", mesh: \"impasto:backdrop\")])";
 
-/// Paints until it is killed: the seed of the scene counts the edits. Tells of each copy and each save once it is done.
+/// Paints until it is killed. The scene's seed counts the edits. Prints a line after each copy and each save.
 #[test]
 #[ignore = "runs until it is killed; the test below starts it"]
 fn painter() {
@@ -40,7 +40,7 @@ fn painter() {
 }
 
 #[test]
-fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
+fn nothing_written_is_lost_when_killed_at_any_moment() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = folder.path().join("s.ron");
     let place = folder.path().join("recovery");
@@ -59,7 +59,7 @@ fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
-        // It paints for some strokes, and then for as long as chance will have it.
+        // It paints some strokes, then goes on for a random time.
         let mut left = random % 8 + 1;
         while left > 0 {
             let line = lines.next().expect("it paints on").expect("text");
@@ -93,7 +93,7 @@ fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
             newest = newest.max(document.scene().seed);
             offer.discard().expect("gone");
         }
-        // The copy under way may have been whole before it could tell.
+        // The last copy may have been complete before it was reported.
         assert!((kept..=kept + 1).contains(&newest), "run {run}: {newest} is the newest of {kept}");
         seen = seen.max(newest);
     }
@@ -101,7 +101,7 @@ fn killed_at_any_moment_it_loses_nothing_that_it_kept() {
         offered > 20 && seen > 100,
         "{offered} offers, {seen} edits: it was killed too soon to show anything"
     );
-    // Of the sessions nothing stays once one has looked again; of a save that was cut off, what it was writing, beside the scene.
+    // After another look no file of the sessions is left; a save that was cut off may leave its part file beside the scene.
     assert!(Recovery::offers(&place).is_empty());
     let left = std::fs::read_dir(&place).expect("there").count();
     assert_eq!(left, 0, "litter in the recovery folder");

@@ -1,4 +1,4 @@
-//! The panels round the viewport, driven by name: what they ask for, and how they look.
+//! Tests of the panels round the viewport: what they ask for, and how they look. Controls are found by name.
 
 mod headless;
 #[path = "panels_bars/page.rs"]
@@ -37,7 +37,7 @@ fn harness(page: Page, theme: Theme, (wide, high): (f32, f32)) -> Harness<'stati
     harness
 }
 
-/// The theme as the harness itself has it.
+/// egui's word for a theme.
 fn eguis(theme: Theme) -> egui::Theme {
     match theme {
         Theme::Dark => egui::Theme::Dark,
@@ -49,7 +49,7 @@ fn paint() -> Harness<'static, Page> {
     harness(Page::new().in_mode(Mode::Paint), Theme::Dark, NARROW)
 }
 
-/// One set of results for a test, so that all its pictures can be taken again at once.
+/// Takes one picture. All pictures of a test share `results`, so that they can be updated in one run.
 fn snapshot(results: &mut SnapshotResults, harness: &mut Harness<'_, Page>, name: &str) {
     harness.run();
     harness.snapshot_options(name, &SnapshotOptions::new().threshold(0.6));
@@ -146,7 +146,7 @@ fn every_control_of_the_bars_has_its_name_and_can_be_hit() {
     let options = ["Along", "Against", "Brush radius", "Brush strength", "Mirror X", "Mirror Y", "Mirror Z"];
     let seen = |harness: &Harness<'_, Page>, names: &[&str]| {
         for name in names {
-            // The tool in hand is also named on the options bar, in words.
+            // The name of the current tool is also on the options bar.
             let controls: Vec<_> = harness
                 .get_all_by_label(name)
                 .filter(|node| node.accesskit_node().role() != Role::Label)
@@ -219,7 +219,7 @@ fn what_cannot_be_done_is_not_asked_for() {
 }
 
 #[test]
-fn files_of_late_open_again_and_the_render_command_can_be_copied() {
+fn recent_files_open_again_and_the_render_command_can_be_copied() {
     let mut harness = paint();
     click(&mut harness, "File");
     click(&mut harness, "Open recent");
@@ -280,7 +280,7 @@ fn tools_are_taken_up_and_keep_their_settings() {
 }
 
 #[test]
-fn what_has_no_room_stands_behind_the_button() {
+fn settings_without_room_are_behind_the_button() {
     let mut harness = paint();
     assert!(harness.query_by_label("Even falloff").is_none());
     click(&mut harness, "More tool options");

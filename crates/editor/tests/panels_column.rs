@@ -1,4 +1,4 @@
-//! The right column, driven by name on scenes of the house, and how it looks.
+//! Tests of the right column on shipped scenes: what it does, and how it looks.
 
 mod column;
 mod headless;

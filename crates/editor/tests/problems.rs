@@ -1,4 +1,4 @@
-//! The panel of what could not be read, driven by name: what it lists, what it asks for, and how it looks.
+//! Tests of the panel of problems in a scene file: what it lists, what it asks for, and how it looks.
 
 mod headless;
 
@@ -121,7 +121,7 @@ fn click(harness: &mut Harness<'_, Page>, name: &str) {
     harness.run_steps(SETTLED);
 }
 
-/// Passes after which a list has scrolled where it should.
+/// The number of passes after which a list has finished scrolling.
 const SETTLED: usize = 12;
 
 fn document_value(harness: &Harness<'_, Page>) -> String {
@@ -134,7 +134,7 @@ fn the_panel_looks_as_it_did() {
     harness.state_mut().has_bars = false;
     harness.set_size(vec2(880.0, 240.0));
     harness.run();
-    // The whole words stand in a tooltip; the picture is of the list.
+    // Long messages are shown whole in a tooltip only; the picture shows the list.
     harness.get_by_label_contains("line 6 column 30").click();
     harness.run();
     harness.hover_at(egui::pos2(600.0, 4.0));
@@ -142,7 +142,7 @@ fn the_panel_looks_as_it_did() {
     harness.snapshot_options("problems_dark", &SnapshotOptions::new().threshold(0.6));
 }
 
-/// Types another text in place of the source.
+/// Replaces the source by typing another text.
 fn type_instead(harness: &mut Harness<'_, Page>, text: &str) {
     harness.get_by_label("Source").focus();
     harness.run_steps(SETTLED);
@@ -194,7 +194,7 @@ fn what_is_wrong_is_mended_by_name_until_saving_is_on_again() {
     let document = harness.state().editor.document();
     assert_eq!((document.loss_count(), document.undo_text()), (1, Some("Fix 2 problems")));
     assert!(harness.query_by_label("Fix all that are certain").is_none());
-    // The last one by hand, in the text.
+    // The last problem is fixed by hand, in the text.
     let source = harness.state().editor.document().source().expect("a source").text.clone();
     type_instead(&mut harness, &source.replace("\"long\"", "40"));
     assert_eq!(harness.state().editor.document().loss_count(), 1, "not before it is asked for");

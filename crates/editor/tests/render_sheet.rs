@@ -1,4 +1,4 @@
-//! The render sheet, driven by name: what it asks for, what it refuses, and how it looks.
+//! Tests of the render sheet: what it asks for, what it refuses, and how it looks. Controls are found by name.
 
 mod headless;
 
@@ -30,7 +30,7 @@ struct Page {
 }
 
 impl Page {
-    /// A document of no file, in a folder that need not be there.
+    /// A document without a file, in a folder that need not exist.
     fn unsaved() -> Self {
         let document = Document::empty(Path::new("/pictures/pears"));
         let settings = RenderSettings::of(document.scene());
@@ -93,7 +93,7 @@ fn click(harness: &mut Harness<'_, Page>, name: &str) {
     harness.run();
 }
 
-/// Types in the place of what a field holds.
+/// Replaces the contents of a field by typing.
 fn fill(harness: &mut Harness<'_, Page>, name: &str, text: &str) {
     harness.get_by_label(name).focus();
     harness.run();
@@ -201,7 +201,7 @@ fn while_frames_come_they_can_be_stopped_or_left_alone() {
     assert_eq!(asked(&mut harness), [RenderAsk::Render]);
 }
 
-/// The status line with what runs beside the window.
+/// The status line, and the background work that it shows.
 struct Line {
     document: Document,
     works: Vec<Work>,
@@ -209,7 +209,7 @@ struct Line {
 }
 
 #[test]
-fn what_takes_its_time_stands_in_the_status_line_and_can_be_stopped() {
+fn long_work_is_shown_in_the_status_line_and_can_be_stopped() {
     let work = |words: &str, share, kind| Work { words: words.to_owned(), share, kind };
     let line = Line {
         document: Document::empty(Path::new("/pictures/pears")),
@@ -238,7 +238,7 @@ fn what_takes_its_time_stands_in_the_status_line_and_can_be_stopped() {
         .with_size(vec2(1280.0, 60.0))
         .with_context_setup(|ctx| theme::apply(ctx, Theme::Dark, 1.0))
         .build_ui_state(page, line);
-    // What goes to and fro never rests.
+    // A moving progress bar redraws for ever, so run a fixed number of steps.
     harness.run_steps(4);
     for name in ["Rendering 47 of 120", "Stop: importing bunny.obj", "Stop: preparing bunny"] {
         harness.get_by_label(name).click();

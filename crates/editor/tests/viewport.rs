@@ -1,4 +1,4 @@
-//! The viewport as a page: what the pointer does there, what chips ask for, and how overlays look.
+//! Tests of the viewport on a page of its own: pointer events, what chips ask for, and how overlays look.
 
 mod headless;
 
@@ -30,7 +30,7 @@ struct Page {
     badge: Badge,
     compare: bool,
     drawn: Drawn,
-    /// What was done since the test looked last.
+    /// Pointer events since the test last looked.
     pointer: Vec<PointerEvent>,
     last: ViewportEvents,
 }
@@ -129,7 +129,7 @@ fn a_drag_comes_back_whole_and_in_order() {
     for &at in &places[1..] {
         harness.event(Event::PointerMoved(at));
     }
-    // Outside the window, as long as the button is held.
+    // The drag goes on outside the window while the button is held.
     harness.event(Event::PointerMoved(pos2(-30.0, 200.0)));
     harness.event(button(pos2(-30.0, 200.0), PointerButton::Primary, false));
     harness.run();
@@ -294,7 +294,7 @@ fn marks() -> Drawn {
     }
 }
 
-/// Other drivers round colours differently; a mark out of place is far more than this.
+/// Room for drivers that round colours differently; a misplaced mark is far over it.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }

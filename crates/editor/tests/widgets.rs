@@ -1,4 +1,4 @@
-//! The controls, driven by name, and how they look.
+//! Tests of the controls: what they do, and how they look. Controls are found by name.
 
 mod headless;
 mod page;
@@ -26,12 +26,12 @@ fn harness(theme: Theme) -> Harness<'static, Page> {
         .build_ui_state(|ui, page: &mut Page| page.ui(ui), Page::new(theme))
 }
 
-/// Other drivers round colours differently; a control out of place or of another colour is far more than this.
+/// Room for drivers that round colours differently; a misplaced or recoloured control is far over it.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }
 
-/// Compares the left and the right half of the page, so that no golden is large.
+/// Compares the left and the right half of the page separately, so that no stored picture is large.
 fn halves(harness: &mut Harness<'_, Page>, name: &str, results: &mut SnapshotResults) {
     let page = harness.render().expect("it renders");
     let (width, height) = (page.width() / 2, page.height());
@@ -157,7 +157,7 @@ fn a_drag_on_a_number_is_one_step() {
     }
     harness.drop_at(middle + vec2(40.0, 0.0));
     harness.run();
-    // 132 points are the whole range of 99.
+    // A drag over 132 points covers the whole range of 99.
     assert_eq!(harness.state().length_px, 34.0 + 40.0 * 99.0 / 132.0);
     let edits = &harness.state().edits;
     assert_eq!(edits.iter().filter(|edit| **edit == "began").count(), 1, "{edits:?}");
@@ -230,7 +230,7 @@ fn a_click_types_and_a_double_click_brings_the_default_back() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     harness.state_mut().coverage = 5.0;
-    // The clock of a test goes in large steps.
+    // The test's clock moves in large steps, so the delay has to be long.
     harness.ctx.options_mut(|options| options.input_options.max_double_click_delay = 2.0);
     harness.run();
     let middle = harness.get_by_label("Coverage").rect().center();
@@ -265,7 +265,7 @@ fn arrows_and_readers_step_a_number_and_its_reset_brings_it_back() {
 }
 
 #[test]
-fn words_stand_under_a_wrong_number() {
+fn an_explanation_is_shown_under_a_wrong_number() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     let before = harness.get_by_label("Coverage").rect().top();
@@ -308,7 +308,7 @@ fn a_combo_picks_from_its_menu() {
 }
 
 #[test]
-fn enter_does_the_safe_verb_and_escape_cancels() {
+fn enter_takes_the_safe_answer_and_escape_cancels() {
     for (key, answer) in [(Key::Enter, 2), (Key::Escape, 1)] {
         let mut harness = harness(Theme::Dark);
         harness.state_mut().asks = true;
@@ -355,7 +355,7 @@ fn tab_is_the_apps_until_something_has_the_focus() {
 }
 
 #[test]
-fn space_presses_nothing_after_a_click() {
+fn space_does_not_press_a_button_after_a_click() {
     let mut harness = harness(Theme::Dark);
     harness.run();
     let at = harness.get_by_label("Loop").rect().center();

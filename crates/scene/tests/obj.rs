@@ -1,4 +1,4 @@
-//! OBJ reading from outside: good files come out whole, bad ones with a place, and no mutation breaks an invariant.
+//! Tests of reading OBJ files: good files are read whole, errors in bad ones have a place, and no mutation breaks an invariant.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn read(folder: &Path, text: &[u8]) -> Result<(MeshFile, Vec<Problem>), Report> {
     let path = folder.join("model.obj");
-    // A new file each time: some file systems wait for the disk when one is overwritten.
+    // A new file each time, since overwriting waits for the disk on some file systems.
     fs::remove_file(&path).ok();
     fs::write(&path, text).expect("the temporary folder can be written");
     obj::read(&path, folder, &AssetFolders::default())
@@ -42,7 +42,7 @@ fn assert_sound(file: &MeshFile) {
     assert!(mesh.material_of_triangle.iter().all(|&material| (material as usize) < file.materials.len()));
 }
 
-/// The corners of a polygon, in no order.
+/// The distinct corners of a polygon, sorted.
 fn corner_set(corners: impl Iterator<Item = [f32; 3]>) -> Vec<[u32; 3]> {
     let mut corners: Vec<[u32; 3]> = corners.map(|corner| corner.map(f32::to_bits)).collect();
     corners.sort_unstable();
@@ -65,7 +65,7 @@ fn good_files_have_the_polygons_that_tobj_reads() {
         let mut theirs = Vec::new();
         for mesh in models.iter().map(|model| &model.mesh) {
             let at = |index: u32| [0, 1, 2].map(|axis| mesh.positions[3 * index as usize + axis] as f32);
-            // None stand there where all are triangles.
+            // The list of arities is empty when all faces are triangles.
             let all_triangles = vec![3; mesh.indices.len() / 3];
             let arities = if mesh.face_arities.is_empty() { &all_triangles } else { &mesh.face_arities };
             let mut indices = mesh.indices.iter();
@@ -117,7 +117,7 @@ fn faces_do_without_texture_coordinates_and_normals_that_the_file_does_not_have(
         assert_eq!((&file, warnings.len()), (&plain, warned), "{face}");
         assert_eq!(warnings[0].place, Some(TextPosition { line: 5, column: 3 }), "{face}");
     }
-    // Where there are some, an index beyond them is a mistake.
+    // When the file has some, an index beyond them is an error.
     for face in ["f 1/1 2/2 3/1", "f 1/-2 2/1 3/1"] {
         assert!(read(folder.path(), format!("vt 0 0\n{SQUARE}{face}\n").as_bytes()).is_err(), "{face}");
     }
@@ -125,7 +125,7 @@ fn faces_do_without_texture_coordinates_and_normals_that_the_file_does_not_have(
     assert_eq!(first_place(ahead), Some(TextPosition { line: 5, column: 3 }));
 }
 
-/// tobj lists no texture coordinate for a corner that has none: those behind it must stay with their corners.
+/// tobj skips corners without texture coordinates in its list: later ones must still go to their own corners.
 #[test]
 fn corners_with_and_without_texture_coordinates_and_normals_go_together() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What a good OBJ file becomes: triangles, normals, groups, whatever its encoding and however large.
+//! Tests of what a good OBJ file becomes: triangles, normals and groups, whatever its encoding and size.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -19,7 +19,7 @@ fn read(text: impl AsRef<[u8]>) -> (MeshFile, Vec<Problem>) {
     obj::read(&path, folder.path(), &AssetFolders::default()).unwrap_or_else(|report| panic!("{report}"))
 }
 
-/// The area of each triangle as seen from +Z: negative where it turns away.
+/// The signed area of each triangle as seen from +Z: negative when it faces away.
 fn areas(file: &MeshFile) -> Vec<f64> {
     (0..file.mesh.triangles.len())
         .map(|triangle| {
@@ -57,7 +57,7 @@ fn star(corners: u32) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// A comb with its teeth up: half of its corners turn right.
+/// A comb with its teeth up; half of its corners are concave.
 fn comb(teeth: u32) -> Vec<[f64; 2]> {
     let mut points = vec![[0.0, -1.0], [f64::from(2 * teeth), -1.0]];
     points.extend((0..=2 * teeth).rev().map(|at| [f64::from(at), if at % 2 == 0 { 0.0 } else { 5.0 }]));
@@ -99,7 +99,7 @@ fn large_files_with_much_of_one_thing_are_read() {
     let stars = one_polygon(&star(10_000));
     let face = stars.lines().last().unwrap().to_owned() + "\n";
     let many_stars = stars + &face.repeat(30);
-    // What took a step for each pair of lines would take hours.
+    // Work that is quadratic in the lines would take hours.
     for (name, text, triangles) in [
         ("switching", switching, 100_000),
         ("libraries", libraries, 1),
@@ -117,7 +117,7 @@ fn creases_stay_and_low_polygon_curves_are_smooth() {
         ))
         .0
     };
-    // 6 vertices: the two of the ridge are shared. 8: each side has its own.
+    // With 6 vertices the two of the ridge are shared; with 8 each side has its own.
     assert_eq!(roof((20_f64).to_radians().tan()).mesh.positions.len(), 6);
     assert_eq!(roof((30_f64).to_radians().tan()).mesh.positions.len(), 8);
 }

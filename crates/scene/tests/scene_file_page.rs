@@ -1,5 +1,5 @@
-//! `docs/scene_file.md` is kept by the declarations that it is about: its tables are made from their fields, defaults and
-//! comments and from the tables of numbers, and its examples are read. `IMPASTO_BLESS=1` writes the tables anew.
+//! Checks `docs/scene_file.md` against the source: its tables are made from the fields, defaults and comments of the
+//! declarations and from the tables of numbers, and its examples are read. `IMPASTO_BLESS=1` rewrites the tables.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -31,7 +31,7 @@ fn range(limits: &RangeInclusive<f64>) -> String {
     format!("{} to {}", number(*limits.start()), number(*limits.end()))
 }
 
-/// The range of a number that stands in one of the document's tables.
+/// The range of a number, from the row of the document's tables that declares it.
 fn range_in_tables(of: &str, field: &str) -> Option<String> {
     macro_rules! within {
         ($type:ty) => {
@@ -47,7 +47,7 @@ fn range_in_tables(of: &str, field: &str) -> Option<String> {
     }
 }
 
-/// What a page is made with: all declarations, and the heading under which each stands.
+/// What the page is made from: all declarations, and the heading that describes each.
 struct Page<'a> {
     declared: &'a [Declared],
     headings: BTreeMap<String, String>,
@@ -58,7 +58,7 @@ impl Page<'_> {
         self.declared.iter().find(|declared| declared.name == name)
     }
 
-    /// What may be written for a type.
+    /// The values that a field of this type takes, in words.
     fn takes(&self, kind: &str) -> String {
         if let Some(inner) = kind.strip_prefix("Option<").and_then(|rest| rest.strip_suffix('>')) {
             return self.takes(inner);
@@ -126,7 +126,7 @@ impl Page<'_> {
         table
     }
 
-    /// What stands in the brackets of a variant, as an example.
+    /// An example of the arguments in the brackets of a variant.
     fn arguments(&self, kinds: &str) -> String {
         let example = |kind: &str| match kind {
             "f64" | "i64" => "30".to_owned(),
@@ -142,7 +142,7 @@ impl Page<'_> {
     }
 }
 
-/// What the presets say, at a height of 720.
+/// A preset's settings at a height of 720.
 fn resolved(preset: &str) -> presets::ResolvedStrokes {
     let mut scene = new_scene::empty();
     scene.size = (1280, 720);
@@ -208,7 +208,7 @@ fn headings(page: &str) -> BTreeMap<String, String> {
     found
 }
 
-/// The page with all its tables written anew.
+/// The page with all its tables rewritten.
 fn written_anew(page: &str, declared: &[Declared]) -> String {
     let tables = Page { declared, headings: headings(page) };
     let mut anew = String::new();
@@ -250,7 +250,7 @@ fn the_page_of_the_scene_file_is_what_is_declared() {
     }
 }
 
-/// Where each struct stands in a scene: what is before its fields, those that must be given, and what is behind them.
+/// Where each struct is in a scene file: the text before its fields, its required fields, and the text after them.
 const PLACES: [(&str, [&str; 3]); 15] = [
     ("Timeline", ["timeline: (", "", ")"]),
     ("CameraKey", ["camera: (keys: [(", "frame: 0, eye: (0, 0, 1), target: (0, 0, 0), ", ")])"]),
@@ -290,7 +290,7 @@ fn known_at([before, _, after]: [&str; 3]) -> Vec<String> {
     known
 }
 
-/// No field escapes the page because its declaration was not understood: what serde reads is what was found.
+/// The fields that serde reads are those that were found, so no field is missing from the page.
 #[test]
 fn every_field_that_is_read_was_found() {
     let declared = declared();
@@ -325,7 +325,7 @@ fn every_default_of_the_page_is_the_default() {
     }
 }
 
-/// A part of a scene file, with what else a scene must have round it.
+/// A part of a scene file, completed to a whole scene.
 fn scene_of(fragment: &str) -> String {
     let mut text = "(version: 1, ".to_owned();
     if !fragment.contains("camera:") {

@@ -1,4 +1,4 @@
-//! Hostile pictures are refused for the size they claim, or left out with a warning.
+//! Tests of hostile pictures: they are refused for the size they claim, or left out with a warning.
 
 use std::path::Path;
 

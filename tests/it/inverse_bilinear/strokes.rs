@@ -1,4 +1,4 @@
-//! Tapered and bent strokes: what is drawn of them, against where a point of a straight stroke goes.
+//! Tests of tapered and bent strokes: each point of the mark is drawn where taper and bend take it.
 
 use std::sync::{Arc, LazyLock};
 
@@ -15,7 +15,7 @@ use super::{chance, on_two_triangles};
 
 const SIZE_PX: [u32; 2] = [320, 240];
 
-/// A frame with these strokes alone, in flat paint over black. Marks 0 and 1 are full of paint, whose tint goes up along the
+/// A frame with these strokes alone, in flat paint over black. Marks 0 and 1 are full of paint whose tint rises along the
 /// stroke and across it; mark 2 is a filbert's.
 fn frame(strokes: Vec<Stroke>, quality: Quality) -> Frame {
     static BARE: LazyLock<Frame> = LazyLock::new(bare);
@@ -81,7 +81,7 @@ fn place(stroke: &Stroke, at: DVec2) -> DVec2 {
     let straight = if bend == 0.0 {
         DVec2::new(along, across)
     } else {
-        // Round the middle of the arc, on the stroke's left.
+        // Turn about the centre of the arc, on the stroke's left.
         let radius = f64::from(stroke.length_px) / bend;
         let turned = along / radius;
         DVec2::new((radius - across) * turned.sin(), radius - (radius - across) * turned.cos())
@@ -140,7 +140,7 @@ fn two_triangles_would_be_seen() {
         let at = DVec2::new(chance(index, 0), chance(index, 1));
         (on_two_triangles(place(&tapered, at), corners) - at).abs().max_element()
     });
-    // Of a ramp as above, where 1.5 in about 27 are seen.
+    // In units of the ramp above, where 1.5 in about 27 is noticed.
     assert!(worst.fold(0.0, f64::max) > 0.3);
 }
 
@@ -150,7 +150,7 @@ fn a_stroke_without_shape_has_the_same_bytes_beside_shaped_ones() {
         let mut renderer = renderer(Driver::Egl);
         for angle_rad in [0.0, 0.3, 2.9] {
             let plain = Stroke { angle_rad, ..stroke(2) };
-            // Far outside, where nothing of it shows.
+            // A shaped stroke far outside the picture, so that nothing of it shows.
             let shaped = Stroke { center_px: [-9000.0, 50.0], taper: 0.5, bend_rad: 1.0, ..plain };
             let alone = renderer.render(&frame(vec![plain], quality)).unwrap();
             let beside = renderer.render(&frame(vec![shaped, plain], quality)).unwrap();

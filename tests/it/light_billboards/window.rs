@@ -1,4 +1,4 @@
-//! A lamp in the real window, picked and dragged with a real mouse.
+//! Tests picking and dragging a lamp in the editor's real window.
 
 use glam::{DVec2, DVec3};
 use impasto_editor_model::picking::View;
@@ -8,7 +8,7 @@ use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
 
 use crate::editor_window::{folder, read};
 
-/// The viewport's middle and width: between the rail (48) and the column (280), under the bars (80), over the strip (68).
+/// The viewport's middle and width: between the rail (48) and the column (280), below the bars (80), above the strip (68).
 fn viewport() -> (DVec2, f64) {
     let [width, height] = SIZE_PX.map(|side| side as f64);
     (DVec2::new((48.0 + width - 280.0) * 0.5, (80.0 + height - 68.0) * 0.5), width - 280.0 - 48.0)

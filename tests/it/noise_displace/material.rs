@@ -1,4 +1,4 @@
-//! What a surface is coloured by.
+//! Tests of noise that colours surfaces: layers, tint, opacity, bloom.
 
 use glam::Vec2;
 use impasto_core::noise_displace::perlin;
@@ -53,11 +53,11 @@ fn moments(picture: &Picture) -> [f64; 2] {
 }
 
 #[test]
-fn row_7_layers_are_those_of_the_sources_shader_on_either_driver() {
+fn layers_are_those_of_the_sources_shader_on_either_driver() {
     let tint = Color([1.0, 0.75, 0.4]);
     let tint_linear = [255u8, 191, 102].map(linear);
     let mut renderers = [Driver::Egl, Driver::Osmesa].map(|driver| (driver, renderer(driver)));
-    // Enlarged, so that no driver looks at a smaller level of the texture.
+    // Enlarged, so that no driver reads a smaller mipmap level.
     let tiling = [0.22, 0.17];
     for (layer_count, forward) in [
         (1, NoiseForward::Odd),
@@ -103,7 +103,7 @@ fn row_7_layers_are_those_of_the_sources_shader_on_either_driver() {
 }
 
 #[test]
-fn row_7_directions_are_turned_round() {
+fn forward_even_and_time_change_the_layers() {
     let mut renderer = renderer(Driver::Egl);
     let mut of = |forward, frame| {
         drawn(sheet(SurfaceNoise { forward, layer_count: 3, ..Default::default() }), frame, &mut renderer)
@@ -113,7 +113,7 @@ fn row_7_directions_are_turned_round() {
 }
 
 #[test]
-fn row_1_and_9_one_layer_is_the_tint_alone_and_light_changes_nothing() {
+fn one_layer_is_the_tint_alone_and_light_changes_nothing() {
     let mut renderer = renderer(Driver::Egl);
     let surface = SurfaceNoise { layer_count: 1, tint: Color([0.8, 0.4, 0.2]), ..Default::default() };
     let flat = drawn(sheet(surface.clone()), 5.0, &mut renderer);
@@ -133,7 +133,7 @@ fn row_1_and_9_one_layer_is_the_tint_alone_and_light_changes_nothing() {
 }
 
 #[test]
-fn row_1_what_is_behind_is_seen_through_as_much_as_alpha_says() {
+fn what_is_behind_is_seen_through_as_much_as_alpha_says() {
     let mut scene = sheet(SurfaceNoise {
         layer_count: 1,
         tint: Color([1.0, 0.0, 0.0]),
@@ -188,7 +188,7 @@ fn the_order_of_the_file_does_not_matter_to_what_is_seen_through() {
 fn what_is_within_another_body_is_seen_through_it() {
     let ball = |name: &str, scale: f64, tint: [f32; 3], opacity: f64| {
         let mut object = shapes::object(name, 100);
-        // The one within lies nearer by its middle.
+        // The inner sheet's middle is nearer to the eye.
         object.keys =
             vec![ObjectKey { translation: [0.0, 0.0, 0.1 - 0.1 * scale], scale, ..ObjectKey::at(0.0) }];
         let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity, ..Default::default() };
@@ -213,7 +213,7 @@ fn grey(surface: SurfaceNoise, grey: u8, renderer: &mut Renderer) -> Picture {
 }
 
 #[test]
-fn row_8_more_layers_are_darker_unless_the_mean_is_kept() {
+fn more_layers_are_darker_unless_the_mean_is_kept() {
     let mut renderer = renderer(Driver::Egl);
     let g = 128.0 / 255.0_f64;
     for layer_count in [2, 4, 10, 22] {
@@ -225,7 +225,7 @@ fn row_8_more_layers_are_darker_unless_the_mean_is_kept() {
         assert!((root - g.powf(2.0 * (k - 1.0) / k)).abs() < 0.01, "k {layer_count}: {root}");
         assert!((mean - g).abs() < 0.2 * g, "k {layer_count}: {mean}");
     }
-    // As many as there may be, the product itself is no number any more.
+    // With the most layers that are allowed, the product itself underflows.
     let most = moments(&grey(SurfaceNoise { layer_count: 64, ..Default::default() }, 60, &mut renderer))[0];
     assert!((most - (60.0 / 255.0_f64).powf(126.0 / 64.0)).abs() < 0.01, "{most}");
     // The same on noise, whose mean is a half.
@@ -239,7 +239,7 @@ fn row_8_more_layers_are_darker_unless_the_mean_is_kept() {
 }
 
 #[test]
-fn row_9_many_layers_are_harder_and_other_patterns() {
+fn other_layer_counts_give_other_patterns() {
     let mut renderer = renderer(Driver::Egl);
     let contrast = |layer_count: u32| {
         let surface = SurfaceNoise { layer_count, tiling: [0.8; 2], ..Default::default() };
@@ -249,7 +249,7 @@ fn row_9_many_layers_are_harder_and_other_patterns() {
     };
     let all = [2, 4, 22].map(contrast);
     assert!(all[0].1 != all[1].1 && all[1].1 != all[2].1);
-    // The product of many layers is spread ever wider; its root takes much of that back.
+    // More layers spread their product wider; the root takes back much of that.
     println!("contrast at k = 2, 4, 22: {:.3} {:.3} {:.3}", all[0].0, all[1].0, all[2].0);
     assert!(all.iter().all(|(contrast, _)| *contrast > 0.02));
 }

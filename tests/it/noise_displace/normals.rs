@@ -1,5 +1,5 @@
-//! Light on displaced surfaces. Noise that is a ramp shears a sheet as a whole, so its picture is that of a sheet which was
-//! modelled sheared.
+//! Tests of light on displaced surfaces. Noise that is a ramp shears a whole sheet, so its picture must equal that of a sheet
+//! that was modelled sheared.
 
 use std::sync::Arc;
 
@@ -27,12 +27,12 @@ const SCALE: f64 = 4.0;
 const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
 const BEGIN: [f64; 3] = [60.0, 60.0, 128.0];
 
-/// The sheet's place: in the middle of the texture, so that no ramp is torn.
+/// The sheet's pose: in the middle of the texture, away from the edge where the ramp repeats.
 fn key() -> ObjectKey {
     ObjectKey { translation: [2.5, 3.1, 0.0], rotation_deg: [14.0, -22.0, 9.0], ..ObjectKey::at(0.0) }
 }
 
-/// A sheet under a red, a green and a blue sun, which tell every turn of its normal.
+/// A sheet under a red, a green and a blue sun, which show every turn of its normal.
 fn scene() -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sheet", 100)]);
     scene.style = Style::Reference;
@@ -89,7 +89,7 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
 fn modelled() -> Arc<LoadedScene> {
     let scene = scene();
     let world_from_model = impasto_scene::motion::poses_at(&scene, 0.0)[0];
-    // Noise at a place of the model, and how it rises there along each axis.
+    // The noise at a place of the model, and its slope there along each axis.
     let byte = |at: DVec3| {
         let world = world_from_model.transform_point3(at);
         let texels = [world.x * VALUE[0], world.y * VALUE[1]].map(|length| length * f64::from(TEXELS) - 0.5);
@@ -111,7 +111,7 @@ fn drawn(renderer: &mut Renderer, loaded: Arc<LoadedScene>) -> (Picture, Vec<u32
     (picture, renderer.read_reference().body_id)
 }
 
-/// The largest difference of a channel where both show the sheet.
+/// The largest difference in any channel where both pictures show the sheet.
 fn largest_difference((a, a_ids): &(Picture, Vec<u32>), (b, b_ids): &(Picture, Vec<u32>)) -> u8 {
     let both: Vec<usize> = (0..a_ids.len()).filter(|&pixel| a_ids[pixel] == 1 && b_ids[pixel] == 1).collect();
     assert!(both.len() > 4000, "{} pixels of the sheet", both.len());
@@ -133,7 +133,7 @@ fn light_falls_on_a_displaced_sheet_as_on_one_that_was_modelled_so() {
     }
 }
 
-/// A slope that is a third too small, along either axis of the noise or of the model.
+/// The planted fault is a slope that is a third too small, along either axis of the noise or of the model.
 #[test]
 fn a_fault_of_displaced_normals_is_seen_in_the_light() {
     let modelled = drawn(&mut renderer(Driver::Egl), modelled());

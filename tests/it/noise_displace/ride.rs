@@ -1,4 +1,4 @@
-//! Strokes that ride the displaced surface.
+//! Tests of strokes that ride a displaced surface: their places, turns, loops and edits.
 
 use std::collections::BTreeMap;
 
@@ -48,7 +48,7 @@ fn strokes(frame: &Frame) -> BTreeMap<u32, (DVec2, f64, f32)> {
         .collect()
 }
 
-/// Pixels from the picture's centre, Y up, of the camera of `shapes::scene`.
+/// Where the camera of `shapes::scene` shows a place: pixels from the picture's centre, Y up.
 fn pixel(at: DVec3) -> DVec2 {
     let focal_px = 180.0 / (0.5 * 35f64.to_radians()).tan();
     at.truncate() * focal_px / (4.0 - at.z)
@@ -82,7 +82,7 @@ fn strokes_lie_where_the_surface_has_gone_and_turn_as_it_does() {
                 continue;
             }
             let particle = &particles.at(index as usize);
-            // Its triangle's corners carry it.
+            // The particle moves with its triangle's corners.
             let [v, w] = particle.barycentric.map(f64::from);
             let on_screen = |side: usize, v: f64, w: f64| {
                 let corners = mesh.corners(particle.triangle as usize);
@@ -90,7 +90,7 @@ fn strokes_lie_where_the_surface_has_gone_and_turn_as_it_does() {
                 pixel(a * (1.0 - v - w) + b * v + c * w)
             };
             off_px.push(on_screen(1, v, w).distance(at));
-            // The turn of the picture of the surface there, by finite differences.
+            // How the surface's picture has turned there, by finite differences.
             const STEP: f64 = 1e-4;
             let [reference, now] = [0, 1].map(|side: usize| {
                 let along =
@@ -166,7 +166,7 @@ fn painted_strokes_are_seen_on_the_displaced_surface() {
             let frame = painting.at(frame, &OPTIONS);
             renderer.render(&frame).unwrap();
             let resolved = renderer.resolved_strokes();
-            // Strokes that turn to the eye and lie on the outermost layer of the picture are not hidden by their own body.
+            // Strokes that face the eye on the nearest surface are not hidden by their own body.
             let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
             let range = body.first as usize..(body.first + body.count) as usize;
             let open = range

@@ -1,9 +1,9 @@
-//! The source's shader (its tables 4 and 5), line by line, as the judge of ours. `_Time.x` is seconds / 20.
+//! The source's shader (its tables 4 and 5) line by line, to judge ours. `_Time.x` is seconds / 20.
 
 use glam::{DAffine3, DVec3};
 use impasto_core::noise_displace::Tile;
 
-/// `tex2D` of a repeating texture: every texel weighs by how near its centre is.
+/// `tex2D` of a repeating texture: bilinear, with texels weighted by how near their centres are.
 pub fn tex2d(tile: &Tile, u: f64, v: f64) -> [f64; 4] {
     let [columns, rows] = tile.size().map(|side| side as i64);
     let (x, y) = (u * columns as f64 - 0.5, v * rows as f64 - 0.5);
@@ -20,7 +20,7 @@ pub fn tex2d(tile: &Tile, u: f64, v: f64) -> [f64; 4] {
     sum
 }
 
-/// What the vertex shader needs.
+/// The inputs of the vertex shader.
 pub struct Vert<'a> {
     pub noise_tex: &'a Tile,
     /// `unity_ObjectToWorld`; the identity for the source's equation 1.
@@ -41,13 +41,13 @@ impl Vert<'_> {
     }
 }
 
-/// What the fragment shader needs.
+/// The inputs of the fragment shader.
 pub struct Frag<'a> {
     pub noise_tex2: &'a Tile,
     pub max_index: u32,
     pub speed: f64,
     pub time_x: f64,
-    /// −1 as the code has it; 1 as the text has it: there even layers go forward.
+    /// −1 as in the source's code; 1 as in its text, where even layers go forward.
     pub reverse_factor: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Wrong arrows planted in small workspaces of their own, judged through the real `cargo metadata`.
+//! Tests of the layer check: wrong arrows are planted in small workspaces and judged through the real `cargo metadata`.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ const ARCHITECTURE: &str = "\
 <!-- outside:end -->
 ";
 
-/// A workspace with these crates: folder name, and its dependencies as Cargo.toml lines.
+/// Writes a workspace with these crates: folder names, and their dependencies as Cargo.toml lines.
 fn workspace(root: &Path, crates: &[(&str, &str)]) {
     let write = |path: &str, text: &str| {
         let path = root.join(path);
@@ -29,7 +29,7 @@ fn workspace(root: &Path, crates: &[(&str, &str)]) {
     };
     write("Cargo.toml", "[workspace]\nresolver = \"3\"\nmembers = [\"crates/*\"]\nexclude = [\"outside\"]\n");
     write("ARCHITECTURE.md", ARCHITECTURE);
-    // Outside crates stand in as path dependencies that are no members.
+    // Outside crates are replaced by path dependencies that are not members.
     for outside in ["glow", "middle"] {
         let dependencies = if outside == "middle" { "[dependencies]\nglow.path = \"../glow\"" } else { "" };
         let manifest = format!(
@@ -73,7 +73,7 @@ fn a_planted_wrong_arrow_is_named() {
 }
 
 #[test]
-fn an_arrow_of_the_tests_alone_is_an_arrow_too() {
+fn a_dev_dependency_is_an_arrow_too() {
     let core = ("core", "[dev-dependencies]\nimpasto-tests.path = \"../tests\"");
     let error = verdict(&[core, SCENE, ("tests", "")]).expect_err("core may use nothing");
     assert!(error.contains("impasto-core -> impasto-tests"), "{error}");
@@ -156,7 +156,7 @@ fn a_child_may_use_its_parent_but_not_in_a_circle_through_others() {
 }
 
 #[test]
-fn what_is_handed_on_comes_from_where_it_stands() {
+fn a_re_export_counts_as_the_file_that_defines_it() {
     let found = circles_in(&[
         ("lib.rs", "mod a;"),
         ("a/mod.rs", "mod b; mod c; pub use b::B;"),

@@ -1,4 +1,4 @@
-//! Each kind of untidiness, planted in a small tree of its own.
+//! Tests of `tidy`: each kind of untidiness is planted in a small tree of its own.
 
 use super::run;
 
@@ -75,7 +75,7 @@ fn half_a_technique_is_named() {
         files.remove(missing);
         found(&files, expected);
     }
-    // What lies over a picture is no style.
+    // An overlay is not a style.
     let mut overlay = whole.to_vec();
     overlay[1].0 = "crates/gl-render/src/overlays/sumi_e.rs";
     assert_eq!(verdict(&overlay), Ok(()));

@@ -1,8 +1,8 @@
-//! Movies of flat colours, decoded as a player does.
+//! Tests of movies: flat colours and transparency, written and then decoded as a player does.
 
 use super::*;
 
-/// Flat colours in bands, left to right: those that BT.601 and BT.709 disagree about, with the two ends of each channel.
+/// Bands of flat colour, left to right: colours that differ between BT.601 and BT.709, and both ends of each channel.
 const BANDS: [[u8; 4]; 6] = [
     [0, 160, 0, 255],
     [200, 30, 30, 255],
@@ -33,7 +33,7 @@ fn encoding(name: &str, transparent: bool) -> Encoding {
     Encoding::of(Path::new(name), transparent).unwrap().unwrap()
 }
 
-/// A movie of three equal frames of bands; `extra_px` more of the last band makes a side odd.
+/// Writes a movie of three equal frames of bands. `extra_px` widens the last band and the height, to make the sides odd.
 fn write(path: &Path, transparent: bool, bands: &[[u8; 4]], extra_px: usize) {
     let width = bands.len() * BAND_PX + extra_px;
     let row = (0..width).flat_map(|x| bands[(x / BAND_PX).min(bands.len() - 1)]);
@@ -61,7 +61,7 @@ fn probed(path: &Path, entries: &str) -> String {
     String::from_utf8(output("ffprobe", &arguments, path, &[])).unwrap()
 }
 
-/// The middle of each band in the last frame, in four bytes a pixel.
+/// The RGBA pixel in the middle of each band of the last frame.
 fn decoded(path: &Path, bands: usize, width: usize, before: &[&str]) -> Vec<[u8; 4]> {
     let arguments = [&["-v", "error"], before, &["-i"]].concat();
     let pixels = output("ffmpeg", &arguments, path, &["-f", "rawvideo", "-pix_fmt", "rgba", "-"]);
@@ -114,10 +114,10 @@ fn transparency_is_kept_where_a_movie_has_it() {
     for (name, decoder) in [("a.mov", "prores"), ("a.webm", "libvpx-vp9")] {
         let path = folder.path().join(name);
         write(&path, true, &bands, 0);
-        // ffmpeg's own decoder of VP9 leaves the transparency out.
+        // ffmpeg's own VP9 decoder drops transparency.
         let mut found = decoded(&path, bands.len(), bands.len() * BAND_PX, &["-c:v", decoder]);
         assert_eq!(found[2][3], 0, "{name}");
-        // What cannot be seen may have any colour.
+        // A fully transparent pixel may have any colour.
         found[2] = bands[2];
         assert_near(&found, &bands, name);
         assert!(probed(&path, "color_space").contains("bt709"), "{name}");

@@ -16,7 +16,7 @@ fn scattered(count: u32, size: Vec3) -> (Vec<Vec3>, Vec<Vec3>) {
     (positions, normals)
 }
 
-/// The lists by definition; `own` counts a point with the query's own number too.
+/// The lists by definition. With `own`, the point that has the query's own index counts too.
 fn brute_force(
     queries: Points<'_>,
     points: Points<'_>,

@@ -27,7 +27,7 @@ fn patches(cells: u32, patches: &[&dyn Fn(f32, f32) -> (Vec3, Vec3)]) -> Triangl
     mesh
 }
 
-/// A cube projected onto a ball: sines may differ between machines, this does not.
+/// A cube projected onto a ball: unlike sines, this gives the same bits on every machine.
 fn ball() -> TriangleMesh {
     let on = |position: Vec3| (position.normalize(), position.normalize());
     patches(
@@ -47,7 +47,7 @@ fn sheet() -> TriangleMesh {
     patches(3, &[&|x, y| (Vec3::new(x, y, 0.0), Vec3::Z)])
 }
 
-/// Faces whose corner normals differ so much that only the particles' own normals tell the sides apart.
+/// Faces whose corner normals differ so much that only the normals at the particles tell the two sides apart.
 fn creased_sheet() -> TriangleMesh {
     patches(5, &[&|x, y| (Vec3::new(x, y, 0.1 * x * y), Vec3::new(2.0 * x, 1.9 * y, 0.3).normalize())])
 }
@@ -160,7 +160,7 @@ fn scattered_particles_fill_every_face_by_its_area() {
 
 #[test]
 fn particles_computed_in_blocks_equal_those_computed_singly() {
-    // Between corner normals that cancel each other there is no interpolated normal.
+    // Corner normals that cancel out leave no interpolated normal between them.
     let mut bent =
         patches(2, &[&|x, y| (Vec3::new(x, y, 0.2 * x), if x < 0.0 { Vec3::Y } else { -Vec3::Y })]);
     bent.normals[4] = Vec3::ZERO;

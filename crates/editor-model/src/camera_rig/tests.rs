@@ -1,4 +1,4 @@
-//! Tests of the free camera: what orbit, pan, zoom and framing keep in place.
+//! Tests of the free camera: what stays in place while it orbits, pans, zooms and frames.
 
 use super::*;
 
@@ -13,7 +13,7 @@ fn pose(eye: [f64; 3], target: [f64; 3], roll_deg: f64) -> CameraPose {
     }
 }
 
-/// Upright, rolled, steep and nearly straight down, by both lenses.
+/// Upright, rolled, steep and nearly straight-down views, each through both lenses.
 fn views() -> Vec<FreeView> {
     let mut views: Vec<FreeView> = [
         pose([0.0, 1.1, 3.4], [0.0, 0.48, 0.0], 0.0),
@@ -60,7 +60,7 @@ fn orbiting_follows_the_pointer_whatever_the_roll() {
     for roll_deg in [0.0, 37.0, -143.0] {
         for delta in [DVec2::new(4.0, 0.0), DVec2::new(0.0, 4.0), DVec2::new(-3.0, 2.0)] {
             let mut view = FreeView::new(pose([0.0, 0.0, 4.0], [0.0; 3], roll_deg));
-            // The nearest point of a ball that is turned.
+            // The point of a unit ball that is nearest to the eye.
             let held = DVec3::new(0.0, 0.0, 1.0);
             let before = view.view(SIZE_PX).project(held).unwrap();
             view.orbit(delta, DVec3::ZERO);
@@ -153,7 +153,7 @@ fn axis_views_are_upright() {
 }
 
 #[test]
-fn parallel_rays_and_back() {
+fn orthographic_and_back_keeps_the_size_of_the_picture() {
     for mut view in views() {
         let before = view.clone();
         let size = view.view(SIZE_PX).px_per_unit(view.pose().target);

@@ -93,7 +93,7 @@ fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
     document.fix_certain().expect("fixed");
     assert_eq!(document.scene().size, (640, 480));
     assert_eq!(document.scene().strokes.width_px, Some(9.0));
-    // Of one thing, they do not: nothing is lost, and the words say what to do.
+    // Two edits of the same thing conflict: nothing is lost, and the message says what to do.
     document.apply(&seed(4)).expect("done");
     let text = document.source().expect("a source").text.replace("\"x\"", "7");
     let refused = document.read_text(&text).expect_err("two hands");
@@ -102,7 +102,7 @@ fn fixes_and_edits_both_hold_where_they_are_of_different_things() {
 }
 
 #[test]
-fn another_mesh_settles_a_missing_one_and_undo_brings_the_box_back() {
+fn choosing_another_mesh_replaces_a_missing_one_and_undo_brings_the_box_back() {
     let folder = Folder::with(&scene("lost.obj", ""));
     let mut document = folder.open();
     let rows = document.problems();
@@ -136,7 +136,7 @@ fn a_guide_off_its_surface_is_listed_and_snaps_to_it() {
 }
 
 #[test]
-fn what_somebody_else_wrote_is_not_saved_over_and_can_be_read_again() {
+fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     let folder = Folder::with(&scene("meshes/leaf.obj", ""));
     let mut document = folder.open();
     document.apply(&seed(1)).expect("done");
@@ -195,7 +195,7 @@ fn a_scene_whose_mesh_or_folder_is_gone_is_saved_elsewhere_and_what_is_missing_i
         assert_eq!(editor.document().file(), Some(&*elsewhere.join("own.ron")));
         let again = Document::open_with_problems(&elsewhere.join("copy.ron"), &LoadOptions::default());
         assert_eq!(again.expect("opens").scene(), editor.document().scene());
-        // Where the scene is now, it is saved as any other.
+        // At its new place the scene is saved like any other.
         editor.save(None).expect("saved");
         assert_eq!(editor.take_said()[0].words, "Saved own.ron");
     }

@@ -1,4 +1,4 @@
-//! Tests of the editor by plain events: drags, cancelling, typed numbers, stroke previews.
+//! Tests of the editor through plain events: drags, cancelling, typed numbers, stroke previews.
 
 use std::path::Path;
 
@@ -60,7 +60,7 @@ fn key(editor: &mut Editor, key: Key) {
     assert!(editor.key(key, Modifiers::default(), false, &view), "{key:?} means nothing here");
 }
 
-/// Where the object that is seen largest shows.
+/// The middle, in pixels, of the object that covers most of the picture.
 fn middle_of_the_apple(editor: &Editor) -> DVec2 {
     let scene = editor.document().scene();
     let apple =
@@ -98,7 +98,7 @@ fn one_drag_is_previewed_and_becomes_one_entry() {
 }
 
 #[test]
-fn escape_and_a_lost_focus_leave_no_trace() {
+fn escape_and_a_lost_focus_cancel_without_a_trace() {
     for by_escape in [true, false] {
         let mut editor = with_apple();
         act(&mut editor, Action::Paint);
@@ -138,7 +138,7 @@ fn painting_on_a_locked_region_is_refused_with_a_message() {
 }
 
 #[test]
-fn typed_numbers_move_the_whole_motion() {
+fn a_typed_move_shifts_all_keys() {
     let mut editor = with_apple();
     let name = editor.document().scene().objects[0].name.clone();
     editor.select(Selection::only(Item::Object(name)));
@@ -206,7 +206,7 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     assert_eq!(comb_preview.along, DVec2::X);
     assert!((comb_preview.at_px - at - DVec2::new(20.0, 0.0)).length() < 1e-6, "{comb_preview:?}");
 
-    // What lies in the ring is what the whole picture has there.
+    // The strokes previewed in the ring are those that the whole picture has there.
     let painting = editor.painting().expect("it is prepared");
     let options = impasto_painting::FrameOptions::new([960, 540]);
     let camera = editor.camera();

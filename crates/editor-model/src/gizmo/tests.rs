@@ -1,4 +1,4 @@
-//! Tests of the gizmo: size, hits and visible halves of its handles.
+//! Tests of the gizmo: the size of its handles, where they are hit, and which half of a ring shows.
 
 use glam::DQuat;
 use impasto_scene::document::Lens;
@@ -42,7 +42,7 @@ fn handles_keep_their_size_at_any_distance() {
             let [from, to] = arm(&gizmo, axis).unwrap();
             (to - from).length_squared()
         });
-        // Three unit vectors across each other show with squared lengths that add up to two.
+        // Projected onto a plane, three orthogonal unit vectors have squared lengths that add up to two.
         let sum: f64 = shown.iter().sum();
         assert!((sum - 2.0 * 90.0 * 90.0).abs() < 1e-6, "{sum}");
     }

@@ -88,7 +88,7 @@ fn no_key_does_two_things_in_one_scope() {
                 }
             }
         }
-        // A mode hides nothing that holds everywhere; modal tools, fields and lanes take the keys they name.
+        // A mode may not hide a key that holds everywhere; modal tools, fields and lanes may take the keys they name.
         for (&(place, chord), &action) in &taken {
             if place != Where::Everywhere
                 && let Some(&shadowed) = taken.get(&(Where::Everywhere, chord))
@@ -270,7 +270,7 @@ fn menus_write_keys_as_people_do() {
         for keymap in keymaps() {
             let text = keymap.shortcut_text(action);
             let digit = matches!(action, Action::Arrange | Action::Paint | Action::Animate);
-            // These stand in the menu and in the command search only.
+            // These have no key: they are only in the menu and the command search.
             let rare = matches!(action, Action::SaveCopy | Action::Revert);
             assert_eq!(text.is_none(), rare || digit && text.is_none(), "{action:?}");
         }
@@ -278,7 +278,7 @@ fn menus_write_keys_as_people_do() {
 }
 
 #[test]
-fn the_pointers_buttons() {
+fn pointer_buttons_orbit_pan_and_zoom() {
     let [ctrl, shift, alt] = ["Ctrl A", "Shift A", "Alt A"].map(|text| chord(text).held);
     let none = Modifiers::default();
     use Navigation::{Orbit, Pan, Zoom};
@@ -295,7 +295,7 @@ fn the_pointers_buttons() {
         (MAYA, Button::Right, alt, Some(Zoom)),
         (MAYA, Button::Middle, none, None),
         (MAYA, Button::Wheel, none, Some(Zoom)),
-        // Alt wheel scrubs.
+        // Alt with the wheel scrubs.
         (MAYA, Button::Wheel, alt, None),
     ] {
         assert_eq!(keymap.navigation(button, held), does, "{keymap:?} {button:?} {held:?}");

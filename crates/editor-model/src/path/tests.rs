@@ -1,4 +1,4 @@
-//! Tests of gestures on surfaces: independent of the event rate, cut at gaps, mirrored.
+//! Tests of gestures on surfaces: they do not depend on the event rate, are cut at gaps, and are mirrored.
 
 use glam::DQuat;
 use impasto_scene::document::{GuideMode, GuideView, Lens};
@@ -113,7 +113,7 @@ fn the_same_drag_gives_the_same_guide_at_any_event_rate() {
                 worst_stamp = worst_stamp.max(stamp.position.distance(other.position) * path.px_per_unit);
             }
             println!("steady {steady}: {worst_px:.3} px off the path, stamps {worst_stamp:.3} px apart");
-            // Seven reports of an S of 180 px do not say more.
+            // Seven pointer events over an S of 180 px cannot say more.
             assert!(worst_px < 1.5 && worst_stamp < 1.5, "{worst_px} {worst_stamp}");
         }
         let (some, many) = (&drags[1], &drags[2]);
@@ -267,11 +267,11 @@ fn the_view_is_stated_unless_it_is_the_reference() {
     );
     let reference = ObjectView::new(&camera([0.0, 1.0, 4.0], [0.0, 0.5, 0.0]), turned);
     let at = DVec3::new(0.1, 0.2, 0.3);
-    // The same picture in other words: another roll, lens and distance of the target.
+    // The same view stated differently: another roll, lens and target distance.
     let mut same = camera([0.0, 1.0, 4.0], [0.0, 0.75, 2.0]);
     (same.roll_rad, same.lens) = (1.0, Lens::Perspective { fov_y_deg: 60.0, near: 0.1, far: 9.0 });
     assert_eq!(ObjectView::new(&same, turned).guide_view(&reference, at), None);
-    // The object and the camera moved as one.
+    // The object and the camera moved together.
     let moved = DAffine3::from_rotation_translation(DQuat::from_rotation_x(0.7), DVec3::new(-3.0, 0.0, 1.0));
     let mut carried = camera([0.0, 1.0, 4.0], [0.0, 0.5, 0.0]);
     (carried.eye, carried.target) =

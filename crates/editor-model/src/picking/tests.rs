@@ -9,7 +9,7 @@ use impasto_scene::motion::CameraPose;
 
 use super::*;
 
-/// Numbers in 0..1 without end.
+/// An endless sequence of pseudo-random numbers in 0..1.
 fn numbers() -> impl FnMut() -> f64 {
     let mut index = 0u32;
     move || {
@@ -82,7 +82,7 @@ fn heap(count: u32) -> TriangleMesh {
     mesh(positions, (0..count).map(|triangle| [triangle * 3, triangle * 3 + 1, triangle * 3 + 2]).collect())
 }
 
-/// The nearest triangle by its plane and its edges: (object, triangle, distance).
+/// The nearest triangle, found by testing each one's plane and edges: (object, triangle, distance).
 fn nearest_by_force(
     bodies: &[(Arc<BodySurface>, f64)],
     poses: &[DAffine3],
@@ -121,7 +121,7 @@ fn picking_equals_a_search_of_all_triangles() {
     let mut number = numbers();
     let (mut met, mut missed) = (0, 0);
     for index in 0..2000 {
-        // From near by, and from as far as a parallel view may stand.
+        // From near by, and from the distance at which a parallel view may stand.
         let far = if index % 4 == 0 { 1e4 } else { 9.0 };
         let mut place = |size: f64| DVec3::new(number() - 0.5, number() - 0.5, number() - 0.5) * size;
         let origin = place(1.0).normalize() * far;
@@ -270,7 +270,7 @@ fn trees_of_another_picker_are_reused() {
     let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: -DVec3::Z };
     let hits = [&there, &here].map(|picker| picker.pick(&ray, &[DAffine3::IDENTITY], |_| true));
     assert!(hits[0].is_some() && hits[0] == hits[1]);
-    // Of another surface it is of no use.
+    // The tree of another surface is not reused.
     let other = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
     let mut elsewhere = Picker::default();
     elsewhere.learn(there);

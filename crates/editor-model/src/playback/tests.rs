@@ -6,7 +6,7 @@ fn course(first: i64, last: i64, fps: f64) -> Course {
     Course { first, last, fps, looped: true, pacing: Pacing::RealTime }
 }
 
-/// A frame as the clock alone would have it.
+/// The frame that the clock alone asks for.
 fn by_clock(course: Course, start: i64, secs: f64) -> i64 {
     course.first
         + (start - course.first + (secs * course.fps + 1e-6).floor() as i64).rem_euclid(course.count())
@@ -25,7 +25,7 @@ fn pictures_that_come_at_once_show_the_frame_of_the_clock() {
             let frame = playback.tick(course, now).unwrap();
             playback.shown(frame, now);
             let clock = by_clock(course, 0, now - 100.0);
-            // With the lead that it has learnt it may be one frame early.
+            // Playback learns how far ahead to ask, so it may be one frame early.
             let ahead = (frame as i64 - clock).rem_euclid(course.count());
             assert!(ahead <= 1, "{fps} fps, {now} s: frame {frame}, the clock says {clock}");
             frames.insert(frame as i64);
@@ -36,7 +36,7 @@ fn pictures_that_come_at_once_show_the_frame_of_the_clock() {
     }
 }
 
-/// A drawer that takes its time: it draws what was asked last, and shows it when it is done.
+/// A slow drawer: it draws the frame that was asked for last, and shows it when it is done.
 struct Drawer {
     busy: Option<(f64, f64)>,
     takes_secs: f64,
@@ -71,7 +71,7 @@ fn slow_pictures_are_shown_on_time_and_skipped_frames_are_counted() {
                 late.push((now * 24.0 - (index as f64 + 0.5)).abs());
             }
         }
-        // Frames that passed by are those that were shown and those that were dropped.
+        // Every frame that has passed was either shown or dropped.
         assert_eq!(playback.dropped() + pictures, index as u64, "{takes_secs}");
         assert_eq!(playback.dropped() == 0, takes_secs < 1.0 / 24.0, "{takes_secs}: {}", playback.dropped());
         let worst = late.iter().copied().fold(0.0, f64::max);
@@ -85,11 +85,11 @@ fn drops_are_counted_and_remembered_exactly() {
     let course = course(0, 9, 10.0);
     let mut playback = Playback::default();
     playback.play(0.0, course, 0.0);
-    // Asked once, in the midst of frame 3.
+    // Asked once, in the middle of frame 3.
     assert_eq!(playback.tick(course, 0.35), Some(3.0));
     assert!(playback.shown(3.0, 0.35));
     assert_eq!((playback.dropped(), playback.missed().collect::<Vec<_>>()), (2, vec![1, 2]));
-    // The same picture again, now exact: nothing new.
+    // The same frame again, now exact, counts once.
     assert!(!playback.shown(3.0, 0.36));
     // Across the loop's end: 4 to 9 and 0 were never shown.
     playback.lead_secs = 0.0;

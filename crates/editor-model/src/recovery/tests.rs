@@ -58,7 +58,7 @@ fn a_copy_that_was_left_behind_is_offered_and_comes_back_edited_and_unsaved() {
     assert_eq!(document.scene(), edited(1000).scene());
     assert!(document.is_edited());
     assert_eq!(document.file(), Some(scene()));
-    // It is this session's now, and stays on the disk all the while.
+    // The copy now belongs to this session, and stays on the disk throughout.
     let offer = offers.into_iter().next().expect("one");
     here.take_over(offer).expect("taken");
     assert_eq!(files(folder.path()), ["2-1.lock", "2-1.ron"]);
@@ -76,7 +76,7 @@ fn the_copy_of_a_living_session_is_not_offered_and_one_copy_not_twice() {
     let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);
     assert!(Recovery::offers(folder.path()).is_empty(), "another window holds it");
-    // Later: it is offered again.
+    // Answered with "later", it is offered again.
     drop(offers);
     let offers = Recovery::offers(folder.path());
     assert_eq!(offers.len(), 1);
@@ -89,7 +89,7 @@ fn the_copy_of_a_living_session_is_not_offered_and_one_copy_not_twice() {
 }
 
 #[test]
-fn only_so_many_copies_are_kept_and_what_a_session_left_besides_goes() {
+fn only_the_newest_copies_are_kept_and_litter_of_dead_sessions_is_removed() {
     let folder = tempfile::tempdir().expect("a folder");
     for index in 0..MAX_COPIES + 3 {
         crashed(folder.path(), &format!("{index}-1"), index as u64);
@@ -103,7 +103,7 @@ fn only_so_many_copies_are_kept_and_what_a_session_left_besides_goes() {
     assert_eq!(offers.len(), MAX_COPIES);
     assert_eq!(offers[0].copy.at_unix_secs, (MAX_COPIES + 2) as u64, "the newest first");
     drop(offers);
-    // Litter of sessions with a copy goes once that copy does.
+    // A dead session's other files are removed together with its copy.
     let left = files(folder.path());
     assert_eq!(left.len(), 2 * MAX_COPIES + 2, "{left:?}");
     assert!(left.contains(&"notes.txt".to_owned()));
@@ -126,7 +126,7 @@ fn a_copy_that_is_not_whole_is_not_offered() {
 }
 
 #[test]
-fn a_scene_that_is_untitled_or_another_since_is_told_apart() {
+fn copies_of_untitled_scenes_and_of_files_changed_since_are_recognised() {
     let folder = tempfile::tempdir().expect("a folder");
     let scenes = tempfile::tempdir().expect("a folder");
     let own = scenes.path().join("s.ron");
@@ -141,7 +141,7 @@ fn a_scene_that_is_untitled_or_another_since_is_told_apart() {
     let [untitled, other] = &offers[..] else { panic!("{offers:?}") };
     assert_eq!((untitled.copy.name().as_str(), untitled.copy.file.as_deref()), ("Untitled", None));
     assert!(!untitled.copy.is_of_another_file() && other.copy.is_of_another_file());
-    // Saving the work over what somebody else wrote asks first.
+    // Saving over a file that somebody else changed asks first.
     let mut document = Document::recovered(&other.copy, &LoadOptions::default()).expect("opens");
     let refused = document.save().expect_err("asks");
     assert!(matches!(refused, crate::document::SaveError::ChangedOutside { .. }), "{refused}");
@@ -149,7 +149,7 @@ fn a_scene_that_is_untitled_or_another_since_is_told_apart() {
 }
 
 #[test]
-fn the_thread_keeps_the_last_and_leaves_nothing_that_is_forgotten() {
+fn the_thread_writes_the_last_copy_and_removes_forgotten_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let keeper = Keeper::new(Recovery::open(folder.path(), "1-1").expect("opens")).expect("a thread");
     for at in 1..=30 {

@@ -91,7 +91,7 @@ fn a_command_is_offered_for_a_file_only_and_quoted_for_a_shell() {
 }
 
 #[test]
-fn words_say_how_far_it_is() {
+fn progress_is_put_into_words() {
     let mut progress = RenderProgress {
         stage: Stage::Drawing,
         total: 120,
@@ -104,7 +104,7 @@ fn words_say_how_far_it_is() {
     assert_eq!(progress.count(), "47 of 120");
     assert_eq!(progress.time_words(), "1 min 55 s gone, about 2 min 55 s left");
     assert_eq!(progress.frame_words(), "2.4 s a frame, 5,774 strokes");
-    // What stays as it is costs no time and tells nothing of it.
+    // Frames that are not rendered again take no time, so they say nothing about the time left.
     progress.kept = 73;
     assert_eq!((progress.share(), progress.left_s()), (1.0, None));
     progress.outcome = Some(Outcome::Done);

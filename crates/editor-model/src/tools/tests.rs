@@ -1,4 +1,4 @@
-//! Test scene for the tools of Paint: a ball and a plate, with events as from a pointer.
+//! The test scene for the tools of Paint (a ball and a plate), and pointer events for it.
 
 use std::fmt::Write;
 use std::sync::{Arc, OnceLock};
@@ -77,7 +77,7 @@ struct World {
     _folder: tempfile::TempDir,
 }
 
-/// Regions by height, one direction everywhere.
+/// A stand-in for the painting: regions by height, one direction everywhere.
 struct Stub {
     shown: Option<PaintedDirection>,
 }
@@ -99,7 +99,7 @@ impl World {
             std::fs::write(folder.path().join(name), text).unwrap();
         }
         let document = Document::open(&folder.path().join("s.ron"), &Default::default()).unwrap();
-        // The same in every test.
+        // Made once for all tests.
         static SURFACES: OnceLock<[Arc<BodySurface>; 2]> = OnceLock::new();
         let surfaces = SURFACES.get_or_init(|| {
             let painting = prepare(Arc::clone(document.loaded())).unwrap();
@@ -123,7 +123,7 @@ impl World {
         }
     }
 
-    /// Takes an event as the editor does: what is done goes into the document.
+    /// Handles an event as the editor does: commits go into the document.
     fn take(&mut self, tool: Tool, event: ToolEvent) -> ToolOutput {
         let selection = self.document.selection().clone();
         let loaded = Arc::clone(self.document.loaded());

@@ -1,4 +1,4 @@
-//! Tests of moving, turning and scaling by pointer and keys.
+//! Tests of moving, turning and scaling with the pointer and with keys.
 
 use impasto_scene::motion::CameraPose;
 
@@ -54,7 +54,7 @@ fn shown(transform: &Transforming) -> DVec2 {
 }
 
 #[test]
-fn g_x_and_a_number() {
+fn typing_g_x_and_a_number_moves_along_x() {
     let mut transform = Transforming::new(Operation::Move, start(DVec2::new(300.0, 200.0)));
     transform.take(TransformEvent::Axis(Axis::X));
     assert_eq!(typed(&mut transform, "0.8"), TransformDelta::Move(DVec3::new(0.8, 0.0, 0.0)));
@@ -137,7 +137,7 @@ fn along_an_axis_the_origin_follows_the_pointer_on_that_axis() {
             let world = transform.world_from_space() * axis.unit();
             for by in [0.7, -1.3] {
                 let to = view().project(pose().translation + world * by).unwrap();
-                // A pointer beside the axis counts by its foot on it.
+                // A pointer beside the axis counts as its nearest point on the axis.
                 let beside = (to - pivot_px).perp().normalize() * 25.0;
                 transform.take(moved(to + beside));
                 let TransformDelta::Move(delta) = transform.delta() else { panic!() };
@@ -187,7 +187,7 @@ fn turning_follows_the_pointer_round_more_than_once() {
         let TransformDelta::Turn { angle_rad, .. } = transform.delta() else { panic!() };
         assert!((angle_rad - 8.0).abs() < 1e-9, "{axis:?}: {angle_rad}");
     }
-    // Free turning shows as the pointer went: a point that faces the eye goes round counter-clockwise.
+    // A free turn follows the pointer: a point that faces the eye goes round counter-clockwise.
     let mut transform = Transforming::new(Operation::Turn, start(arm(0.0)));
     transform.take(moved(arm(0.5)));
     let turned = applied(transform.delta(), transform.world_from_space());
@@ -199,7 +199,7 @@ fn turning_follows_the_pointer_round_more_than_once() {
 }
 
 #[test]
-fn a_turned_axis_is_followed_from_behind_too() {
+fn an_axis_turn_follows_the_pointer_from_behind_too() {
     let mut start = start(DVec2::ZERO);
     // From the other side, +Z points away from the eye.
     start.view.camera.eye = DVec3::new(0.4, 0.3, -6.0);

@@ -86,7 +86,7 @@ fn an_error_names_frame_and_file_and_leaves_the_frames_before() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_is_told_before_anything_is_drawn() {
+fn a_folder_that_cannot_be_made_is_reported_before_anything_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("file"), "").unwrap();
     let rendering =

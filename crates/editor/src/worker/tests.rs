@@ -1,4 +1,4 @@
-//! The painting thread: which pictures come, in which order, and what it gives up.
+//! Tests of the painting thread: which pictures come, in which order, and which work it gives up.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -79,7 +79,7 @@ fn bytes(picture: &Picture) -> Vec<u8> {
 }
 
 #[test]
-fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
+fn only_the_latest_job_is_taken_and_earlier_ones_are_stale() {
     let loaded = scene();
     let mailbox = Mailbox::default();
     let job = |serial| Job { loaded: Arc::clone(&loaded), serial, views: Vec::new() };
@@ -98,7 +98,7 @@ fn the_latest_job_lies_on_the_desk_and_the_one_before_is_stale() {
 }
 
 #[test]
-fn a_later_job_ends_the_rest_of_the_one_before() {
+fn a_later_job_ends_the_wait_of_the_one_before() {
     let loaded = scene();
     let mailbox = Mailbox::default();
     mailbox.put(Job { loaded: Arc::clone(&loaded), serial: 1, views: Vec::new() }, Vec::new());
@@ -111,7 +111,7 @@ fn a_later_job_ends_the_rest_of_the_one_before() {
 }
 
 #[test]
-fn at_rest_comes_what_a_file_would_get() {
+fn at_rest_the_picture_is_the_one_a_file_would_get() {
     let loaded = scene();
     let worker = worker();
     for (shading, style) in [(Shading::Painted, None), (Shading::Shaded, Some(Style::Reference))] {
@@ -141,18 +141,18 @@ fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
     let glimpse = pictures(&told)[0];
     assert!(!glimpse.exact && glimpse.strokes == 0);
     let small = ViewJob { size_px: glimpse.image.size.map(|side| side as u32), ..view(&loaded, 3.0) };
-    // A draft's shadows have hard edges.
+    // Drafts differ a little: their shadows have hard edges.
     let (seen, exact) = (bytes(glimpse), rendered(&loaded, &small, Some(Style::Reference)));
     let differs: usize = seen.iter().zip(&exact).map(|(one, other)| usize::from(one.abs_diff(*other))).sum();
     assert!(differs < 2 * seen.len(), "{differs} over {} bytes", seen.len());
     until(&worker, is_exact);
-    // An edit leaves the meshes as they were: the strokes stay in the picture.
+    // This edit leaves the meshes as they were, so the strokes stay in the picture.
     worker.0.show(job(2));
     let told = until(&worker, is_exact);
     assert!(pictures(&told).iter().all(|picture| picture.strokes > 0));
 }
 
-/// A viewport that is higher than the shot shows the shot in its middle as a file would get it, strokes and all.
+/// A viewport that is taller than the shot shows the shot in its middle exactly as in a file, strokes included.
 #[test]
 fn a_wider_picture_holds_the_shot() {
     let loaded = scene();
@@ -178,7 +178,7 @@ fn a_wider_picture_holds_the_shot() {
 }
 
 #[test]
-fn under_the_hand_come_drafts_and_the_last_job_is_shown() {
+fn drafts_come_during_a_drag_and_the_last_job_is_shown() {
     let loaded = scene();
     let worker = worker();
     let last_frame = 12.0;

@@ -1,4 +1,4 @@
-//! The list of guides, and what else a region's inspector tells.
+//! Tests of the list of guides and of the other facts that a region's inspector shows.
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -34,7 +34,7 @@ fn a_curve_is_told_from_a_comb_and_a_drag_changes_the_order() {
     assert_eq!(guides.iter().map(|guide| guide.points.len()).collect::<Vec<_>>(), [5, 9]);
     assert!(guides[0].curve && !guides[1].curve);
 
-    // A drag to where it is already leaves nothing to undo.
+    // A drag to the same place leaves nothing to undo.
     let count = harness.state().document.undo_count();
     harness.drag_at(first);
     harness.run();

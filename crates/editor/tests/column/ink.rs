@@ -1,4 +1,4 @@
-//! The ink of a scene.
+//! Tests of the settings of ink in the inspector.
 
 use egui_kittest::kittest::Queryable as _;
 use impasto_scene::document::{InkRule, Style, SumiE};
@@ -21,7 +21,7 @@ fn ink_is_chosen_set_and_taken_back() {
     type_in(&mut harness, "Tone 2", "0.5");
     let ink = ink_of(harness.state());
     assert_eq!((ink.bleed, ink.tones[1]), (0.9, 0.5));
-    // A tone goes no lower than the one before it, and the rim ends behind its beginning.
+    // A tone may not go below the one before it, and the rim must end after it begins.
     type_in(&mut harness, "Tone 1", "0.9");
     type_in(&mut harness, "Rim from", "0.95");
     let ink = ink_of(harness.state());

@@ -1,4 +1,4 @@
-//! The inspector, for each kind of thing.
+//! Tests of the inspector for each kind of item.
 
 use egui::{Key, Modifiers, Role, vec2};
 use egui_kittest::Harness;
@@ -76,7 +76,7 @@ fn a_region_shows_all_that_can_be_set() {
     assert_eq!(length.accesskit_node().value().as_deref(), Some("64px"));
 }
 
-/// Turns the wheel over a field by one step towards the hand or away from it.
+/// Turns the wheel over a field by `by` lines, up where positive.
 fn turn_the_wheel(harness: &mut Harness<'_, Column>, name: &str, by: f32, modifiers: Modifiers) {
     harness.hover_at(harness.get_by_role_and_label(Role::SpinButton, name).rect().center());
     harness.run();
@@ -228,7 +228,7 @@ fn a_drag_on_length_previews_and_is_one_entry() {
     let log = &column.log;
     assert!(log.iter().filter(|words| *words == "preview").count() >= 2, "{log:?}");
     assert_eq!(column.document.undo_count(), 1, "{log:?}");
-    // The field's width is the whole range of 156.
+    // A drag across the whole width of the field covers its range of 156.
     let wide = harness.get_by_label("Length").rect().width();
     let wanted = (64.0_f64 + 40.0 * 156.0 / f64::from(wide)).round();
     assert_eq!(column.region("apple").strokes.length_px, Some(wanted));

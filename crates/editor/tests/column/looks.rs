@@ -1,4 +1,4 @@
-//! How the column looks.
+//! Compares pictures of the column with stored ones.
 
 use crate::headless::Headless;
 use egui::{Vec2, vec2};
@@ -11,7 +11,7 @@ use impasto_gl_render::context::Driver;
 
 use super::{Column, SIZE, build, builder, object, region, with_guides};
 
-/// Other drivers round colours differently; a control out of place or of another colour is far more than this.
+/// Room for drivers that round colours differently; a misplaced or recoloured control is far over it.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }

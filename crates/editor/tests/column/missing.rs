@@ -1,4 +1,4 @@
-//! An object whose mesh is not there.
+//! Tests of the inspector for an object whose mesh file is missing.
 
 use egui_kittest::kittest::Queryable as _;
 use impasto_editor::files::nearby::meshes_like;

@@ -1,4 +1,4 @@
-//! The right column with a document, driven by name.
+//! The right column with a document, for tests that find controls by name.
 
 mod guides;
 mod ink;
@@ -21,11 +21,11 @@ use impasto_editor_model::{Document, Item, Session};
 use impasto_scene::document::{Guide, GuidePoint};
 use impasto_scene::load::LoadOptions;
 
-/// The column with a document that does what it is asked.
+/// The column, and a document that carries out what the column asks.
 pub struct Column {
     pub document: Document,
     pub session: Session,
-    /// Asks as they came: *preview*, *end preview*, *merged*, or the words of the history.
+    /// What was asked, in order: *preview*, *end preview*, *merged*, or the words of the history.
     pub log: Vec<String>,
     pub acts: Vec<Action>,
     pub meshes: Vec<String>,
@@ -186,7 +186,7 @@ pub fn click(harness: &mut Harness<'_, Column>, name: &str) {
 
 pub fn pick(harness: &mut Harness<'_, Column>, combo: &str, choice: &str) {
     click(harness, combo);
-    // The combo itself says what is chosen; the menu's rows are menu items.
+    // The combo shows the chosen word as well; only the rows of its menu are menu items.
     let row =
         harness.get_all_by_label(choice).find(|node| node.accesskit_node().role() == Role::MenuItemRadio);
     row.expect("the menu has it").click();

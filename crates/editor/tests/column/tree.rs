@@ -1,4 +1,4 @@
-//! The scene tree.
+//! Tests of the scene tree.
 
 use std::path::Path;
 
@@ -73,7 +73,7 @@ fn things_are_renamed_in_the_tree_and_in_the_head() {
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(harness.state().document.undo_text(), Some("Rename to rind"));
-    // Escape leaves the name.
+    // Escape keeps the old name.
     assert!(panels::rename(&ctx, &harness.state().document));
     harness.run();
     harness.event(egui::Event::Text("pith".to_owned()));
@@ -173,7 +173,7 @@ fn lights_and_regions_are_added_from_the_menu() {
 }
 
 #[test]
-fn nothing_there_says_so() {
+fn an_empty_tree_says_so() {
     let column = Column::of(Document::empty(Path::new(".")));
     let harness = harness_of(column, Theme::Dark, SIZE);
     assert!(harness.query_by_label("No objects yet. Drop an OBJ anywhere, or press +").is_some());

@@ -1,4 +1,4 @@
-//! A page with every control, laid out as the editor's window is. The example shows it, the tests look at it.
+//! A page with every control, laid out like the editor's window. The example shows it, and the tests check it.
 
 mod bars;
 mod column;

@@ -1,4 +1,4 @@
-//! A window of bars with nothing in the middle.
+//! The window's bars with an empty middle, for tests.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ use impasto_editor_model::{Command, Document, Session};
 pub const COMBING: &str = "[Drag] comb  [Shift] smooth  [Ctrl] against  [F] radius  [Middle] orbit";
 pub const DROP: &str = "Drop an OBJ or a scene anywhere in the window";
 
-/// What lies over the bars.
+/// What is shown over the bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
     Bars,
@@ -38,7 +38,7 @@ pub struct Page {
     pub shows: Shows,
     pub choices: welcome::Choices,
     pub questions: Vec<Question>,
-    /// Everything but sessions, which the page takes over.
+    /// Everything that was asked, except new sessions: the page applies those.
     pub asked: Vec<Ask>,
     pub left: Option<welcome::Left>,
     pub answer: Option<Answer>,
@@ -58,7 +58,7 @@ pub fn apple() -> Document {
     Document::open(&scenes().join("apple.ron"), &Default::default()).expect("the apple opens")
 }
 
-/// A document whose name has no room.
+/// A document whose name is too long for its place.
 pub fn with_a_long_name() -> Document {
     let folder = tempfile::tempdir().expect("a folder");
     let mut document = Document::empty(folder.path());

@@ -1,4 +1,4 @@
-//! The timeline's lanes: every control by its name, the pointer on keys, and how it looks.
+//! Tests of the timeline's lanes: the names of its controls, the pointer on keys, and how it looks.
 
 use egui::accesskit::Role;
 use egui::{Key, Pos2, pos2, vec2};
@@ -17,7 +17,7 @@ use impasto_scene::document::{Ease, ObjectKey};
 use super::page::{self, Page};
 use super::{acts, click, harness, snapshot};
 
-/// As high as the rail needs over the lanes.
+/// High enough for the rail of tools above the lanes.
 const NARROW: (f32, f32) = (1280.0, 620.0);
 const WIDE: (f32, f32) = (1920.0, 620.0);
 
@@ -128,7 +128,7 @@ fn every_control_of_the_timeline_has_its_name() {
     assert!(harness.query_by_label("apple keys").is_none());
     click(&mut harness, "Show keys");
     assert!(harness.query_by_label("apple keys").is_some());
-    // The other modes have their own: there it is folded at first.
+    // The other modes remember it separately: there the timeline starts folded.
     harness.state_mut().session.mode = Mode::Arrange;
     harness.run();
     assert!(harness.query_by_label("apple keys").is_none());
@@ -140,15 +140,15 @@ fn keys_are_dragged_by_the_pointer_and_snap_to_frames() {
     let places = keys(&harness);
     let per_frame = (places[3].1.x - places[0].1.x) / 96.0;
     let from = places[2].1;
-    // A little beside the key, and not onto a whole frame.
+    // From a little beside the key to between two frames.
     drag(&mut harness, from + vec2(3.0, 4.0), from + vec2(3.0 + 13.3 * per_frame, -20.0));
     assert_eq!(commands(harness.state()), [&Time::MoveKeys(vec![apple(60.0)], 13.0)]);
     assert_eq!(harness.state().time.keys.selected(), [apple(60.0)]);
-    // A click is no drag: it selects.
+    // A click does not drag the key, it selects it.
     harness.state_mut().asked.clear();
     drag(&mut harness, places[1].1, places[1].1 + vec2(1.0, 0.0));
     assert_eq!((harness.state().asked.len(), harness.state().time.keys.selected()), (0, &[apple(37.0)][..]));
-    // A box over the last two, from beside the lane.
+    // A box over the last two keys, begun between keys.
     drag(&mut harness, places[2].1 - vec2(30.0, 10.0), places[3].1 + vec2(14.0, 10.0));
     assert_eq!(harness.state().time.keys.selected(), [apple(60.0), apple(96.0)]);
     assert_eq!(harness.state().asked.len(), 0);
@@ -226,7 +226,7 @@ fn the_ruler_of_the_lanes_scrubs_and_its_ends_are_the_range() {
     assert_eq!(harness.state().session.frame, 60.0, "a grip does not scrub");
 }
 
-/// Played until the machine fell behind at a few places.
+/// Puts the page after playback that has dropped frames in a few places.
 fn dropped(page: &mut Page) {
     let course = Course { first: 0, last: 119, fps: 24.0, looped: true, pacing: Pacing::RealTime };
     let playback = &mut page.time.playback;
@@ -263,7 +263,7 @@ fn the_lanes_look_as_they_did() {
     let of = lanes(page.document.scene());
     page.time.keys.take(KeysEvent::Select(apple(37.0)), &of);
     snapshot(&mut results, &mut lanes_of(page), "timeline_dark");
-    // A key on its way to another, which it would replace.
+    // A key is dragged onto another, which it would replace.
     let mut harness = harness(animated(), Theme::Light, WIDE);
     let places = keys(&harness);
     harness.drag_at(places[1].1);

@@ -1,4 +1,4 @@
-//! An edit recomputes what depends on it and nothing else: all other results are the same objects in memory.
+//! Tests that an edit recomputes only what depends on it: all other results are the same objects in memory.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use impasto_scene::loaded::LoadedScene;
 
 use super::{Painting, Preparer};
 
-/// A shipped scene whose objects state their counts, so that no view has a say in them.
+/// A shipped scene whose objects state their particle counts, so that they do not depend on the view.
 fn start() -> Arc<LoadedScene> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/sumi_e_apple.ron");
     let mut loaded = load(&path, &LoadOptions::default()).unwrap();
@@ -26,7 +26,7 @@ fn edited(loaded: &Arc<LoadedScene>, edit: impl FnOnce(&mut Scene)) -> Arc<Loade
     Arc::new(edited)
 }
 
-/// For each coat, whether its places, its traits and its lifts are those of before.
+/// For each coat, whether its places, traits and lifts are the same objects as before.
 fn reused(before: &Painting, now: &Painting) -> Vec<[bool; 3]> {
     let pairs = before.coats.iter().zip(&now.coats);
     pairs

@@ -17,7 +17,7 @@ fn complaint(text: &str) -> String {
     parse(Path::new("s.ron"), text).expect_err("no complaint").to_string()
 }
 
-/// The complaint about [`GOOD`] with one edit.
+/// The error report for [`GOOD`] after one edit.
 #[track_caller]
 fn after_edit(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from} is not in the text");
@@ -80,7 +80,7 @@ fn every_kind_of_error_has_its_position_and_a_mend() {
 fn all_unknown_fields_are_reported_at_once() {
     let said = after_edit("particles: 10", "guides: [],\n  unlit: true, keys: [(frme: 1), (frame: 2)]");
     let places: Vec<&str> = said.lines().map(|line| line.split(": ").next().unwrap()).collect();
-    // That `frame` is missing where `frme` stands is no fault of its own.
+    // The missing `frame` is not reported beside the misspelt `frme`.
     assert_eq!(places, ["s.ron:6:59", "s.ron:7:3", "s.ron:7:24"], "{said}");
 }
 
@@ -191,7 +191,7 @@ fn errors_in_set_options_are_reported_for_the_command_line() {
         ("objects[7].scale", "2", "`objects` has no item `7`; it has 2, counted from 0"),
         ("strokes.wdth_px", "2", "unknown field `wdth_px`; did you mean `width_px`?"),
         ("objects.wheel.particles", "many", "`many` does not fit `objects[1].particles`"),
-        // A value cannot close the brackets that it is put into.
+        // A value cannot close the brackets round it.
         ("timeline.last", "9), seed: (7", "`\"9), seed: (7\"` does not fit `timeline.last`"),
         ("", "1", "no field is named"),
         ("version.x", "1", "`version` has no field `x`"),

@@ -1,4 +1,4 @@
-//! Tests of keyframes: camera, eases, parents, held poses.
+//! Tests of keyframes: camera, eases, parents and held poses.
 
 use glam::{DVec3, DVec4};
 

@@ -6,7 +6,7 @@ use impasto_core::TriangleMesh;
 use super::*;
 use crate::motion::camera_at;
 
-/// A box between two corners, wound outwards; with `open`, only its face at the least z, which looks to −Z.
+/// A box between two corners, wound outwards; with `open`, only its face at the lowest z, which faces −Z.
 fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
     let positions = (0..8)
         .map(|i| {
@@ -23,7 +23,7 @@ fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
     MeshFile { mesh, groups: vec![String::new()], materials: Vec::new() }
 }
 
-/// Normalised device coordinates of every vertex, by a projection matrix of glam's own.
+/// Normalised device coordinates of every vertex, through glam's own projection matrix.
 fn on_screen(scene: &Scene, mesh: &MeshFile) -> Vec<DVec4> {
     let pose = camera_at(scene, 0.0);
     let Lens::Perspective { fov_y_deg, near, far } = pose.lens else { panic!("no perspective") };
@@ -119,7 +119,7 @@ fn the_backdrop_stands_under_and_behind_the_model() {
     // A model with the backdrop's name does not clash with it.
     let named = for_mesh(Path::new("backdrop.obj"), &mesh);
     assert!(crate::check::check(&named).is_empty());
-    // Seen from below, there is no floor in the way.
+    // When the camera looks from below, no floor hides the model.
     let ceiling = box_between(Vec3::NEG_ONE, Vec3::ONE, true);
     let mut turned = ceiling.clone();
     for position in &mut turned.mesh.positions {
@@ -134,7 +134,7 @@ fn the_backdrop_stands_under_and_behind_the_model() {
     assert_eq!(below.objects.len(), 1);
 }
 
-/// A box with these groups, faces dealt out in turn.
+/// A box whose faces are given to these groups in turn.
 fn grouped(low: Vec3, high: Vec3, groups: &[&str]) -> MeshFile {
     let mut file = box_between(low, high, false);
     file.groups = groups.iter().map(|group| (*group).to_owned()).collect();
@@ -167,7 +167,7 @@ fn added_meshes_stand_beside_each_other_with_a_region_for_each_group() {
     assert_eq!(scene.regions[3].on, Selector::Group("apple 2".to_owned(), "skin".to_owned()));
     assert_eq!(scene.regions[8].color, Some(REGION_COLORS[8]));
     assert!(crate::check::check(&scene).is_empty() && scene.objects[0].keys.is_empty());
-    // The first where its file puts it, the others on the same floor, apart.
+    // The first mesh stays where its file puts it; the others stand on the same floor, beside it.
     let poses = crate::motion::poses_at(&scene, 0.0);
     let boxes: Vec<[DVec3; 2]> = poses
         .iter()

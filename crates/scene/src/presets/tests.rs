@@ -27,7 +27,7 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
     }
 }
 
-/// The body layer's size and coverage.
+/// Length, width and coverage of the body layer.
 fn body(strokes: &ResolvedStrokes) -> (f32, f32, f32) {
     let body = strokes.body();
     (body.length_px, body.width_px, body.coverage)

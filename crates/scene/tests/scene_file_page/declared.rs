@@ -1,13 +1,13 @@
-//! What the sources of `scene::document` declare, read line by line: rustfmt keeps one declaration to a line.
+//! Reads what the sources of `scene::document` declare, line by line; rustfmt puts one declaration on a line.
 
 use std::path::{Path, PathBuf};
 
-/// A struct of the scene file, or a choice of words.
+/// A struct of the scene file, or an enum: a choice of words.
 #[derive(Debug)]
 pub struct Declared {
-    /// As in the source; `Lens::Perspective` for the fields of a variant.
+    /// The name in the source; `Lens::Perspective` for the fields of a variant.
     pub name: String,
-    /// Whether one of its fields is written, with what is in its brackets.
+    /// Whether it is an enum: a scene file writes one of `fields`, with the contents of its brackets.
     pub is_choice: bool,
     /// Its fields, or its words.
     pub fields: Vec<Field>,
@@ -16,11 +16,11 @@ pub struct Declared {
 /// A field of a struct, or a word of a choice.
 #[derive(Debug)]
 pub struct Field {
-    /// As a scene file writes it.
+    /// The name in a scene file.
     pub name: String,
-    /// Its type; of a word what is in its brackets, `{` for fields.
+    /// Its type; for a word the types in its brackets, `{` for named fields.
     pub kind: String,
-    /// What holds where it is left out, empty for nothing; none where it must be given.
+    /// The default, empty for nothing; `None` when the field is required.
     pub usual: Option<String>,
     /// Whether a word is the default.
     pub is_usual: bool,
@@ -103,7 +103,7 @@ fn default_of(kind: &str) -> String {
     .to_owned()
 }
 
-/// An expression of Rust as a scene file would say it.
+/// A Rust expression as a scene file would write it.
 fn in_file(expression: &str) -> String {
     let expression = expression.trim();
     if expression == "None" || expression == "Vec::new()" {
@@ -150,7 +150,7 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
     let mut is_usual = false;
     // Whether every field of the type may be left out.
     let mut has_defaults = false;
-    // What is open, with its indent: the type, and perhaps a variant with fields.
+    // What is open: the type, and perhaps a variant with fields; each with its indent.
     let mut open: Vec<(usize, usize)> = Vec::new();
     for line in text.lines() {
         let indent = line.len() - line.trim_start().len();

@@ -1,11 +1,11 @@
-//! Lights under the pointer: picked, dragged and turned.
+//! Tests of lights under the pointer: picking, dragging and turning them.
 
 use glam::DVec3;
 use impasto_scene::document::Light;
 
 use super::*;
 
-/// An editor with a lamp beside the apple, in Arrange, nothing selected. It needs no painting.
+/// An editor in Arrange with a lamp beside the apple and nothing selected. No painting is prepared.
 fn with_lamp() -> Editor {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
     let mut editor =

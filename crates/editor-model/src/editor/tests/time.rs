@@ -1,4 +1,4 @@
-//! Tests of time in the editor: keys, loose poses, playback and scrubbing.
+//! Tests of time in the editor: keys, poses that are not keyed yet, playback and scrubbing.
 
 use impasto_scene::document::{Ease, ObjectKey, Scene};
 
@@ -70,7 +70,7 @@ fn without_auto_key_a_pose_stays_at_its_frame_until_it_is_keyed() {
     );
     assert!(editor.time().is_loose(&name));
     assert_eq!(editor.status(), format!("{name} is not keyed here  [I] keep it"));
-    // Something else that is edited leaves it where it is.
+    // An edit of something else leaves the pose as it is.
     assert!(editor.run(&Command::Time(Time::SetFps(25.0))));
     assert!(editor.time().is_loose(&name) && x_at(&editor.shown().0.scene, 60.0) > 0.9);
     assert_eq!(editor.document().scene().timeline.fps, 25.0);
@@ -82,7 +82,7 @@ fn without_auto_key_a_pose_stays_at_its_frame_until_it_is_keyed() {
 }
 
 #[test]
-fn a_pose_that_was_left_without_a_key_can_be_taken_up_again() {
+fn an_unkeyed_pose_that_was_left_can_be_brought_back() {
     let (mut editor, name) = animating(60.0);
     editor.session.auto_key = false;
     let before = editor.document().scene().clone();
@@ -98,7 +98,7 @@ fn a_pose_that_was_left_without_a_key_can_be_taken_up_again() {
     editor.tick(1.1);
     assert_eq!(editor.session.frame, 60.0);
     assert!(editor.time().is_loose(&name) && x_at(&editor.shown().0.scene, 60.0) > 0.4);
-    // Of what is locked since, no pose can be kept.
+    // Locking the object drops its unkeyed pose.
     assert!(editor.run(&Command::Edit(Edit::SetLocked(vec![Item::Object(name.clone())], true))));
     assert!(!editor.time().is_loose(&name));
     assert_eq!(editor.shown().0.scene, *editor.document().scene());
@@ -136,7 +136,7 @@ fn camera_keys(scene: &Scene) -> Vec<(f64, [f64; 3])> {
     scene.camera.keys.iter().map(|key| (key.frame, key.eye)).collect()
 }
 
-/// Moves the shot camera by its tool, or looks at the scene from elsewhere and brings the camera there.
+/// Moves the shot camera with its tool, or orbits to another view and brings the camera there.
 fn move_the_shot(editor: &mut Editor, by_tool: bool) {
     let at = middle_of_the_apple(editor);
     if by_tool {
@@ -159,12 +159,12 @@ fn in_animate_the_shot_camera_is_keyed_at_this_frame_and_no_other_key_moves() {
         assert_eq!(vec![first, last], before);
         assert_eq!(new.0, 60.0);
         assert_eq!(editor.looking, Looking::Shot);
-        // Once more changes the key that is there.
+        // A second move changes the key that the first one made.
         move_the_shot(&mut editor, by_tool);
         let after = camera_keys(editor.document().scene());
         assert_eq!((after.len(), after[0], after[2]), (3, first, last));
         assert_ne!(after[1], new);
-        // Without Auto key the pose waits for the key that keeps it.
+        // Without Auto key the pose waits until it is keyed.
         editor.session.auto_key = false;
         editor.session.frame = 30.0;
         move_the_shot(&mut editor, by_tool);
@@ -187,7 +187,7 @@ fn in_arrange_the_shot_camera_moves_with_all_its_keys() {
     }
 }
 
-/// Plays for so many seconds; pictures come at once. The frames that were shown.
+/// Plays for `secs` seconds with pictures that come at once; returns the frames that were shown.
 fn play_on(editor: &mut Editor, from: f64, secs: f64) -> Vec<f64> {
     let mut shown = Vec::new();
     for step in 1..=(secs * 100.0) as u32 {
@@ -226,7 +226,7 @@ fn space_plays_whole_frames_and_any_edit_ends_it() {
 }
 
 #[test]
-fn a_scrub_pauses_and_what_played_plays_on_from_there() {
+fn a_scrub_pauses_and_playback_goes_on_from_there() {
     let (mut editor, _) = animating(0.0);
     for plays in [false, true] {
         if plays {
@@ -265,7 +265,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     assert_eq!(frames(editor.document().scene()), [0.0, 73.0]);
     assert_eq!(editor.document().undo_text(), Some("Move 1 key"));
     assert_eq!(editor.time().keys.selected(), [(of(), 73.0)], "it stays selected where it went");
-    // Shift D, a move, a press.
+    // Shift D, a move and a press copy a key.
     let view = view(&editor);
     assert!(editor.key(Key::Letter('D'), Modifiers { shift: true, ..HERE }, false, &view));
     for frame in [73.0, 83.0] {
@@ -276,7 +276,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     press(&mut editor, (of(), 0.0));
     assert_eq!(frames(editor.document().scene()), [0.0, 73.0, 83.0]);
     assert_eq!(editor.document().undo_text(), Some("Copy 1 key"));
-    // Arrows nudge while a key is selected in a lane, and one entry is all of them.
+    // Arrows nudge while a key is selected in a lane; all nudges are one entry.
     editor.tick(10.0);
     for _ in 0..3 {
         key(&mut editor, Key::Right);
@@ -287,7 +287,7 @@ fn keys_are_dragged_copied_nudged_and_deleted_and_each_is_one_entry() {
     assert_eq!(frames(editor.document().scene()), [0.0, 73.0]);
     assert_eq!(editor.document().scene().objects.len(), 2, "the key is deleted, not the apple");
     assert_eq!(editor.time().keys.selected(), []);
-    // With nothing selected they step.
+    // With nothing selected the arrows step through frames.
     key(&mut editor, Key::Right);
     assert_eq!(editor.session.frame, 61.0);
 }
@@ -314,7 +314,7 @@ fn a_copy_that_lands_on_a_key_takes_its_place() {
     assert!(editor.run(&Command::Time(Time::SetEase(vec![(of(), 0.0)], Ease::Step))));
     let first = editor.document().scene().objects[0].keys[0].clone();
     let second = editor.document().scene().objects[0].keys[1].clone();
-    // Each lands where another of the copied stands, or stood.
+    // Each copy lands on the frame of another copied key.
     assert!(editor.run(&Command::Time(Time::CopyKeys(vec![(of(), 0.0), (of(), 60.0)], 60.0))));
     let keys = &editor.document().scene().objects[0].keys;
     assert_eq!(frames(editor.document().scene()), [0.0, 60.0, 90.0, 120.0]);

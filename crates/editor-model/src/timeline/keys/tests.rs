@@ -22,7 +22,7 @@ fn apple(frame: f64) -> KeyAt {
     (KeyOf::Object("apple".to_owned()), frame)
 }
 
-/// Four points a frame, lanes of 32 points.
+/// A place in lanes that are 32 points high, at 4 points a frame.
 fn at(frame: f64, lane: usize) -> LanePosition {
     LanePosition { x_px: frame * 4.0, y_px: lane as f64 * 32.0 + 16.0, frame, lane }
 }

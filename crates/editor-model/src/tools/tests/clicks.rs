@@ -1,4 +1,4 @@
-//! Tests of tools by clicks: fill, turn, pick, regions, resizing.
+//! Tests of the tools that work by clicks: fill, turn, pick, regions, resizing.
 
 use impasto_scene::document::{Bend, Direction, Patch, Selector};
 
@@ -28,7 +28,7 @@ fn a_click_fills_with_what_the_options_say() {
     assert_eq!((world.document.undo_count(), world.document.undo_text()), (4, Some("Fill skin: 35°")));
     world.options.fill = FillKind::Around;
     world.click(Tool::Fill, HERE, NONE);
-    // The skin of the ball lies below y = 0.5: X and Z are its longest sides.
+    // The ball's skin lies below y = 0.5, so X and Z are its longest sides.
     assert!(matches!(direction(&world), Direction::Around(axis) if axis[1] == 0.0));
     world.click(Tool::Fill, [580.0, 180.0], NONE);
     let plate = &world.document.scene().regions[0];
@@ -45,7 +45,7 @@ fn a_needle_is_dragged_to_an_angle() {
     assert!(dragged.needle.is_some());
     world.release(Tool::Fill);
     assert_eq!(direction(&world), &Direction::Angle(45.0));
-    // A picture that is rolled by 30 degrees shows everything turned by −30.
+    // A camera rolled by 30 degrees shows everything turned by −30.
     world.view.camera.roll_rad = 30f64.to_radians();
     let hit = [320.0, 180.0];
     world.drag(Tool::Fill, &[hit, [360.0, 180.0]], NONE);
@@ -54,7 +54,7 @@ fn a_needle_is_dragged_to_an_angle() {
 }
 
 #[test]
-fn flips_and_turns() {
+fn clicks_flip_and_drags_turn_directions() {
     let mut world = World::new();
     assert_eq!(world.hover(Tool::TurnDirection, HERE).status, "[Click] flip skin  [Middle] orbit");
     world.click(Tool::TurnDirection, HERE, NONE);

@@ -127,7 +127,7 @@ fn a_handle_is_dragged_on_the_surface() {
 fn a_press_on_the_line_inserts_and_alt_drags_the_radius() {
     let mut world = drawn();
     let line = shown(&world);
-    // Where no handle is near.
+    // A place with no handle near.
     let (index, pair) = line
         .windows(2)
         .enumerate()

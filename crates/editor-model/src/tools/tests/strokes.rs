@@ -123,13 +123,13 @@ fn where_no_region_lies_a_comb_makes_one() {
 #[test]
 fn the_comb_stays_in_the_region_of_its_press_and_its_pieces_are_one_entry() {
     let mut world = World::new();
-    // Up into the lid and back.
+    // Up into the upper region and back.
     world.drag(Tool::Comb, &[[300.0, 180.0], [300.0, 60.0], [340.0, 60.0], [340.0, 180.0]], NONE);
     assert_eq!((world.guides(0).len(), world.guides(1).len(), world.document.undo_count()), (2, 0, 1));
     for point in world.guides(0).iter().flat_map(|guide| &guide.points) {
         assert!(point.at[1] <= 0.5);
     }
-    // Off the ball and onto it again.
+    // Off the ball and back onto it.
     let mut world = World::new();
     world.press(Tool::Comb, [400.0, 180.0], NONE);
     for at in [[560.0, 180.0], [560.0, 200.0]] {

@@ -63,7 +63,7 @@ fn what_the_desktop_answers_is_the_answer() {
 }
 
 #[test]
-fn nothing_at_once_means_no_dialogs_and_the_window_shows_its_own() {
+fn an_immediate_empty_answer_opens_the_windows_own_sheet() {
     let home = tempfile::tempdir().expect("a temporary folder");
     fs::write(home.path().join("apple.obj"), "").expect("written");
     let mut harness = page(Source::Desktop, |_, _| None, FileAsk::Open, home.path());
@@ -78,13 +78,13 @@ fn nothing_at_once_means_no_dialogs_and_the_window_shows_its_own() {
 }
 
 #[test]
-fn a_crash_of_the_desktops_dialog_is_no_answer() {
+fn a_crash_of_the_desktops_dialog_opens_the_windows_own_sheet() {
     let mut harness = page(Source::Desktop, |_, _| panic!("the portal broke"), FileAsk::Open, Path::new("/"));
     wait(&mut harness, has_sheet);
 }
 
 #[test]
-fn nothing_after_a_while_is_a_cancel() {
+fn an_empty_answer_after_a_while_is_a_cancel() {
     let choose: Choose = |_, _| {
         sleep(HAND * 2);
         None
@@ -96,7 +96,7 @@ fn nothing_after_a_while_is_a_cancel() {
 }
 
 #[test]
-fn a_dialog_that_hangs_leaves_a_way() {
+fn a_dialog_that_hangs_can_be_replaced_or_cancelled() {
     let choose: Choose = |_, _| {
         sleep(Duration::from_secs(3600));
         None

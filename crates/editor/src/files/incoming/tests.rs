@@ -1,4 +1,4 @@
-//! Files that are dropped or imported: what is taken, copied and refused.
+//! Tests of dropped and imported files: what is taken, copied and refused.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -142,7 +142,7 @@ fn a_picture_comes_as_a_brush() {
 }
 
 #[test]
-fn what_comes_is_opened_begun_or_imported() {
+fn dropped_files_are_opened_begun_or_imported() {
     let home = Home::new();
     home.write("models/pear.OBJ", OBJ);
     home.write("a.ron", "");
@@ -168,7 +168,7 @@ fn what_comes_is_opened_begun_or_imported() {
 }
 
 #[test]
-fn what_is_no_file_of_ours_is_refused_with_words() {
+fn files_that_cannot_be_read_are_refused_with_words() {
     let home = Home::new();
     home.write("chair.glb", "");
     home.write("looks.mtl", "");
@@ -186,7 +186,7 @@ fn what_is_no_file_of_ours_is_refused_with_words() {
 }
 
 #[test]
-fn a_document_is_nothing_until_it_holds_something() {
+fn only_an_empty_document_may_be_replaced_without_asking() {
     let home = Home::new();
     assert_eq!(Present::of(&Document::empty(&home.at("scene"))), Present::Nothing);
     let begun = Document::open(&home.at("models/apple.obj"), &Default::default()).expect("opened");

@@ -127,7 +127,7 @@ fn tab_goes_on_where_nothing_can_be_completed() {
 }
 
 #[test]
-fn what_cannot_be_had_is_said_under_the_field() {
+fn a_bad_choice_is_explained_under_the_field() {
     for (ask, typed, words) in [
         (FileAsk::Open, "", "Choose a file"),
         (FileAsk::Open, "gone.ron", "There is no file gone.ron"),
@@ -191,7 +191,7 @@ fn a_save_gives_the_name_its_ending() {
 }
 
 #[test]
-fn the_sheet_rests() {
+fn the_sheet_draws_only_when_something_changes() {
     let (mut harness, _home) = sheet(FileAsk::Open, "");
     let before = harness.state().passes;
     harness.run();

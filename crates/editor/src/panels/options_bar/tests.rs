@@ -1,4 +1,4 @@
-//! The options bar has room for long words at every width.
+//! Tests that the options bar has room for long words at every width.
 
 use egui::{Rect, accesskit, pos2, vec2};
 use impasto_editor_model::keymap::Preset;
@@ -114,7 +114,7 @@ fn sessions() -> Vec<Session> {
 
 #[test]
 fn long_words_are_never_cut_and_never_overlap() {
-    // The bar beside the column at both sizes of the design, and in the smallest window.
+    // Beside the column in the two window sizes of the design, and in the smallest window.
     for (wide, window) in [(1000.0, 1280.0), (1584.0, 1920.0), (960.0, 960.0)] {
         for session in sessions() {
             for say in [german as Translate, |words| words] {

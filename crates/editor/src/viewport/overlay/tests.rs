@@ -1,4 +1,4 @@
-//! Overlays are judged by the shapes that they draw.
+//! Tests of overlays by the shapes that they draw.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -197,7 +197,7 @@ fn a_guide_shows_only_where_its_surface_faces_the_eye() {
     let shown = GuideCurve::seen(&line, &line[..1], &sight);
     assert_eq!((shown.runs_px.len(), shown.handles_px.len(), shown.end_shows), (1, 1, true));
     assert!((shown.handles_px[0].1 - DVec2::new(150.0, 90.0)).length() < 1e-6);
-    // The other side of the body, and a point behind it.
+    // The back of the body, and a point behind it.
     let turned: Vec<[DVec3; 2]> = line.iter().map(|&[at, normal]| [at, -normal]).collect();
     assert!(GuideCurve::seen(&turned, &turned, &sight).runs_px.is_empty());
     let gaze = view.axes()[2];

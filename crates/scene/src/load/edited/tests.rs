@@ -40,7 +40,7 @@ fn loaded_files_are_shared_new_ones_read_and_unused_ones_dropped() {
     let of =
         |loaded: &LoadedScene, name: &str| loaded.warnings.iter().filter(|w| w.path.ends_with(name)).count();
     assert_eq!((of(&loaded, "a.obj"), of(&loaded, "b.obj")), (1, 1), "{:?}", loaded.warnings);
-    // Nothing that is held is read again: the files may be gone.
+    // Loaded files are not read again, so they may be gone.
     for name in ["a.obj", "b.obj"] {
         fs::remove_file(folder.path().join(name)).unwrap();
     }

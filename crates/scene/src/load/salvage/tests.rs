@@ -33,7 +33,7 @@ impl Folder {
     }
 }
 
-/// A scene of these objects and further fields.
+/// The text of a scene with these objects and further fields.
 fn scene(objects: &str, more: &str) -> String {
     format!(
         "(\n  version: 1,\n  camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]),\n  objects: [\n{objects}\n  ],\n{more}\n)\n"
@@ -52,7 +52,7 @@ fn names(salvaged: &Salvaged) -> Vec<&str> {
     salvaged.loaded.scene.objects.iter().map(|object| object.name.as_str()).collect()
 }
 
-/// With all fixes carried out, the text is a scene without losses.
+/// Applies all fixes and checks that the scene then has no losses.
 fn all_fixed(salvaged: &Salvaged, path: &Path) -> Salvaged {
     let fixes: Vec<&Fix> = salvaged.losses.iter().filter_map(|loss| loss.fix.as_ref()).collect();
     salvage_text(path, &mended(&salvaged.text, &fixes), &LoadOptions::default()).expect("opens")
@@ -86,7 +86,7 @@ fn an_unknown_field_is_left_out_and_one_near_it_is_a_certain_fix() {
     let fixed = all_fixed(&salvaged, &folder.path());
     assert_eq!(fixed.loaded.scene.strokes.width_px, Some(9.0));
     assert_eq!(fixed.losses.len(), 1);
-    // Where the right name is there already, it is not written twice.
+    // When the right field is already present, the fix does not write it twice.
     let text = scene("", "  strokes: (widht_px: 9, width_px: 10),");
     assert_eq!(folder.read(&text).losses[0].fix, None);
 }
@@ -102,16 +102,16 @@ fn a_box_stands_in_for_a_mesh_and_all_else_of_the_object_is_kept() {
     assert!(salvaged.losses.iter().all(|loss| loss.instead == "A box stands in for it."));
     let leaf = &salvaged.loaded.scene.objects[0];
     assert_eq!((leaf.mesh.as_str(), leaf.keys[0].translation), ("meshes/laef.obj", [0.0, 2.0, 0.0]));
-    // It can be edited: what the scene looks for in the mesh is there.
+    // The scene can be edited: the box has everything that the scene looks for in the mesh.
     let again = salvaged.loaded.with_scene(salvaged.loaded.scene.clone(), &Default::default());
     assert!(again.is_ok(), "{again:?}");
     let fixes: Vec<_> = salvaged.losses.iter().map(|loss| loss.fix.clone().expect("a fix")).collect();
     assert_eq!((fixes[0].verb.as_str(), fixes[0].is_certain), ("Use leaf.obj", false));
-    // The same name in another folder is certain.
+    // A file of the same name in another folder is a certain fix.
     assert_eq!((fixes[1].verb.as_str(), fixes[1].is_certain), ("Use leaf.obj", true));
     let fixed = mended(&salvaged.text, &[&fixes[1]]);
     assert!(fixed.contains(r#"(name: "more", mesh: "meshes/leaf.obj")"#), "{fixed}");
-    // Two of that name: nothing is certain.
+    // With two files of that name no fix is certain.
     fs::write(folder.0.path().join("leaf.obj.obj"), "").expect("written");
     fs::create_dir(folder.0.path().join("other")).expect("made");
     fs::write(folder.0.path().join("other/leaf.obj"), CUBE).expect("written");
@@ -129,7 +129,7 @@ fn everything_before_a_broken_bracket_is_read() {
     assert!(said[0].starts_with("7:5 cannot read past line 7, column 5: "), "{said:?}");
     assert!(said[0].ends_with("Everything before it is open; 2 objects after it are not."), "{said:?}");
     assert_eq!(said.len(), 1);
-    // The end of the file is missing, in the middle of an object.
+    // The file ends in the middle of an object.
     let whole = scene(objects, "");
     let end = whole.find("mesh: \"meshes/leaf.obj\"").expect("there");
     let salvaged = folder.read(&whole[..end + 9]);
@@ -190,7 +190,7 @@ fn every_beginning_of_a_scene_opens_or_is_refused_in_words() {
         );
     assert!(folder.read(&whole).losses.is_empty());
     let (mut opened, mut count) = (0, 0);
-    // From the scene's own bracket on; before it there is no scene.
+    // Cut anywhere after the scene's opening bracket; before it there is no scene.
     let first = whole.find("(\n").expect("a bracket") + 1;
     for end in (first..whole.len() - 3).filter(|&end| whole.is_char_boundary(end)) {
         count += 1;

@@ -1,4 +1,4 @@
-//! Any scene, with every field somewhere off its default.
+//! A proptest strategy for random scenes, in which every field can differ from its default.
 
 use proptest::prelude::*;
 
