@@ -457,7 +457,11 @@ fn brushes_are_shown_on_a_sheet() {
     assert_eq!(code(&folder.run(&["brushes", "mark.png", "-o", "with_mine.png"])), 0);
     let refused = folder.run(&["brushes", "cube.obj", "-o", "none.png"]);
     assert_eq!(code(&refused), 3, "{}", words(&refused.stderr));
-    assert!(words(&refused.stderr).contains("cube.obj: error: the format of the picture"), "{}", words(&refused.stderr));
+    assert!(
+        words(&refused.stderr).contains("cube.obj: error: the format of the picture"),
+        "{}",
+        words(&refused.stderr)
+    );
     assert_eq!(words(&refused.stderr).trim().lines().count(), 1, "{}", words(&refused.stderr));
     assert_eq!(code(&folder.run(&["brushes", "mark.png", "-o", "mark.png"])), 3);
     assert_eq!(folder.names("."), ["cube.obj", "mark.png", "scene.ron", "sheet.png", "with_mine.png"]);

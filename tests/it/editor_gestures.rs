@@ -29,6 +29,7 @@ fn size_px() -> DVec2 {
 /// An object that is moved, turned and enlarged, and its region with these guides.
 fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("thing", 25_000)]);
+    scene.strokes.layers = shapes::body_layer_alone();
     scene.strokes.contour = Some(0.0);
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(8.0), Some(2.6));
     scene.camera.keys[0] = shapes::camera_key(0.0, [0.4, 0.9, 5.0], [0.4, 0.6, 0.0]);

@@ -183,14 +183,20 @@ fn points_turn_strokes_from_the_gestures_own_line() {
     }
 }
 
-fn apple(mesh: &TriangleMesh, flatness: f64, guides: Vec<Guide>) -> Painting {
+/// The apple's skin with these guides; its body layer alone is looked at.
+fn apple_scene(flatness: f64, guides: Vec<Guide>) -> Scene {
     let mut scene: Scene = shapes::scene(vec![shapes::object("thing", 40_000)]);
+    scene.strokes.layers = shapes::body_layer_alone();
     scene.strokes.contour = Some(0.0);
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(8.0), Some(2.6));
     scene.strokes.flatness = Some(flatness);
     scene.camera.keys[0] = shapes::camera_key(0.0, [0.0, 0.5, 4.0], [0.0, 0.5, 0.0]);
     scene.regions = vec![Region { guides, ..Region::new("combed", Selector::Object("thing".to_owned())) }];
-    prepare(shapes::loaded(scene, [mesh.clone()])).unwrap()
+    scene
+}
+
+fn apple(mesh: &TriangleMesh, flatness: f64, guides: Vec<Guide>) -> Painting {
+    prepare(shapes::loaded(apple_scene(flatness, guides), [mesh.clone()])).unwrap()
 }
 
 #[test]
@@ -205,11 +211,10 @@ fn a_region_turns_all_its_directions_as_seen_in_the_reference() {
         Direction::Crossing(-58.0, 4.0),
     ] {
         let angles = |turn_deg: f64| {
-            let painting = apple(&mesh, 1.0, vec![guide()]);
-            let mut loaded = impasto_scene::loaded::LoadedScene::clone(painting.loaded());
-            loaded.scene.regions[0].direction = direction.clone();
-            loaded.scene.regions[0].turn_deg = turn_deg;
-            let painting = prepare(loaded.into()).unwrap();
+            let mut scene = apple_scene(1.0, vec![guide()]);
+            scene.regions[0].direction = direction.clone();
+            scene.regions[0].turn_deg = turn_deg;
+            let painting = prepare(shapes::loaded(scene, [mesh.clone()])).unwrap();
             body_strokes(&painting.at(0.0, &FrameOptions::new(SIZE_PX)))
         };
         let before = angles(0.0);

@@ -386,6 +386,7 @@ fn a_whole_run_on_a_scene_of_one_ball() {
         few.scene.objects[0].particles = Some(particles);
         few
     };
+    let options = MeasureOptions { metrics: vec![Metric::M2], ..options };
     let few = measure(&Arc::new(fewer(40)), &options, &mut |_| ()).unwrap();
     assert!(matches!(few.rows[0].verdict, Verdict::TooFew(_)) && !few.holds(), "{}", few.table());
 }

@@ -34,6 +34,7 @@ fn moved_by(vertex: VertexNoise) -> NoiseDisplace {
 fn ball(noise: NoiseDisplace) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("ball", 2000)]);
     scene.style = Style::Reference;
+    scene.strokes.layers = shapes::body_layer_alone();
     scene.timeline.last = 480;
     scene.objects[0].material = material(noise);
     scene
@@ -269,6 +270,7 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
     let picture = |scale: f64| {
         let mut scene = shapes::scene(vec![shapes::object("ball", 500), shapes::object("sheet", 500)]);
         scene.style = Style::Reference;
+        scene.strokes.layers = shapes::body_layer_alone();
         scene.objects[0].material =
             material(moved_by(VertexNoise { value: [0.4, 0.4], scale, ..Default::default() }));
         scene.objects[0].keys =

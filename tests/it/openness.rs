@@ -19,6 +19,7 @@ fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     let names = ["floor", "left", "right"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 100)).into());
     scene.style = Style::Reference;
+    scene.strokes.layers = shapes::body_layer_alone();
     scene.camera.lens = Lens::Orthographic { height: HEIGHT, near: 0.1, far: 20.0 };
     scene.lights = vec![Light {
         name: "sky".to_owned(),

@@ -24,12 +24,14 @@ fn strokes_of(frame: &Frame, kind: LayerKind) -> usize {
 
 #[test]
 fn each_layer_can_be_turned_down_to_nothing() {
-    let all = scenes::painting("apple").at(0.0, &options([320, 180]));
+    // Strokes three times as large need a ninth of the particles.
+    let large = ("strokes.scale", "3");
+    let all = scenes::painting_with("apple", &[large]).at(0.0, &options([320, 180]));
     for kind in LayerKind::ALL {
         assert!(strokes_of(&all, kind) > 0, "{kind:?} has no strokes");
         let without = format!("[(name: \"{}\", coverage: 0)]", kind.name());
-        let frame =
-            scenes::painting_with("apple", &[("strokes.layers", &without)]).at(0.0, &options([320, 180]));
+        let frame = scenes::painting_with("apple", &[large, ("strokes.layers", &without)])
+            .at(0.0, &options([320, 180]));
         for other in LayerKind::ALL {
             let expected = if other == kind { 0 } else { strokes_of(&all, other) };
             assert_eq!(strokes_of(&frame, other), expected, "{other:?} without {kind:?}");
@@ -50,7 +52,8 @@ fn relief_canvas_and_varnish_each_show_and_each_go() {
     let bare = [("style.relief", "0"), ("style.weave", "0"), ("style.varnish", "0")];
     let mut picture = |set: &[(&str, &str)]| {
         // Large enough for threads of the canvas to be more than a pixel apart.
-        let frame = scenes::painting_with("apple", set).at(0.0, &options([960, 540]));
+        let set: Vec<(&str, &str)> = set.iter().copied().chain([("strokes.scale", "2")]).collect();
+        let frame = scenes::painting_with("apple", &set).at(0.0, &options([960, 540]));
         renderer.render(&frame).unwrap().rgba8
     };
     let flat = picture(&bare);
@@ -68,7 +71,12 @@ fn relief_canvas_and_varnish_each_show_and_each_go() {
 fn a_palette_keeps_values_and_takes_its_hues_only() {
     let mut renderer = renderer(Driver::Egl);
     let mut hues = |palette: &str| {
-        let set = [("strokes.palette", palette), ("strokes.color_jitter", "0"), ("strokes.temperature", "0")];
+        let set = [
+            ("strokes.scale", "2"),
+            ("strokes.palette", palette),
+            ("strokes.color_jitter", "0"),
+            ("strokes.temperature", "0"),
+        ];
         let frame = scenes::painting_with("apple", &set).at(0.0, &options([320, 180]));
         renderer.render(&frame).unwrap();
         let resolved = renderer.resolved_strokes();
@@ -185,11 +193,16 @@ type Edit = fn(&mut Scene);
 fn extreme_settings_still_give_a_picture() {
     let mut renderer = renderer(Driver::Egl);
     let edits: [(&str, Edit); 5] = [
-        ("twentyfold coverage", |scene| scene.strokes.coverage = Some(20.0)),
+        ("twentyfold coverage", |scene| {
+            (scene.strokes.coverage, scene.strokes.scale) = (Some(20.0), Some(3.0));
+        }),
         ("huge strokes", |scene| {
             (scene.strokes.length_px, scene.strokes.width_px) = (Some(4096.0), Some(4096.0));
         }),
-        ("hair-thin strokes", |scene| scene.strokes.width_px = Some(0.001)),
+        // The scene is small, as the count of such strokes goes with its pixels.
+        ("hair-thin strokes", |scene| {
+            (scene.strokes.width_px, scene.size) = (Some(0.001), (160, 90));
+        }),
         ("wild colours", |scene| {
             (scene.strokes.color_jitter, scene.strokes.temperature) = (Some(10.0), Some(10.0));
         }),

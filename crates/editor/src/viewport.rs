@@ -10,23 +10,23 @@ use impasto_scene::motion::CameraPose;
 
 mod chips;
 mod contour;
+mod direction_marks;
 mod framing;
 mod layout;
 mod marks;
 pub mod overlay;
 mod pictures;
 mod pointer;
-mod direction_marks;
 pub mod surface_map;
 
 use crate::panels::Ask;
 use crate::theme::{Tokens, type_face};
 
+pub use direction_marks::{HairLook, direction_marks};
 pub use framing::Framing;
 pub use layout::Layout;
 pub use marks::Marks;
 pub use pictures::Pictures;
-pub use direction_marks::{HairLook, direction_marks};
 
 /// What the viewport shows.
 #[derive(Clone, Copy)]

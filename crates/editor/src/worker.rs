@@ -19,8 +19,8 @@ use impasto_scene::loaded::LoadedScene;
 use impasto_scene::motion::CameraPose;
 
 mod ahead;
-mod mailbox;
 mod draft;
+mod mailbox;
 mod paint_worker;
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use headless::Headless;
 use impasto_editor::panels::Ask;
 use impasto_editor::theme::{self, Theme};
-use impasto_editor::viewport::overlay::{CurvePart, GuideCurve, DirectionInk, DirectionMark};
+use impasto_editor::viewport::overlay::{CurvePart, DirectionInk, DirectionMark, GuideCurve};
 use impasto_editor::viewport::{
     Badge, CameraChoice, Framing, Layout, Marks, Now, Pictures, ViewportEvents, ViewportInput, viewport,
 };

@@ -22,6 +22,7 @@ const SIDE: u32 = 96;
 fn sheet(surface: SurfaceNoise) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sheet", 100)]);
     scene.style = Style::Reference;
+    scene.strokes.layers = shapes::body_layer_alone();
     scene.timeline.last = 480;
     scene.camera.lens = impasto_scene::document::Lens::Orthographic { height: 2.0, near: 0.1, far: 20.0 };
     scene.objects[0].material =

@@ -36,6 +36,7 @@ fn key() -> ObjectKey {
 fn scene() -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sheet", 100)]);
     scene.style = Style::Reference;
+    scene.strokes.layers = shapes::body_layer_alone();
     let [x, y, _] = key().translation;
     scene.camera.keys = vec![shapes::camera_key(0.0, [x, y, 6.0], [x, y, 0.0])];
     scene.camera.lens = Lens::Orthographic { height: 3.0, near: 0.1, far: 20.0 };

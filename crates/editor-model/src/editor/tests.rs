@@ -218,10 +218,12 @@ fn stroke_previews_show_from_the_first_movement_until_the_pointer_rests() {
     };
     let near = painting.stroke_directions_near(&place, &camera, 0.0, &options, 40);
     assert_eq!(near.len(), 40);
-    let is_near =
-        |direction_line: &impasto_painting::StrokeDirection| near.iter().any(|near| near.particle == direction_line.particle);
-    let of_object =
-        |direction_line: &impasto_painting::StrokeDirection| direction_line.object == comb_preview.object && is_near(direction_line);
+    let is_near = |direction_line: &impasto_painting::StrokeDirection| {
+        near.iter().any(|near| near.particle == direction_line.particle)
+    };
+    let of_object = |direction_line: &impasto_painting::StrokeDirection| {
+        direction_line.object == comb_preview.object && is_near(direction_line)
+    };
     let all = painting.stroke_directions(&camera, 0.0, &options, 1.0, &of_object);
     assert!(all.len() > 30, "{}", all.len());
     for direction_line in &all {

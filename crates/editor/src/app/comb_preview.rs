@@ -64,7 +64,11 @@ impl CombPreviewStrokes {
 }
 
 /// The strokes in the ring that belong to the region under the pointer: a comb turns no others.
-fn strokes(comb_preview: &CombPreview, editor: &Editor, picture_flow: &PictureFlow) -> Option<Vec<CombPreviewStroke>> {
+fn strokes(
+    comb_preview: &CombPreview,
+    editor: &Editor,
+    picture_flow: &PictureFlow,
+) -> Option<Vec<CombPreviewStroke>> {
     let painting = editor.painting()?;
     let scene = painting.scene();
     scene.objects.get(comb_preview.object)?;
@@ -88,7 +92,8 @@ fn strokes(comb_preview: &CombPreview, editor: &Editor, picture_flow: &PictureFl
         .iter()
         .find(|value| value.field.number.field == "length_px")
         .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
-    let direction_lines = painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
+    let direction_lines =
+        painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
     let stroke = |direction_line: &impasto_painting::StrokeDirection| CombPreviewStroke {
         at_px: DVec2::from(direction_line.position_px.map(f64::from)),
         angle_rad: direction_line.angle_rad,
@@ -96,7 +101,8 @@ fn strokes(comb_preview: &CombPreview, editor: &Editor, picture_flow: &PictureFl
         directed: false,
     };
     let mut apart: Vec<CombPreviewStroke> = Vec::new();
-    for stroke in direction_lines.iter().filter(|direction_line| direction_line.region == region).map(stroke) {
+    for stroke in direction_lines.iter().filter(|direction_line| direction_line.region == region).map(stroke)
+    {
         if apart.iter().all(|other| other.at_px.distance_squared(stroke.at_px) >= APART_PX * APART_PX) {
             apart.push(stroke);
         }

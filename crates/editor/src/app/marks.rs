@@ -19,7 +19,7 @@ use super::motion_marks;
 use super::picture::PictureFlow;
 use super::picture_view::PictureView;
 use crate::viewport::overlay::{
-    CurvePart, GuideCurve, DirectionMark, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
+    CurvePart, DirectionMark, GuideCurve, MissingMesh, MotionPath, Outline, RegionTint, Sight, SingularPoint,
     StandIn,
 };
 use crate::viewport::surface_map::{Face, StandingBody, SurfaceMap};
@@ -108,8 +108,9 @@ impl MarkCache {
         if half.of.as_ref() == Some(&key) {
             return;
         }
-        let shows_hairs =
-            session.mode == Mode::Paint && session.overlays.direction_lines != DirectionLines::Off || session.overlays.trust;
+        let shows_hairs = session.mode == Mode::Paint
+            && session.overlays.direction_lines != DirectionLines::Off
+            || session.overlays.trust;
         let active = editor.active_object();
         let outlines = session.mode != Mode::Paint && active.is_some();
         let kept = half.map.take();
@@ -134,7 +135,8 @@ impl MarkCache {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
             let object = active.filter(|_| session.mode != Mode::Paint);
             let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };
-            half.direction_lines = direction_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
+            half.direction_lines =
+                direction_marks(painting, picture.camera, picture.frame, &framing, &map, &look);
         }
         if session.overlays.regions {
             let names: Vec<(&str, Color32)> = scene

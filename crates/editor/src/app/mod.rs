@@ -6,8 +6,8 @@
 //! ```
 
 mod asks;
-mod file_flow;
 mod comb_preview;
+mod file_flow;
 mod keys;
 mod last_seen;
 mod lights;

@@ -21,7 +21,7 @@ enum Line {
     Sub(&'static str, &'static [Line]),
 }
 
-use Line::{CopyRenderCommand, Do, FirstRun, Separator, Recent, Sub};
+use Line::{CopyRenderCommand, Do, FirstRun, Recent, Separator, Sub};
 
 const MENUS: [(&str, &[Line]); 4] = [
     (

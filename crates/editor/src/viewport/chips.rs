@@ -83,7 +83,9 @@ fn overlays(ui: &mut Ui, session: &Session, events: &mut ViewportEvents) {
     let mut direction_lines = paints && shown.direction_lines != DirectionLines::Off;
     let before = direction_lines;
     let effect = if paints { "Short lines along the strokes." } else { "Directions show in Paint." };
-    ui.add_enabled_ui(paints, |ui| toggle(ui, icons::DIRECTIONS, ("Directions", "O", effect), &mut direction_lines));
+    ui.add_enabled_ui(paints, |ui| {
+        toggle(ui, icons::DIRECTIONS, ("Directions", "O", effect), &mut direction_lines)
+    });
     if direction_lines != before {
         shown.direction_lines = if direction_lines { DirectionLines::Plain } else { DirectionLines::Off };
     }

@@ -50,13 +50,17 @@ pub fn direction_marks(
         apart *= 1.02;
     }
     let place = |direction_line: &StrokeDirection| DVec2::from(direction_line.position_px.map(f64::from));
-    let shows = |direction_line: &StrokeDirection| map.shows(place(direction_line), f64::from(direction_line.depth), direction_line.object);
-    let direction_lines = painting.stroke_directions(&framing.widened(camera), frame, &options, apart as f32, &shows);
+    let shows = |direction_line: &StrokeDirection| {
+        map.shows(place(direction_line), f64::from(direction_line.depth), direction_line.object)
+    };
+    let direction_lines =
+        painting.stroke_directions(&framing.widened(camera), frame, &options, apart as f32, &shows);
     let ink = |direction_line: &StrokeDirection| match look.overlays {
         Overlays { trust: true, .. } => DirectionInk::Trust(direction_line.kappa),
-        Overlays { direction_lines: DirectionLines::ByRegion, .. } => {
-            look.region_colours.get(direction_line.region).map_or(DirectionInk::Plain, |&colour| DirectionInk::Region(colour))
-        }
+        Overlays { direction_lines: DirectionLines::ByRegion, .. } => look
+            .region_colours
+            .get(direction_line.region)
+            .map_or(DirectionInk::Plain, |&colour| DirectionInk::Region(colour)),
         _ => DirectionInk::Plain,
     };
     let mark = |direction_line: &StrokeDirection| DirectionMark {

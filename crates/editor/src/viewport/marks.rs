@@ -4,7 +4,9 @@ use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::tools::{Needle, Ring};
 use impasto_editor_model::transform::Constraint;
 
-use super::overlay::{self, Comb, CombPreviewStroke, GuideCurve, DirectionMark, MotionPath, Outline, RegionTint};
+use super::overlay::{
+    self, Comb, CombPreviewStroke, DirectionMark, GuideCurve, MotionPath, Outline, RegionTint,
+};
 use super::overlay::{MissingMesh, Sheet, Sight, SingularPoint, StandIn};
 
 /// What is drawn over one picture. Empty by default.

@@ -4,11 +4,11 @@ use egui::{Painter, Pos2, Rect};
 use glam::{DVec2, DVec3};
 use impasto_editor_model::picking::View;
 
-mod floor_grid;
 mod comb_preview;
+mod direction_lines;
+mod floor_grid;
 mod gizmo;
 mod guide_curve;
-mod direction_lines;
 mod ink;
 mod missing_mesh;
 mod motion_path;
@@ -21,11 +21,11 @@ mod sight;
 mod singular_points;
 mod stand_ins;
 
-pub use floor_grid::floor_grid;
 pub use comb_preview::{Comb, CombPreviewStroke, comb_preview};
+pub use direction_lines::{DirectionInk, DirectionMark, direction_lines, trust_legend};
+pub use floor_grid::floor_grid;
 pub use gizmo::gizmo;
 pub use guide_curve::{CurvePart, GuideCurve, guide_curve};
-pub use direction_lines::{DirectionInk, DirectionMark, direction_lines, trust_legend};
 pub use missing_mesh::{MissingMesh, missing_mesh};
 pub use motion_path::{MotionPath, motion_path};
 pub use needle::{needle, needle_tag};

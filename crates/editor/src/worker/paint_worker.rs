@@ -13,8 +13,8 @@ use impasto_painting::{Frame, Painting, PrepareError, PrepareOptions, Preparer, 
 use impasto_scene::mesh_file::MeshFile;
 
 use super::ahead::Ahead;
-use super::mailbox::{Mailbox, Order};
 use super::draft::DraftSize;
+use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
 

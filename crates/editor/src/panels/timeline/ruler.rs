@@ -43,7 +43,13 @@ pub(super) fn ground(ui: &Ui, rect: Rect, across: FrameScale, scene: &Scene) {
 }
 
 /// The ruler, on which a drag scrubs, with grips at the ends of the range.
-pub(super) fn ruler(ui: &mut Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
+pub(super) fn ruler(
+    ui: &mut Ui,
+    rect: Rect,
+    across: FrameScale,
+    shown: &PanelInput<'_>,
+    asks: &mut Vec<Ask>,
+) {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     let is_gripped = grips(ui, rect, across, shown, asks);
     if !is_gripped {

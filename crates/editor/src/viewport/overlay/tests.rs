@@ -77,7 +77,8 @@ fn a_hair_is_twelve_long_and_its_angle_counts_up_the_screen() {
 
 #[test]
 fn trust_is_told_by_pattern_as_well_as_by_colour() {
-    let of = |kappa| drawn(|sheet| direction_lines(sheet, &[direction_line(0.0, DirectionInk::Trust(kappa))]));
+    let of =
+        |kappa| drawn(|sheet| direction_lines(sheet, &[direction_line(0.0, DirectionInk::Trust(kappa))]));
     assert_eq!(segments(&of(0.97), Color32::WHITE).len(), 1);
     assert_eq!(segments(&of(0.90), ink::OVER_PAINT.ochre).len(), 2);
     assert_eq!(segments(&of(0.72), ink::OVER_PAINT.ochre).len(), 2);
