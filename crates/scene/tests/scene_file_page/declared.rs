@@ -66,7 +66,10 @@ pub fn declared() -> Vec<Declared> {
     for text in &texts {
         read(text, &texts, &mut found);
     }
-    found.retain(|declared| !VALUES.contains(&&*declared.name) && !NOT_IN_FILES.contains(&&*declared.name));
+    found.retain(|declared| {
+        let name = declared.name.split("::").next().unwrap_or_default();
+        !VALUES.contains(&name) && !NOT_IN_FILES.contains(&name)
+    });
     let defaults: Vec<(String, String)> = found
         .iter()
         .filter_map(|declared| {
