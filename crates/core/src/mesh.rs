@@ -39,7 +39,7 @@ impl TriangleMesh {
         Some(used.fold((first, first), |(low, high), position| (low.min(position), high.max(position))))
     }
 
-    /// How many polygons the file had, counted before they were cut into triangles.
+    /// The number of the last polygon that has triangles, plus one; polygons were numbered before they were cut.
     pub fn polygon_count(&self) -> usize {
         self.polygon_of_triangle.last().map_or(0, |&last| last as usize + 1)
     }

@@ -1,12 +1,12 @@
-//! Slow value noise in space: it makes strokes swing, colours drift and edges get lost gradually over a surface.
+//! Low-frequency value noise in space: it makes strokes swing, colours drift and edges get lost gradually over a surface.
 
 use glam::{DVec3, Vec3};
 
 use crate::hash;
 use crate::wide::{Wide, widest};
 
-/// Two octaves of value noise at each point, of mean 0, a standard deviation of about 1 and one cycle per unit. `noise` is as
-/// long as `at`.
+/// Two octaves of value noise at each point, with mean 0 and a standard deviation of about 1. The first octave has one lattice cell
+/// per unit, the second about two. `noise` must be as long as `at`.
 pub fn slow(seed: u32, at: &[DVec3], noise: &mut [f32]) {
     widest(Slow { seed, at, noise });
 }
@@ -24,8 +24,9 @@ impl Wide for Slow<'_> {
     fn run(self) {
         let second_seed = hash::scramble(self.seed);
         for (noise, &at) in self.noise.iter_mut().zip(self.at) {
-            // Shifted, so that no point is a lattice point in both octaves.
+            // Shifted, so that the lattices of the two octaves do not meet at the origin.
             let second = at * 2.03 + DVec3::splat(17.3);
+            // 4.9 brings the standard deviation to about 1.
             *noise = (value(self.seed, at) + 0.5 * value(second_seed, second)) * 4.9;
         }
     }

@@ -1,5 +1,5 @@
-//! A coat: the particles of one object that carry one layer of paint. Each layer has particles of its own; shared ones would
-//! put a small stroke into the middle of every large one.
+//! A coat: the particles of one object that carry one layer of paint. Layers do not share particles, or every large stroke would
+//! have a small one at its centre.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ pub(crate) struct Coat {
     pub(crate) kind: LayerKind,
     pub(crate) sampled: Arc<Sampled>,
     pub(crate) lift_sources: LiftSources,
-    /// The rules that its particles may have.
+    /// Indices of the rules that apply to any of its particles.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) traits: Arc<Traits>,
     pub(crate) baked: Arc<BakedBody>,
@@ -32,7 +32,7 @@ pub(crate) struct Coat {
 }
 
 impl Coat {
-    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
+    /// sRGB albedo at a particle, 8 bits a channel, as 0xAABBGGRR; A is 0 for an unlit material, else 255.
     pub(crate) fn albedo_srgb8(&self, particle: usize) -> u32 {
         let triangle = self.sampled.particles.triangle(particle);
         self.sampled.albedo.of(&self.surface, particle, triangle)
@@ -57,13 +57,13 @@ pub(crate) struct Sampled {
 pub(crate) struct SampleInputs {
     pub(crate) surface: SurfaceInputs,
     pub(crate) name_hash: u32,
-    /// With the paper's rule the number of particles, each of which has an order of its own.
+    /// With the paper's rule the number of particles: another number gives another sequence, so that nothing can be reused.
     pub(crate) per_polygon: Option<usize>,
 }
 
 impl SampleInputs {
-    /// `count` particles of a body: of those `before`, sampled from the same inputs, the first ones, or all and further ones.
-    /// `surface` is asked for only where particles have to be sampled.
+    /// The first `count` particles of a body. Shortens `before`, which was sampled from equal inputs, where it has enough, else
+    /// continues it. Calls `surface` only to sample.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,

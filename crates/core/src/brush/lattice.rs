@@ -3,28 +3,28 @@
 use crate::hash;
 use crate::presence::smoothstep;
 
-/// Value noise, 0..1, for u and across in about −0.2..1.2, with a fixed number of cycles each way.
+/// Value noise, 0..1, for u and across from −[`MARGIN`] to 1 + [`MARGIN`], with a fixed number of lattice cells each way.
 pub(super) struct Lattice {
     columns: usize,
     cycles: [f32; 2],
     values: Vec<f32>,
 }
 
-/// Two neighbouring lattice lines and the smoothed weight of the second.
+/// A place along one axis: two neighbouring lattice lines and the smoothed weight of the second.
 #[derive(Clone, Copy)]
-pub(super) struct Cell {
+pub(super) struct Between {
     first: usize,
     share: f32,
 }
 
-impl Cell {
+impl Between {
     fn of(at: f32, lines: usize) -> Self {
         let first = (at as usize).min(lines - 2);
         Self { first, share: smoothstep(at - first as f32) }
     }
 }
 
-/// How far the noise reaches beyond 0..1 on either side: marks read a little outside.
+/// How far u and across may lie outside 0..1: marks are evaluated a little beyond their edges.
 const MARGIN: f32 = 0.25;
 
 impl Lattice {
@@ -45,17 +45,17 @@ impl Lattice {
     }
 
     /// The lattice columns round u; all texels of a column of the mark share them.
-    pub(super) fn column(&self, u: f32) -> Cell {
-        Cell::of((u + MARGIN).max(0.0) * self.cycles[0], self.columns)
+    pub(super) fn column(&self, u: f32) -> Between {
+        Between::of((u + MARGIN).max(0.0) * self.cycles[0], self.columns)
     }
 
     /// The lattice rows round `across`.
-    pub(super) fn row(&self, across: f32) -> Cell {
-        Cell::of((across + MARGIN).max(0.0) * self.cycles[1], self.values.len() / self.columns)
+    pub(super) fn row(&self, across: f32) -> Between {
+        Between::of((across + MARGIN).max(0.0) * self.cycles[1], self.values.len() / self.columns)
     }
 
     /// Noise where a column and a row cross.
-    pub(super) fn between(&self, column: Cell, row: Cell) -> f32 {
+    pub(super) fn between(&self, column: Between, row: Between) -> f32 {
         let first = row.first * self.columns + column.first;
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
         let low = mix(self.values[first], self.values[first + 1], column.share);

@@ -1,6 +1,6 @@
 //! The marks of the built-in brushes.
 
-use super::lattice::{Cell, Lattice};
+use super::lattice::{Between, Lattice};
 use super::{Mark, NAMES, SIZE, Texel};
 use crate::hash;
 use crate::presence::smoothstep;
@@ -200,7 +200,7 @@ struct AlongHere {
     /// Half widths: from the middle to either edge.
     widths: [f32; 2],
     dryness: f32,
-    columns: [Cell; STREAKS],
+    columns: [Between; STREAKS],
 }
 
 /// What all texels at one v share.
@@ -210,7 +210,7 @@ struct AcrossHere {
     start: [f32; 2],
     ragged: f32,
     hairs: f32,
-    rows: [Cell; STREAKS],
+    rows: [Between; STREAKS],
 }
 
 /// Lattices of streaks: three of paint, one of half-mixed paint.
@@ -242,11 +242,11 @@ impl Streaks {
         self.between(&self.columns(u), &self.rows(across), self.hairs(across))
     }
 
-    fn columns(&self, u: f32) -> [Cell; STREAKS] {
+    fn columns(&self, u: f32) -> [Between; STREAKS] {
         std::array::from_fn(|which| self.along[which].column(u))
     }
 
-    fn rows(&self, across: f32) -> [Cell; STREAKS] {
+    fn rows(&self, across: f32) -> [Between; STREAKS] {
         std::array::from_fn(|which| self.along[which].row(across))
     }
 
@@ -257,7 +257,7 @@ impl Streaks {
             + 0.25 * self.hairs[2].along(across)
     }
 
-    fn between(&self, columns: &[Cell; STREAKS], rows: &[Cell; STREAKS], hairs: f32) -> (f32, f32) {
+    fn between(&self, columns: &[Between; STREAKS], rows: &[Between; STREAKS], hairs: f32) -> (f32, f32) {
         let noise = |which: usize| self.along[which].between(columns[which], rows[which]);
         let along = 0.55 * noise(0) + 0.30 * noise(1) + 0.15 * noise(2);
         (0.6 * along + 0.4 * hairs, noise(3) * 2.0 - 1.0)

@@ -5,11 +5,12 @@ use glam::{DVec2, DVec3, Vec3};
 use super::{Symmetry, transport_rad};
 use crate::neighbours::{Neighbours, Points};
 
-/// How many samples a particle is interpolated from, at most.
-const MOST: usize = 6;
+/// A particle is interpolated from at most this many samples.
+const MAX_SAMPLES: usize = 6;
 
-/// They lie within this many sample spacings, and are weighted by a Gaussian of this deviation in spacings.
+/// Samples farther away than this many spacings do not count.
 const REACH_SPACINGS: f64 = 1.6;
+/// Standard deviation of the Gaussian weight, in spacings.
 const DEVIATION_SPACINGS: f64 = 0.55;
 
 /// For each particle, the samples near it. Depends on positions and normals, not on directions.
@@ -28,9 +29,9 @@ pub struct SolvedSample {
     pub normal: DVec3,
     /// The direction that the solve found.
     pub solved: DVec2,
-    /// The direction that was stated.
+    /// The direction that was stated, before the solve.
     pub stated: DVec2,
-    /// A weight, 0..=1, that is interpolated like the direction.
+    /// How firmly the sample is held to its stated direction, 0..=1; interpolated like the direction.
     pub anchor: f64,
 }
 
@@ -38,15 +39,16 @@ impl Stencils {
     /// Finds the samples (about `spacing` apart) near each of `particles`.
     pub fn new(particles: Points<'_>, samples: Points<'_>, spacing: f64) -> Self {
         let reach = (REACH_SPACINGS * spacing) as f32;
-        // More than are used: some are left out for some particles.
-        Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MOST), spacing }
+        // Twice as many as are used, as `carry` skips samples for which `sample` gives `None`. Nearest first.
+        Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MAX_SAMPLES), spacing }
     }
 
     /// The direction and the anchor of a particle, from the samples near it for which `sample` gives something.
     ///
     /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned by the
-    /// mean of these turns. Where they disagree (stated directions whirl), the mean of the samples' solved directions,
-    /// transported to the particle, takes over. `None` where no sample counts.
+    /// mean of these turns. Where the turns disagree, as around a singular point of the stated directions, it goes over to the mean
+    /// of the samples' solved directions, transported to the particle. `None` where no sample counts, or where the directions
+    /// cancel.
     pub fn carry(
         &self,
         particle: usize,
@@ -58,7 +60,8 @@ impl Stencils {
     ) -> Option<(DVec2, f64)> {
         let deviation_sq = (DEVIATION_SPACINGS * self.spacing).powi(2);
         let (mut turned, mut transported, mut anchor, mut weights) = (DVec2::ZERO, DVec2::ZERO, 0.0, 0.0);
-        let near = self.lists.of(particle).iter().filter_map(|&index| sample(index as usize)).take(MOST);
+        let near =
+            self.lists.of(particle).iter().filter_map(|&index| sample(index as usize)).take(MAX_SAMPLES);
         for SolvedSample {
             position: at,
             normal: there,
@@ -78,9 +81,9 @@ impl Stencils {
         if weights < 1e-12 {
             return None;
         }
-        let (coherent_turn, coherent) = (turned.length() / weights, transported.length() / weights);
+        let (turn_coherence, coherence) = (turned.length() / weights, transported.length() / weights);
         // 1 where the turns agree about as well as the directions do, or better.
-        let trust = ((coherent_turn - coherent + 0.06) / 0.05).clamp(0.0, 1.0);
+        let trust = ((turn_coherence - coherence + 0.06) / 0.05).clamp(0.0, 1.0);
         let by_turn = turned.normalize_or_zero().rotate(stated);
         let mixed = by_turn * trust + transported.normalize_or_zero() * (1.0 - trust);
         Some((mixed.try_normalize()?, anchor / weights))

@@ -1,4 +1,4 @@
-//! The worker's pictures as textures.
+//! Keeps the latest picture of each view as a texture for egui.
 
 use egui::{Context, ImageData, TextureHandle, TextureId, TextureOptions};
 

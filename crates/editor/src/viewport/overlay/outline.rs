@@ -32,7 +32,7 @@ impl Outline {
     }
 }
 
-/// Draws an outline, 2 points wide; that of a ghost thin.
+/// Draws an outline 2 points wide, and that of a ghost 1 point wide.
 pub fn outline(sheet: &Sheet<'_>, outline: &Outline, ghost: bool) {
     let ink = if ghost {
         Ink::new(1.0, ink::white(0.55), (2.0, ink::black(0.25)))

@@ -1,6 +1,6 @@
 //! Draws marks for suns and the shot camera, which have no surface.
 
-use egui::{Align2, Color32, Stroke, vec2};
+use egui::{Align2, Color32, Stroke};
 use glam::DVec3;
 
 use super::Sheet;
@@ -58,5 +58,5 @@ fn icon(sheet: &Sheet<'_>, at: DVec3, icon: icons::Icon, colour: Color32) {
     let Some(at) = sheet.project(at) else { return };
     sheet.painter.circle_filled(at, 13.0, ink::black(0.55));
     let font = type_face::icon(18.0);
-    sheet.painter.text(at + vec2(0.0, 0.0), Align2::CENTER_CENTER, icon.glyph(), font, colour);
+    sheet.painter.text(at, Align2::CENTER_CENTER, icon.glyph(), font, colour);
 }
