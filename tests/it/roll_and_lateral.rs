@@ -35,15 +35,22 @@ fn with_solver(mut scene: Scene, solver: Solver) -> Scene {
     scene
 }
 
-/// A sphere off the middle, seen a little from above, with three kinds of directions.
-fn rolling_scene(size: (u32, u32), roll_deg: f64) -> Scene {
+const ROLLS_DEG: [f64; 7] = [1.0, 7.0, 30.0, 77.0, 137.0, 180.0, 359.0];
+
+/// A sphere off the middle, seen a little from above, by a camera that has rolled by these degrees at frames 1, 2, 3 and so on.
+fn rolling_scene(size: (u32, u32), rolls_deg: &[f64]) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 20_000)]);
     scene.size = size;
-    scene.timeline.last = 1;
+    scene.timeline.last = rolls_deg.len() as i64;
     let mut key = shapes::camera_key(0.0, [0.7, 1.3, 4.2], [0.2, 0.1, 0.0]);
     key.roll_deg = 13.0;
-    let rolled = CameraKey { frame: 1.0, roll_deg: 13.0 + roll_deg, ..key.clone() };
-    scene.camera.keys = vec![key, rolled];
+    let rolled = |(index, roll_deg): (usize, &f64)| CameraKey {
+        frame: (index + 1) as f64,
+        roll_deg: 13.0 + roll_deg,
+        ..key.clone()
+    };
+    scene.camera.keys = rolls_deg.iter().enumerate().map(rolled).collect();
+    scene.camera.keys.insert(0, key);
     scene
 }
 
@@ -51,11 +58,11 @@ fn rolling_scene(size: (u32, u32), roll_deg: f64) -> Scene {
 fn a_camera_roll_turns_every_stroke_back() {
     for size in [(500, 500), (640, 360), (270, 630)] {
         for solver in [Solver::Tangent, Solver::Horn, Solver::HornExact] {
-            for roll_deg in [1.0, 7.0, 30.0, 77.0, 137.0, 180.0, 359.0] {
-                let scene = with_solver(rolling_scene(size, roll_deg), solver);
-                let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
-                let before = angles(&painting.at(0.0, &options(size.into())));
-                let after = angles(&painting.at(1.0, &options(size.into())));
+            let scene = with_solver(rolling_scene(size, &ROLLS_DEG), solver);
+            let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
+            let before = angles(&painting.at(0.0, &options(size.into())));
+            for (index, roll_deg) in ROLLS_DEG.into_iter().enumerate() {
+                let after = angles(&painting.at((index + 1) as f64, &options(size.into())));
                 let mut worst = 0.0f64;
                 let mut shared = 0;
                 for (particle, angle) in &before {
@@ -190,7 +197,7 @@ fn a_turning_object_is_a_turning_camera_seen_backwards() {
 
 #[test]
 fn frames_do_not_depend_on_threads_or_on_what_came_before() {
-    let scene = rolling_scene((640, 360), 137.0);
+    let scene = rolling_scene((640, 360), &[137.0]);
     let loaded = shapes::loaded(scene, [shapes::sphere(32, 16)]);
     let on_threads = |threads: usize, frames: &[f64]| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -207,7 +214,7 @@ fn frames_do_not_depend_on_threads_or_on_what_came_before() {
 
 #[test]
 fn back_at_the_reference_every_stroke_is_as_it_was() {
-    let mut scene = rolling_scene((640, 360), 0.0);
+    let mut scene = rolling_scene((640, 360), &[0.0]);
     let start = scene.camera.keys[0].clone();
     let away = CameraKey { frame: 1.0, eye: [3.0, 2.0, 2.5], roll_deg: 80.0, ..start.clone() };
     scene.timeline.last = 2;
@@ -225,7 +232,7 @@ fn back_at_the_reference_every_stroke_is_as_it_was() {
 
 #[test]
 fn strokes_can_be_kept_from_turning_and_turned_by_chance() {
-    let scene = with_solver(rolling_scene((640, 360), 30.0), Solver::Tangent);
+    let scene = with_solver(rolling_scene((640, 360), &[30.0]), Solver::Tangent);
     let painting = prepare(shapes::loaded(scene, [shapes::sphere(32, 16)])).unwrap();
     let at = |frame: f64, rotation: Rotation| {
         angles(&painting.at(frame, &FrameOptions { rotation, ..options([640, 360]) }))

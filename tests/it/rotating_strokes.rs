@@ -30,7 +30,9 @@ fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) 
             vec![ObjectKey { translation: [x, 0.0, -95.0], rotation_deg: [0.0; 3], ..ObjectKey::at(0.0) }];
         half
     });
-    let scene = shapes::scene(halves.into());
+    let mut scene = shapes::scene(halves.into());
+    // The scene's own strokes are replaced below.
+    scene.strokes.layers = shapes::body_layer_alone();
     let painting = prepare(shapes::loaded(scene, [shapes::sheet(1), shapes::sheet(1)])).unwrap();
     let mut frame = painting.at(0.0, &options(size_px));
     let source = StrokeSource { place: 0, particle: 0, region: 0, kappa: 1.0, facing: 1.0, rank: 0.5 };
