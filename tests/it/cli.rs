@@ -338,7 +338,7 @@ fn info_doctor_and_completions_answer() {
 fn edit_says_what_is_missing() {
     let folder = Folder::new();
     std::fs::write(folder.path("chair.glb"), "").unwrap();
-    for (arguments, exit, told) in [
+    for (arguments, exit, message) in [
         (&["edit", "gone.ron"][..], 3, "gone.ron is not there"),
         (&["edit", "chair.glb"], 3, "export it as OBJ"),
         (&["edit", "scene.ron", "--driver", "voodoo"], 2, "software"),
@@ -348,7 +348,7 @@ fn edit_says_what_is_missing() {
         let output = folder.run(arguments);
         let error = words(&output.stderr);
         assert_eq!(code(&output), exit, "{arguments:?}: {error}");
-        assert!(error.contains(told) && !error.contains("panicked"), "{arguments:?}: {error}");
+        assert!(error.contains(message) && !error.contains("panicked"), "{arguments:?}: {error}");
     }
 }
 
@@ -380,7 +380,7 @@ fn an_interrupted_run_leaves_whole_frames_only() {
     }
 }
 
-/// Even when the shell starts it with Ctrl-C ignored, as shells do with background jobs.
+/// This holds even when a shell starts the command with Ctrl-C ignored, as shells start background jobs.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_reading_and_preparing_at_once_and_leaves_nothing() {

@@ -154,7 +154,8 @@ fn real_models_are_read_or_refused_with_a_reason() {
     assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), models.len(), failures.join("\n"));
 }
 
-/// Models of the small corpus with bytes changed, lost and doubled, pseudo-randomly; and a fuzzer's files of the large one.
+/// Checks models of the small corpus in which random bytes were changed, left out or doubled, and the large corpus's
+/// files from a fuzzer.
 #[test]
 fn fuzzed_files_neither_crash_nor_hang() {
     let scratch = tempfile::tempdir().unwrap();
@@ -168,7 +169,7 @@ fn fuzzed_files_neither_crash_nor_hang() {
                 std::fs::create_dir(&own).unwrap();
                 std::fs::copy(entry.unwrap().path(), own.join(format!("case.{kind}"))).unwrap();
                 if kind == "mtl" {
-                    std::fs::write(own.join("case.obj"), WORN).unwrap();
+                    std::fs::write(own.join("case.obj"), WITH_MATERIAL).unwrap();
                 }
                 files.push(own.join("case.obj"));
             }
@@ -179,7 +180,7 @@ fn fuzzed_files_neither_crash_nor_hang() {
 }
 
 /// An OBJ triangle with the material `a` of `case.mtl`.
-const WORN: &str = "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+const WITH_MATERIAL: &str = "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
 
 /// Two hundred changed copies of the small corpus's good models, each in a folder of its own.
 fn changed_models(folder: &Path) -> Vec<PathBuf> {
@@ -230,7 +231,7 @@ fn real_pictures_are_worn_or_left_out() {
         for row in rows(&corpus.join("models.csv")).into_iter().filter(|row| row("class") == "tex") {
             let own = scratch.path().join(row("name"));
             std::fs::create_dir(&own).unwrap();
-            std::fs::write(own.join("case.obj"), WORN).unwrap();
+            std::fs::write(own.join("case.obj"), WITH_MATERIAL).unwrap();
             std::fs::write(own.join("case.mtl"), "newmtl a\nmap_Kd picture.png\n").unwrap();
             std::fs::copy(corpus.join(row("file")), own.join("picture.png")).unwrap();
             pictures.push((row("name"), own.join("case.obj"), row("verdict") == "bad"));

@@ -1,5 +1,5 @@
-//! Tests of cutting a stroke's quad to where its mark has paint: up to rounding the picture is that of whole quads, from
-//! fewer pixels.
+//! Tests of stroke quads that are cut down to where the mark has paint: the picture is that of whole quads, up to
+//! rounding, and fewer pixels are drawn.
 
 use impasto_gl_render::ShaderTexts;
 use impasto_gl_render::context::Driver;
@@ -19,7 +19,7 @@ fn cut_quads_look_as_whole_ones_do() {
     let (mut cut, mut whole) = (renderer(Driver::Egl), renderer(Driver::Egl));
     whole.replace_shaders(&whole_quads).unwrap();
     let painting = scenes::painting("roll");
-    // At full size, and so small that marks are read from coarse levels.
+    // A large picture, and one so small that marks are read from coarse mipmap levels.
     for (size_px, quality) in
         [([320, 180], Quality::Exact), ([96, 54], Quality::Exact), ([96, 54], Quality::Draft)]
     {
@@ -41,10 +41,10 @@ fn cut_quads_look_as_whole_ones_do() {
 /// Counts all fragments of the cut quads, also those that lay no paint, against the area of whole quads.
 #[test]
 fn cut_quads_cover_fewer_pixels() {
-    const NOTHING: &str = "if (alpha <= 0.0) discard;";
-    assert!(FRAGMENTS.contains(NOTHING));
+    const DISCARD: &str = "if (alpha <= 0.0) discard;";
+    assert!(FRAGMENTS.contains(DISCARD));
     let mut counted = ShaderTexts::default();
-    assert!(counted.put("rotating_strokes/paint.frag", FRAGMENTS.replace(NOTHING, "")));
+    assert!(counted.put("rotating_strokes/paint.frag", FRAGMENTS.replace(DISCARD, "")));
     let mut renderer = renderer(Driver::Egl);
     renderer.replace_shaders(&counted).unwrap();
     let painting = scenes::painting("roll");
@@ -57,7 +57,7 @@ fn cut_quads_cover_fewer_pixels() {
         .filter(|(resolved, _)| resolved.alpha > 0.004)
         .map(|(_, stroke)| stroke.length_px * stroke.width_px / (0.84 * 0.84))
         .sum();
-    let asked_px = cost.overdraw * 320.0 * 180.0;
-    println!("{asked_px} px of {quads_px}");
-    assert!(asked_px > 0.0 && asked_px < 0.8 * f64::from(quads_px), "{asked_px} px of {quads_px}");
+    let covered_px = cost.overdraw * 320.0 * 180.0;
+    println!("{covered_px} px of {quads_px}");
+    assert!(covered_px > 0.0 && covered_px < 0.8 * f64::from(quads_px), "{covered_px} px of {quads_px}");
 }

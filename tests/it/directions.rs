@@ -313,8 +313,9 @@ fn toward_a_point_runs_there() {
     assert!(strokes.len() >= 500 && worst < 0.05, "{worst}");
 }
 
-/// M6: the angle between each stroke that faces away from the reference and its ten nearest neighbours: median and 95th
-/// percentile, degrees, and the number of such strokes.
+/// Looks at each stroke whose surface faces away from the reference: the angle between it and its ten nearest
+/// neighbours, median and 95th percentile in degrees, and the number of such strokes. (`impasto measure` calls this
+/// M6.)
 fn coherence(painting: &Painting, now: &CameraPose, reference: DVec3) -> (f64, f64, usize) {
     let strokes = seen_by(painting, now);
     let particles = painting.particles(0);

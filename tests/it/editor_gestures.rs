@@ -1,5 +1,5 @@
-//! Tests that strokes show as they were dragged in the editor, in any view: from pixels through rays, paths and guides to
-//! painted strokes.
+//! Tests that strokes lie as they were dragged in the editor, in any view: the whole way from mouse positions to
+//! guides to painted strokes.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -45,16 +45,17 @@ fn scene(direction: Direction, guides: Vec<Guide>) -> Scene {
     scene
 }
 
-/// Strokes this near to a drag count: 2.5 px from the middle of a brush of 45 px it still has 0.99 of its strength.
+/// Only strokes this near to a drag are judged: there a brush of 45 px still has 0.99 of its strength.
 const CORE_PX: f64 = 2.5;
 
-struct Bench {
+/// A prepared scene, and what finds its points under the mouse.
+struct Setup {
     painting: Painting,
     picker: Picker,
     poses: Vec<DAffine3>,
 }
 
-impl Bench {
+impl Setup {
     fn new(scene: Scene, mesh: &TriangleMesh) -> Self {
         let poses = motion::poses_at(&scene, 0.0);
         let painting = prepare(shapes::loaded(scene, [mesh.clone()])).unwrap();
@@ -156,7 +157,7 @@ fn views(shot: &CameraPose, about: DVec3) -> Vec<(&'static str, View)> {
 fn what_is_dragged_is_what_is_seen_in_any_view() {
     let (mut worst, mut worst_curved, mut count) = (0.0f64, 0.0f64, 0);
     for (thing, mesh, every) in [("apple", shapes::apple_skin(), 1), ("sphere", shapes::sphere(96, 48), 2)] {
-        let bare = Bench::new(scene(Direction::Auto, Vec::new()), &mesh);
+        let bare = Setup::new(scene(Direction::Auto, Vec::new()), &mesh);
         let centre =
             bare.picker.bounds_in_world([0], &bare.poses).map(|[low, high]| (low + high) * 0.5).unwrap();
         let shot = motion::camera_at(bare.painting.scene(), 0.0);
@@ -181,7 +182,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
                     assert_eq!(guides[0].view.is_none(), name == "reference");
                     let mut combed = scene(direction.clone(), guides);
                     combed.strokes.flatness = Some(flatness);
-                    let found = errors(&Bench::new(combed, &mesh).strokes(&view.camera), drag, CORE_PX);
+                    let found = errors(&Setup::new(combed, &mesh).strokes(&view.camera), drag, CORE_PX);
                     assert!(!found.is_empty(), "no stroke lies under the drag: {thing}, {name}");
                     let most = found.iter().copied().fold(0.0, f64::max);
                     if curved {
@@ -210,7 +211,7 @@ fn mirror_images_show_mirrored_from_the_other_side() {
     let mut plain = scene(Direction::Auto, Vec::new());
     plain.objects[0].keys.clear();
     plain.camera.keys[0] = shapes::camera_key(0.0, [0.0, 0.3, 5.0], [0.0; 3]);
-    let bare = Bench::new(plain.clone(), &mesh);
+    let bare = Setup::new(plain.clone(), &mesh);
     let mut free = FreeView::new(motion::camera_at(&plain, 0.0));
     free.orbit(DVec2::new(-150.0, 40.0), DVec3::ZERO);
     let view = free.view(size_px());
@@ -229,7 +230,7 @@ fn mirror_images_show_mirrored_from_the_other_side() {
         let at = ends[0].lerp(ends[1], t);
         DVec2::new(size_px().x - at.x, at.y)
     };
-    let found = errors(&Bench::new(plain, &mesh).strokes(&other), across, CORE_PX);
+    let found = errors(&Setup::new(plain, &mesh).strokes(&other), across, CORE_PX);
     let worst = found.iter().copied().fold(0.0, f64::max);
     println!("mirrored: at most {worst:.3} over {} strokes", found.len());
     assert!(found.len() >= 4 && worst <= 0.5, "{worst}");

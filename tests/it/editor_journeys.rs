@@ -14,8 +14,8 @@ fn orbit(editor: &mut EditorWindow<'_>, by_px: [i32; 2]) {
     let from = editor.control("Viewport").at([0.5, 0.18]);
     let to = [from[0] + by_px[0], from[1] + by_px[1]];
     let [from, to] = [from, to].map(|at| at.map(|at| at.to_string()));
-    editor.screen.hand(&["mousemove", &from[0], &from[1], "mousedown", "2"]);
-    editor.screen.hand(&["mousemove", &to[0], &to[1], "mouseup", "2"]);
+    editor.screen.xdotool(&["mousemove", &from[0], &from[1], "mousedown", "2"]);
+    editor.screen.xdotool(&["mousemove", &to[0], &to[1], "mouseup", "2"]);
 }
 
 /// Drags with the left button between two places, given from the viewport's middle.
@@ -91,7 +91,7 @@ fn from_a_mesh_to_a_saved_film() {
     editor.rest_after(shown);
     editor.keep_picture("6_posed");
     editor.keys(&["space"]);
-    wait_for("some of the film", || (editor.told("playing: ").len() > 8).then_some(()));
+    wait_for("some of the film", || (editor.printed("playing: ").len() > 8).then_some(()));
     editor.keep_picture("7_playing");
     editor.keys(&["space"]);
 
@@ -146,7 +146,7 @@ fn directions_are_refined() {
     let mut editor = EditorWindow::open(&screen, "refine", folder.path(), "apple.ron");
     let mut shown = editor.rest().0;
     let [x, y] = editor.control("Viewport").middle().map(|at| at.to_string());
-    screen.hand(&["mousemove", &x, &y]);
+    screen.xdotool(&["mousemove", &x, &y]);
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
     editor.keys(&["shift+o"]);

@@ -7,7 +7,7 @@ use impasto_editor_model::keymap::{Digits, Keymap, Preset, Scope};
 const HEAD: &str = "# Keys\n\nMade from the editor's own table: `IMPASTO_BLESS=1 cargo test -p impasto-tests --test it -- \
                     editor_keys` writes it anew.\n";
 
-fn words(scope: Option<Scope>) -> &'static str {
+fn heading(scope: Option<Scope>) -> &'static str {
     match scope {
         None => "Everywhere",
         Some(Scope::Arrange | Scope::Animate) => "Arrange and Animate",
@@ -32,15 +32,15 @@ fn page() -> String {
     let mut page = HEAD.to_owned();
     for place in places {
         page += &format!("\n## {place}\n\n| what | like Blender | like Maya |\n|---|---|---|\n");
-        let mut told = Vec::new();
-        for line in blender.iter().chain(&maya).filter(|line| words(line.scope) == place) {
-            if told.contains(&line.action) {
+        let mut listed = Vec::new();
+        for line in blender.iter().chain(&maya).filter(|line| heading(line.scope) == place) {
+            if listed.contains(&line.action) {
                 continue;
             }
-            told.push(line.action);
+            listed.push(line.action);
             let keys = |lines: &[impasto_editor_model::keymap::Listed]| {
                 let own =
-                    lines.iter().find(|other| other.action == line.action && words(other.scope) == place);
+                    lines.iter().find(|other| other.action == line.action && heading(other.scope) == place);
                 own.map_or_else(String::new, |own| {
                     let keys = own.keys.split(", ").map(|key| format!("`{}`", key.replace('|', "\\|")));
                     keys.collect::<Vec<_>>().join(", ")
@@ -59,7 +59,7 @@ fn the_page_of_keys_is_the_table() {
     if std::env::var_os("IMPASTO_BLESS").is_some() {
         std::fs::write(&path, &page).unwrap();
     }
-    let there = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(there == page, "docs/editor_keys.md is not the table: write it anew with IMPASTO_BLESS=1");
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == page, "docs/editor_keys.md is not the table: write it anew with IMPASTO_BLESS=1");
     assert!(page.contains("| Undo | `Ctrl Z`"), "{page}");
 }

@@ -1,5 +1,5 @@
-//! Tests of playing in the editor: frames come in order, dropped ones are counted, and each is what the renderer makes of it.
-//! That frames keep time is tested with a simulated clock in the editor model's `playback`.
+//! Tests of playing in the editor: frames come in order, dropped ones are counted, and each has the strokes that
+//! `impasto render` draws. A simulated clock tests the timing, in the editor model's `playback`.
 
 use std::sync::Arc;
 
@@ -33,24 +33,24 @@ fn folder() -> tempfile::TempDir {
 
 /// A frame that was shown, the clock at that moment (in frames), and the number of frames dropped by then.
 #[derive(Clone, Copy, Debug)]
-struct CameUp {
+struct ShownFrame {
     frame: f64,
     clock: f64,
     dropped: f64,
 }
 
-fn came_up(editor: &EditorWindow<'_>) -> Vec<CameUp> {
+fn shown_frames(editor: &EditorWindow<'_>) -> Vec<ShownFrame> {
     let number = |text: Option<&str>| text.unwrap().rsplit(' ').next().unwrap().parse::<f64>().unwrap();
     let line = |line: String| {
         let mut parts = line.split(", ");
         let [frame, clock, dropped] = [(); 3].map(|()| number(parts.next()));
-        CameUp { frame, clock, dropped }
+        ShownFrame { frame, clock, dropped }
     };
-    editor.told("playing: ").into_iter().map(line).collect()
+    editor.printed("playing: ").into_iter().map(line).collect()
 }
 
 /// The number of frames from one to another in a film that loops.
-fn onward(from: f64, to: f64) -> f64 {
+fn frames_between(from: f64, to: f64) -> f64 {
     (to - from).rem_euclid(FRAMES)
 }
 
@@ -61,22 +61,22 @@ fn a_film_goes_on_in_order_and_counts_what_it_drops() {
     let editor = EditorWindow::open(&screen, "playing", folder.path(), "film.ron");
     editor.keys(&["space"]);
     wait_for("more than a round of the film", || {
-        let shown = came_up(&editor);
+        let shown = shown_frames(&editor);
         (shown.len() > 60 && shown.windows(2).any(|pair| pair[1].clock < pair[0].clock)).then_some(())
     });
     editor.keep_picture("midst");
     editor.keys(&["space"]);
     let last = wait_for("the frame that it stopped at, exactly drawn", || {
-        let frame = came_up(&editor).last()?.frame;
+        let frame = shown_frames(&editor).last()?.frame;
         let value = format!("Arrange, select, shot camera, frame {frame}");
         editor.rest().1.starts_with(&value).then_some(frame)
     });
     assert!((0.0..FRAMES).contains(&last) && last.fract() == 0.0);
 
-    let shown = came_up(&editor);
+    let shown = shown_frames(&editor);
     let (mut before, mut dropped) = (0.0, 0.0);
     for now in &shown {
-        dropped += onward(before, now.frame) - 1.0;
+        dropped += frames_between(before, now.frame) - 1.0;
         assert_eq!(now.dropped, dropped, "{now:?}");
         before = now.frame;
     }

@@ -76,7 +76,8 @@ fn build_object(document: &mut Document, wanted: &Object) {
 fn build(document: &mut Document, wanted: &Scene) {
     run(document, Command::Scene(SceneEdit::SetSeed(wanted.seed)));
     run(document, Command::Scene(SceneEdit::SetBackground(wanted.background)));
-    // Another range first: a new scene may already have the wanted one.
+    // Another range first, as `run` takes no command that changes nothing and a new scene may already have the wanted
+    // range.
     run(document, Command::Time(Time::SetRange(0, 1)));
     run(document, Command::Time(Time::SetRange(wanted.timeline.first, wanted.timeline.last)));
     let lights = document.scene().lights.iter().map(|light| Item::Light(light.name.clone())).collect();

@@ -89,7 +89,7 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
 
     let viewport = editor.control("Viewport");
     let [x, y] = viewport.middle();
-    let hover = |x: i32| screen.hand(&["mousemove", &x.to_string(), &y.to_string()]);
+    let hover = |x: i32| screen.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
     hover(x);
     editor.keys(&["Tab"]);
     editor.wait_for_value("Paint, comb, shot camera, frame 0, reference");
@@ -111,9 +111,9 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     assert_eq!(combed.mode, GuideMode::Comb);
     std::fs::copy(folder.path().join("apple.ron"), folder.path().join("combed.ron")).unwrap();
 
-    screen.hand(&["keydown", "shift"]);
+    screen.xdotool(&["keydown", "shift"]);
     screen.drag([x - 54, y + 74], [x + 46, y + 84]);
-    screen.hand(&["keyup", "shift"]);
+    screen.xdotool(&["keyup", "shift"]);
     editor.wait_for_title("apple.ron (edited) - Impasto");
     shown = editor.rest_after(shown);
     editor.keep_picture("smoothed");

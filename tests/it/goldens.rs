@@ -57,7 +57,7 @@ fn shipped_scenes_look_as_they_did_on_either_driver() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// One stroke of 14 × 4 pixels, a little too light, is enough to fail.
+/// One stroke of 14 × 4 pixels that is off by 24 of 255 is enough to fail.
 #[test]
 fn a_planted_stroke_fails_the_golden() {
     for &(technique, scene, _) in SHOWN {

@@ -56,13 +56,13 @@ fn smooth(strength: f64, radius: f64) -> Guide {
     Guide { mode: GuideMode::Smooth, strength, radius, ..gesture([0.0, -0.8], [0.0, 0.8]) }
 }
 
-/// The mean angle between strokes for which `counts` holds and that lie within 6 pixels of each other; degrees.
-fn mean_step(strokes: &BTreeMap<u32, Seen>, turns: f64, counts: impl Fn(&Seen) -> bool) -> f64 {
+/// The mean angle between strokes within 6 pixels of each other, degrees, of those strokes for which `counts` holds.
+fn mean_step(strokes: &BTreeMap<u32, Seen>, period_rad: f64, counts: impl Fn(&Seen) -> bool) -> f64 {
     let under: Vec<&Seen> = strokes.values().filter(|seen| counts(seen)).collect();
     let mut steps = Vec::new();
     for (index, a) in under.iter().enumerate() {
         let near = under[index + 1..].iter().filter(|b| a.at_px.distance(b.at_px) < 6.0);
-        steps.extend(near.map(|b| apart(a.angle_rad, b.angle_rad, turns)));
+        steps.extend(near.map(|b| apart(a.angle_rad, b.angle_rad, period_rad)));
     }
     assert!(steps.len() > 300, "{} pairs", steps.len());
     steps.iter().sum::<f64>() / steps.len() as f64
@@ -183,7 +183,7 @@ fn points_turn_strokes_from_the_gestures_own_line() {
     }
 }
 
-/// The apple's skin with these guides; its body layer alone is looked at.
+/// The apple's skin with these guides, and only the body layer of paint.
 fn apple_scene(flatness: f64, guides: Vec<Guide>) -> Scene {
     let mut scene: Scene = shapes::scene(vec![shapes::object("thing", 40_000)]);
     scene.strokes.layers = shapes::body_layer_alone();
@@ -224,7 +224,7 @@ fn a_region_turns_all_its_directions_as_seen_in_the_reference() {
             let off = |(particle, seen): (&u32, &Seen)| {
                 apart(after[particle].angle_rad, seen.angle_rad + turn_deg.to_radians(), 2.0 * PI)
             };
-            // The turn is exact where the reference faces the surface; at the limb a blend of views is turned.
+            // The turn is exact where the reference faces the surface; near the outline a blend of views is turned.
             let faced = before.iter().filter(|(_, seen)| seen.facing > 0.5).map(off);
             let worst = faced.fold(0.0, f64::max);
             println!("{direction:?} turned by {turn_deg}: {worst:.4} off");

@@ -1,4 +1,5 @@
-//! Tests of the baked solvers against the paper's sums over neighbours, written out here from its equations.
+//! Tests of `horn`, the solver that bakes the paper's sum over neighbours into each particle, against that sum computed
+//! directly.
 
 use glam::{DAffine3, DMat4, DQuat, DVec2, DVec3, Vec3};
 use impasto_core::hash;
@@ -62,7 +63,8 @@ fn depth(view: &ClipView, at: DVec3) -> f64 {
     (view.clip_from_model * at.extend(1.0)).w
 }
 
-/// arg Σ w p̄ c with w = z_neighbour/z_stroke now, by way of the 4×4 matrix.
+/// The turn arg Σ w p̄ c. As complex numbers, p and c are a neighbour's offset from the stroke in the reference
+/// picture and in the picture now; w is the neighbour's depth now over the stroke's. All by plain 4×4 matrices.
 fn weighted_sum_rad(center: DVec3, neighbours: &[DVec3], reference: &ClipView, now: &ClipView) -> f64 {
     let (mut dot, mut cross) = (0.0, 0.0);
     for &neighbour in neighbours {
@@ -163,7 +165,7 @@ fn horn_is_close_to_the_papers_unweighted_sum() {
 }
 
 #[test]
-fn a_neighbour_list_of_another_body_is_noticed() {
+fn a_neighbour_list_of_another_particle_is_noticed() {
     let particles = cloud(3000);
     let lists = lists(&particles, 0.05);
     let (reference, now) = (view(1, 40.0, 4.0), view(2, 40.0, 4.0));

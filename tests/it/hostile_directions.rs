@@ -1,5 +1,5 @@
 //! Tests of painted directions that contradict each other, lie beside the surface, or refer to missing things: each is
-//! reported with its place, and still gives a picture where that is honest.
+//! reported with its place, and those that only warn still give a picture.
 
 use std::fs;
 
@@ -157,7 +157,7 @@ const CASES: [(&str, &str, &str, bool); 24] = [
 ];
 
 #[test]
-fn every_bad_direction_has_its_word_and_its_place() {
+fn every_bad_direction_is_reported_with_its_place() {
     let needle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 5 1 0\nv 5 0.5 0\nf 1 2 3\nf 4 5 6\n";
     for (name, fields, says, is_painted) in CASES {
         let folder = tempfile::tempdir().unwrap();

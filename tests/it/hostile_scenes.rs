@@ -224,7 +224,7 @@ pub(crate) fn scene_text(fields: &str) -> String {
     text + ")\n"
 }
 
-/// Writes meshes, a picture whose header claims 3.6 thousand million pixels, and the scene into a folder; loads the scene.
+/// Writes meshes, a picture whose header claims 3.6 billion pixels, and the scene into a folder; loads the scene.
 pub(crate) fn load_in_folder(folder: &Path, scene: &[u8]) -> Result<LoadedScene, Report> {
     fs::create_dir_all(folder.join("sub")).expect("a temporary folder can be written to");
     fs::write(folder.join("cube.obj"), CUBE).expect("a temporary folder can be written to");
@@ -307,8 +307,8 @@ fn windows_line_ends_change_nothing_but_bytes() {
     let text = scene_text("seed: 5");
     let (unix, windows) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let plain = load_in_folder(unix.path(), text.as_bytes()).unwrap();
-    let dressed = load_in_folder(windows.path(), text.replace('\n', "\r\n").as_bytes()).unwrap();
-    assert_eq!(plain.scene, dressed.scene);
+    let converted = load_in_folder(windows.path(), text.replace('\n', "\r\n").as_bytes()).unwrap();
+    assert_eq!(plain.scene, converted.scene);
     let broken = text.replace("target", "taget").replace('\n', "\r\n");
     let (_, said) = outcome(&load_in_folder(windows.path(), broken.as_bytes()));
     assert!(said.contains("scene.ron:4:44: error: unknown field `taget`"), "{said}");

@@ -29,7 +29,7 @@ fn convex(index: u32, kind: Kind) -> [DVec2; 4] {
     let along = DVec2::from_angle(between(0, 0.0, std::f64::consts::TAU));
     let b1 = along * between(1, 1.0, 1000.0);
     let b2 = along.rotate(DVec2::from_angle(winding * corner_deg.to_radians())) * between(2, 1.0, 1000.0);
-    // p₃ on the far side of p₁ and p₂.
+    // p₃ = p₀ + s b₁ + t b₂ lies beyond the line from p₁ to p₂ when s + t > 1; then the quad is convex.
     let (s, t) = match kind {
         Kind::General => {
             let s = between(4, 0.05, 3.0);
@@ -87,7 +87,7 @@ fn the_sources_root_is_wrong_wherever_the_corner_turns_left() {
             right += u32::from(is_near(theirs, at, 1e-3));
         }
     }
-    // On a quad that is nearly a parallelogram, the source's root loses its digits.
+    // On a quad that is nearly a parallelogram, the source's root loses precision.
     assert!(wrong == 10_000 && right > 9_900, "{wrong} wrong, {right} right");
 }
 
@@ -180,13 +180,13 @@ fn projective(point: DVec2, [p0, p1, p2, p3]: [DVec2; 4]) -> DVec2 {
 
 type Map = fn(DVec2, [DVec2; 4]) -> DVec2;
 
-/// How much the change of (u, v) per pixel differs on either side of the middle of the diagonal from p₁ to p₂.
+/// How much the derivative of (u, v) jumps across the diagonal from p₁ to p₂, times the length of that diagonal.
 fn jump_over_the_diagonal(map: Map, corners: [DVec2; 4]) -> f64 {
-    let middle = corners[1].lerp(corners[2], 0.4);
+    let place = corners[1].lerp(corners[2], 0.4);
     let side = (corners[2] - corners[1]).perp().normalize() * 1e-3;
     let change = |at: DVec2, step: DVec2| (map(at + step, corners) - map(at, corners)) / step.length();
     let size = corners[1].distance(corners[2]);
-    (change(middle, side) + change(middle, -side)).length() * size
+    (change(place, side) + change(place, -side)).length() * size
 }
 
 const SQUARE: [DVec2; 4] =

@@ -1,4 +1,4 @@
-//! Tests of light icons over the picture: their places and sizes, what dims them, and that no file ever shows one.
+//! Tests of light icons over the picture: their places and sizes, what dims them, and that they leave nothing behind.
 
 use std::sync::LazyLock;
 
@@ -17,11 +17,11 @@ const SIZE_PX: [u32; 2] = [320, 200];
 
 /// A sheet of side 2 in the plane z = 0, in the left half of the picture, seen from (0, 0, 4).
 fn frame() -> Frame {
-    static FRAME: LazyLock<Frame> = LazyLock::new(|| painting(Lens::default()));
+    static FRAME: LazyLock<Frame> = LazyLock::new(|| frame_through(Lens::default()));
     FRAME.clone()
 }
 
-fn painting(lens: Lens) -> Frame {
+fn frame_through(lens: Lens) -> Frame {
     let mut wall = shapes::object("wall", 1);
     wall.scale = Scale([1.0; 3]);
     wall.keys = vec![ObjectKey { translation: [-1.0, 0.0, 0.0], ..ObjectKey::at(0.0) }];
@@ -113,7 +113,7 @@ fn icons_keep_their_size_in_the_world_or_in_the_picture() {
 
 #[test]
 fn in_a_parallel_picture_icons_have_their_size_too() {
-    let frame = painting(Lens::Orthographic { height: 3.0, near: 0.05, far: 100.0 });
+    let frame = frame_through(Lens::Orthographic { height: 3.0, near: 0.05, far: 100.0 });
     for z in [0.0, -8.0] {
         let [p0, p1, ..] = lamp(Vec3::new(0.3, 0.0, z)).corners(&frame.view, SIZE_PX[1]).unwrap();
         assert!((shown_at(&frame, p1)[0] - shown_at(&frame, p0)[0] - 32.0).abs() < 1e-2);

@@ -1,4 +1,19 @@
-//! Tests of each measure with a planted fault: it must fail with the fault, and pass without.
+//! Tests of the measures of `impasto measure`: each must fail with a planted fault, and pass without.
+//!
+//! - M1: the picture turns with the camera's roll.
+//! - M2: stroke angles turn with the camera's roll.
+//! - M3: stroke angles are right in any motion.
+//! - M4: popping.
+//! - M5: warp error, the change that motion does not explain.
+//! - M6: strokes that come into view agree with their neighbours.
+//! - M7: shower door, a pattern that stays on the screen.
+//! - M8: flatness, strokes keep their size.
+//! - M9: holes in the paint, and colours of other bodies.
+//! - M10: jitter of angles.
+//! - M11: saving, scrubbing and density change no direction.
+//! - M12: speed.
+//! - M13: the same frame is the same picture.
+//! - M14: density of strokes.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_6;
@@ -127,7 +142,7 @@ fn m3_m7_m10_see_wrong_and_trembling_angles() {
     assert!(now.len() > 300 && errors(&now).max <= 0.01, "{:?}", errors(&now));
     let still = turns(&painting, 25.0, Rotation::Off);
     assert!(errors(&still).max > 1.0);
-    // Each stroke gets another stroke's turn, as neighbour lists of the wrong body would give it.
+    // Each stroke is compared with another stroke's true turn.
     let mut others = now.clone();
     let truths: Vec<_> = now.values().map(|turn| turn.truth).collect();
     for (turn, truth) in others.values_mut().zip(truths.iter().rev()) {
@@ -357,7 +372,7 @@ fn m14_sees_too_many_strokes_and_a_random_order() {
     let doubled: Vec<PlacedStroke> =
         placed.iter().map(|place| PlacedStroke { wanted_area_px: 2.0 * wanted_area_px, ..*place }).collect();
     assert!(shown_over_wanted(&doubled, pixels) > 1.1);
-    // As many strokes, chosen at random.
+    // As many strokes, at random places.
     let unit = |at: [f64; 2]| impasto_core::hash::unit(impasto_core::hash::scramble((at[0] * 64.0) as u32));
     let scattered: Vec<PlacedStroke> = (0..shown)
         .map(|index| {

@@ -1,5 +1,5 @@
-//! Tests of noise-displaced materials: what the source claims, judged by its own shader rewritten line by line (`seed`), then
-//! what goes beyond it.
+//! Tests of noise-displaced materials. What the source claims is judged by its own shader, rewritten line by line in
+//! `seed`; other tests cover what goes beyond the source.
 
 mod material;
 mod normals;
@@ -58,7 +58,8 @@ fn moves(scene: Scene, frame: f64) -> Vec<DVec3> {
     moved.iter().zip(&rest).map(|(moved, rest)| *moved - *rest).collect()
 }
 
-fn at_key(translation: [f64; 3]) -> Vec<ObjectKey> {
+/// A single key with this translation, turned and enlarged.
+fn keys_at(translation: [f64; 3]) -> Vec<ObjectKey> {
     vec![ObjectKey { translation, rotation_deg: [10.0, 40.0, 20.0], scale: 1.2, ..ObjectKey::at(0.0) }]
 }
 
@@ -67,7 +68,7 @@ fn vertices_move_as_in_the_sources_shader() {
     for space in [NoiseSpace::World, NoiseSpace::Local] {
         let noise = VertexNoise { space, value: [0.37, 0.21], scale: 0.4, ..Default::default() };
         let mut scene = ball(moved_by(noise));
-        scene.objects[0].keys = at_key([3.0, -1.0, 0.5]);
+        scene.objects[0].keys = keys_at([3.0, -1.0, 0.5]);
         let painting = painted(scene);
         let pose = impasto_scene::motion::poses_at(painting.scene(), 0.0)[0];
         for frame in [0.0, 7.0, 431.0] {
@@ -87,18 +88,18 @@ fn vertices_move_as_in_the_sources_shader() {
 }
 
 #[test]
-fn a_body_that_moves_goes_through_the_noise_of_the_world_alone() {
+fn only_noise_of_the_world_changes_as_the_body_moves() {
     for (space, changes) in [(NoiseSpace::World, true), (NoiseSpace::Local, false)] {
         let scene = || ball(moved_by(VertexNoise { space, ..Default::default() }));
         let mut there = scene();
-        there.objects[0].keys = at_key([2.0, 0.0, 0.0]);
+        there.objects[0].keys = keys_at([2.0, 0.0, 0.0]);
         assert_eq!(moves(scene(), 0.0) != moves(there, 0.0), changes, "{space:?}");
     }
 }
 
 #[test]
 fn time_scrolls_the_texture() {
-    // 24 frames scroll by 1/20 of the texture, as if every place were 0.05 / NV further along X and Y.
+    // 24 frames scroll by 1/20 of the texture, as if every place were 0.05 / `value` farther along X and Y.
     let noise = VertexNoise { space: NoiseSpace::World, value: [0.1, 0.2], ..Default::default() };
     let scene = || ball(moved_by(noise.clone()));
     let mut there = scene();
@@ -158,7 +159,7 @@ fn along_the_normal_the_first_channel_moves() {
     }
 }
 
-/// The depth of the nearest triangle at pixels well inside it, seen along −Z from far away.
+/// The depth of the nearest triangle at each pixel's centre, seen from z = 4 along −Z without perspective.
 fn nearest_depths(triangles: &[[DVec3; 3]], size: usize, units_per_px: f64) -> Vec<f64> {
     let mut nearest = vec![f64::INFINITY; size * size];
     let to_px = |at: DVec3| {
@@ -289,7 +290,8 @@ fn the_shadow_of_a_displaced_body_is_displaced() {
     assert!(changed > 100, "{changed} pixels of shadow");
 }
 
-fn shared(
+/// Adds a texture of one grey under this name.
+fn with_texture(
     mut loaded: impasto_scene::loaded::LoadedScene,
     name: &str,
     grey: [u8; 4],

@@ -1,5 +1,5 @@
-//! Tests how far the plain render's openness pass looks: across an edge to 0.83 of its radius, which is 5.5 % of the picture's
-//! height.
+//! Tests how far the plain render's openness pass looks. Its radius is 5.5 % of the picture's height, and its taps
+//! reach a straight wall from up to 0.83 radii away.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;

@@ -39,7 +39,7 @@ fn each_layer_can_be_turned_down_to_nothing() {
     }
 }
 
-/// Mean lightness difference of two pictures of one size, 0..255.
+/// Mean difference of two RGBA pictures of one size in red, green and blue, 0..255; alpha is the same in both.
 fn mean_difference(a: &[u8], b: &[u8]) -> f64 {
     assert_eq!(a.len(), b.len());
     let sum: u64 = a.iter().zip(b).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();

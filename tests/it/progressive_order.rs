@@ -1,4 +1,5 @@
-//! Tests of the particle order: every beginning of it is blue noise, and more particles begin with those of fewer.
+//! Tests of the particle order: its first particles, however many, are blue noise; more particles begin with the same
+//! ones.
 
 use glam::Vec3;
 use impasto_core::TriangleMesh;

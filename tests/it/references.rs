@@ -61,6 +61,7 @@ fn found_deg(facing: f64) -> f64 {
     angles.iter().sum::<f64>() / angles.len() as f64
 }
 
+/// The share of the direction that the reference decides, if it decides it wholly from the cosine `wholly_from` on.
 fn share(facing: f64, wholly_from: f64) -> f64 {
     let t = ((facing - 0.2) / (wholly_from - 0.2)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -1,5 +1,5 @@
-//! Tests of stroke angles (M2 and M3) against answers in closed form. The oracles use the document's numbers and plain
-//! trigonometry, none of the code under test.
+//! Tests of stroke angles, as the camera rolls and as it moves sideways, against answers in closed form. The answers
+//! come from the scene's numbers by plain trigonometry, without the code under test.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -84,7 +84,7 @@ fn a_camera_roll_turns_every_stroke_back() {
     }
 }
 
-/// A sheet tilted by 40° about an oblique axis, with a camera that moves sideways: A = I + t⊗n/d in camera space.
+/// A sheet tilted by about 40° about an oblique axis, and a camera that moves by `shift`; with the sheet's pose.
 fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     let mut scene = shapes::scene(vec![shapes::object("sheet", 6000)]);
     scene.camera.lens = lens;
@@ -103,8 +103,9 @@ fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     (scene, pose)
 }
 
-/// φ(A) in degrees at a point X of the plane n·X = d (camera space, before the move) when the camera moves by `shift` in the
-/// picture plane. The picture of a plane changes by a homography; a stroke sees its linear part at the point.
+/// The turn, in radians, of a stroke at the point `at` of a plane when the camera moves by `shift` in the picture
+/// plane. The plane is n·X = d in camera space before the move. Its picture changes by a homography, and the turn is
+/// the rotation in the homography's derivative at the point.
 fn homography_angle(normal: DVec3, distance: f64, shift: DVec2, at: DVec3) -> f64 {
     // x' = (X − s)/Z' with Z' = Z: the homography I − s nᵀ/d acting on (x, y, 1), x = X/Z.
     let s = shift.extend(0.0);
@@ -128,7 +129,7 @@ fn a_lateral_move_turns_strokes_by_the_planes_own_homography() {
         let painting = prepare(shapes::loaded(scene, [shapes::sheet(8)])).unwrap();
         let before = painting.at(0.0, &options([640, 360]));
         let after = angles(&painting.at(1.0, &options([640, 360])));
-        // Camera space with Z forward (x right, y up, z = depth): a reflection of z, applied to normal and points alike.
+        // To camera space with Z forward (x right, y up, z depth): z is negated, of the normal and of points alike.
         let flip = |v: DVec3| DVec3::new(v.x, v.y, -v.z);
         let normal = flip(pose.matrix3 * DVec3::Z);
         let distance = normal.dot(flip(DVec3::new(0.0, 0.0, -4.0)));

@@ -276,7 +276,7 @@ fn flat(scene: &mut Scene) {
     });
 }
 
-/// M9: share of the surface with less than half a coat of paint, and the surface's pixels.
+/// The share of the surface's pixels with paint of alpha below 0.5, and the number of the surface's pixels.
 fn holes(renderer: &mut Renderer, frame: &Frame) -> (f64, usize) {
     renderer.render(frame).unwrap();
     let paint = renderer.read_paint();
@@ -311,11 +311,11 @@ fn the_surface_is_covered() {
     }
 }
 
-/// Side of M1's pictures in pixels, and the middle of one.
+/// Side of the pictures with a rolled camera, in pixels, and the middle of one.
 const SIDE: usize = 512;
 const HALF: f64 = (SIDE as f64 - 1.0) * 0.5;
 
-/// The scene of M1 with its camera rolled; lights stand in the world, so the picture should turn as a whole.
+/// A ball whose camera has rolled at frame 1; the light stands in the world, so the picture should turn as a whole.
 fn rolled(roll_deg: f64) -> Scene {
     let mut scene = sphere_scene((SIDE as u32, SIDE as u32));
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(34.0), Some(11.0));

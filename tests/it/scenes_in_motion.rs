@@ -1,4 +1,5 @@
-//! Tests of the shipped scenes in motion: no facets, no popping as drawn, still objects stay still, hostile viewpoints.
+//! Tests of the shipped scenes in motion: no facets show, no stroke pops, still objects stay still, a closed camera
+//! path closes, and grain follows a falling log.
 
 use std::collections::HashMap;
 
@@ -91,7 +92,8 @@ fn flat_normals_would_show_facets() {
     assert!(differing > particles.len() / 4, "only {differing} normals differ from their facet's");
 }
 
-/// M4 as drawn, on moving bodies: the area of strokes whose alpha jumps by more than 0.2, as a share of the area shown.
+/// Popping as drawn, on moving bodies: the area of strokes whose alpha jumps by more than 0.2, as a share of the area
+/// shown.
 fn popping(renderer: &mut Renderer, painting: &Painting, frame: f64) -> f64 {
     let [before, after] = [frame, frame + 1.0].map(|frame| {
         let frame = painting.at(frame, &OPTIONS);

@@ -1,4 +1,4 @@
-//! Tests of M4 and M8 on frames, before drawing: no stroke pops, and none changes its size with distance.
+//! Tests of strokes before they are drawn: none pops, and none changes its size with distance.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use impasto_tests::shapes;
 
 const OPTIONS: FrameOptions = FrameOptions::new([640, 360]);
 
-/// M4 without occlusion and other effects of the picture: the share that pops, and the largest step of presence.
+/// The share of strokes that pop, and the largest step of presence. Nothing is drawn, so occlusion has no effect.
 fn popping(before: &Frame, after: &Frame) -> (f64, f64) {
     let found = measure::popping(&strokes_by_key(before, &[]), &strokes_by_key(after, &[]), OPTIONS.size_px);
     (found.share, found.largest_step)

@@ -1,4 +1,5 @@
-//! Tests of ink on paper: the source's five passes against a twin on the CPU that shares no code, then what our rule adds.
+//! Tests of ink on paper: the source's five passes against a version on the CPU that shares no code with them, then
+//! what our own rule adds.
 
 use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
@@ -268,7 +269,8 @@ fn the_low_pass_has_nine_taps_two_apart() {
     scene.size = (SIZE_PX[0], SIZE_PX[1]);
     let frame = painting(scene, [cube]).at(0.0, &FrameOptions::new(SIZE_PX));
     let picture = renderer.render(&frame).unwrap();
-    // Nine dots of 1/9, each read by four pixels of the mix with a weight of a quarter: 28/4 of 255.
+    // Nine dots of 1/9; four pixels of the mix read each with a weight of a quarter, so each gets darker by 28/4 of
+    // 255.
     for y in 0..180 {
         for x in 0..320 {
             let inside = (158..164).contains(&x) && (87..93).contains(&y);
@@ -405,7 +407,7 @@ fn both_drivers_draw_the_same_ink() {
 #[test]
 fn paper_that_follows_the_camera_moves_with_what_it_looks_at() {
     let mut renderer = renderer(Driver::Egl);
-    let mut slid = |paper_follows: CanvasFollows, x: f64| {
+    let mut after_slide = |paper_follows: CanvasFollows, x: f64| {
         let mut scene = scene_in(SumiE { paper_follows, fibres: 3.0, ..SumiE::default() });
         scene.objects[0].hidden = true;
         scene.timeline.last = 1;
@@ -416,7 +418,7 @@ fn paper_that_follows_the_camera_moves_with_what_it_looks_at() {
     };
     // 32 pixels to the right.
     let x = 32.0 * 2.25 / 180.0;
-    let (still, moved) = (slid(CanvasFollows::Camera, 0.0), slid(CanvasFollows::Camera, x));
+    let (still, moved) = (after_slide(CanvasFollows::Camera, 0.0), after_slide(CanvasFollows::Camera, x));
     let off = |shift: usize| -> f64 {
         let sum: i32 = (0..180)
             .flat_map(|y| (0..250).map(move |x| (x, y)))
@@ -426,7 +428,7 @@ fn paper_that_follows_the_camera_moves_with_what_it_looks_at() {
     };
     assert!(off(32) < 0.6, "the paper has slid by as much: {}", off(32));
     assert!(off(0) > 2.0, "the measure must see a slide: {}", off(0));
-    assert!(slid(CanvasFollows::Picture, x) == slid(CanvasFollows::Picture, 0.0));
+    assert!(after_slide(CanvasFollows::Picture, x) == after_slide(CanvasFollows::Picture, 0.0));
 }
 
 #[test]

@@ -42,8 +42,8 @@ pub fn shared(test: &str) -> Option<PathBuf> {
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
     f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
-/// An OBJ triangle with the material `a` of `case.mtl`.
-const WORN: &str =
+/// An OBJ triangle with texture coordinates and the material `a` of `case.mtl`.
+const TEXTURED: &str =
     "mtllib case.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
 
 /// Writes the small corpus into a folder, each case into a folder of its own.
@@ -64,12 +64,12 @@ pub fn made(folder: &Path) -> Vec<Case> {
         case(name, expected, &[("case.obj", text.as_slice())]);
     }
     for (name, expected, text) in materials() {
-        case(name, expected, &[("case.obj", WORN.as_bytes()), ("case.mtl", text.as_slice())]);
+        case(name, expected, &[("case.obj", TEXTURED.as_bytes()), ("case.mtl", text.as_slice())]);
     }
     for (name, expected, bytes) in pictures() {
         let material = b"newmtl a\nmap_Kd picture.png\n";
         let files: [(&str, &[u8]); 3] =
-            [("case.obj", WORN.as_bytes()), ("case.mtl", material), ("picture.png", &bytes)];
+            [("case.obj", TEXTURED.as_bytes()), ("case.mtl", material), ("picture.png", &bytes)];
         case(name, expected, &files);
     }
     for (name, expected, text) in scenes() {
@@ -158,15 +158,15 @@ fn pictures() -> Vec<Made> {
     ]
 }
 
-/// A grey PNG of this size; without pixels only its header.
+/// A PNG of this size; without pixels only its header.
 fn png(size_px: [u32; 2], with_pixels: bool) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size_px[0], size_px[1]);
     encoder.set_color(png::ColorType::Rgb);
     let mut writer = encoder.write_header().expect("a header");
     if with_pixels {
-        let grey = |index: u32| (index * 37 % 200) as u8 + 20;
-        let pixels: Vec<u8> = (0..size_px[0] * size_px[1] * 3).map(grey).collect();
+        let channel = |index: u32| (index * 37 % 200) as u8 + 20;
+        let pixels: Vec<u8> = (0..size_px[0] * size_px[1] * 3).map(channel).collect();
         writer.write_image_data(&pixels).expect("pixels");
         writer.finish().expect("an end");
     } else {

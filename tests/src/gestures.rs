@@ -1,4 +1,4 @@
-//! Gestures on a surface as if drawn in a view: a ray through each pixel, to the first triangle that it hits.
+//! Guides as if drawn with the mouse in a view: each point is where the ray through a pixel first hits the mesh.
 
 use glam::{DMat4, DVec2, DVec3, Vec3};
 use impasto_core::TriangleMesh;

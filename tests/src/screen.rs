@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use crate::command::impasto;
 
-/// The longest that anything may take on a busy machine.
+/// The longest that a test waits for anything; a busy machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(120);
 /// The time between two checks while waiting.
-const LOOK: Duration = Duration::from_millis(30);
+const PAUSE: Duration = Duration::from_millis(30);
 
 /// Width and height of a screen in pixels: the window's own size.
 pub const SIZE_PX: [usize; 2] = [1280, 800];
@@ -18,7 +18,7 @@ pub const SIZE_PX: [usize; 2] = [1280, 800];
 /// Repeats `look` until it returns something.
 ///
 /// # Panics
-/// When it does not within `PATIENCE`; the message says what was awaited.
+/// When `look` returns nothing within `PATIENCE`; the message says what was awaited.
 pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
@@ -26,13 +26,13 @@ pub fn wait_for<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
             return found;
         }
         assert!(began.elapsed() < PATIENCE, "waited {} s in vain: {what}", PATIENCE.as_secs());
-        std::thread::sleep(LOOK);
+        std::thread::sleep(PAUSE);
     }
 }
 
-/// An Xvfb of its own. It ends when dropped, and when the tests end in any way.
+/// A running Xvfb. It ends when this is dropped, and also when the tests crash or are killed.
 pub struct Screen {
-    leash: Child,
+    shell: Child,
     display: String,
     folder: tempfile::TempDir,
 }
@@ -55,9 +55,10 @@ impl Screen {
             return None;
         }
         let folder = tempfile::tempdir().expect("a temporary folder");
-        // The shell ends Xvfb when the pipe to `cat` closes. If Xvfb ends by itself, the pipe with the display's number closes.
+        // `cat` ends when the pipe to the shell closes, however the tests end; then the shell kills Xvfb. The shell
+        // closes its own stdout, so that reading the display's number below ends even if Xvfb does not start.
         let script = r#"trap "" INT; "$@" & exec >/dev/null; cat; kill $! 2>/dev/null; wait"#;
-        let mut leash = Command::new("sh")
+        let mut shell = Command::new("sh")
             .args([
                 "-c",
                 script,
@@ -80,9 +81,9 @@ impl Screen {
             .spawn()
             .expect("a shell");
         let mut number = String::new();
-        let out = leash.stdout.take().expect("its stdout is a pipe");
+        let out = shell.stdout.take().expect("its stdout is a pipe");
         BufReader::new(out).read_line(&mut number).expect("a number, or nothing");
-        let screen = Self { leash, display: format!(":{}", number.trim()), folder };
+        let screen = Self { shell, display: format!(":{}", number.trim()), folder };
         let words = std::fs::read_to_string(screen.folder.path().join("words")).unwrap_or_default();
         assert!(!number.trim().is_empty(), "Xvfb does not start: {words}");
         Some(screen)
@@ -118,27 +119,27 @@ impl Screen {
         path
     }
 
-    /// Runs xdotool with these words; returns what it prints, or `None` if it fails.
-    pub fn try_hand(&self, words: &[&str]) -> Option<String> {
-        let mut hand = Command::new("xdotool")
-            .args(words)
+    /// Runs xdotool; returns what it prints, or `None` if it fails.
+    pub fn try_xdotool(&self, arguments: &[&str]) -> Option<String> {
+        let mut process = Command::new("xdotool")
+            .args(arguments)
             .env("DISPLAY", &self.display)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
             .expect("xdotool starts");
-        let status = wait_or_kill(&mut hand, PATIENCE)?;
-        let mut said = String::new();
-        hand.stdout.take().expect("its stdout is a pipe").read_to_string(&mut said).expect("text");
-        status.success().then(|| said.trim_end().to_owned())
+        let status = wait_or_kill(&mut process, PATIENCE)?;
+        let mut printed = String::new();
+        process.stdout.take().expect("its stdout is a pipe").read_to_string(&mut printed).expect("text");
+        status.success().then(|| printed.trim_end().to_owned())
     }
 
-    /// Runs xdotool with these words.
+    /// Runs xdotool, which moves the mouse and presses keys.
     ///
     /// # Panics
     /// When xdotool fails.
-    pub fn hand(&self, words: &[&str]) {
-        assert!(self.try_hand(words).is_some(), "xdotool {} failed", words.join(" "));
+    pub fn xdotool(&self, arguments: &[&str]) {
+        assert!(self.try_xdotool(arguments).is_some(), "xdotool {} failed", arguments.join(" "));
     }
 
     /// Clicks with the left button at a place of the screen.
@@ -146,7 +147,7 @@ impl Screen {
     /// # Panics
     /// When xdotool fails.
     pub fn click(&self, [x, y]: [i32; 2]) {
-        self.hand(&["mousemove", &x.to_string(), &y.to_string(), "click", "1"]);
+        self.xdotool(&["mousemove", &x.to_string(), &y.to_string(), "click", "1"]);
     }
 
     /// Types a text into what has the keyboard's focus.
@@ -154,7 +155,7 @@ impl Screen {
     /// # Panics
     /// When xdotool fails.
     pub fn type_text(&self, text: &str) {
-        self.hand(&["type", "--delay", "40", text]);
+        self.xdotool(&["type", "--delay", "40", text]);
     }
 
     /// Drags with the left button from one place of the screen to another, in even steps.
@@ -169,14 +170,14 @@ impl Screen {
             script += &format!(" mousemove {x} {y} sleep 0.03");
         }
         script += " mouseup 1";
-        self.hand(&script.split(' ').collect::<Vec<_>>());
+        self.xdotool(&script.split(' ').collect::<Vec<_>>());
     }
 }
 
 impl Drop for Screen {
     fn drop(&mut self) {
-        drop(self.leash.stdin.take());
-        wait_or_kill(&mut self.leash, Duration::from_secs(10));
+        drop(self.shell.stdin.take());
+        wait_or_kill(&mut self.shell, Duration::from_secs(10));
     }
 }
 
@@ -223,6 +224,7 @@ pub struct EditorWindow<'a> {
     name: &'static str,
     process: Child,
     window: String,
+    /// The file that its stderr is written to.
     words: PathBuf,
 }
 
@@ -263,11 +265,11 @@ impl<'a> EditorWindow<'a> {
         let mut editor = Self { screen, name, process, window: String::new(), words };
         editor.window = wait_for("a window", || {
             editor.assert_runs();
-            let found = screen.try_hand(&["search", "--onlyvisible", "--name", " - Impasto$"])?;
+            let found = screen.try_xdotool(&["search", "--onlyvisible", "--name", " - Impasto$"])?;
             found.lines().next().map(str::to_owned)
         });
         // There is no window manager to place and focus the window.
-        screen.hand(&[
+        screen.xdotool(&[
             "windowmove",
             "--sync",
             &editor.window,
@@ -292,7 +294,8 @@ impl<'a> EditorWindow<'a> {
         String::from_utf8_lossy(&words).lines().map(str::to_owned).collect()
     }
 
-    /// The version of the document that was last shown at rest (0 before the first), and what a screen reader says of it.
+    /// The version of the document in the last finished picture (0 before the first), and what a screen reader says
+    /// of the viewport.
     pub fn rest(&self) -> (u64, String) {
         let of_line = |line: &String| {
             let (version, value) = line.strip_prefix("impasto edit: at rest, version ")?.split_once(": ")?;
@@ -301,13 +304,13 @@ impl<'a> EditorWindow<'a> {
         self.lines().iter().rev().find_map(of_line).unwrap_or_default()
     }
 
-    /// What it has printed of this kind so far, in order: the rest of each line that begins with `impasto edit: ` and `kind`.
-    pub fn told(&self, kind: &str) -> Vec<String> {
+    /// The lines so far that begin with `impasto edit: ` and `kind`, without that beginning.
+    pub fn printed(&self, kind: &str) -> Vec<String> {
         let begin = format!("impasto edit: {kind}");
         self.lines().iter().filter_map(|line| line.strip_prefix(&begin)).map(str::to_owned).collect()
     }
 
-    /// Waits until it shows a later version than `version` at rest, and returns that version.
+    /// Waits for a finished picture of a later version than `version`, and returns its version.
     ///
     /// # Panics
     /// When it never does.
@@ -318,7 +321,7 @@ impl<'a> EditorWindow<'a> {
         })
     }
 
-    /// Waits until a screen reader would say this of it.
+    /// Waits until a screen reader would say this of the viewport.
     ///
     /// # Panics
     /// When it never does.
@@ -332,9 +335,9 @@ impl<'a> EditorWindow<'a> {
     /// The controls of this name, as the window last listed them.
     pub fn controls_named(&self, name: &str) -> Vec<ControlRect> {
         let lines = self.lines();
-        let mut told = lines.iter().rev().filter_map(|line| line.strip_prefix("impasto edit: controls:\t"));
+        let mut lists = lines.iter().rev().filter_map(|line| line.strip_prefix("impasto edit: controls:\t"));
         // The last line may be half written.
-        let Some(last) = told.find_map(|line| line.strip_suffix("\tend")) else { return Vec::new() };
+        let Some(last) = lists.find_map(|line| line.strip_suffix("\tend")) else { return Vec::new() };
         let parts: Vec<&str> = last.split('\t').collect();
         let number = |text: &str| text.parse::<i32>().expect("a number");
         let named = parts.chunks_exact(5).filter(|control| control[0] == name);
@@ -381,7 +384,7 @@ impl<'a> EditorWindow<'a> {
 
     /// The words in its title bar.
     pub fn title(&self) -> String {
-        self.screen.try_hand(&["getwindowname", &self.window]).unwrap_or_default()
+        self.screen.try_xdotool(&["getwindowname", &self.window]).unwrap_or_default()
     }
 
     /// Waits for these words in its title bar.
@@ -400,7 +403,7 @@ impl<'a> EditorWindow<'a> {
     /// # Panics
     /// When xdotool fails.
     pub fn keys(&self, keys: &[&str]) {
-        self.screen.hand(&[&["key", "--delay", "60"], keys].concat());
+        self.screen.xdotool(&[&["key", "--delay", "60"], keys].concat());
     }
 
     /// Keeps a picture of the screen as it is now.

@@ -216,12 +216,12 @@ pub fn speckled(loaded: &LoadedScene) -> Arc<LoadedScene> {
     let texture = Arc::new(Texture { size_px, rgba8: (0..size_px[0] * size_px[1]).map(cell).collect() });
     let mut speckled = loaded.clone();
     for file in speckled.meshes.values_mut() {
-        let mut worn = MeshFile::clone(file);
-        for material in &mut worn.materials {
+        let mut textured = MeshFile::clone(file);
+        for material in &mut textured.materials {
             material.color = [1.0; 3];
             material.texture = Some(Arc::clone(&texture));
         }
-        *file = Arc::new(worn);
+        *file = Arc::new(textured);
     }
     Arc::new(speckled)
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask ci`: everything that has to hold before a change is taken in, cheapest first.
+//! `cargo xtask ci`: all checks that a change must pass, cheapest first.
 
 use std::path::Path;
 use std::time::Instant;
@@ -25,9 +25,9 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     check("tidy", &|| tidy::run(root))?;
     check("clippy", &|| clippy(root))?;
     check("licences", &|| licences(root))?;
-    // The command of the README.
+    // The same command that the README tells people to run.
     check("tests", &|| steps::run(root, &cargo(), &["xtask", "test"]))?;
-    // The binary that the tests ran: a release build would tell nothing more, and takes five minutes.
+    // The binary that the tests built and ran: a release build would show nothing more, and takes five minutes.
     let impasto = target_folder(root)?.join("debug").join(format!("impasto{}", std::env::consts::EXE_SUFFIX));
     let impasto = impasto.to_string_lossy();
     check("doctor", &|| steps::run(root, &impasto, &["doctor"]))?;
@@ -40,7 +40,7 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// No warning, with the editor's window and without it. Both runs name the whole workspace, so that the crates that
+/// Allows no warning, with the editor's window and without it. Both runs name the whole workspace, so that crates which
 /// both share have the same features and are not checked twice.
 fn clippy(root: &Path) -> anyhow::Result<()> {
     for features in [&[][..], &["--no-default-features"]] {
@@ -52,7 +52,7 @@ fn clippy(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Licences, sources and duplicates by deny.toml, where cargo-deny is installed.
+/// Checks licences, sources and duplicates against deny.toml, where cargo-deny is installed.
 fn licences(root: &Path) -> anyhow::Result<()> {
     if steps::output(root, &cargo(), &["deny", "--version"]).is_err() {
         println!("cargo-deny is not installed: not checked here (`cargo install cargo-deny`)");
@@ -61,7 +61,7 @@ fn licences(root: &Path) -> anyhow::Result<()> {
     steps::run(root, &cargo(), &["deny", "check", "bans", "licenses", "sources"])
 }
 
-/// Two small frames through the real binary: whole PNG files that differ from each other.
+/// Renders two small frames with the real binary: they must be whole PNG files, and differ.
 fn smoke_render(root: &Path, impasto: &str) -> anyhow::Result<()> {
     let folder = root.join("out/ci");
     if folder.exists() {

@@ -42,8 +42,8 @@ pub fn run(root: &Path, install: Install) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Renders the scene's shot in equal steps, as frames and once more as one moving picture; returns the events that
-/// `impasto` reported, one per JSON line.
+/// Renders the scene's shot in equal steps, as frames and once more as one moving picture. Returns the events that
+/// `impasto` reported for the frames, one per JSON line.
 fn paint(root: &Path, impasto: &Path) -> anyhow::Result<Vec<Value>> {
     let frames = format!("0-{}x5", (FRAMES - 1) * 5);
     let render = |more: &[&str]| -> anyhow::Result<String> {

@@ -45,7 +45,7 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every arrow that the rules do not allow, as a sentence with its path.
+/// Every arrow (a crate that uses another) that the rules do not allow, as a sentence with its path.
 fn findings(graph: &Graph, rules: &Rules) -> Vec<String> {
     let mut findings = Vec::new();
     for name in graph.ours() {

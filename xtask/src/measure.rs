@@ -14,9 +14,10 @@ const PAGE: &str = "docs/techniques/rotating_strokes.md";
 const BEGIN: &str = "<!-- measured:begin -->";
 const END: &str = "<!-- measured:end -->";
 
-/// A column: its head, its metric, what is shown of ours and of a baseline.
+/// A column of the table: what it shows of a metric of Impasto, and of a baseline beside it.
 struct Column {
     head: &'static str,
+    /// The id of the metric in the report of `impasto measure`.
     metric: &'static str,
     ours: &'static [Cell],
     baseline: Option<Cell>,
@@ -174,7 +175,7 @@ fn table(reports: &[(&str, Value)]) -> anyhow::Result<String> {
 }
 
 impl Column {
-    /// `ours (baseline)`, bold where the row of the metric misses; a dash where the report has no value.
+    /// `ours (baseline)`, bold where the metric misses its bound; a dash where the report has no value.
     fn of(&self, report: &Value) -> String {
         let rows = report["rows"].as_array().map_or(&[][..], Vec::as_slice);
         let Some(row) = rows.iter().find(|row| row["id"] == self.metric) else { return "–".to_owned() };
@@ -203,7 +204,7 @@ impl Cell {
     }
 }
 
-/// Three digits, and nothing smaller than a thousandth.
+/// Three digits, and at most three decimals.
 fn short(value: f64) -> Option<String> {
     let size = value.abs();
     Some(match size {

@@ -1,4 +1,5 @@
-//! System packages: found by looking for the libraries and programs themselves, installed with apt-get where there is one.
+//! System packages: looks for the libraries and programs themselves, and installs what is missing with apt-get where
+//! that exists.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -153,7 +154,7 @@ fn apt_get(root: &Path, prefix: &[&'static str], arguments: &[&str]) -> anyhow::
     run(root, words[0], &words[1..])
 }
 
-/// What has to stand before apt-get: nothing for root, else sudo.
+/// The words before `apt-get` on the command line: none for root, else `sudo`.
 fn prefix() -> anyhow::Result<Vec<&'static str>> {
     let id = Command::new("id").arg("-u").output().context("`id` cannot be started")?;
     if id.stdout.trim_ascii() == b"0" {

@@ -1,7 +1,7 @@
-//! `cargo xtask same`: whether pictures and strokes are still, byte for byte, what `cargo xtask same --keep` found.
+//! `cargo xtask same`: checks that pictures and strokes are still, byte for byte, those of the last `same --keep`.
 //!
 //! The first, middle and last frame of every shipped scene, and the good models of the corpus where `IMPASTO_CORPUS` names
-//! one, are drawn through EGL and OSMesa and listed as strokes. Sums of the files are kept, not the files.
+//! one, are drawn through EGL and OSMesa and listed as strokes. Checksums of the files are kept, not the files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -12,17 +12,17 @@ use anyhow::{Context as _, bail, ensure};
 use crate::packages::{self, Install};
 use crate::steps::{Profile, build};
 
-/// Where the sums are kept.
+/// Where the checksums are kept.
 const KEPT: &str = "out/same.txt";
 const SIZE: &str = "320x180";
 const DRIVERS: [&str; 2] = ["egl", "osmesa"];
-/// Differences that are printed before the rest is only counted.
+/// How many differences are printed; the others are only counted.
 const SHOWN_DIFFERENCES: usize = 40;
 
-/// The sum of each file, by the file's name: `roll.egl.0007.png`.
+/// The checksum of each file, by the file's name: `roll.egl.0007.png`.
 type Sums = BTreeMap<String, String>;
 
-/// Draws everything and keeps its sums, or compares them with those that were kept.
+/// Draws everything and keeps its checksums, or compares them with those that were kept.
 ///
 /// # Errors
 /// When something differs, or nothing was kept.
@@ -111,7 +111,7 @@ fn frames(scene: &str) -> Option<Vec<i64>> {
     Some(frames)
 }
 
-/// Sums of one subject's pictures and strokes. A refusal is noted as such: it should stay one.
+/// Checksums of one subject's pictures and strokes. What `impasto` refuses is noted as refused, and should stay so.
 fn sums(subject: &Subject, impasto: &Path) -> anyhow::Result<Sums> {
     let folder = tempfile::tempdir()?;
     let mut sums = Sums::new();
@@ -141,7 +141,7 @@ fn sums(subject: &Subject, impasto: &Path) -> anyhow::Result<Sums> {
     Ok(sums)
 }
 
-/// Reads kept sums, one a line: a name, then its sum and its length in bytes, or that it was refused.
+/// Reads kept checksums, one a line: a name, then its checksum and its length in bytes, or that it was refused.
 fn read(path: &Path) -> anyhow::Result<Sums> {
     let text = std::fs::read_to_string(path)
         .with_context(|| format!("{} is missing: `cargo xtask same --keep` first", path.display()))?;
@@ -154,7 +154,7 @@ fn read(path: &Path) -> anyhow::Result<Sums> {
     Ok(sums)
 }
 
-/// A line for each name whose sum has changed.
+/// A line for each name whose checksum has changed.
 fn differences(kept: &Sums, now: &Sums) -> Vec<String> {
     let missing = "not there".to_owned();
     let names: BTreeSet<&String> = kept.keys().chain(now.keys()).collect();

@@ -1,4 +1,5 @@
-//! `cargo xtask tidy`: what neither the compiler nor clippy looks at. Each finding says where, what, and the mend.
+//! `cargo xtask tidy`: checks what neither the compiler nor clippy looks at. Each finding says where and what it is,
+//! and how to mend it.
 
 mod finding;
 mod names;

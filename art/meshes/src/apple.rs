@@ -113,8 +113,8 @@ fn stem(mesh: &mut PolyMesh) {
     );
 }
 
-/// Centre line of a stem of this height at `t` (0 the cut top, 1 the foot), with two directions across it. Its foot is
-/// this far off the axis.
+/// The centre of a stem at `t` (0 is its cut top, 1 its foot), and two directions across it. The foot is `off_axis`
+/// away from the apple's axis, along X and Z.
 pub(super) fn stem_frame(t: f64, height: f64, off_axis: f64) -> (DVec3, DVec3, DVec3) {
     let centre = |t: f64| {
         let up = 1.0 - t;

@@ -15,7 +15,7 @@ const TWIGS: Look = Look { group: "twigs", material: "twig" };
 const LEAVES: Look = Look { group: "leaves", material: "leaf" };
 const PALE_LEAVES: Look = Look { group: "pale leaves", material: "pale leaf" };
 
-/// A twig: of which stalk, how far up, where its end lies from there, and which ways its leaves hang.
+/// A twig: which stalk it is on, how far up, its end from there, and the directions in which its leaves hang.
 struct Twig {
     is_pale: bool,
     along: f64,
@@ -32,7 +32,7 @@ const TWIGS_OF: [Twig; 6] = [
     Twig { is_pale: true, along: 0.80, by: [-0.30, 0.22], angles: &[-2.6, -2.0, -1.5] },
 ];
 
-/// Bamboo, 3 units high, before a plane Z = 0.
+/// Bamboo from y = −0.35 to 3.4: one stalk near z = 0, a paler one behind it.
 pub fn bamboo() -> PolyMesh {
     let mut mesh = PolyMesh::new(
         "bamboo",
@@ -74,10 +74,10 @@ pub fn bamboo() -> PolyMesh {
 
 /// A stalk of sections that swell a little at their ends; returns the curve of its middle line.
 fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -> [DVec3; 3] {
-    const LENGTHS: usize = 6;
+    const SECTIONS: usize = 6;
     let path = through.map(DVec3::from);
-    for length in 0..LENGTHS {
-        let [from, to] = [length as f64 + 0.012, length as f64 + 0.988].map(|end| end / LENGTHS as f64);
+    for section in 0..SECTIONS {
+        let [from, to] = [section as f64 + 0.012, section as f64 + 0.988].map(|end| end / SECTIONS as f64);
         let point = |row: usize, segment: usize| {
             let t = row as f64 / 18.0;
             let (at, forward) = place(&path, from + (to - from) * t);
@@ -90,8 +90,8 @@ fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -
             at + (side * angle.cos() + front * angle.sin()) * (radius * swell * closing)
         };
         mesh.lathe([18, 20], point, |_, _| look);
-        if length > 0 {
-            let (at, forward) = place(&path, length as f64 / LENGTHS as f64);
+        if section > 0 {
+            let (at, forward) = place(&path, section as f64 / SECTIONS as f64);
             let side = forward.cross(DVec3::Z).normalize() * (1.12 * radius);
             let ring = [at - side, at - 0.3 * side + forward * 0.012, at + side];
             let knot = Blade {
@@ -113,7 +113,7 @@ fn stalk(mesh: &mut PolyMesh, through: [[f64; 3]; 3], radius: f64, look: Look) -
     path
 }
 
-/// A leaf that hangs from its twig's end in a direction of the picture's plane, each a little different.
+/// A leaf that hangs from its twig's end at an angle in the plane of X and Y; `which` makes each a little different.
 fn leaf(mesh: &mut PolyMesh, from: DVec3, (angle, which): (f64, [usize; 2]), is_pale: bool) {
     let random = |number: u32| hash([which[0] as u32, which[1] as u32, number]);
     let length = 0.50 * (1.0 + 0.30 * random(1));

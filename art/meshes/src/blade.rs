@@ -10,26 +10,26 @@ use super::poly_mesh::{Look, PolyMesh};
 pub struct Blade<'a> {
     /// Points of the middle line, at least two; a Catmull-Rom curve goes through them.
     pub path: &'a [DVec3],
-    /// About the direction that its flat side faces.
+    /// The direction that its flat side faces, roughly.
     pub faces: DVec3,
     /// Half its greatest width.
     pub half_width: f64,
     /// Half its greatest thickness.
     pub half_thickness: f64,
-    /// Where along it it is widest, 0..1.
+    /// The place along its length where it is widest, 0..1.
     pub widest: f64,
-    /// How full it is: 1 a lens, smaller a spindle.
+    /// How full it is: 1 gives a lens, less a spindle.
     pub fullness: f64,
 }
 
-/// Weaves a blade of so many rows and segments.
+/// Adds a blade with this many rows and segments.
 pub fn blade(mesh: &mut PolyMesh, [rows, segments]: [usize; 2], blade: &Blade<'_>, look: Look) {
     let point = |row: usize, segment: usize| {
         let along = row as f64 / rows as f64;
         let (at, forward) = place(blade.path, along);
         let side = forward.cross(blade.faces).normalize();
         let up = side.cross(forward).normalize();
-        // Rises to its widest place, and falls to the tip.
+        // Its width grows up to its widest place, and shrinks towards the tip.
         let share =
             if along < blade.widest { along / blade.widest } else { (1.0 - along) / (1.0 - blade.widest) };
         let size = (share.clamp(0.0, 1.0) * std::f64::consts::FRAC_PI_2).sin().powf(1.0 / blade.fullness);

@@ -15,7 +15,7 @@ struct Lobe {
     radius: f64,
 }
 
-/// Where the blast has its heart.
+/// The middle of the blast.
 const HEART: DVec3 = DVec3::new(0.0, 0.55, 0.0);
 
 /// The fire.

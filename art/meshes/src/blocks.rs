@@ -7,16 +7,15 @@ use glam::{DMat3, DVec2, DVec3};
 use super::curve::{Profile, noise, smoothstep};
 use super::poly_mesh::{Face, Look, PolyMesh};
 
-/// A box with slightly rounded edges. `half` is half its size, `cells` the faces along each axis (at least 3: the
-/// outermost are the rounding), `turn` and `centre` place it.
+/// A box with slightly rounded edges.
 pub struct Block {
     /// Half its size, before it is turned.
     pub half: DVec3,
-    /// Faces along each axis, at least 3.
+    /// Faces along each axis, at least 3: the outermost are the rounding.
     pub cells: [usize; 3],
     /// Radius of the edges.
     pub rounding: f64,
-    /// From the block's axes to the mesh's.
+    /// Turns the block's axes into the mesh's.
     pub turn: DMat3,
     /// Its middle.
     pub centre: DVec3,
@@ -147,7 +146,7 @@ pub fn simple_objects() -> PolyMesh {
     mesh
 }
 
-/// A cone with its foot at `foot`: `size` holds radius and height; four bands belong to the base.
+/// A cone that stands on `foot`; the last four of its rows are the base.
 fn cone(
     mesh: &mut PolyMesh,
     ([rows, segments], [radius, height]): ([usize; 2], [f64; 2]),
@@ -220,8 +219,8 @@ pub fn log() -> PolyMesh {
             DVec3::new(at.x + lean, height, -at.y)
         },
         |row, segment| {
-            let outside_bark = !(RINGS..RINGS + BARK).contains(&row);
-            if outside_bark {
+            let at_end = !(RINGS..RINGS + BARK).contains(&row);
+            if at_end {
                 let ring = if row < RINGS { row } else { ROWS - 1 - row };
                 let material = match ring {
                     7 => "bark_dark",

@@ -25,13 +25,13 @@ pub fn plank() -> PolyMesh {
     for point in &mut mesh.positions {
         point.y += 0.05;
     }
-    dress(&mut mesh, |at, outward| {
+    set_looks(&mut mesh, |at, outward| {
         if outward.x.abs() > 0.8 {
             // Growth rings of a log whose heart lies under the plank.
             let ring = ((at.y + 0.12).hypot(0.8 * at.z) * 32.0).sin();
             return Look { group: "ends", material: if ring > 0.0 { "end_pale" } else { "end_dark" } };
         }
-        // Sawn edges are darker than the planed faces, so that the plank keeps its arrises under broad strokes.
+        // Sawn edges are darker than the planed faces, so that broad strokes do not hide the plank's edges.
         let (group, shade) = if outward.y.abs() > 0.6 { ("face", -0.15) } else { ("edges", 0.55) };
         // Long streaks; the line of a streak wanders a little on its way.
         let across = at.z + 1.7 * at.y + 0.03 * (2.4 * at.x).sin();
@@ -58,7 +58,7 @@ pub fn plate() -> PolyMesh {
         &[("blue", "#2f6f94"), ("vermilion", "#cc5a36"), ("cream", "#eadfc4")],
     );
     board(&mut mesh, DVec3::new(0.5, 0.5, 0.006), [20, 20, 3], 0.003);
-    dress(&mut mesh, |_, outward| match outward.z {
+    set_looks(&mut mesh, |_, outward| match outward.z {
         z if z > 0.8 => Look { group: "front", material: "blue" },
         z if z < -0.8 => Look { group: "back", material: "vermilion" },
         _ => Look { group: "rim", material: "cream" },
@@ -73,8 +73,8 @@ fn board(mesh: &mut PolyMesh, half: DVec3, cells: [usize; 3], rounding: f64) {
     add_block(mesh, &Block { half, cells, rounding, turn: DMat3::IDENTITY, centre: DVec3::ZERO, look });
 }
 
-/// Names every face by its middle and by where it looks.
-fn dress(mesh: &mut PolyMesh, look: impl Fn(DVec3, DVec3) -> Look) {
+/// Gives every face a look by its middle and its outward direction.
+fn set_looks(mesh: &mut PolyMesh, look: impl Fn(DVec3, DVec3) -> Look) {
     for face in &mut mesh.faces {
         let at = |corner: usize| mesh.positions[face.corners[corner]];
         let outward = (at(2) - at(0)).cross(at(3) - at(1)).normalize();

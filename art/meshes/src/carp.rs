@@ -114,7 +114,7 @@ fn fins(mesh: &mut PolyMesh, skin: &impl Fn(f64, f64) -> DVec3) {
         };
         mesh.lathe([8, 12], point, |_, _| Look { group: "eyes", material: "eye" });
     }
-    // The tail: two lobes that part; the back fin: a ridge.
+    // The tail: two lobes that part.
     let (root, forward) = place(&SPINE, 0.985);
     let side = DVec3::Y.cross(forward).normalize();
     for lobe in [-1.0, 1.0] {
@@ -125,6 +125,7 @@ fn fins(mesh: &mut PolyMesh, skin: &impl Fn(f64, f64) -> DVec3) {
         ];
         fin(mesh, &path, 0.055, 0.5);
     }
+    // The back fin, a low ridge.
     let ridge: Vec<DVec3> = [0.30, 0.42, 0.56, 0.68]
         .into_iter()
         .map(|along| skin(along, std::f64::consts::FRAC_PI_2) + DVec3::Y * 0.012)

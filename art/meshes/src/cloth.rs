@@ -1,4 +1,4 @@
-//! The cloth of the still life: linen that lies on a table and hangs over its front edge in pipes.
+//! The cloth of the still life: linen that lies on a table and hangs over its front edge in round folds.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,16 +9,16 @@ use super::poly_mesh::{Look, PolyMesh};
 
 const COLUMNS: usize = 160;
 const ROWS: usize = 80;
-/// So many of the rows hang; the others lie on the table.
+/// How many of the rows hang; the others lie on the table.
 const HANGING: usize = 38;
 /// How far above the table, and before its edge, the flat cloth lies.
 const CLEARANCE: f64 = 0.008;
-/// With what radius the cloth goes round the table's edge.
+/// The radius of the cloth's bend round the table's edge.
 const BEND: f64 = 0.03;
-/// With what radius the turned corner is folded over.
+/// The radius of the bend where one corner is folded over.
 const TURN: f64 = 0.016;
 
-/// A fold: a pipe where the cloth hangs, and a ridge that runs back onto the table and dies away.
+/// A fold: round where the cloth hangs, and a ridge on the table that gets lower towards the back.
 struct Fold {
     /// Where its crest is, as a share of the cloth's width: at the hem, at the table's edge, and at its end.
     crest: [f64; 3],
@@ -28,7 +28,7 @@ struct Fold {
     height: f64,
     /// How far it runs back onto the table.
     reach: f64,
-    /// To which side it falls over: its steep side, positive to the right.
+    /// How far it leans over, and so which side is steep: positive to the right.
     lean: f64,
 }
 
@@ -36,7 +36,7 @@ const fn fold(crest: [f64; 3], [width, height]: [f64; 2], reach: f64, lean: f64)
     Fold { crest, width, height, reach, lean }
 }
 
-/// From the left selvage to the right one; they start under the fruit and fan out.
+/// From the cloth's left edge to its right one; they start under the fruit and fan out.
 const FOLDS: [Fold; 7] = [
     fold([0.010, 0.030, 0.07], [0.052, 0.026], 0.12, -0.4),
     fold([0.105, 0.130, 0.19], [0.070, 0.074], 0.26, 0.7),
@@ -89,7 +89,8 @@ fn along(row: usize, across: f64, back: f64) -> f64 {
     }
 }
 
-/// Where a point of the flat cloth comes to lie: `flat.x` is its share of the width, `flat.y` its way behind the edge.
+/// Where a point of the flat cloth comes to lie: `flat.x` is its share of the width, `flat.y` how far it
+/// lies behind the table's edge.
 fn draped(flat: DVec2) -> DVec3 {
     let (place, lift) = turned(flat);
     let (height, sideways) = folded(place);
@@ -97,14 +98,14 @@ fn draped(flat: DVec2) -> DVec3 {
     let lying = place.y.max(0.0);
     let hanging = (-place.y).max(0.0);
     let width = 1.16 - 0.16 * smoothstep(0.0, 0.75, lying) + 0.10 * hanging;
-    let selvage = 0.005 * (6.0 * place.y + 4.0 * place.x).sin() * bump(0.5, 0.5, (place.x - 0.5).abs());
-    let x = (place.x - 0.5 + sideways) * width + 0.14 * lying + selvage;
+    let uneven_edge = 0.005 * (6.0 * place.y + 4.0 * place.x).sin() * bump(0.5, 0.5, (place.x - 0.5).abs());
+    let x = (place.x - 0.5 + sideways) * width + 0.14 * lying + uneven_edge;
     let (over, normal) = over_edge(place.y);
     let point = DVec3::new(x, over.y, over.x);
     point + DVec3::new(0.0, normal.y, normal.x) * (height + lift)
 }
 
-/// The path over the table's edge, as z and y, and the way out of the cloth there.
+/// A place on the path over the table's edge and the cloth's outward direction there, both as (z, y).
 fn over_edge(along: f64) -> (DVec2, DVec2) {
     let centre = DVec2::new(CLEARANCE - BEND, CLEARANCE - BEND);
     if along >= 0.0 {
@@ -118,7 +119,7 @@ fn over_edge(along: f64) -> (DVec2, DVec2) {
 
 /// Folds the left corner at the back over onto the cloth: the new place, and how far above the cloth that is.
 fn turned(flat: DVec2) -> (DVec2, f64) {
-    // In true lengths, from the left selvage.
+    // In true lengths, from the left edge.
     let point = DVec2::new(flat.x * 0.9, flat.y);
     let (from, to) = (DVec2::new(0.0, 0.20), DVec2::new(0.25, 0.56));
     let line = (to - from).normalize();

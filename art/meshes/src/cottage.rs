@@ -42,7 +42,7 @@ pub fn cottage() -> PolyMesh {
     mesh
 }
 
-/// A house body, a prism with gables, `size` long, deep, high at the eaves and at the ridge, round X = `middle`.
+/// A house body, a prism with gables, with its middle at X = `middle`.
 fn walls(mesh: &mut PolyMesh, [length, depth, eaves, ridge]: [f64; 4], middle: f64) {
     const COLUMNS: usize = 14;
     // The outline of a gable, counter-clockwise seen from +X (Z to the left): foot, eaves, ridge, with rows between.
@@ -95,8 +95,9 @@ fn roof(mesh: &mut PolyMesh, [length, depth, eaves, ridge]: [f64; 4], middle: f6
             let out = (depth / 2.0 + 0.13) * (1.0 - up) - 0.012;
             let sag = -0.040 * (1.0 - across * across) * (0.4 + 0.6 * up) - 0.02 * up * (1.0 - up) * 4.0;
             let uneven = 0.010 * noise(0.5 + 0.5 * across, 4.0 * up, 9, 95 + seed);
-            let kick = 0.05 * (1.0 - up).powi(4);
-            let y = ridge + 0.05 - fall * out + sag + uneven + kick;
+            // The eaves turn up a little.
+            let upturn = 0.05 * (1.0 - up).powi(4);
+            let y = ridge + 0.05 - fall * out + sag + uneven + upturn;
             let x = middle + slope * across * (length / 2.0 + OVER);
             let point = DVec3::new(x, y, slope * out);
             let normal = DVec3::new(0.0, 1.0, slope * fall).normalize();

@@ -1,4 +1,4 @@
-//! Curves that profiles are drawn with, and the noise that roughens them.
+//! Smooth curves for outlines, and noise that makes surfaces uneven.
 
 use glam::DVec2;
 

@@ -1,4 +1,4 @@
-//! Simple bodies for materials that move: a ball, a floor and a mushroom cloud, with texture coordinates.
+//! Simple bodies with texture coordinates, for materials that noise moves: a ball, a floor and a mushroom cloud.
 
 use std::f64::consts::{PI, TAU};
 

@@ -184,7 +184,7 @@ fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
             let along = 0.64 + 0.18 * t;
             let height = 0.10 * (PI * (0.15 + 0.75 * t)).sin() * (1.0 - 0.4 * t);
             let foot = -shape.belly.height_at(along) + 0.012;
-            // Rows must run up: the free edge comes first.
+            // Rows must run up, so the first row is the free edge.
             let down = 1.0 - up;
             flat_fin(
                 [along * LENGTH + 0.06 * down, foot - down * height, 0.0],
@@ -196,8 +196,9 @@ fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
     );
 }
 
-/// Both faces of a fin at a point of its middle: thin, thinner towards the edges, with rays as shallow ridges.
-/// `shape` is how far out (0..=1), how far to the side (0..=1), and the phase of the rays.
+/// The front and the back point of a fin at a place of its middle plane. The fin is thinner towards its edges, and
+/// its rays are shallow ridges. `out` is how far the place is from the root and `aside` how far to the side, both
+/// 0..=1; `rays` is the phase of the rays.
 fn flat_fin(middle: [f64; 3], [out, aside, rays]: [f64; 3], thickness: f64) -> [DVec3; 2] {
     let thick = thickness * (1.0 - 0.7 * out) * (1.0 - 0.5 * aside) * (1.0 + 0.12 * rays.sin());
     let middle = DVec3::from_array(middle);

@@ -24,7 +24,7 @@ const PALETTE: [Pigment; 16] = [
     ("far_4", "#97b3dd"),
 ];
 
-/// A range of hills: its foot stands at `foot`, its ridge `deep` behind that.
+/// A range of hills: its foot stands at z = `foot`, its ridge `deep` behind that.
 struct Range {
     group: &'static str,
     /// Where its four colours begin in the palette.
@@ -141,7 +141,7 @@ fn add_range(mesh: &mut PolyMesh, range: &Range) {
             DVec3::new(x, y, range.foot - range.deep * along + spurs)
         },
         |column, row| {
-            // A patchwork: plots some columns wide, set off from row to row.
+            // A patchwork of plots: each is some columns wide, and each row of plots is shifted against the next.
             let tier = row / 3;
             let plot = (column + 2 * tier + tier * tier % 5) / (5 + tier % 3);
             let chance = super::curve::hash([plot as u32, tier as u32, range.seed]);

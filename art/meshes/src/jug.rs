@@ -117,7 +117,7 @@ fn body_point(radius: f64, height: f64, angle: f64) -> DVec3 {
     DVec3::new(spread * angle.cos(), height + lift * radius / 0.24, -spread * angle.sin())
 }
 
-/// A pulled handle: a flat oval that springs from the neck, bows out and lands on the belly.
+/// The handle: a flat oval that leaves the neck, bows out and ends on the belly.
 fn handle(mesh: &mut PolyMesh) {
     const ALONG: usize = 34;
     const SIDES: usize = 16;

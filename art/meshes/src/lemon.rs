@@ -1,4 +1,4 @@
-//! The lemon and the pear: fruit turned on the lathe, then made less regular by hand.
+//! The lemon and the pear: outlines turned round an axis, then made less regular.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Limbs: rounded, tapering, bending bodies as fields of distance, and how one grows softly into another.
+//! Limbs: rounded, tapering, bending bodies as distance fields, and a soft blend of two of them.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 struct Station {
     /// Middle of the section.
     at: DVec3,
-    /// Half the section's size in the plane of the animal (X and Y), and across it (Z).
+    /// Half the section's size: in the plane of X and Y, and along Z.
     half: [f64; 2],
 }
 
@@ -19,7 +19,8 @@ pub struct Limb {
 }
 
 impl Limb {
-    /// The limb through sections, each `[x, y, z, half its size in the plane, half its size across]`, at least two.
+    /// The limb through sections, each `[x, y, z, half its size in the plane of X and Y, half its size along Z]`; at
+    /// least two.
     pub fn through(sections: &[[f64; 5]]) -> Self {
         const STEPS: usize = 4;
         let last = sections.len() - 1;
@@ -87,7 +88,7 @@ fn to_cone(point: DVec3, pair: &[Station]) -> f64 {
     if slope > 0.0 { scaled * (scaled - 1.0) / slope } else { -size.min_element() }
 }
 
-/// The nearer of two distances, with the crease between the two bodies filled up over about `width`.
+/// The smaller of two distances, with the crease between the two bodies filled over about `width`.
 pub fn blend(a: f64, b: f64, width: f64) -> f64 {
     let near = (1.0 - (a - b).abs() / width).max(0.0);
     a.min(b) - 0.25 * width * near * near

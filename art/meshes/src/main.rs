@@ -137,10 +137,10 @@ mod tests {
     /// Sheets that only ever show one side.
     const OPEN: [&str; 8] = ["cloth", "floor", "hills", "seal", "sky", "valley", "wall", "water"];
 
-    /// Billows that touch along an edge: there it is walked twice in each direction.
+    /// Meshes whose billows touch along an edge: that edge is walked twice in each direction.
     const TOUCHING: [&str; 2] = ["blast_fire", "blast_smoke"];
 
-    /// Every edge of a closed body is walked once in each direction, and the body holds a positive volume.
+    /// In a closed body the faces walk every edge once in each direction, and enclose a positive volume.
     #[test]
     fn bodies_are_closed_and_wind_outwards() {
         for mesh in shipped().into_iter().filter(|mesh| !OPEN.contains(&mesh.name)) {

@@ -56,7 +56,8 @@ pub struct PolyMesh {
     pub faces: Vec<Face>,
     /// Texture coordinates of each face's corners; none for a mesh without them.
     pub uvs: Vec<Vec<DVec2>>,
-    /// Whether the file gives one normal per point, so that no edge shows; else whoever reads it finds the creases.
+    /// Whether the file gives one normal per point, so that no edge shows. Otherwise its reader decides where creases
+    /// are.
     pub has_normals: bool,
 }
 
@@ -189,7 +190,7 @@ impl PolyMesh {
         }
     }
 
-    /// Rounds every coordinate to thousandths: enough for what is seen from afar, and a shorter file.
+    /// Rounds every coordinate to thousandths: enough for what is far from the viewer, and the file is shorter.
     pub fn round_to_thousandths(&mut self) {
         self.round_to(1e3);
     }

@@ -31,7 +31,7 @@ struct Shape {
     outline: &'static [[f64; 2]],
     /// How far the axis turns towards +X on its way up, radians.
     bend_rad: f64,
-    /// How far the ears stand out, and where they point: outwards, upwards.
+    /// The length of the ears, and how far they point outwards and upwards.
     ear: [f64; 3],
 }
 
@@ -132,7 +132,7 @@ fn ball(mesh: &mut PolyMesh, centre: DVec3, half: DVec3, look: Look) {
     );
 }
 
-/// Where a place of the grid would look on a ball: the puppet's features are laid out on it.
+/// The outward direction of a place of the grid if the puppet were a ball. Its features are laid out by directions.
 fn direction(row: f64, segment: f64) -> DVec3 {
     let (polar, angle) = (PI * row / ROWS as f64, TAU * segment / SEGMENTS as f64);
     DVec3::new(polar.sin() * angle.cos(), polar.cos(), -polar.sin() * angle.sin())
@@ -161,7 +161,7 @@ fn bent(point: DVec3, bend_rad: f64, height: f64) -> DVec3 {
     DVec3::new(arc_radius - reach * cosine, reach * sine, point.z)
 }
 
-/// The face between a row and the next; it depends on the grid alone, so both shapes are dressed alike.
+/// The face between a row and the next; it depends on the grid alone, so both shapes get the same.
 fn look(row: usize, segment: usize) -> Look {
     let at = direction(row as f64 + 0.5, segment as f64 + 0.5);
     let away = |down_deg: f64, aside_deg: f64| {

@@ -1,4 +1,4 @@
-//! What still lifes stand on and before: a table, a wall that runs into its floor, a panel.
+//! What still lifes stand on and in front of: a table, a floor that curves up into a wall, a panel.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,8 +27,7 @@ pub fn table() -> PolyMesh {
             ("board_5", "#6f4226"),
         ],
     );
-    // One board's cross-section, as a closed outline round the board: half-width from −1 to 1 by half-thickness. The
-    // long edges are rounded, so that light catches them.
+    // Half the size of a board's cross-section. Its long edges are rounded, so that light catches them.
     let half = DVec2::new(DEPTH / BOARD.len() as f64 / 2.0, THICKNESS / 2.0);
     for (index, board) in BOARD.into_iter().enumerate() {
         let middle_z = DEPTH * ((index as f64 + 0.5) / BOARD.len() as f64 - 0.5);

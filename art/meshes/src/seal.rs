@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::curve::hash;
 use super::poly_mesh::{Face, Look, PolyMesh};
 
-/// The stone from the top row down, `#` red: a frame, and a brush in an eye.
+/// The print from the top row down: a brush in an eye, in a frame. Red is `#`.
 const CARVING: [&str; 16] = [
     "################",
     "################",
@@ -32,7 +32,7 @@ pub fn seal() -> PolyMesh {
     let side = CARVING.len();
     for row in 0..=side {
         for column in 0..=side {
-            // The stone is worn.
+            // The stone is worn, so corners lie a little off the grid.
             let worn = |which: u32| 0.012 * hash([row as u32, column as u32, which]);
             let [x, y] =
                 [(column, 1), (side - row, 2)].map(|(at, which)| at as f64 / side as f64 + worn(which));

@@ -1,4 +1,4 @@
-//! The landscape's sky: a hollow sheet in bands from cream to blue, and before it a few cumulus clouds.
+//! The landscape's sky: a hollow sheet in bands from cream to blue, and in front of it some cumulus clouds.
 
 use glam::DVec3;
 
@@ -57,8 +57,9 @@ struct Cloud {
     foot: [f64; 2],
     /// Half its width, and its greatest height.
     size: [f64; 2],
-    /// How far it stands before the sky.
+    /// How far it stands in front of the sky.
     before: f64,
+    /// How many rounds its outline has.
     billows: u32,
     seed: u32,
 }
@@ -85,7 +86,7 @@ pub fn sky() -> PolyMesh {
     mesh
 }
 
-/// A point in front of the hollow sheet, by `before`.
+/// A point `before` units in front of the hollow sheet.
 fn hollow(x: f64, y: f64, before: f64) -> DVec3 {
     DVec3::new(x, y, before - DEPTH + 0.006 * x * x)
 }
@@ -110,7 +111,7 @@ fn sheet(mesh: &mut PolyMesh) {
 fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
     let ([foot_x, foot_y], [half, height]) = (cloud.foot, cloud.size);
     let columns = 24 + (12.0 * half) as usize;
-    // The rounds in front of those of the outline.
+    // A second row of rounds, in front of those of the outline.
     let front = Cloud { seed: cloud.seed + 1, billows: cloud.billows + 2, ..*cloud };
     mesh.sheet(
         [columns, TONES],
@@ -120,7 +121,7 @@ fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
             let rim = (1.0 - across * across).max(0.0).sqrt();
             let under =
                 0.05 * height * noise(0.5 * across + 0.5, 0.0, 7, cloud.seed + 1) - 0.10 * height * rim;
-            // Borders between tones are billows too: further down they follow the rounds in front.
+            // Borders between tones are rounded too: farther down they follow the row in front.
             let crest = billow(across, cloud);
             let inner = 0.25 * crest + 0.75 * crest.min(billow(across - 0.05, &front));
             let top = (height * (inner + (crest - inner) * up * up)).max(under + 0.012);

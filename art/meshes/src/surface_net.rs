@@ -1,4 +1,4 @@
-//! A closed skin of quads round a body that is given as a field of distance: naive surface nets (Gibson, "Constrained
+//! A closed skin of quads round a body that is given as a distance field: naive surface nets (Gibson, "Constrained
 //! Elastic Surface Nets", 1998), then evened out and pulled onto the body.
 
 use std::collections::HashMap;
@@ -29,14 +29,14 @@ impl Grid {
     }
 }
 
-/// A body's field of distance at the points of a grid, negative inside.
+/// A body's distance field at the points of a grid, negative inside.
 struct Samples {
     counts: [usize; 3],
     values: Vec<f64>,
 }
 
 impl Samples {
-    /// Asks for every point near the skin; whole blocks that lie far from it get one value.
+    /// Computes the field at every point near the skin; in blocks that lie far from it all points get one value.
     fn take(grid: &Grid, field: &impl Fn(DVec3) -> f64) -> Self {
         const BLOCK: usize = 6;
         let counts = grid.counts();
@@ -153,7 +153,7 @@ fn crossing(grid: &Grid, samples: &Samples, cell: [usize; 3]) -> Option<DVec3> {
 }
 
 /// Spreads points evenly over the body `field` and lays them onto it: `rounds` times, each point goes half the way to
-/// the middle of its neighbours and then down or up the field to its skin.
+/// the middle of its neighbours and then along the field's slope onto the skin.
 pub fn tighten(
     mesh: &mut PolyMesh,
     points: std::ops::Range<usize>,
@@ -183,7 +183,7 @@ fn onto_skin(point: DVec3, field: &impl Fn(DVec3) -> f64) -> DVec3 {
     point - slope * (there / slope.length_squared().max(0.1))
 }
 
-/// The direction in which a field grows from a point where its value is `there`, by how much it does.
+/// The gradient of a field at a point where its value is `there`.
 pub fn slope(point: DVec3, there: f64, field: &impl Fn(DVec3) -> f64) -> DVec3 {
     const STEP: f64 = 1e-4;
     DVec3::from_array(DVec3::AXES.map(|axis| (field(point + axis * STEP) - there) / STEP))

@@ -1,4 +1,4 @@
-//! Trees of the landscape: a spreading oak, a poplar and a bush, each of clumps of leafy sprays round its wood.
+//! Trees of the landscape: a spreading oak, a poplar and a bush, whose leaves are small star-shaped sprays.
 
 use std::f64::consts::{PI, TAU};
 

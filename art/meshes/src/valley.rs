@@ -69,7 +69,7 @@ impl Plan {
         Self { river: Profile::through(&RIVER), path: Profile::through(&PATH) }
     }
 
-    /// Left and right shore of the water at a depth, widened where the river runs aslant.
+    /// X of the left and the right shore at a depth; they are farther apart where the river runs at a slant.
     fn shores(&self, z: f64) -> [f64; 2] {
         let slope = (self.river.height_at(-z + 0.1) - self.river.height_at(-z - 0.1)) / 0.2;
         let width = 0.36 + 0.030 * (z + 2.0).max(0.0) + 0.08 * (1.3 * z).sin();
@@ -78,7 +78,7 @@ impl Plan {
         [middle - half, middle + half]
     }
 
-    /// Left and right edge of the path; it tapers to nothing behind the door.
+    /// X of the path's left and right edge; the path tapers to nothing behind the door.
     fn path_edges(&self, z: f64) -> [f64; 2] {
         let half =
             0.02 + (0.15 + 0.010 * (z + 2.0).max(0.0)) * smoothstep(PATH_END + 0.1, PATH_END - 0.3, -z);
@@ -100,7 +100,7 @@ impl Plan {
     }
 }
 
-/// Columns between two neighbouring seams: the land left of the river, bank, bed, bank, land, path, land.
+/// Columns between two neighbouring seams: land, bank, bed, bank, land, edge of the path, path, edge of the path, land.
 const SPANS: [usize; 9] = [16, 2, 5, 2, 9, 1, 3, 1, 16];
 
 /// The meadow: banks, river bed and path follow its columns, so that their borders are smooth. Open.

@@ -62,7 +62,7 @@ fn body(mesh: &mut PolyMesh) {
             let (radius, height) = (outline[row].x, outline[row].y);
             let round = segment as f64 / SEGMENTS as f64;
             let angle = TAU * round;
-            // The skirt falls in folds and swings back; body and hat are deeper than wide, or the other way about.
+            // The skirt falls in folds and swings back; the upper body is wider than deep.
             let skirt = smoothstep(0.9, 0.2, height);
             let folds = 1.0 + 0.09 * skirt * ((7.0 * angle).sin() + noise(round, 2.0 * height, 7, 17));
             let flat = 1.0 - 0.28 * smoothstep(0.85, 1.0, height) * smoothstep(1.40, 1.32, height);

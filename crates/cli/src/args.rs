@@ -62,7 +62,7 @@ pub(crate) struct SceneArguments {
     pub(crate) memory: Option<u64>,
 }
 
-/// Bytes from a number with K, M, G or T behind it.
+/// Reads a number of bytes, with or without K, M, G or T behind it.
 fn memory_bytes(text: &str) -> Result<u64, String> {
     let words = || format!("{text:?} is no size: write a number of bytes, or one such as 512M or 4G");
     let text = text.trim();
@@ -342,7 +342,7 @@ pub(crate) struct DoctorArguments {
     pub(crate) json: bool,
 }
 
-/// The longest side of a picture and the most pixels; a scene file has the same limits.
+/// The most pixels along a side and in all; a scene file has the same limits.
 const MAX_SIDE_PX: u32 = 16_384;
 const MAX_PX: u64 = 1 << 27;
 

@@ -14,10 +14,10 @@ use crate::failure::Failure;
 /// Free pixels round each mark.
 const GAP_PX: usize = 12;
 
-/// Marks of a row: the variant, and the share of it that is left out.
+/// The marks of a row: which variant, and how dry it is: paint thinner than this (0..1) is left out.
 const COLUMNS: [(usize, f32); 6] = [(0, 0.02), (1, 0.02), (2, 0.02), (3, 0.25), (4, 0.50), (5, 0.75)];
 
-/// Linear colours of the sheet and of the paint, and what the other paint in the brush adds.
+/// Linear colours of the sheet and of the paint, and what half-mixed paint adds where the tint is 1.
 const CANVAS: [f32; 3] = [0.72, 0.66, 0.55];
 const PAINT: [f32; 3] = [0.10, 0.045, 0.03];
 const HALF_MIXED: [f32; 3] = [0.05, 0.028, 0.016];

@@ -9,7 +9,7 @@ use impasto_gl_render::context::ContextError;
 use impasto_scene::problem::Report;
 use impasto_sequence::FrameError;
 
-/// The command line is wrong.
+/// The exit code where the command line is wrong.
 pub(crate) const USAGE: u8 = 2;
 
 /// Why a command ends early.
@@ -37,7 +37,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// A file was not written.
+    /// This file could not be written.
     pub(crate) fn of_file(path: &Path, error: impl Display) -> Self {
         Self::Other(format!("{}: {error}", path.display()))
     }

@@ -12,7 +12,7 @@ const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 
-/// While a command reads and prepares, it has written nothing, and a signal ends it at once. From
+/// Notes signals. While a command reads and prepares, it has written nothing, and a signal ends it at once. From
 /// [`Interrupt::hold_off`] on, a signal is only noted, and the command ends once its files are in order.
 pub(crate) struct Interrupt {
     came: Arc<AtomicBool>,

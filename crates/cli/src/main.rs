@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help and version are no errors; everything else is.
+            // Asking for help or the version is not an error.
             let code = if error.use_stderr() { failure::USAGE } else { 0 };
             let _ = error.print();
             return ExitCode::from(code);
@@ -67,7 +67,7 @@ fn main() -> ExitCode {
 
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
-        // A reader of our output may stop reading; that is no error.
+        // Whoever reads our output may stop reading (`| head`): that is not an error.
         if error.kind() == std::io::ErrorKind::BrokenPipe {
             Self::Quiet(0)
         } else {

@@ -27,8 +27,8 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
             scene: path.clone(),
             asset_dirs: arguments.asset_dirs.clone(),
             set: arguments.set.clone(),
-            // The thread pool is built once.
             memory: None,
+            // The thread pool is built once, with the first scene.
             threads: arguments.threads.filter(|_| index == 0),
         };
         let mut loaded = session::read_scene(&scene, arguments.quiet)?;

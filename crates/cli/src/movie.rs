@@ -11,9 +11,9 @@ use crate::failure::Failure;
 #[cfg(test)]
 mod tests;
 
-/// Converts sRGB pixels to BT.709 in the limited range of television, which players assume, and tags the stream so.
-/// By default ffmpeg uses BT.601 without a tag, and players show other colours. H.264 and others need even sides: the
-/// padding is transparent where there is transparency, else black.
+/// Converts sRGB pixels to BT.709 in the limited range of television, which players assume, and says so in the file:
+/// ffmpeg's default is BT.601 without saying so, and players then show other colours. H.264 and others need even sides:
+/// the padding is transparent in files with transparency, else black.
 const FILTERS: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,\
     scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,\
     setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";
@@ -40,10 +40,10 @@ const ENCODINGS: [(&str, Encoding, Option<Encoding>); 4] = [
 ];
 
 impl Encoding {
-    /// The encoding that a file's name asks for; `None` where it is no movie.
+    /// The encoding that a file's name asks for; `None` for a name that is not a movie's.
     ///
     /// # Errors
-    /// A message, where transparency is wanted and such a file holds none.
+    /// A message, where transparency is wanted and this kind of file has none.
     pub(crate) fn of(path: &Path, transparent: bool) -> Option<Result<Self, String>> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         let (_, opaque, with_alpha) = ENCODINGS.into_iter().find(|(known, ..)| *known == ending)?;
@@ -83,7 +83,7 @@ impl Movie {
             .arg(file.part_path())
             .stdin(Stdio::piped())
             .stdout(Stdio::null());
-        // Ctrl-C in a terminal goes to a whole process group. ffmpeg gets a group of its own, and we end it.
+        // Ctrl-C in a terminal goes to a whole process group. ffmpeg has a group of its own, so that only we end it.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let encoder = command.spawn().map_err(|error| match error.kind() {

@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     let folder = ready_folder(&arguments.output)?;
     let mut scene = loaded.scene;
     let mesh = path_from(&folder, &arguments.model)?;
-    // The model comes first; the backdrop needs no file.
+    // The first object is the model; the second, the backdrop, needs no file.
     if let Some(object) = scene.objects.first_mut() {
         object.mesh.clone_from(&mesh);
     }
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How a scene in `folder` names the model: relative, with `/`.
+/// The path of the model relative to `folder`, with `/`, as a scene in `folder` names it.
 fn path_from(folder: &Path, model: &Path) -> Result<String, Failure> {
     let (folder, model) = (folder.canonicalize()?, model.canonicalize()?);
     let (from, to): (Vec<Component<'_>>, Vec<Component<'_>>) =

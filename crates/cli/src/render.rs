@@ -292,7 +292,7 @@ impl Plan {
         if ending == Ending::Done { Ok(()) } else { Err(Failure::Interrupted { done: 0 }) }
     }
 
-    /// Hands the pixels of all frames to `take_in`, in order; the first failure or a signal ends it.
+    /// Hands the pixels of all frames to `take_in`, in order, until one fails or a signal comes.
     fn pictures(
         &mut self,
         arguments: &RenderArguments,

@@ -1,4 +1,4 @@
-//! Shared by the commands that draw: reading and preparing a scene, opening a renderer.
+//! What commands that read or draw a scene share: reading it, preparing it, opening a renderer.
 
 use std::sync::Arc;
 
@@ -73,7 +73,7 @@ pub(crate) fn prepare_scene(
     Ok(painting)
 }
 
-/// Opens a renderer. Where `verbose`, which driver was taken, and why, goes to stderr.
+/// Opens a renderer. Where `verbose`, tells on stderr which driver was taken and why.
 pub(crate) fn open_renderer(driver: DriverChoice, verbose: bool) -> Result<Renderer, Failure> {
     let context = open(self::driver(driver), &OpenOptions::default())?;
     if verbose {

@@ -2,7 +2,7 @@
 
 use impasto_gl_render::Picture;
 
-/// Longest side of a small copy, and the gap between two, in pixels.
+/// The longest side of a small copy and the gap between two copies, in pixels.
 const SMALL_PX: u32 = 240;
 const GAP_PX: u32 = 6;
 
@@ -51,7 +51,7 @@ impl Sheet {
     }
 }
 
-/// A small copy: each of its pixels is the mean of those that it stands for.
+/// A small copy: each of its pixels is the mean of the pixels that it covers.
 fn reduced(picture: &Picture, small_px: [u32; 2]) -> Vec<[u8; 4]> {
     let [width, height] = picture.size_px;
     let span = |at: u32, small: u32, whole: u32| {

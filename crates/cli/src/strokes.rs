@@ -221,10 +221,11 @@ fn hex(color: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The outline of a stroke along +X round the origin: blunt at its start, pointed at its end, bowed; then tapered and bent.
+/// The outline of a stroke that lies along +X with its centre at the origin: blunt at its start, pointed at its end,
+/// bowed, then tapered and bent.
 fn outline(row: &Row<'_>) -> String {
     let (l, w) = (row.length_px * 0.5, row.width_px * 0.5);
-    // To the left of the stroke is up, which SVG counts negative; a cubic reaches three quarters of its handles.
+    // The stroke's left is up, which is negative in SVG. A cubic curve rises to 3/4 of its handles, hence 4/3.
     let bow = -row.bow * w * 4.0 / 3.0;
     let (upper, lower) = (bow - w, bow + w);
     let at = |x: f32, y: f32| {
@@ -248,7 +249,7 @@ fn outline(row: &Row<'_>) -> String {
     )
 }
 
-/// Where a point of a straight stroke of even width lies once it is tapered and bent; Y down.
+/// Where a point of a straight stroke of even width goes when the stroke is tapered and bent; Y down.
 fn bent(row: &Row<'_>, [x, y]: [f32; 2]) -> [f32; 2] {
     let y = y * (1.0 - row.taper * 2.0 * x / row.length_px);
     if row.bend_deg == 0.0 {
@@ -296,7 +297,7 @@ mod tests {
         assert_eq!(bent(&row(0.0, 0.0), [30.0, 4.0]), [30.0, 4.0]);
         assert_eq!(bent(&row(1.0, 0.0), [50.0, 4.0]), [50.0, 0.0]);
         assert_eq!(bent(&row(1.0, 0.0), [-50.0, 4.0]), [-50.0, 8.0]);
-        // An eighth of a circle of this radius; up is left, and counts negative.
+        // An eighth of a circle of this radius. It bends to the left, which is up: negative Y.
         let radius = 100.0 / std::f32::consts::FRAC_PI_2;
         let [x, y] = bent(&row(0.0, 90.0), [50.0, 0.0]);
         let half = std::f32::consts::FRAC_1_SQRT_2;

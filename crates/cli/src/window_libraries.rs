@@ -22,9 +22,9 @@ const WAYLAND: &[(&str, &str)] = &[
 
 /// The display for a window, and the packages that are missing.
 pub(crate) struct Found {
-    /// The display that a window would be on, such as `X11 :0`; none where there is none.
+    /// The display that a window would be on, such as `X11 :0`, if any.
     pub(crate) display: Option<String>,
-    /// The missing packages; those for X11 where there is no display.
+    /// The packages that a window there would need and that are missing; without a display, those for X11.
     pub(crate) packages: Vec<&'static str>,
 }
 

@@ -1,5 +1,5 @@
-//! Runs the command once. Because of this test cargo builds the binary before any test runs, with the workspace's shared
-//! features; the tests in `tests/` run that binary.
+//! Runs the command once. Because this test names the binary, cargo builds it before any test runs, with the features
+//! that the workspace shares; the tests in `tests/` run that binary.
 
 use std::process::Command;
 

@@ -1,11 +1,11 @@
 //! Brush marks, made by code: what one stroke of a brush leaves on the canvas.
 //!
-//! A mark is three fields over a rectangle, `u` along the stroke from its loaded start, `v` across it:
+//! A mark is three fields over a rectangle. `u` runs along the stroke, from its loaded start, `v` across it:
 //!
-//! * **paint**: a height field to be cut off at a threshold, not a mask. A low threshold gives a wet stroke, a higher one a dry
-//!   stroke, the highest a few hairs. Values are equalised: cutting at `1 − s` leaves the share `s` of the mark.
+//! * **paint**: not a mask, but a height that is cut off at a threshold. A low threshold gives a wet stroke, a higher
+//!   one a dry stroke, the highest a few hairs. Values are equalised: a threshold of `1 − s` leaves the share `s`.
 //! * **height** of the paint's body: furrows, paint pushed aside along the edges, a ridge where the brush lifts.
-//! * **tint**: half-mixed paint across the hairs, around the middle value.
+//! * **tint**: streaks where another colour is half mixed in, more or less than the middle value.
 
 mod lattice;
 mod marks;
@@ -57,7 +57,7 @@ struct Texel {
 }
 
 impl Mark {
-    /// Where a texel lies: u in 0..1 along the mark, v in half widths −1..1; texels at the border lie a little outside.
+    /// Where a texel lies: u is 0..1 along the mark, v −1..1 across it; texels near the border lie a little outside.
     fn uv(index: usize) -> [f32; 2] {
         let (column, row) = (index % SIZE[0], index / SIZE[0]);
         let u = ((column as f32 + 0.5) / SIZE[0] as f32 - 0.5) / FILL + 0.5;
@@ -67,7 +67,7 @@ impl Mark {
 
     /// Packs texels into bytes. Paint is equalised: each value becomes its rank among all paint of the mark, 0..1.
     fn store(texels: &[Texel]) -> Self {
-        // The bits of positive floats sort like their values; equal paint by index.
+        // The bits of positive floats sort like their values. Equal paint is sorted by index.
         let key = |(index, texel): (usize, &Texel)| u64::from(texel.paint.to_bits()) << 32 | index as u64;
         let mut inked: Vec<u64> =
             texels.iter().enumerate().filter(|(_, texel)| texel.paint > 0.02).map(key).collect();

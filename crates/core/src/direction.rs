@@ -73,7 +73,8 @@ pub fn transport_rad(from: DVec3, to: DVec3) -> f64 {
     let [right_to, above_to] = tangent_axes(to);
     let axis = from.cross(to);
     let cos = from.dot(to);
-    // Rodrigues' rotation with axis × (1/(1 + cos)) for the squared part; opposite normals keep the tangent.
+    // Rodrigues' formula for an axis of length sin, where (1 − cos) / sin² = 1 / (1 + cos). Between opposite normals no
+    // rotation is the least, and the tangent stays.
     let carried = if cos > -1.0 + 1e-9 {
         right_from * cos + axis.cross(right_from) + axis * (axis.dot(right_from) / (1.0 + cos))
     } else {
@@ -100,8 +101,9 @@ fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
 
 /// The direction round an axis, along the surface; unit, or zero where it is undefined.
 ///
-/// `axis × n` follows bent and off-centre parts. Where the surface faces along the axis (the cap of a log) it vanishes; there the
-/// circle round the part's centre takes over. `from_center` is the point minus that centre, `size` the size of the part.
+/// `axis × n` follows bent and off-centre parts. It vanishes where the surface faces along the axis (the cap of a log):
+/// there, the direction goes round the part's centre. `from_center` is the point minus that centre, `size` the size of
+/// the part.
 pub fn around(axis: DVec3, normal: DVec3, from_center: DVec3, size: f64) -> DVec3 {
     let axis = axis.normalize_or_zero();
     let round_part = axis.cross(normal);

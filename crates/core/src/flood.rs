@@ -8,23 +8,24 @@ use crate::TriangleMesh;
 use crate::nearest::nearest_point;
 use crate::shells;
 
-/// A face with the opposite of the seed's normal counts as this many times farther away than it is.
+/// A face that faces opposite to the seed's normal counts as this many times farther away than it is.
 const TURNED_AWAY: f64 = 4.0;
 
-/// An edge whose less crowded end has more triangles than this is looked at only once.
+/// An edge is looked at only once where both its ends have more triangles than this; otherwise a fan of n triangles
+/// would take n² steps.
 const CROWDED: usize = 64;
 
 /// For each triangle, whether it is reached from a seed over edges whose two triangles face less than `sharp_rad` apart.
 ///
-/// The seed is a point with a normal, model space: the flood begins at the nearest triangle; of triangles about as near, at one
-/// that faces the same way. Edges are compared by position, so split vertices do not stop it. The triangles of one polygon
-/// count as one face, and a triangle without area takes the normal of the face that it was reached from.
+/// The seed is a point with a normal, model space: the flood begins at the nearest triangle; among triangles about
+/// equally near, at one that faces the same way. Edges are compared by position, so split vertices do not stop it. The
+/// triangles of one polygon count as one face, and a triangle without area takes the normal of the face that it was
+/// reached from.
 pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) -> Vec<bool> {
     let mut is_reached = vec![false; mesh.triangles.len()];
     let Some(first) = nearest_triangle(mesh, at, normal.normalize_or_zero()) else { return is_reached };
     let points = Points::of(mesh);
     let least_cos = sharp_rad.cos();
-    // Otherwise a fan of n triangles would take n² steps.
     let mut crowded = HashSet::new();
     is_reached[first] = true;
     let mut open = vec![(first, face_normal(mesh, first))];
@@ -57,7 +58,7 @@ pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) ->
     is_reached
 }
 
-/// Unit, or zero for a triangle without area.
+/// The unit normal of a triangle; zero for one without area.
 fn face_normal(mesh: &TriangleMesh, triangle: usize) -> DVec3 {
     let [a, b, c] = mesh.corners(triangle).map(|corner| corner.as_dvec3());
     (b - a).cross(c - a).normalize_or_zero()
@@ -118,7 +119,7 @@ impl Points {
         Self { of_triangle, starts, triangles }
     }
 
-    /// The triangles at the end of an edge that has fewer.
+    /// The triangles at one end of an edge: the end that has fewer.
     fn triangles_at_fewer(&self, from: u32, to: u32) -> &[u32] {
         let (from, to) = (self.triangles_at(from), self.triangles_at(to));
         if from.len() <= to.len() { from } else { to }

@@ -1,4 +1,4 @@
-//! Random choices as pure functions of integers, so that the same particle looks the same for ever.
+//! Random numbers as pure functions of integers, so that a particle always looks the same.
 
 /// Permutes 32 bits so that neighbouring inputs give unrelated outputs (PCG's RXS-M-XS step; O'Neill 2014).
 #[inline(always)]
@@ -19,7 +19,7 @@ pub fn of_name(name: &str) -> u32 {
     scramble(name.bytes().fold(0x811c_9dc5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)))
 }
 
-/// A number in 0..1 (24 bits) from a hash.
+/// A number in 0..1 from the upper 24 bits of a hash.
 #[inline(always)]
 pub fn unit(hash: u32) -> f32 {
     (hash >> 8) as f32 * (1.0 / 16_777_216.0)

@@ -1,5 +1,5 @@
-//! The source paper's own solve, whole: every neighbour projected through the 4×4 matrix, in this frame and in the
-//! reference (seed paper, eq. 1–2). It is the oracle for the lifts and a part of the `paper` preset, so it shares no
+//! The source paper's own solve, in full: every neighbour is projected through the 4×4 matrix, in this frame and in the
+//! reference (source paper, eq. 1–2). It is the oracle for the lifts and a part of the `paper` preset, so it shares no
 //! function with `screen_map`, `lift` or `solve`.
 
 use glam::{DMat4, DVec2, DVec3};

@@ -2,17 +2,17 @@
 //!
 //! A lift is a 3×2 matrix N (model units per reference pixel). With J the Jacobian of the current view, `A = J N` is
 //! the local screen map from the reference picture to the current one, and the stroke turns by its polar angle
-//! `φ(A) = atan2(A₂₁ − A₁₂, A₁₁ + A₂₂)` (Horn's similarity, seed paper eq. 1–2, for isotropic neighbours). With the base
-//! angle θ₀ turned in, `N' = N R(θ₀)`, the stroke's own angle is `φ(J N')`.
+//! `φ(A) = atan2(A₂₁ − A₁₂, A₁₁ + A₂₂)` (Horn's similarity, source paper eq. 1–2, for neighbours spread evenly all
+//! round). With the stroke's base angle θ₀ included, `N' = N R(θ₀)`, the stroke's own angle is `φ(J N')`.
 
 use glam::{DVec2, DVec3};
 
 /// N or N', by columns, each in model space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lift {
-    /// What one pixel along the reference picture's x is on the surface (with θ₀ turned in: along the stroke).
+    /// The step on the surface that is one pixel along x in the reference picture; of N', one pixel along the stroke.
     pub along: DVec3,
-    /// Likewise for y (across the stroke, to its left).
+    /// Likewise for y; of N', across the stroke, to its left.
     pub across: DVec3,
 }
 
@@ -36,8 +36,8 @@ impl Lift {
         (area > 0.0 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
     }
 
-    /// The virtual reference: a camera that looks straight at the surface, with `up` projected on the
-    /// tangent plane as its up (turntable) and then rolled by `roll_rad`, at `px_per_unit` pixels per model unit.
+    /// The virtual reference: a camera that looks straight at the surface. Its up is `up` projected on the tangent
+    /// plane; then it is rolled by `roll_rad`. It sees `px_per_unit` pixels per model unit.
     pub fn facing_view(normal: DVec3, up: DVec3, roll_rad: f64, px_per_unit: f64) -> Self {
         let [right, above] = turntable_axes(normal, up);
         let (sin, cos) = roll_rad.sin_cos();
@@ -46,10 +46,10 @@ impl Lift {
         Self { along: (right * cos + above * sin) * scale, across: (above * cos - right * sin) * scale }
     }
 
-    /// Horn's estimate over neighbours (seed paper eq. 2): `Σ d pᵀ / Σ|p|²`, d the neighbours' offsets in model space, p
-    /// the same offsets in pixels of the reference picture. Its angle equals the full sum weighted by
-    /// `w = z_neighbour / z_stroke`, exactly. Doubled, so that it maps the reference to about itself, as `tangent` does.
-    /// `None` with fewer than three neighbours or all of them within half a pixel.
+    /// Horn's estimate over neighbours (source paper eq. 2): `Σ d pᵀ / Σ|p|²`, d the neighbours' offsets in model
+    /// space, p the same offsets in pixels of the reference picture. Its angle is exactly that of the paper's sum with
+    /// each neighbour weighted by `z_neighbour / z_stroke`. It is doubled, so that it maps the reference to about
+    /// itself, as `tangent` does. `None` with fewer than three neighbours or all of them within half a pixel.
     pub fn horn(offsets: impl Iterator<Item = (DVec3, DVec2)>) -> Option<Self> {
         let (mut along, mut across, mut sum, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0, 0);
         for (d, p) in offsets {
@@ -62,7 +62,7 @@ impl Lift {
         (count >= 3 && sum > 0.25 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
     }
 
-    /// `N R(θ)`: the first column, along the reference picture's x until now, is along a line at this angle to it.
+    /// `N R(θ)`: the first column, which lay along the reference picture's x, then lies at this angle to it.
     #[inline]
     pub fn turned(self, angle_rad: f64) -> Self {
         let (sin, cos) = angle_rad.sin_cos();
@@ -120,14 +120,14 @@ impl PixelMap2 {
     }
 }
 
-/// Right and up axes of a camera that looks straight at a surface, its up the projection of `up` on the tangent plane. Where
-/// the surface faces straight up or down, a fixed direction takes its place.
+/// Right and up axes of a camera that looks straight at a surface; its up is `up` projected on the tangent plane. Where
+/// the surface faces straight up or down, a fixed direction stands in for `up`.
 pub fn turntable_axes(normal: DVec3, up: DVec3) -> [DVec3; 2] {
     let projected = up - normal * normal.dot(up);
     let above = if projected.length_squared() > 1e-12 {
         projected.normalize()
     } else {
-        // Looking down on a table: away from the reader is up.
+        // As when a person looks down on a table: what is farther away is up.
         let away = if normal.dot(up) > 0.0 { 1.0 } else { -1.0 };
         let forward = if up.z.abs() < 0.9 { DVec3::NEG_Z } else { DVec3::Y } * away;
         (forward - normal * normal.dot(forward)).normalize_or(DVec3::X)

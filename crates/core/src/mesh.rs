@@ -45,7 +45,7 @@ impl TriangleMesh {
     }
 }
 
-/// The values of three vertices. Written out because [`array::map`] is not always inlined.
+/// The values of a triangle's vertices. Written out because [`array::map`] is not always inlined.
 #[inline(always)]
 pub(crate) fn of_corners<T: Copy>(of_vertices: &[T], [a, b, c]: [u32; 3]) -> [T; 3] {
     [of_vertices[a as usize], of_vertices[b as usize], of_vertices[c as usize]]

@@ -1,4 +1,5 @@
-//! The nearest particles within a radius, on the same side of the surface: for `horn`, `horn-exact` and the direction field.
+//! Lists of the nearest points within a radius, on the same side of the surface: for `horn`, `horn-exact` and the
+//! direction field.
 
 mod cells;
 mod crowd;
@@ -24,7 +25,7 @@ pub struct Points<'a> {
 /// For each particle the indices of its neighbours, nearest first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Neighbours {
-    /// The slot of each particle's list; lists are stored in the order of the particles' cells.
+    /// For each particle the slot of its list. Lists are stored in the order of the particles' grid cells.
     slots: Vec<u32>,
     /// Length of each list, by slot.
     lengths: Vec<u8>,
@@ -42,7 +43,7 @@ impl Neighbours {
         self.slots.len()
     }
 
-    /// Whether none has.
+    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -66,7 +67,7 @@ impl Neighbours {
         Self::found(queries, Some(points), radius, most.min(MAX_NEIGHBOURS), wide::run)
     }
 
-    /// Finds lists with one build of the search; `points` of `None` are the queries themselves.
+    /// Finds lists with a build of the search, portable or vector code. `None` for `points` stands for the queries.
     fn found(
         queries: Points<'_>,
         points: Option<Points<'_>>,

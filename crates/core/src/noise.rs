@@ -1,4 +1,5 @@
-//! Low-frequency value noise in space: it makes strokes swing, colours drift and edges get lost gradually over a surface.
+//! Slow (low-frequency) noise in space: over a surface it gradually turns strokes, shifts colours, and changes how far
+//! strokes overrun edges.
 
 use glam::{DVec3, Vec3};
 
@@ -24,7 +25,7 @@ impl Wide for Slow<'_> {
     fn run(self) {
         let second_seed = hash::scramble(self.seed);
         for (noise, &at) in self.noise.iter_mut().zip(self.at) {
-            // Shifted, so that the lattices of the two octaves do not meet at the origin.
+            // Shifted, so that the lattices of the two octaves do not coincide at the origin.
             let second = at * 2.03 + DVec3::splat(17.3);
             // 4.9 brings the standard deviation to about 1.
             *noise = (value(self.seed, at) + 0.5 * value(second_seed, second)) * 4.9;

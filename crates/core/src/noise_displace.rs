@@ -1,4 +1,4 @@
-//! Vertices that a noise texture moves (Hong and Park 2021), and the built-in noise textures.
+//! Moves vertices by a noise texture (Hong and Park 2021); has the built-in noise textures.
 //!
 //! ```text
 //! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
@@ -14,7 +14,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4};
 pub use built_in::{gaussian, perlin};
 pub use tile::Tile;
 
-/// Seconds in which the noise travels by one length of its texture: Unity's `_Time.x` is seconds / 20.
+/// Seconds in which the noise travels by one length of its texture, as in Unity, where `_Time.x` is seconds / 20.
 pub const SECONDS_PER_TILE: f64 = 20.0;
 
 /// The directions along which a vertex is moved.
@@ -36,7 +36,7 @@ pub struct VertexNoise {
     pub scale: f64,
     /// The directions along which they are moved.
     pub along: Along,
-    /// Normals are those of the moved surface, so that light falls on it as it is moved.
+    /// Whether normals are those of the moved surface, so that it is lit as it is moved.
     pub moves_normals: bool,
 }
 
@@ -47,7 +47,7 @@ impl PartialEq for VertexNoise {
     }
 }
 
-/// Coordinates in the noise texture at one time: two affine functions of a position in model space, in lengths of the texture.
+/// Turns a position in model space into coordinates in the noise texture (which has a length of 1) at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lookup {
     /// Rows of a 2×4 matrix.
@@ -55,8 +55,8 @@ pub struct Lookup {
 }
 
 impl Lookup {
-    /// `S·v·NV` plus a shift. S is `world_from_model`, or the identity where the noise moves with the body. Whole textures are
-    /// taken off the shift, so that bodies far away are as exact as near ones.
+    /// `S·v·NV` plus a shift. S is `world_from_model`, or the identity where the noise moves with the body. Whole
+    /// lengths of the texture are dropped from the shift, so that bodies far away are as exact as near ones.
     pub fn new(value: [f64; 2], world_from_model: Option<DAffine3>, shift: DVec2) -> Self {
         let space = world_from_model.unwrap_or(DAffine3::IDENTITY);
         let row = |axis: usize| {
@@ -183,7 +183,7 @@ mod tests {
         }
     }
 
-    /// Noise that is a ramp shears everything alike, so that the normal is known in closed form.
+    /// Noise that is a linear ramp shears the whole surface alike, so that the normal is known exactly.
     #[test]
     fn displaced_normals_of_a_ramp_hold_along_every_axis() {
         const SIDE: usize = 64;
@@ -195,7 +195,7 @@ mod tests {
         };
         let tile = Arc::new(Tile::new([SIDE; 2], (0..SIDE * SIDE).map(texel).collect()));
         let noise = VertexNoise { tile, scale: 1.5, along: Along::Channels, moves_normals: true };
-        // Turned, so that all three axes of the model look along the texture; in its middle, away from its border.
+        // Turned, so that all three axes of the model lie along the texture; in its middle, away from its border.
         let turned = DAffine3::from_rotation_x(0.7) * DAffine3::from_rotation_y(-0.5);
         let lookup = Lookup::new([0.3, 0.4], Some(turned), DVec2::splat(0.5));
         let moved = |at: DVec3| noise.displaced(at, DVec3::Z, &lookup);

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use crate::{TriangleMesh, shells};
 
-/// One shell of a mesh.
+/// A part of a mesh: one shell, or together all shells that are too small to count alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// Centroid of its surface, model space.
@@ -17,15 +17,15 @@ pub struct Part {
     pub extents: [f64; 3],
 }
 
-/// A shell of fewer triangles than this is no part of its own.
+/// A shell of fewer triangles than this is too small to be a part of its own.
 const LEAST_TRIANGLES: usize = 8;
 
-/// In a mesh of more shells than this, a shell with less than `LEAST_SHARE` of the surface is no part of its own.
+/// In a mesh of more shells than this, a shell with less than `LEAST_SHARE` of the surface is too small as well.
 const MANY_SHELLS: usize = 48;
 const LEAST_SHARE: f64 = 0.02;
 
-/// The parts of a mesh, and the part that each triangle belongs to. A part is a shell; shells that are too small, as the leaves of
-/// a tree or single triangles, make one part together.
+/// The parts of a mesh, and the part that each triangle belongs to. A part is a shell; shells that are too small, such
+/// as the leaves of a tree or single triangles, make one part together.
 pub fn parts(mesh: &TriangleMesh) -> (Vec<Part>, Vec<u32>) {
     let of_triangle = numbers(mesh);
     let count = of_triangle.iter().max().map_or(0, |&last| last as usize + 1);
@@ -90,7 +90,7 @@ impl Moments {
         let area = (b - a).cross(c - a).length() * 0.5;
         self.area += area;
         self.first += (a + b + c) / 3.0 * area;
-        // Three points half-way along the edges integrate squares over a triangle exactly.
+        // The mean over the three midpoints of the edges integrates squares over a triangle exactly.
         for point in [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5] {
             let point = point.to_array();
             for (row, sums) in self.second.iter_mut().enumerate() {

@@ -1,10 +1,10 @@
 //! Presence: how far a stroke is there, 0..=1, so that density follows the view without a stroke ever popping.
 
-/// Presence by supply, 0..=1: `(S(m + x/1.4) − 0.1)/0.9`, at least 0, with S = smoothstep. The last tenth, a few hairs spread
-/// wide, is never painted. m makes the presence one half at x = 0.
+/// Presence by supply, 0..=1: `(S(m + x/1.4) − 0.1)/0.9`, at least 0, with S = smoothstep. The lowest tenth of S, where
+/// a stroke would be a few hairs spread wide, is never painted. m makes the presence one half at x = 0.
 ///
-/// `supply_ln`: x = ln(D/u), D the strokes wanted per pixel over the particles per projected pixel (uncapped), u the
-/// particle's rank in (0, 1).
+/// `supply_ln` is x = ln(D/u): D is the strokes wanted per pixel divided by the particles per pixel (it may exceed 1),
+/// u the particle's rank in (0, 1).
 #[inline]
 pub fn of_supply(supply_ln: f32) -> f32 {
     ((smoothstep(MIDDLE + supply_ln * (1.0 / FADE)) - LEAST) * (1.0 / (1.0 - LEAST))).max(0.0)
@@ -16,8 +16,8 @@ pub fn of_facing(facing: f32) -> f32 {
     smoothstep(facing * 5.0)
 }
 
-/// Width of the fade in ln(D/u). At 1.2 the presence of strokes near the limb of a body that turns in perspective changes by up
-/// to 0.21 per degree; at 1.4 it stays under 0.2, and the density within 5 % of what is wanted.
+/// Width of the fade in ln(D/u). With 1.2, the presence of strokes near the outline of a body that turns in perspective
+/// changes by up to 0.21 per degree; with 1.4 by less than 0.2, and the density stays within 5 % of what is wanted.
 const FADE: f32 = 1.4;
 
 /// The value of S below which a stroke is left out.

@@ -108,7 +108,7 @@ impl<'mesh> Surface<'mesh> {
         surface
     }
 
-    /// The mesh that these are the sides of.
+    /// The mesh whose sides these are.
     pub fn mesh(&self) -> &TriangleMesh {
         self.mesh
     }
@@ -118,7 +118,7 @@ impl<'mesh> Surface<'mesh> {
         self.area_up_to.last().copied().unwrap_or(0.0)
     }
 
-    /// The visible sides as (triangle, whether its back, area in model units squared).
+    /// The visible sides: triangle, whether it is its back, and area in model units squared.
     pub fn faces(&self) -> impl Iterator<Item = (u32, bool, f64)> + '_ {
         self.faces.iter().enumerate().map(|(index, face)| {
             let before = if index == 0 { 0.0 } else { self.area_up_to[index - 1] };

@@ -1,5 +1,5 @@
-//! Shells, the connected pieces of a mesh, and which side of them can be seen: of closed ones the outside only, of open sheets
-//! both.
+//! Shells, the connected pieces of a mesh, and which side of each can be seen: only the outside of a closed shell, both
+//! sides of an open sheet.
 
 use std::collections::HashMap;
 
@@ -20,9 +20,9 @@ pub enum Side {
 
 /// For each triangle, the side that can be seen.
 ///
-/// Triangles that share an edge belong to one shell (edges are compared by position, so split normals and texture
-/// seams do not open a shell). A shell is closed when every edge is run as often forwards as backwards by its triangles; it is
-/// inside out when its signed volume is negative.
+/// Triangles that share an edge belong to one shell (edges are compared by position, so split normals and texture seams
+/// do not open a shell). A shell is closed when its triangles run along every edge as often forwards as backwards; it
+/// is inside out when its signed volume is negative.
 pub fn sides(mesh: &TriangleMesh) -> Vec<Side> {
     let (mut shells, open) = find(mesh);
     let mut volume = vec![0.0f64; mesh.triangles.len()];
@@ -55,7 +55,7 @@ pub fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
 fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
     let point_of_vertex = weld(&mesh.positions);
     let mut shells = Shells::new(mesh.triangles.len());
-    // Edge -> (a triangle on it, times run from the lower to the higher point minus times run back).
+    // For each edge: a triangle on it, and how often triangles run along it upwards in point numbers less downwards.
     let mut edges: HashMap<(u32, u32), (u32, i32)> = HashMap::with_capacity(mesh.triangles.len() * 2);
     for (triangle, vertices) in mesh.triangles.iter().enumerate() {
         let points = vertices.map(|vertex| point_of_vertex[vertex as usize]);

@@ -1,4 +1,4 @@
-//! Projection and orientation of all particles of a body, in one pass over structure-of-arrays data.
+//! Projects all particles of a body and turns their strokes, in one pass over arrays of plain numbers.
 
 mod cull;
 
@@ -15,7 +15,7 @@ pub use cull::{Bounds, ParticleView, SolvedParticle};
 /// How many particles one task handles.
 const CHUNK: usize = 8192;
 
-/// What is baked per particle, one array per number.
+/// What is baked per particle, one array per component.
 #[derive(Clone, Debug, Default)]
 pub struct BakedParticles {
     /// Position in model space: x, y, z.
@@ -30,7 +30,7 @@ pub struct BakedParticles {
     pub flatness: Vec<f32>,
 }
 
-/// A run of neighbouring particles to be written, one array per number.
+/// A run of consecutive particles to be written, one array per component.
 #[derive(Debug, Default)]
 pub struct BakedChunk<'a> {
     /// Position, normal, and both columns of N', by component.
@@ -52,7 +52,7 @@ impl BakedChunk<'_> {
     }
 }
 
-/// The particles of [`BakedParticles`] in one view, one array per number, in the same order.
+/// The particles of [`BakedParticles`] in one view, one array per component, in the same order.
 #[derive(Clone, Debug, Default)]
 pub struct SolvedParticles {
     /// Pixels from the picture's centre.
@@ -204,7 +204,7 @@ struct Output<'a> {
     area_px: &'a mut [f32],
 }
 
-/// One task: the particles from `first` on, as many as the output holds.
+/// One task: the particles from `first` on, as many as the output holds. `WRAPPED`: their flatness is not 1 everywhere.
 struct Chunk<'a, const WRAPPED: bool> {
     particles: &'a BakedParticles,
     first: usize,
@@ -230,6 +230,7 @@ fn solve_chunk<const WRAPPED: bool>(chunk: Chunk<'_, WRAPPED>) {
     let [nx, ny, nz] = slices(&particles.normal, first, count);
     let [ax, ay, az] = slices(&particles.along, first, count);
     let [bx, by, bz] = slices(&particles.across, first, count);
+    // Where flatness is not read, any slice of this length will do.
     let flatness = if WRAPPED { &particles.flatness[first..first + count] } else { px };
     let Output { x_px, y_px, depth, angle_rad, area_px } = output;
     let (x_px, y_px, depth) = (&mut x_px[..count], &mut y_px[..count], &mut depth[..count]);
@@ -242,7 +243,7 @@ fn solve_chunk<const WRAPPED: bool>(chunk: Chunk<'_, WRAPPED>) {
     }
 }
 
-/// One particle in a view, with J row by row.
+/// One particle in a view; `jacobian` is J by rows.
 struct Projected {
     x_px: f32,
     y_px: f32,

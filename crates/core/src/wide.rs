@@ -1,5 +1,5 @@
-//! Runs a loop compiled for the widest vectors that the processor has. All `unsafe` that this takes is here, except for code that
-//! names an instruction itself (`neighbours::wide`).
+//! Runs a loop as compiled for the widest vectors that the processor has. The `unsafe` code that this takes is all
+//! here; only `neighbours::wide`, which names an instruction itself, has its own.
 //!
 //! Every build rounds alike (the compiler fuses no multiplication with an addition), so the bits do not depend on the machine.
 

@@ -1,5 +1,5 @@
-//! The free camera: orbit, pan, zoom, frame. It starts with the shot camera's pose, roll included, so that leaving the shot camera
-//! does not move the picture.
+//! The free camera: orbit, pan, zoom, frame. It starts with the shot camera's pose, roll included, so that leaving the
+//! shot camera does not move the picture.
 
 use glam::{DQuat, DVec2, DVec3};
 use impasto_scene::document::Lens;
@@ -68,10 +68,10 @@ impl FreeView {
         self.pose.eye.distance(self.pose.target)
     }
 
-    /// Turns round a point by a drag in pixels (Y down): sideways about the world's Y, up and down about the view's right.
-    /// The point stays where it shows.
+    /// Turns round a point by a drag in pixels (Y down): sideways about the world's Y, up and down about the view's
+    /// right. The point stays where it shows.
     pub fn orbit(&mut self, delta_px: DVec2, about: DVec3) {
-        // In the unrolled picture, so that a rolled one follows the pointer, too.
+        // The roll is taken out of the drag, so that a rolled view follows the pointer, too.
         let drag = DVec2::from_angle(self.pose.roll_rad).rotate(delta_px * DVec2::new(1.0, -1.0));
         let [right, gaze] = self.level_axes();
         let pitch = gaze.y.clamp(-1.0, 1.0).asin();
@@ -93,15 +93,15 @@ impl FreeView {
         self.move_by(step);
     }
 
-    /// Moves nearer (positive steps) or farther, so that a point stays where it shows. Without a point under the cursor, pass the
-    /// one at the target's depth ([`View::at_depth_of`]).
+    /// Moves nearer (positive steps) or farther, so that a point stays where it shows. Without a point under the
+    /// cursor, pass the one at the target's depth ([`View::at_depth_of`]).
     pub fn zoom(&mut self, steps: f64, toward: DVec3) {
         let wanted = ZOOM_PER_STEP.powf(steps.clamp(-100.0, 100.0));
         match &mut self.pose.lens {
             Lens::Perspective { .. } => {
                 let distance = self.distance();
                 let scale = (distance * wanted).clamp(*DISTANCES.start(), *DISTANCES.end()) / distance;
-                // Not through the point: the eye comes as near to it as to the target.
+                // Eye and target approach the point by the same factor, so the eye never passes it.
                 for point in [&mut self.pose.eye, &mut self.pose.target] {
                     *point = toward + (*point - toward) * scale;
                 }
@@ -190,7 +190,7 @@ impl FreeView {
         self.pose.target += step;
     }
 
-    /// Extends near and far so that points this far away show.
+    /// Widens the range from near to far so that points this far away show.
     fn reach(&mut self, distance: f64) {
         match &mut self.pose.lens {
             Lens::Perspective { near, far, .. } | Lens::Orthographic { near, far, .. } => {

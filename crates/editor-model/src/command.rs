@@ -67,7 +67,7 @@ impl Done {
 }
 
 impl Command {
-    /// Changes a scene that came from `before`.
+    /// Changes a copy of the scene in `before`, whose files some commands read.
     pub(crate) fn edit(&self, scene: &mut Scene, before: &LoadedScene) -> Result<Done, Refusal> {
         match self {
             Self::Edit(command) => command.edit(scene),

@@ -185,7 +185,8 @@ impl Document {
         Ok(Step { text: done.text, note: done.note })
     }
 
-    /// As [`Document::apply`], for changes in small steps: steps with the same `key` within a second of each other are one entry.
+    /// As [`Document::apply`], for changes in small steps: steps with the same `key` within a second of each other are
+    /// one entry.
     ///
     /// # Errors
     /// As [`Document::apply`].
@@ -226,15 +227,16 @@ impl Document {
         held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))
     }
 
-    /// Keeps a mesh that was read before, by its path relative to the scene's folder, so that it is not read again. A mesh with
-    /// this path that is there already stays. The scene does not change.
+    /// Keeps a mesh that was read before, by its path relative to the scene's folder, so that it is not read again. A
+    /// mesh with this path that is there already stays. The scene does not change.
     pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
         let mut loaded = (*self.loaded).clone();
         loaded.meshes.entry(mesh.to_owned()).or_insert(file);
         self.loaded = Arc::new(loaded);
     }
 
-    /// Reads a mesh by its path relative to the scene's folder and adds an object for it, with a region for each of its groups.
+    /// Reads a mesh by its path relative to the scene's folder and adds an object for it, with a region for each of its
+    /// groups.
     ///
     /// # Errors
     /// What is wrong with the file, in the words to show.
@@ -262,7 +264,7 @@ impl Document {
         }
         let mut scene = self.loaded.scene.clone();
         entry.change.undo(&mut scene);
-        self.travel(scene, entry.selections[0].clone(), entry.text)
+        self.go_to(scene, entry.selections[0].clone(), entry.text)
     }
 
     /// Redoes the last entry that was undone; none if there is none.
@@ -274,11 +276,12 @@ impl Document {
         }
         let mut scene = self.loaded.scene.clone();
         entry.change.redo(&mut scene);
-        self.travel(scene, entry.selections[1].clone(), entry.text)
+        self.go_to(scene, entry.selections[1].clone(), entry.text)
     }
 
-    /// Goes to a scene of the history. It was valid once, so only its files can be missing now: then it comes back without them.
-    fn travel(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
+    /// Goes to a scene of the history. It was valid once, so it can only fail because files are missing now: then it
+    /// comes back without them.
+    fn go_to(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
         self.revision += 1;
         let loaded = self.with_files(scene.clone());
         let note = loaded.as_ref().err().map(ToString::to_string);

@@ -317,7 +317,7 @@ impl Editor {
         self.told(result)
     }
 
-    /// After the document may have changed: stops playback and deselects what is gone.
+    /// To be called when the document may have changed: stops playback and deselects keys that are gone.
     fn edited(&mut self) {
         self.version += 1;
         self.time.playback.stop();
@@ -372,12 +372,13 @@ impl Editor {
         self.version += 1;
     }
 
-    /// Selects.
+    /// Replaces the selection; the keyboard no longer goes to selected keys.
     pub fn select(&mut self, selection: Selection) {
         self.time.keys.take(KeysEvent::Blur, &[]);
         self.document.select(selection);
     }
 
+    /// Adds the messages of a command's result; whether anything changed.
     fn told(&mut self, result: Result<Step, Refusal>) -> bool {
         match result {
             Ok(step) => {

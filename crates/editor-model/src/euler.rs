@@ -8,10 +8,10 @@ pub(crate) fn matrix(rotation_deg: [f64; 3]) -> DMat3 {
     motion::rotation_from_euler_deg(DVec3::from(rotation_deg))
 }
 
-/// Euler angles in degrees of a rotation, as near as whole turns allow to `near`.
+/// Euler angles in degrees of a rotation; of all that give this rotation, those nearest to `near`.
 pub(crate) fn degrees(rotation: DMat3, near: [f64; 3]) -> [f64; 3] {
     let first = motion::euler_deg_from_rotation(rotation);
-    // The same rotation the other way round.
+    // Euler angles are not unique: these give the same rotation.
     let second = DVec3::new(first.x + 180.0, 180.0 - first.y, first.z + 180.0);
     let near = DVec3::from(near);
     let wound = |angles: DVec3| angles + ((near - angles) / 360.0).round() * 360.0;

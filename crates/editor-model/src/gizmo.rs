@@ -1,5 +1,5 @@
-//! The gizmo: the handles of an object in a view, where they are drawn and which one the pointer is on. Their size on the screen is
-//! constant.
+//! The gizmo: the handles of an object in a view, where they are drawn and which one the pointer is on. Their size on
+//! the screen is constant.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
@@ -12,15 +12,15 @@ mod tests;
 
 /// Length of an axis handle, pixels.
 const ARM_PX: f64 = 90.0;
-/// Radius of the ring that turns about the gaze.
+/// Radius of the ring that turns about the gaze, pixels.
 const SCREEN_RING_PX: f64 = 1.5 * ARM_PX;
 /// Offset of a plane's square along its two axes, and its width, as shares of the arm.
 const SQUARE: [f64; 2] = [0.3, 0.16];
 /// Distance within which the pointer is on a handle, pixels.
 const REACH_PX: f64 = 12.0;
-/// The dot in the middle.
+/// Radius of the dot in the middle, pixels.
 const CENTRE_PX: f64 = 10.0;
-/// An arm that is foreshortened to less than this share points at the eye: it is left out.
+/// An arm that shows shorter than this share of its length points nearly at the eye, and is left out.
 const LEAST_SHOWN: f64 = 0.15;
 const RING_PIECES: usize = 64;
 
@@ -79,7 +79,7 @@ impl Gizmo {
         let Some(centre_px) = view.project(origin).filter(|at_px| at_px.is_finite()) else {
             return Self { handles: Vec::new() };
         };
-        let stand = Stand {
+        let placement = Placement {
             axes: axes_of(space, world_from_model, view),
             unit: 1.0 / view.px_per_unit(origin),
             origin,
@@ -87,8 +87,8 @@ impl Gizmo {
             view,
         };
         let mut handles = match operation {
-            Operation::Turn => stand.rings(),
-            Operation::Move | Operation::Scale => stand.arms(operation),
+            Operation::Turn => placement.rings(),
+            Operation::Move | Operation::Scale => placement.arms(operation),
         };
         handles.sort_by(|a, b| b.depth.total_cmp(&a.depth));
         Self { handles }
@@ -117,7 +117,7 @@ impl HandleShape {
     /// How far a pointer is from it; `None` out of reach.
     fn gap_px(&self, at_px: DVec2) -> Option<f64> {
         let gap = match self {
-            // The dot is gripped within its own circle.
+            // The dot is hit only inside its own circle, not within `REACH_PX` of it.
             Self::Centre { at_px: centre } => centre.distance(at_px) + REACH_PX - CENTRE_PX,
             Self::Arm { from_px, to_px, .. } => off_px(at_px, *from_px, *to_px),
             Self::Square { corners_px } => {
@@ -135,7 +135,7 @@ impl HandleShape {
     }
 }
 
-/// From a point to a piece of a line, pixels.
+/// Distance from a point to a line segment, pixels.
 pub(crate) fn off_px(at_px: DVec2, from_px: DVec2, to_px: DVec2) -> f64 {
     let piece = to_px - from_px;
     let t = ((at_px - from_px).dot(piece) / piece.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -143,8 +143,8 @@ pub(crate) fn off_px(at_px: DVec2, from_px: DVec2, to_px: DVec2) -> f64 {
 }
 
 /// Where a gizmo stands.
-struct Stand<'a> {
-    /// Unit columns.
+struct Placement<'a> {
+    /// The axes of the handles in the world, unit columns.
     axes: DMat3,
     /// World units of a pixel at the origin.
     unit: f64,
@@ -153,9 +153,9 @@ struct Stand<'a> {
     view: &'a View,
 }
 
-impl Stand<'_> {
-    /// Where a point, given in arm lengths along the axes, shows. Without perspective, so that handles keep their shape everywhere in
-    /// the picture.
+impl Placement<'_> {
+    /// Where a point, given in arm lengths along the axes, shows. Without perspective, so that handles keep their shape
+    /// everywhere in the picture.
     fn px(&self, arms: DVec3) -> DVec2 {
         let [right, up, _] = self.view.axes();
         let at = self.axes * arms * ARM_PX;
@@ -224,7 +224,7 @@ impl Stand<'_> {
         let [right, up, gaze] = self.view.axes();
         for axis in Axis::ALL {
             let normal = self.axes * axis.unit();
-            // The half that faces the eye runs from one end of the shown long axis to the other.
+            // A ring shows as an ellipse. Its half that faces the eye runs from one end of the long axis to the other.
             let side = normal.cross(gaze).try_normalize();
             let (side, toward, turn) = match side {
                 Some(side) => (side, side.cross(normal), std::f64::consts::PI),

@@ -64,7 +64,7 @@ impl History {
         }
     }
 
-    /// Whether a step with this key at this time joins the last entry; never if the file was saved just after that.
+    /// Whether a step with this key at this time joins the last entry; never if the file was saved after that entry.
     pub(crate) fn mergeable(&self, key: &str, at_secs: f64) -> bool {
         self.undone.is_empty()
             && self.done.last().is_some_and(|entry| {

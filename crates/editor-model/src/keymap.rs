@@ -1,5 +1,5 @@
-//! The keymap: two presets in one table, looked up by scope. A modal tool takes a key before a text field, then come the mode and
-//! the bindings that hold everywhere.
+//! The keymap: what each key does, in two presets (Blender's keys and Maya's). `Editor::key` decides which scope holds.
+//! A modal tool takes every key; in the other scopes, keys without a binding of their own do what they do everywhere.
 
 mod table;
 #[cfg(test)]
@@ -250,7 +250,7 @@ pub struct Keymap {
     pub digits: Digits,
 }
 
-/// The scopes of bindings, in the order in which they get a key.
+/// The scopes of bindings. One holds at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scope {
     /// A modal move, turn or scale.
@@ -279,6 +279,7 @@ enum Where {
 struct Binding {
     action: Action,
     name: &'static str,
+    /// The scopes that it holds in.
     holds: &'static [Where],
     blender: &'static [Chord],
     maya: &'static [Chord],

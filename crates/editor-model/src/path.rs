@@ -1,8 +1,12 @@
-//! Gestures on a surface: turns a drag over the picture into guides that do not depend on how often the pointer reports.
+//! Gestures on a surface: turns a drag over the picture into guides that do not depend on how often the pointer
+//! reports.
 //!
 //! ```text
 //! events ─▶ curve through them ─▶ steps of one pixel ─▶ pulled string ─▶ a ray per step ─▶ pieces on the surface
 //! ```
+//!
+//! The string steadies the hand: its tip draws, and the pointer pulls the tip only when it is farther away than the
+//! string is long.
 
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint};
@@ -27,7 +31,8 @@ const STEP_PX: f64 = 1.0;
 const STAMP_SHARE: f64 = 0.25;
 /// Points that deviate from a path by at most this are dropped.
 const TOLERANCE_PX: f64 = 0.5;
-/// If the depth changes by more than this many pixels' worth between two steps, it is checked whether the surface is connected there.
+/// If two steps are farther apart on the surface than this many pixels, it is checked whether the surface is connected
+/// there.
 const LEAP_PX: f64 = 4.0;
 /// Length of the string at full steadiness.
 const LONGEST_STRING_PX: f64 = 120.0;
@@ -74,10 +79,11 @@ pub struct SurfacePath {
     string_px: f64,
     faces: Faces,
     curve: PointerCurve,
-    /// The end of the string that draws.
+    /// The end of the string, which draws.
     tip: DVec2,
     /// Where the tip was looked up last.
     sampled_px: DVec2,
+    /// Whether there was no surface to draw on at the last look-up.
     lifted: bool,
     pieces: Vec<Vec<PathPoint>>,
 }
@@ -152,7 +158,8 @@ impl SurfacePath {
         &self.pieces
     }
 
-    /// The pointer moved. `pick` finds the surface under a pixel, and nothing where the gesture may not go (another region).
+    /// The pointer moved. `pick` finds the surface under a pixel, and nothing where the gesture may not go (another
+    /// region).
     pub fn move_to(&mut self, at_px: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         if at_px.is_finite() {
             let steps = self.curve.move_to(at_px);
@@ -166,7 +173,7 @@ impl SurfacePath {
         let steps = path.curve.finish();
         path.walk(&steps, pick);
         if let Some(&hand) = steps.last().filter(|_| path.sampled_px != path.pieces[0][0].at_px) {
-            path.catch_up(hand, pick);
+            path.finish_at(hand, pick);
         }
         path
     }
@@ -191,14 +198,14 @@ impl SurfacePath {
         stamps
     }
 
-    /// The pieces as guides, each as few points as keep it within half a pixel. `seen` is the view that it was drawn in,
-    /// `reference` the one that the region's directions refer to.
+    /// The pieces as guides, each as few points as keep it within half a pixel. `seen` is the view that it was drawn
+    /// in, `reference` the one that the region's directions refer to.
     pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
         self.guides_turned(style, [seen, reference], &|_, _| 0.0)
     }
 
-    /// The same, with strokes turned from the gesture's line: `turn_deg` is asked at each point, with the angle at which the
-    /// line shows there (radians, counter-clockwise).
+    /// The same, with strokes turned from the gesture's line: `turn_deg` is asked at each point, with the angle at
+    /// which the line shows there (radians, counter-clockwise).
     pub fn guides_turned(
         &self,
         style: &GuideStyle,
@@ -235,8 +242,8 @@ impl SurfacePath {
         guides
     }
 
-    /// Draws on to where the pointer was released, across the length of the string.
-    fn catch_up(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
+    /// Draws from the tip on to where the pointer was released: the string had kept it behind.
+    fn finish_at(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
         let steps: Vec<DVec2> =
@@ -268,7 +275,7 @@ impl SurfacePath {
             return;
         };
         let last = self.pieces.last().and_then(|piece| piece.last()).copied();
-        let joined = !self.lifted && last.is_some_and(|last| self.hang_together(last, point, pick));
+        let joined = !self.lifted && last.is_some_and(|last| self.is_connected(last, point, pick));
         self.lifted = false;
         match self.pieces.last_mut() {
             Some(piece) if joined => piece.push(point),
@@ -282,9 +289,9 @@ impl SurfacePath {
         takes_part.then(|| PathPoint::new(at_px, &hit))
     }
 
-    /// Whether the surface is connected between two steps; a fold in front of another part of the same object is not. Bisects the step:
-    /// on a connected surface the jump in depth shrinks, across a gap it stays.
-    fn hang_together(
+    /// Whether the surface is connected between two steps, and does not jump, as from a fold to what is behind it.
+    /// Bisects the step: on a connected surface the distance shrinks, across a gap it stays.
+    fn is_connected(
         &self,
         mut from: PathPoint,
         mut to: PathPoint,
@@ -306,7 +313,8 @@ impl SurfacePath {
     }
 }
 
-/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through its neighbours.
+/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through its
+/// neighbours.
 fn line_rad(points: &[PathPoint], index: usize) -> f64 {
     let piece = |from: usize| points[from + 1].at_px - points[from].at_px;
     let last = points.len() - 2;

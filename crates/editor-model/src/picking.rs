@@ -52,8 +52,8 @@ pub struct Hit {
 }
 
 impl Picker {
-    /// Takes the objects' surfaces in the order of the scene, each as it stands (0 at rest; a share of its morph; or with its
-    /// noise). Returns how many trees had to be built.
+    /// Takes the objects' surfaces in the order of the scene, each with its shape: how it is morphed (0 is at rest) or
+    /// moved by noise. Returns how many trees had to be built.
     pub fn update<S>(&mut self, bodies: &[(Arc<BodySurface>, S)]) -> usize
     where
         S: Clone + Into<BodyShape>,
@@ -88,7 +88,8 @@ impl Picker {
         self.update(&surfaces.zip(shapes).collect::<Vec<_>>())
     }
 
-    /// Takes the trees of another picker, so that the next update need not build them: large surfaces can be built on another thread.
+    /// Takes the trees of another picker, so that the next update need not build them: large surfaces can be built on
+    /// another thread.
     pub fn learn(&mut self, other: Self) {
         self.offered = other.trees;
     }
@@ -112,8 +113,8 @@ impl Picker {
         nearest
     }
 
-    /// The point of an object's surface nearest to a point of its own space, within `max_distance` (model units) and with a
-    /// painted side that faces as `facing` does; of a sheet, that side.
+    /// The point of an object's surface nearest to a point of its own space, within `max_distance` (model units) and
+    /// with a painted side that faces as `facing` does; of a sheet, that side.
     pub fn closest_on_surface(
         &self,
         object: usize,
@@ -134,7 +135,8 @@ impl Picker {
         self.trees.get(object).map(|tree| tree.surface())
     }
 
-    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, in its own space.
+    /// Least and greatest corner of the box round those triangles of an object whose middles are `within`, in its own
+    /// space.
     pub fn bounds_where(&self, object: usize, within: impl Fn(&Hit) -> bool) -> Option<[DVec3; 2]> {
         let tree = self.trees.get(object)?;
         let mut bounds: Option<[DVec3; 2]> = None;

@@ -1,4 +1,5 @@
-//! Playback: which frame is to be shown now, and which were never shown. The clock is handed in, as seconds of any clock.
+//! Playback: which frame is to be shown now, and which were never shown. The clock is handed in, as seconds of any
+//! clock.
 //!
 //! ```text
 //! play ─▶ tick(now) ─▶ frame asked for ─▶ a picture ─▶ shown(frame, now) ─▶ dropped, lead
@@ -11,13 +12,14 @@ use std::collections::BTreeSet;
 #[cfg(test)]
 mod tests;
 
-/// If the clock jumps by more than this, seconds, the machine was suspended: playback goes on from the frame that is shown.
+/// If the clock jumps by more than this, seconds, the machine was suspended: playback goes on from the frame that is
+/// shown.
 const SLEPT_SECS: f64 = 5.0;
 /// No picture is asked for earlier than this, seconds.
 const MOST_LEAD_SECS: f64 = 0.4;
 /// The share of a picture's lateness that is added to the lead.
 const LEAD_GAIN: f64 = 0.2;
-/// How much the newest interval counts in the mean.
+/// How much the newest interval counts in the mean time between pictures.
 const RATE_GAIN: f64 = 0.2;
 /// Tolerance against rounding of times, in frames.
 const ROUNDING: f64 = 1e-6;
@@ -47,7 +49,7 @@ pub struct Course {
     pub pacing: Pacing,
 }
 
-/// `Stopped`, or `Playing`; and what the last playing dropped.
+/// Playback, running or stopped, and the frames that it dropped.
 #[derive(Clone, Debug, Default)]
 pub struct Playback {
     playing: Option<Playing>,
@@ -56,7 +58,8 @@ pub struct Playback {
     lead_secs: f64,
 }
 
-/// Frames count from the one that playing began at, over all rounds.
+/// Playback while it runs. `asked` and `shown` are indices: they count frames from the one that playing began at, and
+/// go on across the loop's end.
 #[derive(Clone, Debug)]
 struct Playing {
     course: Course,
@@ -78,8 +81,8 @@ impl Course {
         self.last.saturating_sub(self.first).saturating_add(1).max(1)
     }
 
-    /// The frame at which playing begins: the playhead's, or the first if the playhead is outside the range or at the end of one
-    /// that is not looped.
+    /// The frame at which playing begins: the playhead's, or the first if the playhead is outside the range or at the
+    /// end of one that is not looped.
     fn start(&self, frame: f64) -> i64 {
         let is_inside = frame >= self.first as f64 && frame < self.last as f64 + 1.0;
         let start = if is_inside { frame.floor() as i64 } else { self.first };
@@ -102,18 +105,19 @@ impl Playing {
         (!self.course.looped).then_some(self.course.last - self.start_frame)
     }
 
-    /// Index of the frame asked for that a picture belongs to: the latest one with this frame number.
+    /// Index of a picture of this frame: the latest one with this frame number that was asked for.
     fn index_of(&self, frame: i64) -> i64 {
         let behind = self.frame_of(self.asked) - frame;
         let behind = if self.course.looped { behind.rem_euclid(self.course.count()) } else { behind };
         self.asked - behind
     }
 
+    /// Index of the frame that is due at a time.
     fn due_by_clock(&self, now_secs: f64) -> i64 {
         ((now_secs - self.start_secs) * self.course.fps + ROUNDING).floor() as i64
     }
 
-    /// The clock goes on from the frame that is shown, late enough that the next can be drawn.
+    /// Starts again from the frame that is shown, with `now_secs` as the new time zero.
     fn begin_again(&mut self, course: Course, now_secs: f64) {
         let frame = self.frame_of(self.shown);
         *self = Self::new(course, course.start(frame as f64), now_secs);
@@ -220,7 +224,7 @@ impl Playback {
         true
     }
 
-    /// How many frames were never shown since it was begun.
+    /// How many frames were skipped since playing began.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
@@ -236,7 +240,7 @@ impl Playback {
         (interval > 0.0).then(|| 1.0 / interval)
     }
 
-    /// Where the clock stands, in frames of the range with their part.
+    /// The frame that the clock has reached, with its fraction.
     pub fn clock_frame(&self, now_secs: f64) -> Option<f64> {
         let playing = self.playing.as_ref()?;
         let frames = ((now_secs - playing.start_secs) * playing.course.fps).max(0.0);

@@ -1,12 +1,12 @@
-//! Copies of unsaved work, in a folder of the user's: written while one paints, offered again after a crash.
+//! Copies of unsaved work, in a folder of the user's: written during work, offered again after a crash.
 //!
 //! ```text
 //! Document ─▶ Work ─▶ Keeper (a thread) ─▶ Recovery::keep ─▶ NAME.ron   whole or not at all, never over a scene
 //! next start: Recovery::offers ─▶ Offer ─▶ Document::recovered, edited and not saved
 //! ```
 //!
-//! A session holds a lock on `NAME.lock` while it lives, so that other sessions can tell its copy from one that was left behind: the
-//! system releases the lock when the process ends, however that happens.
+//! A session is one running editor. It holds a lock on `NAME.lock`, so that other sessions can tell its copy from one
+//! that was left behind: the system releases the lock when the process ends, however that happens.
 
 mod cadence;
 mod copy;
@@ -30,6 +30,7 @@ pub const MAX_COPIES: usize = 20;
 /// The most entries of the folder that are read.
 const MAX_ENTRIES: usize = 1000;
 
+/// Extensions of copies, of lock files, and of copies that are still being written.
 const COPY: &str = "ron";
 const LOCK: &str = "lock";
 const PART: &str = "part";
@@ -60,7 +61,7 @@ impl Recovery {
     /// What the system said: the folder cannot be made or written.
     pub fn open(folder: &Path, name: &str) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
-        // It gets its name once it is locked, so that nobody ever finds it free.
+        // The lock file gets its name only when it is locked, so that no other session ever finds it unlocked.
         let lock = tempfile::Builder::new().prefix(name).suffix(".new").tempfile_in(folder)?;
         lock.as_file().lock()?;
         let lock = lock.persist(folder.join(name).with_extension(LOCK)).map_err(|error| error.error)?;
@@ -96,12 +97,12 @@ impl Recovery {
         fs::rename(&offer.file, self.file())?;
         // A lock without a copy means nothing; if it cannot be removed, the next call of `offers` does it.
         let _ = fs::remove_file(&offer.lock_file);
-        // The new name is on the disk only with its folder.
+        // The renaming is on the disk only when its folder is.
         if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 
-    /// The copies that ended sessions left behind, the newest first. Deletes their other files, and all copies but the newest
-    /// [`MAX_COPIES`].
+    /// The copies that ended sessions left behind, the newest first. Deletes their other files, and all copies but the
+    /// newest [`MAX_COPIES`].
     pub fn offers(folder: &Path) -> Vec<Offer> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
         let files: Vec<PathBuf> =
@@ -118,7 +119,7 @@ impl Recovery {
         }
         offers.sort_by_key(|offer| std::cmp::Reverse(offer.copy.at_unix_secs));
         for offer in offers.drain(MAX_COPIES.min(offers.len())..) {
-            // Where that fails, the next look tries again.
+            // If that fails, the next call tries again.
             let _ = offer.discard();
         }
         for file in files.iter().filter(|file| has_ending(file, LOCK) || has_ending(file, PART)) {

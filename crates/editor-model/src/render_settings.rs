@@ -25,7 +25,7 @@ use crate::document::Document;
 pub use command::shell_words;
 pub use progress::{Outcome, RenderProgress, Stage};
 
-/// Where frames go unless something else is chosen, from the scene's folder.
+/// Where frames go unless something else is chosen, relative to the scene's folder.
 pub const OUTPUT: &str = "out/frame_####.png";
 
 /// Which frames.
@@ -71,7 +71,7 @@ pub struct RenderSettings {
     pub list: String,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// The files, from the scene's folder: `####` stands for the frame number.
+    /// The files, relative to the scene's folder: `####` stands for the frame number.
     pub output: String,
     /// What draws.
     pub driver: RenderDriver,
@@ -124,7 +124,7 @@ impl RenderSettings {
     pub fn of(scene: &Scene) -> Self {
         Self {
             which: Which::All,
-            list: whole(scene),
+            list: whole_range(scene),
             size_px: [scene.size.0, scene.size.1],
             output: OUTPUT.to_owned(),
             driver: RenderDriver::default(),
@@ -135,7 +135,7 @@ impl RenderSettings {
     /// The chosen frames as a list.
     pub fn frames(&self, scene: &Scene, shown: f64) -> String {
         match self.which {
-            Which::All => whole(scene),
+            Which::All => whole_range(scene),
             Which::This => format!("{}", shown.round() as i64),
             Which::Listed => self.list.trim().to_owned(),
         }
@@ -150,7 +150,7 @@ impl RenderSettings {
         let list = self.frames(document.scene(), shown);
         let frames = FrameList::parse(&list).map_err(fault(Field::Frames))?;
         check_size(self.size_px).map_err(fault(Field::Size))?;
-        let output = file(&self.output, document.folder()).map_err(fault(Field::Output))?;
+        let output = output_file(&self.output, document.folder()).map_err(fault(Field::Output))?;
         let pattern = Pattern::parse(&output.to_string_lossy(), frames.count());
         Ok(RenderPlan {
             loaded: Arc::clone(document.loaded()),
@@ -177,7 +177,7 @@ impl RenderPlan {
         self.pattern.path(frame)
     }
 
-    /// The pattern of all files, from the root.
+    /// The pattern of all files, as an absolute path.
     pub fn output(&self) -> &Path {
         &self.output
     }
@@ -219,14 +219,14 @@ impl RenderPlan {
         inputs.iter().find(is_ours).map_or(Ok(()), |input| not_an_input(input, &inputs))
     }
 
-    /// What a file says of its scene.
+    /// The name of the scene's file, which the rendered files record.
     pub fn scene_name(&self) -> String {
         self.loaded.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
     }
 }
 
-/// The scene's own frames.
-fn whole(scene: &Scene) -> String {
+/// All frames of the scene's timeline, as a list.
+fn whole_range(scene: &Scene) -> String {
     let timeline = &scene.timeline;
     if timeline.first == timeline.last {
         timeline.first.to_string()
@@ -240,7 +240,7 @@ pub fn counted_frames(count: u64) -> String {
     if count == 1 { "1 frame".to_owned() } else { format!("{count} frames") }
 }
 
-/// The size of a share of the scene's, in per cent.
+/// A size as a percentage of the scene's.
 pub fn scaled(scene: &Scene, percent: u32) -> [u32; 2] {
     [scene.size.0, scene.size.1].map(|side| side.saturating_mul(percent).div_ceil(100).max(1))
 }
@@ -263,8 +263,8 @@ fn check_size(size_px: [u32; 2]) -> Result<(), String> {
     Ok(())
 }
 
-/// The pattern as a path from the root.
-fn file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
+/// The pattern that was typed, as an absolute path.
+fn output_file(typed: &str, folder: &Path) -> Result<PathBuf, String> {
     let typed = typed.trim();
     let name = Path::new(typed).file_name().map(|name| name.to_string_lossy().into_owned());
     let Some(name) = name.filter(|_| !typed.ends_with(['/', '\\'])) else {

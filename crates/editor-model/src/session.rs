@@ -39,7 +39,7 @@ pub enum Tool {
     Fill,
     /// Paint: turns or flips a region's directions.
     TurnDirection,
-    /// Paint: joins what lies around, or smears it.
+    /// Paint: smooths the directions under the drag, or smears them.
     Smooth,
     /// Paint: back to the region's base direction.
     Erase,
@@ -76,9 +76,9 @@ pub enum DirectionLines {
 /// The overlays over the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overlays {
-    /// DirectionLines along the strokes, in Paint.
+    /// Lines along the strokes, in Paint.
     pub direction_lines: DirectionLines,
-    /// DirectionLines by trust.
+    /// Lines along the strokes, coloured by their trust, in every mode.
     pub trust: bool,
     /// Regions in their colours, with their names.
     pub regions: bool,
@@ -149,7 +149,7 @@ pub struct ToolOptions {
     pub radius_px: f64,
     /// How far strokes follow, 0..=1.
     pub strength: f64,
-    /// Against the drag.
+    /// Strokes run against the drag.
     pub against: bool,
     /// Full strength up to the radius.
     pub even: bool,

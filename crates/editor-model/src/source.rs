@@ -36,7 +36,8 @@ impl Source {
         })
     }
 
-    /// The scene with the boxes added to its meshes, so that an edited scene that names such a mesh can still use its box.
+    /// The scene with the boxes added to its meshes, so that an edited scene that names such a mesh can still use its
+    /// box.
     pub(crate) fn held(&self, loaded: &LoadedScene) -> LoadedScene {
         let mut held = loaded.clone();
         for (name, stand_in) in &self.stand_ins {

@@ -1,4 +1,5 @@
-//! Stamps of files, to see whether a file is still the one that was read: compares size and time, then a hash of the bytes.
+//! Stamps of files, to see whether a file is still the one that was read: compares size and time, then a hash of the
+//! bytes.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -34,7 +35,8 @@ impl Stamp {
         }
     }
 
-    /// Whether a file has other bytes than before; reads it only if size or time differ. A deleted file counts as different.
+    /// Whether a file has other bytes than before; reads it only if size or time differ. A deleted file counts as
+    /// different.
     pub fn is_other(before: Option<&Self>, path: &Path) -> bool {
         if !Self::looks_other(before, path) {
             return false;

@@ -20,9 +20,9 @@ pub struct FieldValue {
 pub fn field_values(scene: &Scene, region: Option<usize>) -> Vec<FieldValue> {
     let own = region.map_or(&scene.strokes, |region| &scene.regions[region].strokes);
     let unstated = without_numbers(own);
-    // Lengths are shown before `scale`, which is a number of its own.
+    // Lengths are shown without `scale`, which is shown as a number of its own.
     let of_scene = StrokeSettings { scale: None, ..scene.strokes.clone() };
-    // No number changes what another one is without being stated, so all are resolved at once.
+    // What a number is when it is not stated does not depend on the other numbers, so one call finds all of them.
     let usual = match region {
         Some(_) => presets::resolve_with(scene, &of_scene, Some(&unstated)),
         None => presets::resolve_with(scene, &unstated, None),

@@ -116,7 +116,7 @@ pub struct Transforming {
     operation: Operation,
     constraint: Constraint,
     space: Axes,
-    /// The space of an axis key when it is pressed for the first time.
+    /// The space that an axis key means when it is pressed for the first time.
     first_space: Axes,
     typed: Typed,
     view: View,
@@ -126,12 +126,13 @@ pub struct Transforming {
     /// The last movement of the pointer.
     at_px: DVec2,
     snap: Snap,
-    /// Angle by which the pointer has gone round the pivot, radians, not wrapped.
+    /// Angle by which the pointer has gone round the pivot, radians; it counts whole turns.
     gone_round_rad: f64,
 }
 
 /// A pointer nearer to the pivot than this does not turn or scale.
 const LEAST_ARM_PX: f64 = 4.0;
+/// Steps of snapping: world units and factors, and degrees.
 const STEP: f64 = 0.1;
 const STEP_DEG: f64 = 5.0;
 /// Factors that scaling stays within.
@@ -291,7 +292,8 @@ impl Transforming {
         }
     }
 
-    /// Sets a constraint. The same axis a second time means the object's own axis, a third time none.
+    /// Sets a constraint. The same axis a second time means the object's own axis (or the world's, if the object's came
+    /// first), a third time none.
     fn hold(&mut self, constraint: Constraint) {
         let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
         if self.constraint != constraint {
@@ -307,7 +309,7 @@ impl Transforming {
         if let Some(pivot_px) = self.view.project(self.pivot()) {
             let (from, to) = (self.at_px - pivot_px, at_px - pivot_px);
             if from.length() > LEAST_ARM_PX && to.length() > LEAST_ARM_PX {
-                // Y down: counter-clockwise is negative there.
+                // Pixels have Y down: counter-clockwise is negative.
                 self.gone_round_rad -= from.angle_to(to);
             }
         }
@@ -346,7 +348,7 @@ impl Transforming {
                     let distance = (pivot - ray.origin).dot(normal) / slope;
                     (slope.abs() > 1e-3 && distance > 0.0).then(|| ray.origin + ray.direction * distance)
                 };
-                // A plane that is seen from its edge cannot be dragged in.
+                // A plane that is seen edge-on cannot be dragged in.
                 meet(&from).zip(meet(&to)).map_or(DVec3::ZERO, |(from, to)| to - from)
             }
         };
@@ -364,14 +366,14 @@ impl Transforming {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));
         let Some(pivot_px) = self.view.project(self.pivot()) else { return 0.0 };
-        // Straight at the eye, an axis shows as a point: it cannot be dragged along.
+        // An axis that points straight at the eye shows as a point: it cannot be dragged along.
         let size = self.view.px_per_unit(self.pivot());
         if shown.length() < 0.02 * size {
             return 0.0;
         }
         let on_axis_px = pivot_px + (at_px - pivot_px).project_onto(shown);
         let ray = self.view.ray(on_axis_px);
-        // The points of two lines that are nearest to each other.
+        // The point of the axis that is nearest to the ray.
         let between = self.pivot() - ray.origin;
         let cosine = ray.direction.dot(along);
         (cosine * between.dot(ray.direction) - between.dot(along)) / (1.0 - cosine * cosine)
@@ -420,8 +422,8 @@ impl TransformDelta {
         }
     }
 
-    /// The map of world space, turned and scaled about a pivot; `world_from_space` are the axes of the delta. Poses cannot hold
-    /// non-uniform factors, see `Arrange::Stretch`.
+    /// The map of world space, turned and scaled about a pivot; `world_from_space` are the axes of the delta. Poses
+    /// cannot hold non-uniform factors, see `Arrange::Stretch`.
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {

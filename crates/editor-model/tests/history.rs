@@ -34,7 +34,7 @@ fn guide(x: f64, y: f64) -> Guide {
         object: None,
         view: None,
         points: vec![point(0.0), point(0.3), point(0.7)],
-        // Large enough to reach any of the surfaces.
+        // So large that it reaches the surface of any object.
         radius: 0.9 + x.abs() * 0.01,
         strength: 0.8,
         falloff: Default::default(),

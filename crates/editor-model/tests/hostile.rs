@@ -1,6 +1,6 @@
-//! Opens the hostile files of the folder `IMPASTO_CORPUS`, one after the other, in a process with little memory and time. Each
-//! must give a document or an error message, and the file must stay as it was. Without the corpus it opens shipped scenes
-//! with changed bytes; `tests/it/hostile_scenes.rs` opens a small corpus.
+//! Opens the hostile files of the folder `IMPASTO_CORPUS`, one after the other, in a process with little memory and
+//! time. Each must give a document or an error message, and the file must stay as it was. Without the corpus it opens
+//! shipped scenes with changed bytes; `tests/it/hostile_scenes.rs` opens a small corpus.
 
 #![cfg(unix)]
 

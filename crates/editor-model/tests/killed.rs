@@ -1,5 +1,5 @@
-//! Kills a process that paints, writes recovery copies and saves, at random moments and a hundred times: no copy that was
-//! reported as written is lost, and the scene file is always whole.
+//! Kills a process that paints, writes recovery copies and saves, at random moments and a hundred times: no copy that
+//! was reported as written is lost, and the scene file is always whole.
 
 #![cfg(unix)]
 
@@ -101,7 +101,8 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
         offered > 20 && seen > 100,
         "{offered} offers, {seen} edits: it was killed too soon to show anything"
     );
-    // After another look no file of the sessions is left; a save that was cut off may leave its part file beside the scene.
+    // After another look no file of the sessions is left; a save that was cut off may leave its part file beside the
+    // scene.
     assert!(Recovery::offers(&place).is_empty());
     let left = std::fs::read_dir(&place).expect("there").count();
     assert_eq!(left, 0, "litter in the recovery folder");

@@ -58,7 +58,7 @@ icons! {
     TABLE = ICON_TABLE_RESTAURANT;
     /// Reference.
     REFERENCE = ICON_PUSH_PIN;
-    /// DirectionLines.
+    /// Direction lines.
     DIRECTIONS = ICON_GRASS;
     /// Trust.
     TRUST = ICON_THERMOSTAT;
@@ -86,7 +86,7 @@ icons! {
     LOOP = ICON_REPEAT;
     /// Key.
     KEY = ICON_DIAMOND;
-    /// Dropped.
+    /// Dropped frames.
     DROPPED = ICON_SPEED;
     /// Render.
     RENDER = ICON_MOVIE;

@@ -53,6 +53,6 @@ pub fn run(options: &EditOptions) -> Result<(), EditError> {
     if options.driver.unwrap_or(loaded.preferences.driver) == DriverChoice::Software {
         window::force_software();
     }
-    let dialogs = window::Options::default();
-    Ok(window::run(dialogs, |opened| app::EditorApp::new(options, loaded, shaders, opened))?)
+    let window_options = window::Options::default();
+    Ok(window::run(window_options, |opened| app::EditorApp::new(options, loaded, shaders, opened))?)
 }

@@ -1,4 +1,5 @@
-//! Renders a sequence into files on a thread of its own, so that the window stays usable: the files of `impasto render`.
+//! Renders a sequence into files on a thread of its own, so that the window stays usable. `impasto render` writes the
+//! same files.
 //!
 //! ```text
 //! Rendering::start(RenderPlan) ─▶ context ─▶ prepare ─▶ Sequence::render_files ─▶ Rendering::progress
@@ -43,6 +44,7 @@ struct Shared {
     changed: Condvar,
 }
 
+/// What the thread tells the window.
 #[derive(Default)]
 struct Board {
     progress: RenderProgress,
@@ -51,7 +53,7 @@ struct Board {
 }
 
 impl Rendering {
-    /// Starts. `shaders` replace the program's own. `wake` is called on the thread whenever there is something new to show.
+    /// Starts the thread. `shaders` replace the program's own. `wake` is called on it whenever there is something new.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -73,7 +75,9 @@ impl Rendering {
             let outcome = match outcome {
                 Ok(Ok(outcome)) => outcome,
                 Ok(Err(words)) => Outcome::Failed(words),
-                Err(panic) => Outcome::Failed(format!("Rendering broke off: {}", words(panic.as_ref()))),
+                Err(panic) => {
+                    Outcome::Failed(format!("Rendering broke off: {}", panic_message(panic.as_ref())))
+                }
             };
             theirs.note(|board| {
                 board.progress.gone_s = theirs.began.elapsed().as_secs_f64();
@@ -151,14 +155,13 @@ impl Shared {
     }
 }
 
-/// The message of a panic.
-fn words(panic: &(dyn Any + Send)) -> String {
+fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
         .unwrap_or_else(|| "no reason was given".to_owned())
 }
 
-/// Renders what the plan says. The words of a failure name the frame and its file.
+/// Renders what the plan says. If a frame cannot be written, the error names the frame and its file.
 fn run(
     shared: &Shared,
     plan: &RenderPlan,

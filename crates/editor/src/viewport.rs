@@ -1,5 +1,5 @@
-//! The viewport: the picture with everything that floats over it. It changes nothing itself, and returns the pointer's events
-//! and what the chips (the floating buttons) ask for.
+//! The viewport: the picture with everything that floats over it. It changes nothing itself, and returns the pointer's
+//! events and what the chips (the floating buttons) ask for.
 
 use egui::{Color32, CursorIcon, Id, Rect, Sense, Ui, pos2};
 use glam::DVec2;
@@ -47,7 +47,7 @@ pub struct ViewportInput<'a> {
     pub badge: Badge,
     /// What a screen reader says of the viewport, such as *Paint, comb, shot camera, frame 0, reference*.
     pub value: &'a str,
-    /// What it says of the place under the pointer, such as *skin, 10 degrees, trust 0.97*.
+    /// What a screen reader says of the place under the pointer, such as *skin, 10 degrees, trust 0.97*.
     pub under_cursor: &'a str,
     /// Whether the scene is empty.
     pub empty: bool,
@@ -106,13 +106,13 @@ pub struct ViewportEvents {
     pub look: Option<CameraChoice>,
     /// Whether *Recapture* was pressed: take the frame that is shown as the reference.
     pub recapture: bool,
-    /// A drag of the axis ball, which orbits the view, points.
+    /// How far the axis ball was dragged, points: this orbits the view.
     pub orbit_px: DVec2,
     /// Whether the pointer is on the picture.
     pub hovered: bool,
 }
 
-/// Shows the viewport. `layout` says where its pictures lie; the caller makes it, as marks need it first.
+/// Shows the viewport. `layout` says where its pictures lie; the caller makes it, because it needs it for the marks.
 pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> ViewportEvents {
     let tokens = Tokens::of(ui);
     let area = layout.area();
@@ -127,8 +127,8 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     let painter = ui.painter().with_clip_rect(area);
     // In the light theme `field` is white, which would be brighter than any picture.
     let is_dark = ui.visuals().dark_mode;
-    let ground = if input.now.is_some() && is_dark { tokens.field } else { tokens.app };
-    painter.rect_filled(area, 0.0, ground);
+    let background = if input.now.is_some() && is_dark { tokens.field } else { tokens.app };
+    painter.rect_filled(area, 0.0, background);
     for (index, framing) in layout.framings().iter().enumerate() {
         if let Some((texture, ..)) = input.pictures.of(index) {
             let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));

@@ -111,7 +111,8 @@ pub struct Picture {
     pub exact: bool,
     /// How many strokes it has.
     pub strokes: usize,
-    /// How many of them each region has, in the order of the scene's regions; the last number is of strokes in no region.
+    /// How many of them each region has, in the order of the scene's regions; the last number is of strokes in no
+    /// region.
     pub strokes_of: Vec<usize>,
     /// How long it took to draw, seconds.
     pub seconds: f64,
@@ -142,13 +143,14 @@ impl Worker {
         self.mailbox.put(job, Vec::new());
     }
 
-    /// As [`Worker::show`], during playback: `ahead` are the same views at the frame that will likely be asked for next.
+    /// As [`Worker::show`], during playback: `ahead` are the same views at the frame that will likely be asked for
+    /// next.
     pub fn play(&self, job: Job, ahead: Vec<ViewJob>) {
         self.mailbox.put(job, ahead);
     }
 
-    /// Draws everything with these shaders from the next job on. If one of them is broken, that is reported and the ones before
-    /// stay in use.
+    /// Draws everything with these shaders from the next job on. If one of them is broken, that is reported and the
+    /// ones before stay in use.
     pub fn replace_shaders(&self, texts: ShaderTexts) {
         self.mailbox.put_shaders(texts);
     }

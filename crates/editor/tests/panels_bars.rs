@@ -28,7 +28,7 @@ const WIDE: (f32, f32) = (1920.0, 500.0);
 fn harness(page: Page, theme: Theme, (wide, high): (f32, f32)) -> Harness<'static, Page> {
     let mut harness = Harness::builder()
         .with_size(vec2(wide, high))
-        .with_theme(eguis(theme))
+        .with_theme(egui_theme(theme))
         .with_render_cursor(false)
         .with_context_setup(move |ctx| theme::apply(ctx, theme, 1.0))
         .renderer(Headless::open(Driver::Auto))
@@ -37,8 +37,7 @@ fn harness(page: Page, theme: Theme, (wide, high): (f32, f32)) -> Harness<'stati
     harness
 }
 
-/// egui's word for a theme.
-fn eguis(theme: Theme) -> egui::Theme {
+fn egui_theme(theme: Theme) -> egui::Theme {
     match theme {
         Theme::Dark => egui::Theme::Dark,
         Theme::Light => egui::Theme::Light,

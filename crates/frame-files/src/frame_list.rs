@@ -66,7 +66,7 @@ impl Range {
             None => (text, 1),
         };
         let number = |text: &str| text.trim().parse::<i64>().map_err(|_| wrong());
-        // A minus in first place is a sign, the next one a dash.
+        // A leading minus is a sign; the first one after it is the dash.
         let dash = range.get(1..).and_then(|rest| rest.find('-')).map(|at| at + 1);
         let (first, last) = match (range.split_once(".."), dash) {
             (Some((first, last)), _) => (number(first)?, number(last)?),

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern {
     before: String,
-    /// `None` where the path has no place for the number.
+    /// How many digits the number has at least; `None` where the path has no place for the number.
     digits: Option<usize>,
     after: String,
 }
@@ -47,6 +47,7 @@ impl Pattern {
     }
 }
 
+/// Where the last run of `#` begins and ends, and how many digits it asks for; the next two functions likewise.
 fn hashes(text: &str) -> Option<(usize, usize, usize)> {
     let start = text.rfind('#').map(|last| text[..=last].trim_end_matches('#').len())?;
     let digits = text[start..].len() - text[start..].trim_start_matches('#').len();

@@ -46,7 +46,7 @@ pub fn encode(file: &mut dyn Write, pixels: Pixels<'_>, provenance: &Provenance)
     Ok(())
 }
 
-/// Begins an animated PNG of so many pictures; each is then written in its turn.
+/// Begins an animated PNG of this many pictures, to be written to it one after the other.
 ///
 /// # Errors
 /// What the disk or the encoder said.
@@ -59,7 +59,7 @@ pub fn begin_animation<'a>(
 ) -> anyhow::Result<png::Writer<&'a mut dyn Write>> {
     let mut encoder = encoder(file, size_px, provenance)?;
     encoder.set_animated(pictures, 0)?;
-    // Rounded to whole milliseconds: 24 frames a second become 23.8.
+    // In whole milliseconds, so 24 frames a second become 23.8.
     encoder.set_frame_delay((1000.0 / fps).round().clamp(1.0, 65535.0) as u16, 1000)?;
     Ok(encoder.write_header()?)
 }

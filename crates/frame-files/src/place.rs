@@ -1,4 +1,4 @@
-//! Where files may be written.
+//! Checks of the place where a file is to be written: the folder can be written into, and no input is overwritten.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_path_buf(),
         _ => PathBuf::from("."),
     };
-    // A device or a pipe is written into, and its folder does not matter.
+    // A device or a pipe is there already: its folder does not matter.
     if std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return Ok(folder);
     }

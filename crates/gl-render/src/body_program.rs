@@ -1,5 +1,5 @@
-//! Programs that draw bodies: the one way in which a program gets a body's vertices, as its pose, its morph and its noise put
-//! them. The shaders' side of it is `shared/body.glsl`.
+//! Programs that draw bodies. They all move a body's vertices by its pose, morph and noise in the same way; the shader
+//! code for that is `shared/body.glsl`.
 
 use glam::Vec4;
 use impasto_core::noise_displace::{Along, Lookup};
@@ -12,7 +12,7 @@ use crate::noise_tiles::NoiseTiles;
 /// The uniforms of `shared/body.glsl` that every program reads.
 const POSE: [&str; 2] = ["world_from_model", "morph"];
 
-/// Its other uniforms, for bodies that noise displaces.
+/// The other uniforms of `shared/body.glsl`, for bodies that noise displaces.
 const DISPLACEMENT: [&str; 6] =
     ["vertex_noise", "noise_scale", "along_normal", "lookup_u", "lookup_v", "moves_normals"];
 
@@ -47,7 +47,7 @@ impl BodyProgram {
         Ok(Self { gpu: gpu.clone(), files, source, usual, displaced: None })
     }
 
-    /// Creates what the bodies of a frame need and is not there yet.
+    /// Creates the program for displaced bodies, if a frame has any.
     pub(crate) fn prepare(&mut self, frame: &Frame) -> Result<(), GlError> {
         if frame.bodies.iter().any(|body| !body.hidden && is_displaced(body)) {
             self.ready_all()?;
@@ -55,7 +55,7 @@ impl BodyProgram {
         Ok(())
     }
 
-    /// Creates the program for displaced bodies, unless it is there.
+    /// Creates the program for displaced bodies, unless it exists.
     pub(crate) fn ready_all(&mut self) -> Result<(), GlError> {
         if self.displaced.is_none() {
             self.displaced = Some(program(&self.gpu, self.files, &self.source, &["NOISE_DISPLACE"])?);
@@ -63,7 +63,8 @@ impl BodyProgram {
         Ok(())
     }
 
-    /// Starts to draw a body: sets the uniforms of `shared/body.glsl`. Noise displaces it only after [`BodyProgram::prepare`].
+    /// Starts to draw a body: sets the uniforms of `shared/body.glsl`. Noise displaces the body only after
+    /// [`BodyProgram::prepare`].
     pub(crate) fn bind<'a>(&'a self, body: &FrameBody, tiles: &NoiseTiles) -> Bound<'a> {
         let noise = body.noise.as_ref();
         let vertex = noise.and_then(|noise| Some((noise, noise.noise.vertex.as_ref()?)));

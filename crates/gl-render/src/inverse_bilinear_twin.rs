@@ -1,4 +1,4 @@
-//! `shaders/shared/inverse_bilinear.glsl` against its twin in `core`, on both drivers.
+//! Tests that `shaders/shared/inverse_bilinear.glsl` finds what the same function in `core` finds, on both drivers.
 
 use std::rc::Rc;
 
@@ -27,7 +27,7 @@ void main() {
 ",
 }];
 
-/// A quad and a point, as a vertex has them.
+/// The corners of a quad, and a point: the inputs of one vertex.
 type Question = [Vec2; 5];
 
 /// What the driver finds.
@@ -55,7 +55,7 @@ fn found_by(driver: Driver, questions: &[Question]) -> Vec<[f32; 2]> {
     };
     let array = VertexArray::new(gpu, &[attribute(0, 4), attribute(1, 4), attribute(2, 2)], None)
         .expect("there is room");
-    // Without a window there is no target until one is made.
+    // Without a window there is no framebuffer until one is made.
     let target =
         Rc::new(Texture::target(gpu, Format::Rgba8, [1, 1], Filter::Nearest).expect("there is room"));
     let target = Framebuffer::new(gpu, &[&target], None).expect("it is complete");
@@ -66,8 +66,9 @@ fn found_by(driver: Driver, questions: &[Question]) -> Vec<[f32; 2]> {
     bytemuck::pod_collect_to_vec(&output.read(questions.len() * 8))
 }
 
-/// The `index`th of many quads in pixels, none shorter than 10 but for trapezoids down to a tenth of that: general ones, trapezoids, parallelograms, rectangles and squares, wound either way,
-/// with a point inside.
+/// A convex quad with a point inside, in pixels. With rising `index` come in turn a general quad, a trapezoid, a
+/// parallelogram, a rectangle and a square. They are wound either way, and the two edges at their first corner are 10
+/// to 300 pixels long.
 fn convex(index: u32) -> Question {
     let chance = |which: u32| f64::from(hash::unit(hash::combine(index, which)));
     let between = |which: u32, low: f64, high: f64| low + (high - low) * chance(which);

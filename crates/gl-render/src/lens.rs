@@ -9,7 +9,7 @@ use crate::gl::Bound;
 pub(crate) const LENS_UNIFORMS: [&str; 4] =
     ["world_from_view", "size_px", "px_per_unit_at_1", "orthographic"];
 
-/// The same for shaders that stay in view space.
+/// Those that a shader in view space uses.
 pub(crate) const VIEW_LENS_UNIFORMS: [&str; 3] = ["size_px", "px_per_unit_at_1", "orthographic"];
 
 /// The values of these uniforms in one frame.
@@ -32,7 +32,7 @@ impl LensSetup {
         }
     }
 
-    /// Sets those of the uniforms that are named.
+    /// Sets the uniforms of these names.
     pub(crate) fn set<'a>(&self, mut bound: Bound<'a>, names: &[&str]) -> Bound<'a> {
         for &name in names {
             bound = match name {

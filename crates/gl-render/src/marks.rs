@@ -1,5 +1,5 @@
-//! Brush marks on the GPU: an array texture with a layer for each mark of each brush, with levels, so that small strokes show
-//! no comb.
+//! Brush marks on the GPU: an array texture with a layer for each mark of each brush. It has mipmap levels, so that the
+//! bristles of small strokes do not alias.
 
 mod bounds;
 
@@ -21,7 +21,7 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    /// The marks of `brushes`: those of `before` where the brushes are the same, else uploaded.
+    /// The marks of `brushes`: `before` if it has the same brushes, else newly uploaded ones.
     pub(crate) fn of(gpu: &Gpu, before: Option<Self>, brushes: &Arc<Brushes>) -> Result<Self, GlError> {
         if let Some(before) = before
             && (Arc::ptr_eq(&before.brushes, brushes)

@@ -39,7 +39,7 @@ struct FrontFaces {
 pub(crate) struct Part {
     pub(crate) first_index: u32,
     pub(crate) index_count: u32,
-    /// The same triangles, as the mesh numbers them.
+    /// The same triangles, by their index in the mesh.
     triangles: Vec<u32>,
     pub(crate) material: usize,
     pub(crate) texture: Rc<Texture>,
@@ -78,8 +78,8 @@ impl MeshOnGpu {
         eye_in_model.w == 0.0 || eye.cmplt(low - margin).any() || eye.cmpgt(high + margin).any()
     }
 
-    /// The triangles that face an eye (model space; w is 0 for parallel rays, and the eye then a direction), with the first
-    /// index and the number of indices of each part. On a closed shell, triangles that face away are hidden by the others.
+    /// The triangles that face the eye, and for each part its first index and number of indices. On a closed shell,
+    /// these triangles hide all others. The eye is in model space; for parallel rays its w is 0 and it is a direction.
     pub(crate) fn front(
         &self,
         gpu: &Gpu,

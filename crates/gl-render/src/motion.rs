@@ -1,4 +1,5 @@
-//! The motion pass: how far each visible surface point moves from one picture to another. For measuring, not for painting.
+//! The motion pass: how far each visible surface point moves from one picture to another. It serves measuring, not
+//! painting.
 
 use std::rc::Rc;
 
@@ -17,9 +18,9 @@ pub struct MotionPixels {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
     /// From a pixel's centre to where the same surface point projects in the other picture: columns to the right, rows
-    /// **down**, as these rows are counted. 0 where no body shows, or where the point is behind the other eye.
+    /// **down**. 0 where no body shows, or where the point is behind the other camera's eye.
     pub offset_px: Vec<[f32; 2]>,
-    /// Depth of that point along the other gaze, world units; 0 where no body shows, or behind the eye.
+    /// Depth of that point along the other camera's gaze, world units; 0 where no body shows, or behind its eye.
     pub depth_then: Vec<f32>,
     /// Index of the body plus 1; 0 where nothing is.
     pub body_id: Vec<u32>,
@@ -46,7 +47,8 @@ impl MotionPass {
         self.program.ready_all()
     }
 
-    /// Draws the bodies of `now`. Both frames have their bodies in the same order; a body that `then` lacks has not moved.
+    /// Draws the bodies of `now`. Both frames have their bodies in the same order; a body that `then` lacks counts as
+    /// not moved.
     pub(crate) fn draw(
         &mut self,
         reference: &mut ReferencePass,
@@ -98,7 +100,7 @@ impl MotionPass {
     }
 }
 
-/// From four floats a pixel, bottom row first and Y up.
+/// Converts four floats a pixel, bottom row first and Y up.
 fn motion_pixels(size_px: [u32; 2], values: &[f32]) -> MotionPixels {
     let pixels = values.len() / 4;
     let mut motion = MotionPixels {

@@ -32,7 +32,7 @@ impl NoiseTiles {
         Ok(())
     }
 
-    /// A tile of the frame that was prepared last.
+    /// The texture of a tile of the frame that was prepared last.
     pub(crate) fn get(&self, tile: &Arc<Tile>) -> Option<&Texture> {
         let is_it = |weak: &Weak<Tile>| std::ptr::eq(weak.as_ptr(), Arc::as_ptr(tile));
         self.tiles.iter().find(|(weak, _)| is_it(weak)).map(|(_, texture)| &**texture)

@@ -1,4 +1,4 @@
-//! Palettes as a texture.
+//! The palettes of a frame as a texture.
 
 use impasto_painting::Frame;
 
@@ -7,8 +7,8 @@ use crate::gl::{Format, GlError, Gpu, Texture};
 /// Texels in a row: the most pigments that a palette has.
 const PIGMENTS: usize = 16;
 
-/// The palettes of a frame, a row each, with their linear colours as `encode` gives them; one empty row where there are none.
-/// Alpha is 1 for a pigment and 0 past the last.
+/// A texture with a row for each palette of a frame, or one empty row if it has none. `encode` converts the linear
+/// colours. Alpha is 1 for a pigment and 0 past the last one.
 pub(crate) fn palette_texture(
     gpu: &Gpu,
     frame: &Frame,

@@ -47,7 +47,7 @@ impl ReferencePass {
         })
     }
 
-    /// Draws the reference picture into `targets`. Strokes are to be lit by the lights that it returns.
+    /// Draws the reference picture into `targets`. Returns its lights, which also light the strokes.
     pub(crate) fn draw(
         &mut self,
         frame: &Frame,
@@ -104,7 +104,7 @@ impl ReferencePass {
         self.noise.ready_all()
     }
 
-    /// Creates what drafts need, unless it is there.
+    /// Creates the program for drafts, unless it exists.
     fn ready_drafts(&mut self) -> Result<(), GlError> {
         if self.draft_light.is_none() {
             let source = ProgramSource { defined: &["DRAFT"], ..LIGHT };
@@ -146,8 +146,8 @@ impl ReferencePass {
             if !is_drawn_here(body) {
                 continue;
             }
-            // A draft draws only the triangles that face the eye. That is wrong inside a body, and for a surface that is no
-            // longer where its mesh is.
+            // A draft draws only the triangles that face the eye, which are found on the mesh as it is stored. That
+            // would be wrong for an eye inside the body, and where morph or noise has moved the surface.
             let front = match frame.quality {
                 Quality::Draft if body.morph == 0.0 && !is_displaced(body) => {
                     let eye = body.world_from_model.inverse() * eye;

@@ -128,7 +128,8 @@ impl Renderer {
         })
     }
 
-    /// From now on, draws with these shader texts instead of the program's own. If one of them is broken, nothing changes.
+    /// From now on, draws with these shader texts instead of the program's own. If one of them is broken, nothing
+    /// changes.
     ///
     /// # Errors
     /// The driver's message, with the file and the line.
@@ -182,11 +183,11 @@ impl Renderer {
         gpu.make_current()?;
         let mut watch = Watch::new(&gpu, None);
         let lights = self.draw_reference(frame, &mut watch);
-        whole(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
+        finished(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
     }
 
-    /// As [`Renderer::render`], for a frame without strokes: `strokes` computes them while the driver draws the reference
-    /// picture, and they are put into the frame.
+    /// As [`Renderer::render`], for a frame that has no strokes yet: `strokes` computes them while the driver draws the
+    /// reference picture, and they are put into the frame.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -202,11 +203,12 @@ impl Renderer {
         let lights = self.draw_reference(frame, &mut watch);
         gpu.flush();
         frame.lay(strokes());
-        whole(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
+        finished(lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)))
     }
 
-    /// As [`Renderer::render`], but calls `stop` after every pass, and several times in long ones. When it returns true there
-    /// is no picture: the frame stays unfinished, and the next one is drawn as if this one had never begun.
+    /// As [`Renderer::render`], but calls `stop` after every pass, and several times in long ones. When `stop` returns
+    /// true, there is no picture: the frame stays unfinished, and the next one is drawn as if this one had never
+    /// begun.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -222,12 +224,12 @@ impl Renderer {
         let lights = self.draw_reference(frame, &mut watch);
         match lights.and_then(|lights| self.draw_style(frame, &lights, &mut watch)) {
             Err(Halt::GivenUp) => Ok(None),
-            drawn => whole(drawn).map(Some),
+            drawn => finished(drawn).map(Some),
         }
     }
 
-    /// Sets the light icons that are drawn over every picture from now on. They are for windows, not for files; at first
-    /// there are none.
+    /// Sets the light icons that are drawn over every picture from now on. They are for windows, not for files. A new
+    /// renderer has none.
     pub fn set_billboards(&mut self, billboards: &[LightBillboard]) {
         self.billboards.clear();
         self.billboards.extend_from_slice(billboards);
@@ -319,8 +321,8 @@ impl Renderer {
         Ok((picture?, Cost { passes, overdraw: fragments as f64 / (pixels[0] * pixels[1]) }))
     }
 
-    /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both frames have the same size
-    /// and the same bodies in the same order. The last picture stays as it is.
+    /// For every pixel of `now` where a body shows, where the same surface point is in `then`. Both frames have the
+    /// same size, and the same bodies in the same order. The last picture stays as it is.
     ///
     /// # Errors
     /// As [`Renderer::render`].
@@ -393,8 +395,8 @@ fn output_target(gpu: &Gpu, size_px: [u32; 2]) -> Result<Framebuffer, GlError> {
     Framebuffer::new(gpu, &[&color], None)
 }
 
-/// The result of drawing that nobody could stop.
-fn whole(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
+/// The result of a drawing that had no `stop`, and so cannot have been given up.
+fn finished(drawn: Result<Picture, Halt>) -> Result<Picture, RenderError> {
     drawn.map_err(|halt| match halt {
         Halt::Gl(error) => error.into(),
         Halt::GivenUp => unreachable!("only a watch with `stop` gives up"),

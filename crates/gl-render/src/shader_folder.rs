@@ -16,9 +16,9 @@ type FileStamp = Option<(u64, Option<SystemTime>)>;
 #[derive(Debug)]
 pub struct ShaderFolder {
     path: PathBuf,
-    /// The files that were read last.
+    /// The files when they were last read.
     read: Vec<FileStamp>,
-    /// The files a moment ago, if they differ from those: they may still be being written.
+    /// The files at the last check, if they differed from `read`. They may still be being written.
     changing: Option<Vec<FileStamp>>,
 }
 
@@ -46,8 +46,8 @@ impl ShaderFolder {
         &self.path
     }
 
-    /// Checks once, and reads the files again if they have changed since they were last read, and no more since the last
-    /// check. The program's own text replaces a file that is gone.
+    /// Checks the files once. Reads them again if they have changed since they were last read, but not since the last
+    /// check, when they may have been half written. The program's own text replaces a file that is gone.
     ///
     /// # Errors
     /// A message: a file cannot be read.
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_read_again_once_they_have_come_to_rest() {
+    fn files_are_read_again_once_they_no_longer_change() {
         let folder = tempfile::tempdir().unwrap();
         let words = ShaderFolder::open(folder.path()).unwrap_err();
         assert!(words.contains("holds no shader") && words.contains("shared/"), "{words}");

@@ -92,7 +92,7 @@ impl ShadowMap {
         shadow_from_world: Mat4,
     ) -> Result<(), GlError> {
         let casters = Casters::new(bodies, shadow_from_world);
-        // Forgotten while it is drawn, so that a map that failed half way is not taken for whole.
+        // `drawn` is empty meanwhile, so that a map whose drawing failed is not taken for a complete one.
         let before = self.drawn.take();
         if before.as_ref() == Some(&casters) {
             self.drawn = before;
@@ -111,7 +111,7 @@ impl ShadowMap {
     }
 }
 
-/// Looks at a sphere from where the sun is, with the whole sphere in clip space.
+/// The parallel view of a sphere from the direction of the sun; the whole sphere is in clip space.
 pub(crate) fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
     let up = if to_light.y.abs() < 0.9 { Vec3::Y } else { Vec3::Z };
     let right = up.cross(to_light).normalize_or(Vec3::X);

@@ -1,4 +1,5 @@
-//! The strokes of a frame on the GPU, for any style: their records, what the style resolved of each, and their brush marks.
+//! The strokes of a frame on the GPU, for any style: their records, what the style's resolve pass found for each, and
+//! their brush marks.
 
 use std::mem::offset_of;
 
@@ -43,7 +44,7 @@ impl StrokeBuffers {
         Ok(())
     }
 
-    /// Uploads a frame's strokes, and makes room for what will be resolved of them.
+    /// Uploads a frame's strokes, and makes room for the results of the resolve pass.
     pub(crate) fn upload(&mut self, frame: &Frame) -> Result<(), GlError> {
         self.count = frame.strokes.len();
         self.strokes.upload(bytemuck::cast_slice(&frame.strokes))?;
@@ -80,13 +81,13 @@ impl StrokeBuffers {
         self.marks.as_ref()
     }
 
-    /// What was resolved of each stroke of the last frame, eight floats each.
+    /// What the resolve pass found for each stroke of the last frame, eight floats each.
     pub(crate) fn read_resolved(&self) -> Vec<[f32; 8]> {
         bytemuck::pod_collect_to_vec(&self.resolved.read(self.count * RESOLVED_BYTES))
     }
 }
 
-/// What was resolved of strokes from number `first` on, one for each billboard.
+/// The results of the resolve pass as shader inputs, from stroke `first` on, one for each billboard.
 fn resolved_inputs(resolved: &Buffer, first: i32) -> [Attribute<'_>; 2] {
     let stride = RESOLVED_BYTES as i32;
     [(6, 0), (7, 16)].map(|(location, offset)| Attribute {
@@ -122,7 +123,8 @@ fn stroke_inputs(buffer: &Buffer, first: i32, per_instance: bool) -> Vec<Attribu
     ]
 }
 
-/// Taper and bend of strokes from number `first` on; all else as in another of their inputs.
+/// Taper and bend as a shader input, from stroke `first` on; everything else as in `other`, another input of the
+/// strokes.
 fn shape_input<'a>(other: &Attribute<'a>, first: i32) -> Attribute<'a> {
     let offset = first * size_of::<Stroke>() as i32 + offset_of!(Stroke, taper) as i32;
     Attribute { location: 8, components: 2, offset_bytes: offset, ..*other }

@@ -1,4 +1,4 @@
-//! What every style's renderer takes, and what it can be asked.
+//! The trait that every style's renderer implements, and what it draws from.
 
 use impasto_painting::Frame;
 
@@ -35,14 +35,14 @@ pub(crate) trait StyleRenderer {
         Ok(())
     }
 
-    /// What was resolved of each stroke of the last frame: colour and alpha, then its place, eight floats each. Empty for
-    /// styles without strokes.
+    /// What the resolve pass found for each stroke of the last frame, eight floats each: colour and alpha, then its
+    /// place. Empty for styles without strokes.
     fn read_resolved(&self) -> Vec<[f32; 8]> {
         Vec::new()
     }
 
-    /// The paint of the last frame, premultiplied and display-linear, without background, bottom row first. Empty for styles
-    /// that keep none.
+    /// The paint of the last frame, premultiplied and display-linear, without background, bottom row first. Empty for
+    /// styles that keep none.
     fn read_paint(&self) -> Vec<[f32; 4]> {
         Vec::new()
     }

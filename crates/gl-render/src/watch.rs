@@ -1,8 +1,8 @@
-//! What happens between passes: they are timed, and the caller may stop.
+//! What happens after each pass: it is timed, and the caller may stop the drawing.
 
 use crate::gl::{Gpu, Halt};
 
-/// Is called after every pass.
+/// Times passes, and asks the caller whether to stop.
 pub(crate) struct Watch<'a> {
     gpu: Gpu,
     stop: Option<&'a mut dyn FnMut() -> bool>,
@@ -27,7 +27,8 @@ impl<'a> Watch<'a> {
         self.gpu.lap(pass);
         match &mut self.stop {
             Some(stop) => {
-                // The driver works in the background: without waiting, this would be asked long before the pass is done.
+                // The driver works in the background: without waiting, `stop` would be called long before the pass is
+                // done.
                 self.gpu.finish();
                 if stop() { Err(Halt::GivenUp) } else { Ok(()) }
             }

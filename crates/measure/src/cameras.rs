@@ -17,7 +17,7 @@ pub fn orbited(camera: &CameraPose, angle_deg: f64) -> CameraPose {
     CameraPose { eye, ..camera.clone() }
 }
 
-/// The camera zoomed in by this factor through its lens, so that it meets no wall.
+/// The camera zoomed in by this factor through its lens. It stays where it is, so it cannot run into a wall.
 pub fn zoomed(camera: &CameraPose, factor: f64) -> CameraPose {
     let lens = match camera.lens {
         Lens::Perspective { fov_y_deg, near, far } => {

@@ -1,4 +1,4 @@
-//! What the protocols work with: the scene and its prepared versions, a renderer, and a cache of drawn frames.
+//! What the protocols work with: the scene and its prepared versions, a renderer, and frames already drawn.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -112,7 +112,7 @@ impl<'a> MeasureContext<'a> {
         FrameOptions { rotation, ..FrameOptions::new(self.size_px) }
     }
 
-    /// Pairs of neighbouring frames, evenly over the shot; none where it has one frame.
+    /// Pairs of neighbouring frames, evenly over the shot; none if the shot has only one frame.
     pub fn pairs(&self) -> Vec<[f64; 2]> {
         let timeline = &self.loaded.scene.timeline;
         let starts = timeline.last.saturating_sub(timeline.first).max(0);
@@ -124,7 +124,7 @@ impl<'a> MeasureContext<'a> {
         (0..count).map(start).map(|first| [first, first + 1.0]).collect()
     }
 
-    /// The first frames of the pairs; the only frame of a shot that has one.
+    /// The first frame of each pair; if the shot has only one frame, that one.
     pub fn frames(&self) -> Vec<f64> {
         let pairs = self.pairs();
         if pairs.is_empty() {
@@ -145,13 +145,13 @@ impl<'a> MeasureContext<'a> {
         rotation: Rotation,
     ) -> Result<Rc<DrawnFrame>, MeasureError> {
         let key = (version, rotation_key(rotation), frame.to_bits());
-        if let Some(shown) = self.drawn.get(&key) {
-            return Ok(Rc::clone(shown));
+        if let Some(drawn) = self.drawn.get(&key) {
+            return Ok(Rc::clone(drawn));
         }
         let painting = self.painting(version)?;
-        let shown = Rc::new(self.draw(painting.at(frame, &self.frame_options(rotation)))?);
-        self.drawn.insert(key, Rc::clone(&shown));
-        Ok(shown)
+        let drawn = Rc::new(self.draw(painting.at(frame, &self.frame_options(rotation)))?);
+        self.drawn.insert(key, Rc::clone(&drawn));
+        Ok(drawn)
     }
 
     /// The reference pose in this version, drawn as another camera sees it.

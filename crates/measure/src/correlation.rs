@@ -1,6 +1,6 @@
 //! Normalised cross-correlation: do two patterns agree?
 
-/// Normalised cross-correlation of pairs of numbers, −1..=1, and how many pairs there were; 0 where one side is constant.
+/// Normalised cross-correlation of pairs of numbers, −1..=1 (0 if one side is constant), and how many pairs there were.
 pub fn normalized(pairs: impl Iterator<Item = (f32, f32)>) -> (f64, usize) {
     let (mut count, mut a_sum, mut b_sum) = (0usize, 0.0, 0.0);
     let (mut aa, mut bb, mut ab) = (0.0, 0.0, 0.0);

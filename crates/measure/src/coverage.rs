@@ -65,8 +65,9 @@ impl Bodies<'_> {
 /// How far paint may run over the border of its body, pixels.
 const BORDER_PX: usize = 2;
 
-/// Counts painted pixels of bodies, away from their borders: those whose colour is nearer to another body's than to their own,
-/// and all. `paint` is premultiplied; `colors[id - 1]` is a body's own colour.
+/// Of the painted pixels of bodies, away from the bodies' borders: how many have a colour that is nearer to another
+/// body's than to their own, and how many there are. `paint` is premultiplied; `colors[id - 1]` is a body's own
+/// colour.
 pub fn bleed(bodies: &Bodies<'_>, paint: &[[f32; 4]], colors: &[[f32; 3]]) -> (usize, usize) {
     let (mut bled, mut pixels) = (0, 0);
     for (index, &[r, g, b, alpha]) in paint.iter().enumerate() {

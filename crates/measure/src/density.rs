@@ -13,13 +13,15 @@ pub struct PlacedStroke {
     pub wanted_area_px: f64,
 }
 
-/// Σ α · (pixels per stroke wanted) over the pixels that the strokes lie on: 1 where there are as many strokes as wanted.
+/// Σ α · (pixels per stroke wanted), divided by the number of pixels that the strokes lie on: 1 where there are as
+/// many strokes as wanted.
 pub fn shown_over_wanted(strokes: &[PlacedStroke], pixels: usize) -> f64 {
     strokes.iter().map(|stroke| stroke.alpha * stroke.wanted_area_px).sum::<f64>() / pixels.max(1) as f64
 }
 
-/// For the strokes that are more than half there: the mean distance to the nearest neighbour, over that of the hexagonal lattice
-/// with as many points on as many pixels; and how many strokes these are.
+/// How evenly the strokes with an alpha above a half are spread: the mean distance to the nearest neighbour, divided
+/// by that distance in a hexagonal lattice with as many points on as many pixels. Also returns how many strokes these
+/// are.
 pub fn spacing_over_ideal(strokes: &[PlacedStroke], pixels: usize) -> (f64, usize) {
     let mut shown: Vec<[f64; 2]> =
         strokes.iter().filter(|stroke| stroke.alpha > 0.5).map(|stroke| stroke.center_px).collect();
@@ -27,16 +29,16 @@ pub fn spacing_over_ideal(strokes: &[PlacedStroke], pixels: usize) -> (f64, usiz
         return (0.0, shown.len());
     }
     shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    // Outwards to either side, until all further strokes are too far away in x alone.
+    // Searches outwards to either side, until all further strokes are too far away in x alone.
     let nearest = |index: usize| {
         let [x, y] = shown[index];
         let mut least = f64::INFINITY;
-        let mut version = |[other_x, other_y]: [f64; 2]| {
+        let mut compare = |[other_x, other_y]: [f64; 2]| {
             least = least.min((other_x - x).hypot(other_y - y));
             (other_x - x).abs() <= least
         };
-        let _ = shown[..index].iter().rev().all(|&other| version(other));
-        let _ = shown[index + 1..].iter().all(|&other| version(other));
+        let _ = shown[..index].iter().rev().all(|&other| compare(other));
+        let _ = shown[index + 1..].iter().all(|&other| compare(other));
         least
     };
     let mean = (0..shown.len()).map(nearest).sum::<f64>() / shown.len() as f64;
@@ -65,9 +67,9 @@ mod tests {
         assert!((spacing - 1.0).abs() < 1e-3 && count == 1600, "{spacing}");
         assert!((shown_over_wanted(&lattice, pixels) - 1.0).abs() < 1e-3);
         let unit = |which: u32| f64::from(impasto_core::hash::unit(impasto_core::hash::scramble(which)));
-        let chance: Vec<PlacedStroke> =
+        let random: Vec<PlacedStroke> =
             (0..1600).map(|i| place(unit(2 * i) * 400.0, unit(2 * i + 1) * 346.0)).collect();
-        let (spacing, _) = spacing_over_ideal(&chance, pixels);
+        let (spacing, _) = spacing_over_ideal(&random, pixels);
         assert!(spacing < 0.55, "{spacing}");
     }
 }

@@ -12,7 +12,7 @@ pub struct Flatness {
     pub variation: Vec<f64>,
 }
 
-/// M8 over frames of one picture size, for the strokes of at least two frames.
+/// Flatness over frames of one picture size, for the strokes that are in at least two of them.
 pub fn flatness<'a>(frames: impl Iterator<Item = &'a StrokesByKey>) -> Flatness {
     let mut sizes: BTreeMap<StrokeKey, [Vec<f64>; 2]> = BTreeMap::new();
     for strokes in frames {

@@ -18,7 +18,7 @@ pub struct Jitter {
     pub triples: usize,
 }
 
-/// What rounding to single precision alone gives, degrees per frame squared, in a motion without acceleration.
+/// The acceleration that rounding to single precision alone gives in a steady motion, degrees per frame squared.
 const FLOOR_DEG: f64 = 2e-3;
 
 impl Jitter {
@@ -34,8 +34,8 @@ impl Jitter {
         Self { drawn_deg: mean(drawn), analytic_deg: mean(analytic), triples: count }
     }
 
-    /// How much more the strokes accelerate than expected, as a share of the expected acceleration or, if larger, of what rounding
-    /// gives.
+    /// How much more the strokes accelerate than expected, as a share of the expected acceleration, which counts
+    /// as at least what rounding gives.
     pub fn excess(&self) -> f64 {
         let expected = self.analytic_deg.max(FLOOR_DEG);
         (self.drawn_deg - expected).max(0.0) / expected

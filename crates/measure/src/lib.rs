@@ -1,4 +1,4 @@
-//! How steady a painting is: the metrics M1 to M14.
+//! Measures how steady a painting is, by the metrics M1 to M14 ([`Metric`] lists them).
 //!
 //! ```text
 //! pictures, strokes ─▶ formulas on plain data     plane, strokes, popping, warp, shower_door, coverage, ...

@@ -1,4 +1,4 @@
-//! The direction of streaks in a picture, by structure tensors.
+//! Finds the direction of streaks in a picture, by structure tensors.
 
 use crate::plane::Plane;
 use crate::turning::place_before;
@@ -13,7 +13,8 @@ pub struct Tensors {
 }
 
 impl Tensors {
-    /// The tensors of every pixel (0 along the border), by Scharr's derivative, averaged over a Gaussian of this deviation.
+    /// The tensors of every pixel (0 along the border): Scharr's derivative, averaged over a Gaussian of this
+    /// deviation.
     pub fn of(plane: &Plane, sigma_px: f64) -> Self {
         let [width, height] = plane.size_px;
         let gradient = |x: usize, y: usize| {
@@ -31,8 +32,9 @@ impl Tensors {
     }
 }
 
-/// The mean angle, radians in (−π/2, π/2], from the streaks of `straight` turned counter-clockwise by `angle_rad` to those of
-/// `turned`, `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, and how many pixels of the mask it is taken over.
+/// By how much the streaks of `turned` are off, on average, if they should be those of `straight` turned
+/// counter-clockwise by `angle_rad`: `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, radians in (−π/2, π/2]. Also returns how many
+/// pixels of the mask count.
 pub fn error_rad(straight: &Tensors, turned: &Tensors, angle_rad: f64, mask: &[bool]) -> (f64, usize) {
     let size_px = turned.real.size_px;
     let (sin, cos) = (2.0 * angle_rad).sin_cos();

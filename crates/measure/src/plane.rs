@@ -40,14 +40,14 @@ impl Plane {
         self.values[y * self.size_px[0] + x]
     }
 
-    /// Bilinear value at pixel-centre coordinates (0, 0 is the centre of the first pixel, y down); `None` off the picture.
+    /// Bilinear value at a point (0, 0 is the centre of the first pixel, y down); `None` off the picture.
     pub fn sample(&self, x: f64, y: f64) -> Option<f32> {
         let taps = Taps::new(self.size_px, x, y)?;
         Some(taps.mix(|index| self.values[index]))
     }
 
-    /// Blurred by a Gaussian of this deviation within a mask: each value is the weighted mean of the masked pixels around it; 0
-    /// outside the mask.
+    /// Blurred by a Gaussian of this deviation within a mask: each value is the weighted mean of the masked pixels
+    /// around it; 0 outside the mask.
     pub fn blurred_in(&self, mask: &[bool], sigma_px: f64) -> Self {
         let weights: Vec<f32> = mask.iter().map(|&known| f32::from(u8::from(known))).collect();
         let weighted = Self {
@@ -125,7 +125,7 @@ impl Taps {
         };
         let (x, y) = (snapped(x, width), snapped(y, height));
         let (left, top) = (x.floor(), y.floor());
-        // In the last row or column, the pixel before is the second one.
+        // A point in the last row or column has its taps there and in the row or column before.
         let (left, top) = (left.min(width as f64 - 2.0), top.min(height as f64 - 2.0));
         let (s, t) = (x - left, y - top);
         let inside = left >= 0.0 && top >= 0.0 && s <= 1.0 && t <= 1.0;

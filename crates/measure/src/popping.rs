@@ -26,8 +26,8 @@ pub struct Popping {
     pub popped: usize,
 }
 
-/// M4 between two frames of one size. A stroke that is absent has an alpha of 0. One that touches the picture's border in
-/// either frame is left out: it enters or leaves, which is no pop.
+/// Popping between two frames of one size. A stroke that is absent has an alpha of 0. A stroke that touches the
+/// picture's border in either frame is left out: it enters or leaves, which is no pop.
 pub fn popping(before: &StrokesByKey, after: &StrokesByKey, size_px: [u32; 2]) -> Popping {
     let carried_px = displacement_px(before, after);
     let mut found = Popping::default();
@@ -84,12 +84,13 @@ fn displacement(then: &MeasuredStroke, now: &MeasuredStroke) -> f64 {
     dx.hypot(dy)
 }
 
-/// The same strokes with their presence as alpha: as if nothing hid them and every layer were wanted in full.
+/// The same strokes with their presence as alpha: as if nothing hid them and their layers were wanted in full.
 pub fn by_presence(strokes: &StrokesByKey) -> StrokesByKey {
     strokes.iter().map(|(key, stroke)| (*key, MeasuredStroke { alpha: stroke.presence, ..*stroke })).collect()
 }
 
-/// The strokes of the bodies that move between the two frames: strokes of still bodies would dilute the share that pops.
+/// The strokes of the bodies that move between the two frames: strokes of still bodies would dilute the share that
+/// pops.
 pub fn of_moving_bodies(before: &StrokesByKey, after: &StrokesByKey) -> [StrokesByKey; 2] {
     let mut moving: Vec<u32> = before
         .iter()
@@ -134,7 +135,7 @@ mod tests {
         let before = strokes(&[(0, 1.0, middle), (1, 1.0, middle), (2, 0.5, middle), (3, 1.0, [2.0, 50.0])]);
         let after = strokes(&[(0, 0.9, middle), (2, 0.1, middle), (4, 0.8, middle), (5, 1.0, [50.0, 99.0])]);
         let found = popping(&before, &after, [100, 100]);
-        // 1 dies, 2 steps, 4 is born; 3 and 5 are at the border.
+        // 1 vanishes, 2 steps, 4 appears; 3 and 5 are at the border.
         assert_eq!((found.strokes, found.popped), (4, 3));
         assert!((found.share - 3.0 / 2.5).abs() < 1e-12);
         assert_eq!(found.largest_step, 1.0);

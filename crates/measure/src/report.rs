@@ -241,12 +241,12 @@ impl MeasureReport {
             if !row.values.is_empty() {
                 let Counts { strokes, pixels, frames } = row.counts;
                 let parts = [(strokes, "strokes"), (pixels, "pixels"), (frames, "frames")];
-                let rests: Vec<String> = parts
+                let counts: Vec<String> = parts
                     .iter()
                     .filter(|(count, _)| *count > 0)
                     .map(|(count, what)| format!("{count} {what}"))
                     .collect();
-                let _ = writeln!(text, "    on       {} ({})", row.taken_on, rests.join(", "));
+                let _ = writeln!(text, "    on       {} ({})", row.taken_on, counts.join(", "));
             }
             for value in &row.values {
                 let _ = writeln!(text, "             {}", value.words());

@@ -12,12 +12,13 @@ use impasto_scene::motion;
 use crate::strokes::{StrokesByKey, of_layer};
 use crate::truth::{BodyView, SurfacePoint, TrueView};
 
-/// A stroke counts as visible when its surface faces the eye by this cosine and this much of it was drawn.
+/// A stroke counts as visible if its surface faces the eye by more than this cosine and it was drawn with more than
+/// this alpha.
 const FACED: f64 = 0.2;
 const DRAWN: f64 = 0.1;
 
-/// The normals of neighbours differ by at most this cosine (37 degrees): strokes across a crease, round a limb or on the other side
-/// of a sheet do not count.
+/// The cosine between the normals of neighbours is larger than this (37 degrees): strokes across a crease, round a
+/// limb or on the other side of a sheet do not count.
 const SAME_SIDE: f64 = 0.8;
 
 /// How many neighbours a stroke is compared with.
@@ -40,8 +41,8 @@ pub struct Difference {
     pub near_pole: bool,
 }
 
-/// For each visible stroke that the reference view saw from behind, its differences to its nearest visible neighbours of the same
-/// region that face the same way.
+/// For each visible stroke whose surface the reference view saw from behind: its differences to its nearest visible
+/// neighbours of the same region that face the same way.
 pub fn revealed(painting: &Painting, strokes: &StrokesByKey, size_px: [u32; 2]) -> Vec<Difference> {
     let (camera, frame) = motion::referred_to(painting.scene(), &painting.scene().reference);
     let reference = TrueView::new(&camera, size_px);
@@ -104,8 +105,8 @@ fn differences(body_id: u32, group: &[Visible], singular: &[Singularity]) -> Vec
         others.sort_by(|a, b| a.0.total_cmp(&b.0));
         others.truncate(NEIGHBOURS);
         let farthest = others.last().map_or(0.0, |(distance_sq, _)| distance_sq.sqrt());
-        let round = |point: &Singularity| point.position.distance(stroke.position) < ROUND_A_POINT * farthest;
-        let near_pole = stroke.near_pole || singular.iter().any(round);
+        let close = |point: &Singularity| point.position.distance(stroke.position) < ROUND_A_POINT * farthest;
+        let near_pole = stroke.near_pole || singular.iter().any(close);
         found.extend(others.iter().map(|&(_, apart_deg)| Difference { apart_deg, body_id, near_pole }));
     }
     found

@@ -1,4 +1,4 @@
-//! M1 and M2: how pictures and angles of strokes turn as the camera rolls.
+//! M1 and M2, roll: do pictures and the angles of strokes turn as the camera rolls?
 
 use impasto_gl_render::Picture;
 
@@ -16,8 +16,8 @@ pub struct QuarterDifference {
     pub pixels: usize,
 }
 
-/// M1 for quarter turns: compares square pictures of a camera, straight and rolled by this many quarters (which turns the picture
-/// back by as many), within a mask of the rolled one.
+/// M1 for quarter turns: compares the square picture of a rolled camera with the straight one turned back by as many
+/// quarters, within a mask of the rolled one.
 pub fn quarter_difference(
     straight: &Picture,
     rolled: &Picture,

@@ -21,8 +21,9 @@ const SHEET: &str = "#![enable(implicit_some)]
     objects: [(name: \"sheet\", mesh: \"sheet\")],
 )";
 
-/// A scene of a sheet, 2 by 2 units, that fills a square picture. It carries the body layer of region `region` of another scene
-/// (`None`: of what is in no region), without chance in size. `None` if its text cannot be read.
+/// A scene of a sheet, 2 by 2 units, that fills a square picture. It carries the body layer of region `region` of
+/// another scene (`None`: of what is in no region), all strokes of one size. Returns `None` if the sheet's own text
+/// cannot be read.
 pub fn sheet(loaded: &LoadedScene, region: Option<usize>, side_px: u32) -> Option<LoadedScene> {
     let mut version = loaded.clone();
     let body = presets::resolve(&loaded.scene, region).body().clone();
@@ -57,7 +58,7 @@ fn mesh() -> MeshFile {
     MeshFile { mesh, groups: vec!["sheet".to_owned()], materials: vec![material] }
 }
 
-/// A camera that looks at the sheet from this tilt.
+/// A camera that sees the sheet tilted by this angle.
 pub fn camera(tilt_deg: f64) -> CameraPose {
     let (sin, cos) = tilt_deg.to_radians().sin_cos();
     CameraPose {

@@ -50,7 +50,7 @@ impl MeasuredStroke {
 /// All strokes of a frame.
 pub type StrokesByKey = BTreeMap<StrokeKey, MeasuredStroke>;
 
-/// The strokes of a frame. `resolved` holds what was drawn of each, in the frame's order; it is empty if nothing was drawn.
+/// The strokes of a frame. `resolved` says how each was drawn, in the frame's order; it is empty if nothing was drawn.
 pub fn strokes_by_key(frame: &Frame, resolved: &[ResolvedStroke]) -> StrokesByKey {
     let mut strokes = StrokesByKey::new();
     for run in &frame.layers {

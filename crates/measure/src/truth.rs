@@ -1,5 +1,5 @@
-//! The oracle for turns: the local screen map by finite differences through a 4×4 matrix written out here, so that it shares no
-//! function with the code that paints.
+//! The oracle for turns: finds the local screen map by finite differences. Its camera matrix is written out here, so
+//! that it shares no function with the code that paints.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4, Vec3};
 use impasto_core::sampling::Particle;
@@ -94,8 +94,8 @@ impl PointMotion {
         Self { before: point, after: point, carry: DMat3::IDENTITY }
     }
 
-    /// A particle of a surface that is morphed by these shares in the reference pose and in the current one. Its triangle's edges
-    /// and its normal give F.
+    /// A particle of a surface that is morphed by these shares in the reference pose and in the current one. F follows
+    /// from its triangle's edges and its normal.
     pub fn of(surface: &BodySurface, particle: &Particle, shares: [f64; 2]) -> Self {
         let mesh = &surface.mesh;
         let corners = mesh.triangles[particle.triangle as usize].map(|vertex| vertex as usize);
@@ -169,8 +169,8 @@ pub struct ScreenTurn {
 }
 
 impl ScreenTurn {
-    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference sees the surface
-    /// edge-on.
+    /// From the reference view to the current one: `A = (J_now F B)(J_ref B)⁻¹`. `None` where the reference sees the
+    /// surface edge-on.
     pub fn between(point_motion: &PointMotion, reference: BodyView<'_>, now: BodyView<'_>) -> Option<Self> {
         let point = point_motion.before;
         let first = point.normal.any_orthonormal_vector();

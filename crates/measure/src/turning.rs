@@ -23,8 +23,8 @@ pub fn quarters_of_bytes(rgba8: &[u8], side_px: usize, quarters: i32) -> Vec<u8>
     (0..side_px * side_px).flat_map(|index| pixel(index).iter().copied()).collect()
 }
 
-/// Where a pixel of a picture was before the picture was turned about its middle, counter-clockwise as seen, in pixel-centre
-/// coordinates with y down.
+/// Where a pixel was before the picture was turned counter-clockwise about its middle. 0, 0 is the centre of the first
+/// pixel, y down.
 pub fn place_before(size_px: [usize; 2], angle_rad: f64, [x, y]: [usize; 2]) -> [f64; 2] {
     let middle = size_px.map(|side| (side as f64 - 1.0) * 0.5);
     let (dx, dy) = (x as f64 - middle[0], middle[1] - y as f64);
@@ -32,7 +32,7 @@ pub fn place_before(size_px: [usize; 2], angle_rad: f64, [x, y]: [usize; 2]) -> 
     [middle[0] + dx * cos + dy * sin, middle[1] - (dy * cos - dx * sin)]
 }
 
-/// A picture turned counter-clockwise about its middle; 0 where nothing of the picture comes to lie.
+/// A picture turned counter-clockwise about its middle; 0 where it does not reach.
 pub fn turned(plane: &Plane, angle_rad: f64) -> Plane {
     Plane::of(plane.size_px, |x, y| {
         let [from_x, from_y] = place_before(plane.size_px, angle_rad, [x, y]);

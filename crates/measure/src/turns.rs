@@ -9,7 +9,8 @@ use impasto_scene::motion::{self, CameraPose};
 use crate::strokes::{StrokeKey, StrokesByKey, degrees_apart, of_layer, strokes_by_key};
 use crate::truth::{BodyView, PointMotion, ScreenTurn, TrueView};
 
-/// Strokes that the reference sees by a smaller cosine are left out: their lift is not the reference's alone.
+/// Strokes are left out if the reference sees their surface by a smaller cosine: their lift comes from the reference
+/// only in part.
 const FACED: f64 = 0.5;
 
 /// The turn of one stroke, drawn and expected.
@@ -55,8 +56,8 @@ impl Reference {
         Self { camera, frame, strokes: strokes_by_key(&then, &[]) }
     }
 
-    /// The turns of the body layer's strokes `now`, as `camera` sees them at `frame`. Regions with a reference of their own are
-    /// left out.
+    /// The turns of the body layer's strokes `now`, as `camera` sees them at `frame`. Regions that have their own
+    /// reference are left out.
     pub fn turns(
         &self,
         painting: &Painting,
@@ -70,7 +71,7 @@ impl Reference {
         let poses = [self.frame, frame].map(|frame| motion::poses_at(scene, frame));
         let morphs = [self.frame, frame].map(|frame| motion::morphs_at(scene, frame));
         // A region with its own reference states its directions in another picture.
-        let is_own =
+        let is_of_scene =
             |region: u32| scene.regions.get(region as usize).is_none_or(|region| region.reference.is_none());
         let turn = |key: &StrokeKey, angle_rad: f64| {
             let base = self.strokes.get(key)?;
@@ -80,7 +81,7 @@ impl Reference {
             let point_motion = PointMotion::of(painting.surface(object), &particle, shares);
             let [then, now] = [0, 1]
                 .map(|side: usize| BodyView { view: &views[side], world_from_model: poses[side][object] });
-            if then.facing(point_motion.before) < FACED || !is_own(base.region) {
+            if then.facing(point_motion.before) < FACED || !is_of_scene(base.region) {
                 return None;
             }
             let truth = ScreenTurn::between(&point_motion, then, now)?;

@@ -7,7 +7,7 @@ use impasto_scene::motion;
 use crate::cameras;
 use crate::versions::{leave_out, orbit_blockers};
 
-/// The scene with its shot replaced by a whole turn of the camera about its target in the reference frame, one degree per frame.
+/// The scene with its shot replaced by a whole turn of the reference camera about its target, one degree per frame.
 /// Objects keep their reference pose, and objects that would hide the target are left out.
 pub fn turntable(loaded: &LoadedScene) -> LoadedScene {
     let mut version = loaded.clone();

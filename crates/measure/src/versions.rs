@@ -30,9 +30,9 @@ pub enum SceneVersion {
     NoContour(TurnSolver),
     /// The body layer alone, with everything that the scene states for it.
     Body,
-    /// As `Body`, but without chance in the size of strokes.
+    /// As `Body`, but with strokes of one size: no random variation.
     EqualSizes,
-    /// As `NoContour`, but without chance in the angle and without second directions; objects as in `Orbit`.
+    /// As `NoContour`, but without random turns and without second directions; objects as in `Orbit`.
     NoChance(TurnSolver),
     /// `NoChance` with the source paper's strokes.
     NoChancePaper,
@@ -40,7 +40,7 @@ pub enum SceneVersion {
     Unlit,
     /// Each object in one flat colour, and nothing that mixes colours.
     Flat,
-    /// The body layer alone, without chance in the angle.
+    /// The body layer alone, without random turns of strokes.
     NoAngleChance,
     /// As `NoAngleChance`, with twice the particles.
     NoAngleChanceTwice,
@@ -64,14 +64,14 @@ impl SceneVersion {
         let scene = &mut version.scene;
         match self {
             Self::Unchanged => {}
-            Self::Board => board(scene),
+            Self::Board => on_board(scene),
             Self::Bare => {
-                board(scene);
+                on_board(scene);
                 edit_style(scene, |style| (style.relief, style.varnish) = (0.0, 0.0));
             }
             Self::Paper => paper(scene),
             Self::Orbit => {
-                board(scene);
+                on_board(scene);
                 leave_out(&mut version, &orbit_blockers(loaded));
             }
             Self::OrbitPaper => {
@@ -90,25 +90,25 @@ impl SceneVersion {
             }
             Self::NoChance(solver) => {
                 body_alone(scene);
-                calm(scene);
+                without_chance(scene);
                 turn_by(scene, solver);
                 leave_out(&mut version, &orbit_blockers(loaded));
             }
             Self::NoChancePaper => {
                 paper(scene);
-                calm(scene);
+                without_chance(scene);
                 leave_out(&mut version, &orbit_blockers(loaded));
             }
             Self::Unlit => {
-                board(scene);
+                on_board(scene);
                 for object in &mut scene.objects {
                     object.material.get_or_insert_default().unlit = true;
                 }
             }
             Self::Flat => flat(scene),
-            Self::NoAngleChance => steady(scene),
+            Self::NoAngleChance => body_without_jitter(scene),
             Self::NoAngleChanceTwice => {
-                steady(scene);
+                body_without_jitter(scene);
                 for (object, &count) in scene.objects.iter_mut().zip(particles) {
                     object.particles = Some(2 * count as u64);
                 }
@@ -133,7 +133,7 @@ fn edit_style(scene: &mut Scene, edit: impl FnOnce(&mut RotatingStrokes)) {
     scene.style = Style::RotatingStrokes(style);
 }
 
-fn board(scene: &mut Scene) {
+fn on_board(scene: &mut Scene) {
     edit_style(scene, |style| (style.canvas, style.weave) = (Canvas::Board, 0.0));
 }
 
@@ -147,7 +147,7 @@ fn turn_by(scene: &mut Scene, solver: TurnSolver) {
 }
 
 fn paper(scene: &mut Scene) {
-    board(scene);
+    on_board(scene);
     each_settings(scene, |strokes| *strokes = StrokeSettings::default());
     scene.strokes.preset = Some(PAPER_PRESET.to_owned());
 }
@@ -169,7 +169,7 @@ fn layer(kind: LayerKind) -> LayerSettings {
 
 /// Leaves out all layers but the body's.
 pub(crate) fn body_alone(scene: &mut Scene) {
-    board(scene);
+    on_board(scene);
     edit_style(scene, |style| style.underpainting = false);
     each_settings(scene, |strokes| {
         let others = LayerKind::ALL.into_iter().filter(|&kind| kind != LayerKind::Body);
@@ -177,12 +177,12 @@ pub(crate) fn body_alone(scene: &mut Scene) {
     });
 }
 
-fn steady(scene: &mut Scene) {
+fn body_without_jitter(scene: &mut Scene) {
     body_alone(scene);
     each_settings(scene, |strokes| (strokes.angle_jitter_deg, strokes.swing_deg) = (Some(0.0), Some(0.0)));
 }
 
-fn calm(scene: &mut Scene) {
+fn without_chance(scene: &mut Scene) {
     each_settings(scene, |strokes| {
         (strokes.angle_jitter_deg, strokes.swing_deg) = (Some(0.0), Some(0.0));
         strokes.contour = Some(0.0);
@@ -197,13 +197,13 @@ fn calm(scene: &mut Scene) {
 /// A colour for each object, far from those of the others.
 pub fn flat_color(object: usize) -> Color {
     let level = |digit: usize| [0.15, 0.85, 0.5][digit % 3];
-    // 0 is grey-black, 1 is red, ...
+    // Number 0 would be almost black; 1 is red, and so on.
     let number = object + 1;
     Color([level(number), level(number / 3), level(number / 9)])
 }
 
 fn flat(scene: &mut Scene) {
-    board(scene);
+    on_board(scene);
     edit_style(scene, |style| {
         (style.relief, style.varnish, style.underpainting) = (0.0, 0.0, true);
     });
@@ -228,8 +228,8 @@ fn flat(scene: &mut Scene) {
     }
 }
 
-/// Objects that would hide the target from a camera that goes round it, as walls and other backdrops do. Only objects that are
-/// large compared with the camera's distance and have no children count.
+/// Objects that would hide the target from a camera that goes round it, as walls and other backdrops do. Only objects
+/// count that are large compared with the camera's distance and have no children.
 pub fn orbit_blockers(loaded: &LoadedScene) -> Vec<usize> {
     let scene = &loaded.scene;
     let (camera, frame) = motion::referred_to(scene, &scene.reference);
@@ -292,6 +292,7 @@ fn segment_hit(from: DVec3, to: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)).then_some(t)
 }
 
+/// Leaves out these objects, unless they are all that there is.
 pub(crate) fn leave_out(loaded: &mut LoadedScene, blockers: &[usize]) {
     if blockers.len() == loaded.scene.objects.len() {
         return;

@@ -7,9 +7,9 @@ use crate::plane::{Plane, Taps};
 /// Depths agree when they differ by less than this share.
 const DEPTH_SHARE: f32 = 0.01;
 
-/// For each pixel of the first picture, where its surface point shows in the second, in columns and rows. `None` where no body
-/// is, or where the point is off the second picture or hidden in it: the four pixels round it must show the same body, and their
-/// mean depth must be its own.
+/// For each pixel of the first picture, where its surface point shows in the second, in columns and rows. `None` where
+/// no body is, or where the point is off the second picture or hidden in it. It is not hidden if the four pixels round
+/// it show the same body and their mean depth agrees with its own.
 pub fn correspondences(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Option<[f64; 2]>> {
     let size_px = motion.size_px.map(|side| side as usize);
     let place = |index: usize| {
@@ -36,7 +36,7 @@ pub struct Warp {
     pub pixels: usize,
 }
 
-/// M5: W = Σ M ‖I_then(x + v) − I_now(x)‖² / Σ M over the pixels whose point is seen in both pictures.
+/// Warp error: W = Σ M ‖I_then(x + v) − I_now(x)‖² / Σ M over the pixels whose point is seen in both pictures.
 pub fn warp_error(now: &Plane, then: &Plane, correspondences: &[Option<[f64; 2]>]) -> Warp {
     let (mut sum, mut pixels) = (0.0, 0);
     for (value, place) in now.values.iter().zip(correspondences) {
@@ -53,7 +53,7 @@ pub fn warp_error(now: &Plane, then: &Plane, correspondences: &[Option<[f64; 2]>
 mod tests {
     use super::*;
 
-    /// One body all over, moved by whole pixels.
+    /// One body that fills the picture, moved by whole pixels.
     fn moved(size: u32, by: [f32; 2]) -> (MotionPixels, ReferencePixels) {
         let pixels = (size * size) as usize;
         let motion = MotionPixels {

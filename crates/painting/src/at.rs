@@ -62,8 +62,8 @@ impl Painting {
         }
     }
 
-    /// The strokes of [`Painting::seen_by`]. With a [`Recall`] of a picture before, only those that were present there and a
-    /// changing share of the others.
+    /// The strokes of [`Painting::seen_by`]. With a [`Recall`] of an earlier picture, only those that were present in
+    /// it, and a changing share of the others.
     pub fn strokes(
         &self,
         camera: &CameraPose,

@@ -16,7 +16,7 @@ use crate::regions::RegionRule;
 use crate::stated::DirectionRules;
 use crate::traits::{TraitInputs, Traits};
 
-/// What lifts are computed from, as far as pictures still need it once they are baked.
+/// The inputs of the lifts that pictures still need after baking.
 #[derive(Clone)]
 pub(crate) struct LiftSources {
     pub(crate) traits: Arc<Traits>,
@@ -50,7 +50,7 @@ pub(crate) struct Combed {
     pub(crate) stencils: Arc<Stencils>,
 }
 
-/// How many particles there are is not compared.
+/// Equal where the same lifts would be baked; the number of particles is not compared.
 impl PartialEq for BakeInputs {
     fn eq(&self, other: &Self) -> bool {
         let (sources, before) = (&self.sources, &other.sources);
@@ -95,7 +95,7 @@ impl BakedBody {
     pub(crate) fn base_angle_rad(&self, particle: usize, reference: &BodyReference) -> f64 {
         match self.base_angle_rad.get(particle) {
             Some(&angle_rad) => f64::from(angle_rad),
-            // The angle at which N' shows there.
+            // The angle at which N' shows in that picture.
             None => {
                 let jacobian = reference.map.jacobian(self.baked.position_of(particle));
                 self.baked.lift_of(particle).map(jacobian).angle_rad()
@@ -108,7 +108,7 @@ impl BakedBody {
 const CHUNK: usize = 1024;
 
 impl BakeInputs {
-    /// The lifts of all particles; those `before`, of the same inputs, are cut or continued.
+    /// The lifts of all particles. `before` was baked from equal inputs: it is shortened or extended.
     pub(crate) fn bake(&self, before: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
         let sources = &self.sources;
         let count = sources.traits.particles.len();
@@ -148,7 +148,8 @@ impl BakeInputs {
         Arc::new(body)
     }
 
-    /// N' of a particle and, where N' does not tell it, its base angle in the reference picture, radians.
+    /// N' of a particle and its base angle in the reference picture, radians (0 with the solver `Tangent`, which has no
+    /// use for it).
     fn lift(&self, index: usize, point: SurfacePoint, stated: &DirectionRules<'_>) -> (Lift, f64) {
         let sources = &self.sources;
         let views = sources.views(index, point, self.solver == Solver::Horn);
@@ -194,7 +195,7 @@ impl LiftSources {
         }
     }
 
-    /// The point of a stroke: off the surface by its region's offset.
+    /// The point where the stroke lies: lifted off the surface by its region's offset.
     fn off_surface(&self, point: SurfacePoint) -> SurfacePoint {
         let offset = f64::from(self.rules[point.rule].strokes.offset);
         SurfacePoint { position: point.position + point.normal * offset, ..point }
@@ -209,7 +210,7 @@ impl LiftSources {
         (0..self.traits.particles.len()).map(is_pole).collect()
     }
 
-    /// How the references see a particle; with Horn's estimate from its neighbours, or by its tangent plane.
+    /// How the references see a particle: by its tangent plane or, `with_horn`, by Horn's estimate from its neighbours.
     fn views(&self, index: usize, point: SurfacePoint, with_horn: bool) -> Views {
         let lists = self.neighbours.as_deref().filter(|_| with_horn);
         let point = self.off_surface(point);

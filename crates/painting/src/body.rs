@@ -62,7 +62,7 @@ pub struct BodyNoise {
 pub struct NoiseLayers {
     /// The texture.
     pub tile: Arc<Tile>,
-    /// k, at least 1.
+    /// How many layers, at least 1.
     pub count: u32,
     /// How fast layers move, and how far apart they begin.
     pub speed: f32,

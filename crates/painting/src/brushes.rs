@@ -25,13 +25,14 @@ pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
         .collect();
     names.sort();
     names.dedup();
-    make_house_marks(&names);
+    make_built_in_marks(&names);
     let marks = names.iter().map(|name| marks_of(loaded, name)).collect();
     Brushes { names, marks }
 }
 
-/// Makes the marks that have not been made yet, on all threads. No lock is held meanwhile; two callers at once make the same.
-fn make_house_marks(names: &[String]) {
+/// Makes the built-in marks that have not been made yet, on all threads. It holds no lock while it works: two callers
+/// at once make the same marks, and one of them is kept.
+fn make_built_in_marks(names: &[String]) {
     let missing: Vec<(usize, u32)> = names
         .iter()
         .filter_map(|name| brush::NAMES.iter().position(|known| known == name))
@@ -48,14 +49,14 @@ fn make_house_marks(names: &[String]) {
 }
 
 /// The marks of a brush that comes with Impasto.
-fn of_house(name: &str) -> Option<Arc<Vec<Mark>>> {
+fn built_in_marks(name: &str) -> Option<Arc<Vec<Mark>>> {
     let index = brush::NAMES.iter().position(|known| *known == name)?;
     let make = || Arc::new(brush::marks_of(name).unwrap_or_default());
     Some(Arc::clone(MARKS[index].get_or_init(make)))
 }
 
 fn marks_of(loaded: &LoadedScene, name: &str) -> Arc<Vec<Mark>> {
-    if let Some(marks) = of_house(name) {
+    if let Some(marks) = built_in_marks(name) {
         return marks;
     }
     let marks =
@@ -74,19 +75,20 @@ impl Brushes {
             names.iter().filter(|name| brush::NAMES.contains(*name)).map(|&name| name.to_owned()).collect();
         names.sort();
         names.dedup();
-        let marks = names.iter().filter_map(|name| of_house(name)).collect();
+        let marks = names.iter().filter_map(|name| built_in_marks(name)).collect();
         Self { names, marks }
     }
 
-    /// For each brush of a layer, as often as it is named, the index of its first mark among those of all brushes.
+    /// For each brush that a layer names (repeats included), the index of its first mark among the marks of all
+    /// brushes.
     pub(crate) fn first_marks(&self, layer: &ResolvedLayer) -> Vec<u32> {
         let index = |name: &String| self.names.binary_search(name).unwrap_or(0) as u32;
         layer.brushes.iter().map(|name| index(name) * brush::VARIANTS).collect()
     }
 }
 
-/// The mark of a stroke: which brush, which of its marks, and (bit 16) whether it is flipped. Steps by the golden ratio and its
-/// like keep neighbours in rank from taking the same one.
+/// The mark of a stroke: which brush, which of its marks, and (bit 16) whether it is flipped. Steps by irrational
+/// ratios (the golden one, and the plastic one) keep strokes of neighbouring ranks from taking the same mark.
 pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let step = |ratio: f64, count: u32| {
         ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract()

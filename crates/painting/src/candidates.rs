@@ -1,4 +1,5 @@
-//! The strokes of a frame: of all particles in painting order, first those that may show, then the strokes that do.
+//! Finds the strokes of a frame: a quick test picks the particles that may show, then the strokes of those are
+//! computed.
 
 use impasto_core::solve::Bounds;
 use impasto_scene::presets::LayerKind;
@@ -11,12 +12,12 @@ use crate::recall::Recall;
 use crate::stroke::Candidate;
 
 /// How many candidates are read before their strokes are computed.
-const TOGETHER: usize = 64;
+const BATCH: usize = 64;
 
 /// How many particles one task takes.
 const CHUNK: usize = 64 * Recall::WORD;
 
-/// A region's layer and the layer of paint within it, as the painting order has them.
+/// A region's layer, then the layer of paint: the painting order sorts by these first.
 type LayerKey = (i32, LayerKind);
 
 /// Strokes of consecutive particles.
@@ -49,11 +50,11 @@ impl Found {
 }
 
 impl PaintingView<'_> {
-    /// The strokes of all particles; with a recall, of those that it asks for.
+    /// The strokes of all particles, or, with a recall, of those that it asks for.
     pub(crate) fn strokes(&self) -> Strokes {
         let numbers = self.painting.order.numbers();
         let may_show: Vec<Vec<u64>> = self.coats.iter().map(|coat| self.may_show(coat)).collect();
-        // Particles are numbered from coat to coat.
+        // The numbers of particles run through all coats, one coat after the other.
         let may_show = may_show.concat();
         let chunk = |(number, part): (usize, &[u32])| self.found(number * CHUNK, part, &may_show);
         let found: Vec<Found> = numbers.par_chunks(CHUNK).enumerate().map(chunk).collect();
@@ -74,8 +75,8 @@ impl PaintingView<'_> {
         Strokes { strokes, sources, layers: layers.into_iter().map(|(_, run)| run).collect() }
     }
 
-    /// A bit for each particle of a coat: whether it faces the eye and its stroke may be present in the picture, by the widest
-    /// bounds of any region.
+    /// A bit for each particle of a coat: whether it faces the eye and its stroke may be present in the picture, judged
+    /// by the widest bounds among its regions.
     fn may_show(&self, coat: &CoatView<'_>) -> Vec<u64> {
         let (mut most_reach_px, mut most_per_area) = (0.0f32, 0.0f32);
         for &rule in coat.coat.used.iter() {
@@ -94,7 +95,8 @@ impl PaintingView<'_> {
         coat.within(&bounds)
     }
 
-    /// The strokes of those of these particles that may show; `first` is the place of the first in the painting order.
+    /// The strokes of those particles among `numbers` that may show; `first` is the place of `numbers[0]` in the
+    /// painting order.
     fn found(&self, first: usize, numbers: &[u32], may_show: &[u64]) -> Found {
         let shows = |offset: &usize| {
             let number = numbers[*offset] as usize;
@@ -107,8 +109,8 @@ impl PaintingView<'_> {
         };
         let mut found = Found::default();
         // Particles lie far apart in memory: reading many of them at once lets the processor fetch them in parallel.
-        let mut candidates: Vec<Candidate> = Vec::with_capacity(TOGETHER);
-        for offsets in asked.chunks(TOGETHER) {
+        let mut candidates: Vec<Candidate> = Vec::with_capacity(BATCH);
+        for offsets in asked.chunks(BATCH) {
             candidates.clear();
             candidates.extend(offsets.iter().map(|&offset| {
                 let entry = self.painting.order.entry(numbers[offset]);

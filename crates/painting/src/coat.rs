@@ -43,7 +43,7 @@ impl Coat {
 #[derive(Clone)]
 pub(crate) struct Sampled {
     pub(crate) particles: Particles,
-    /// Of every particle that has been sampled, which may be more than the coat has.
+    /// For every particle sampled so far, which may be more than the coat has.
     albedo: Arc<Albedo>,
     /// Area of the visible sides, model units squared.
     pub(crate) area: f64,
@@ -52,12 +52,12 @@ pub(crate) struct Sampled {
     state: ProgressiveState,
 }
 
-/// What the particles of a coat depend on, but for how many there are.
+/// What the particles of a coat depend on, except their number.
 #[derive(Clone, PartialEq)]
 pub(crate) struct SampleInputs {
     pub(crate) surface: SurfaceInputs,
     pub(crate) name_hash: u32,
-    /// With the paper's rule the number of particles: another number gives another sequence, so that nothing can be reused.
+    /// With the paper's rule, the number of particles: another number gives other particles, so nothing can be reused.
     pub(crate) per_polygon: Option<usize>,
 }
 

@@ -19,7 +19,7 @@ use crate::view::PictureView;
 pub(crate) struct Context<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) rules: &'a Arc<Vec<RegionRule>>,
-    /// Views over the whole timeline, with the objects' poses: from these strokes are counted.
+    /// Views over the whole timeline, each with the objects' poses: they tell how many particles are needed.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     pub(crate) brushes: &'a Brushes,
     pub(crate) solver: Solver,
@@ -30,7 +30,7 @@ pub(crate) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The seed of all random numbers of a coat. The body layer's is the object's own.
+    /// The seed of all random numbers of a coat. The body layer uses the object's own seed.
     pub(crate) fn name_hash(&self, object: usize, kind: LayerKind) -> u32 {
         let of_object = hash::combine(self.scene.seed, hash::of_name(&self.scene.objects[object].name));
         if kind == LayerKind::Body { of_object } else { hash::combine(of_object, hash::of_name(kind.name())) }
@@ -47,7 +47,7 @@ pub(crate) struct ObjectInputs<'a> {
     pub(crate) used: &'a Arc<Vec<u16>>,
     pub(crate) guides: &'a Arc<Vec<BodyGuide>>,
     pub(crate) references: &'a Arc<BodyReferences>,
-    /// Of each part.
+    /// For each part, the largest strokes that it carries.
     pub(crate) caps: &'a [Cap],
     /// The body's shape in the reference pose.
     pub(crate) shape: &'a BodyShape,

@@ -1,4 +1,5 @@
-//! How many particles each coat of an object has: for the body layer as the object states, else as many as its views need.
+//! How many particles each coat of an object has: as many as its views need, unless the object states the body layer's
+//! count.
 
 use std::sync::Arc;
 
@@ -48,13 +49,13 @@ impl CountInputs {
                 [layer.length_px, layer.width_px, layer.coverage]
             });
         }
-        let bare = |kind: LayerKind| {
+        let has_no_paint = |kind: LayerKind| {
             object.used.iter().all(|&rule| layers[usize::from(rule)][kind as usize][2] <= 0.0)
         };
         let left_out = LayerKind::ALL.map(|kind| {
             kind == LayerKind::Underpainting && !context.underpainting
                 || context.paper && kind != LayerKind::Body
-                || bare(kind)
+                || has_no_paint(kind)
         });
         Self {
             surface,
@@ -94,7 +95,8 @@ impl CountInputs {
     }
 }
 
-/// The most that a layer of coverage 1 is wanted anywhere; the resolve shader has the same number as `MOST_FULL`.
+/// The greatest factor on a layer's coverage: the body layer is laid fuller in the lights. The resolve shader has the
+/// same number as `MOST_FULL`.
 pub(crate) fn most_wanted(kind: LayerKind) -> f32 {
     if kind == LayerKind::Body { 1.35 } else { 1.0 }
 }

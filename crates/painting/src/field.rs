@@ -29,9 +29,9 @@ pub(crate) struct BodyField {
     inputs: Arc<FieldInputs>,
     symmetry: Symmetry,
     unguided: Arc<UnguidedField>,
-    /// The directions of the samples, unit numbers in the axes of their normals.
+    /// The directions of the samples, as unit complex numbers (`impasto_core::direction`).
     solved: Vec<DVec2>,
-    /// The same after the guides that smooth; none where no guide does.
+    /// The same after the guides that smooth; `None` where no guide does.
     relaxed: Option<Vec<DVec2>>,
     /// How far the stated direction of each sample holds, 0..=1.
     anchors: Vec<f64>,
@@ -41,7 +41,7 @@ pub(crate) struct BodyField {
     singularities: OnceLock<Vec<Singularity>>,
 }
 
-/// What of a field does not depend on guides.
+/// The part of a field that does not depend on guides.
 struct UnguidedField {
     points: Vec<SamplePoint>,
     /// Computed when first needed.
@@ -107,7 +107,7 @@ impl BodyField {
         })
     }
 
-    /// The direction of a particle: the field's, mixed with the stated one as far as that holds.
+    /// The direction of a particle: the field's, mixed with the stated one by how far that holds.
     pub(crate) fn direction(
         &self,
         stencils: &Stencils,
@@ -145,7 +145,7 @@ impl BodyField {
         Some(self.tangent(found, axes, base))
     }
 
-    /// The tangent of a unit number; of a line's two, the one nearer to what is stated.
+    /// The tangent that a unit complex number stands for. A line has two: the one nearer to the stated direction.
     fn tangent(&self, number: DVec2, axes: [DVec3; 2], base: &StatedDirection) -> DVec3 {
         let tangent = self.symmetry.decode(number, axes);
         let is_opposite = self.symmetry == Symmetry::Lines && tangent.dot(base.tangent) < 0.0;

@@ -42,7 +42,7 @@ impl FinishRule {
         Self { finish, anchor, reference: reference.clone() }
     }
 
-    /// The finish of a picture in this view, in which the shot is this high.
+    /// The finish of a picture in this view, where the whole shot is `shot_height_px` high.
     pub(crate) fn at(&self, view: &PictureView, shot_height_px: f64) -> Finish {
         let canvas_from_px = self.anchor.and_then(|anchor| self.canvas_from_px(anchor, view, shot_height_px));
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }

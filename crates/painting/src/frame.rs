@@ -17,7 +17,7 @@ pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strok
 pub struct Frame {
     /// Width and height of the picture in pixels.
     pub size_px: [u32; 2],
-    /// Output height over the scene's own height: what pixel lengths have been multiplied by.
+    /// Output height over the scene's own height: pixel lengths have been multiplied by it.
     pub px_scale: f32,
     /// The camera.
     pub view: FrameView,
@@ -123,7 +123,8 @@ pub struct FrameBody {
     pub hidden: bool,
     /// A backdrop: ink leaves the paper bare there.
     pub is_backdrop: bool,
-    /// The surface; shared between frames, so that a renderer may cache what it uploads by the `Arc`'s address.
+    /// The surface. It is shared between frames, so that a renderer may cache what it uploads by the address of the
+    /// `Arc`.
     pub surface: Arc<BodySurface>,
     /// Pose: turned, moved, evenly scaled.
     pub world_from_model: Mat4,

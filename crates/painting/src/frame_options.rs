@@ -1,4 +1,4 @@
-//! What may be asked of a frame beside its camera and its time.
+//! The options of a frame: what may be chosen besides its camera and its time.
 
 use crate::frame::Quality;
 

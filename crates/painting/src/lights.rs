@@ -1,4 +1,4 @@
-//! From the document's lights to linear light.
+//! The document's lights and colours in linear light, and the sphere round a scene that shadows need.
 
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::color::linear_from_srgb;

@@ -36,7 +36,7 @@ impl BodyNoise {
         FrameNoise { noise: Arc::clone(self), lookup, travelled: (travelled - travelled.floor()).as_vec2() }
     }
 
-    /// How far a vertex may be from where it is at rest along each axis, model units.
+    /// How far noise may move a vertex along each axis, model units.
     pub(crate) fn reach(&self) -> f32 {
         self.vertex.as_ref().map_or(0.0, |vertex| 0.5 * vertex.scale.abs() as f32)
     }
@@ -72,7 +72,7 @@ impl NoiseInputs {
         Self { stated: Some(stated), pictures }
     }
 
-    /// The noise; textures are those of the noise `before` where their pictures are the same.
+    /// The noise. Textures are reused from the noise `before` where their pictures are the same.
     pub(crate) fn build(&self, before: Option<&(Self, Option<Arc<BodyNoise>>)>) -> Option<Arc<BodyNoise>> {
         let stated = self.stated.clone()?;
         let before = |index: usize| {
@@ -84,11 +84,11 @@ impl NoiseInputs {
                 _ => noise.layers.as_ref().map(|layers| Arc::clone(&layers.tile)),
             }
         };
-        let tile = |index: usize, of_house: fn() -> Arc<Tile>| match &self.pictures[index] {
+        let tile = |index: usize, built_in: fn() -> Arc<Tile>| match &self.pictures[index] {
             Some(picture) => {
                 before(index).unwrap_or_else(|| Arc::new(Tile::of_picture(picture.size_px, &picture.rgba8)))
             }
-            None => of_house(),
+            None => built_in(),
         };
         let vertex = stated.vertex.as_ref().map(|vertex| VertexNoise {
             tile: tile(0, gaussian),
@@ -152,11 +152,11 @@ pub(crate) fn displaced(
         .collect();
     let mut faces = vec![[DVec3::ZERO; 2]; groups.len()];
     for corners in &mesh.triangles {
-        let across = |positions: &[Vec3]| {
+        let face_normal = |positions: &[Vec3]| {
             let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
             (b - a).cross(c - a)
         };
-        let (before, now) = (across(positions), across(&moved));
+        let (before, now) = (face_normal(positions), face_normal(&moved));
         for vertex in corners {
             let sum = &mut faces[group_of[*vertex as usize]];
             *sum = [sum[0] + before, sum[1] + now];

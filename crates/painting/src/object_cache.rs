@@ -73,7 +73,7 @@ struct PoseInputs {
     shape: BodyShape,
 }
 
-/// How many particles there are is not compared.
+/// Equal for the same order of particles, however many there are.
 impl PartialEq for PoseInputs {
     fn eq(&self, other: &Self) -> bool {
         self.particles.same_order(&other.particles)
@@ -88,7 +88,7 @@ struct StencilInputs {
     samples: Arc<FieldSamples>,
 }
 
-/// How many particles there are is not compared.
+/// Equal for the same order of particles, however many there are.
 impl PartialEq for StencilInputs {
     fn eq(&self, other: &Self) -> bool {
         self.particles.same_order(&other.particles) && Arc::ptr_eq(&self.samples, &other.samples)
@@ -204,7 +204,7 @@ impl ObjectCache {
 
     /// Solves the direction field of the body, where it needs one.
     pub(crate) fn solve_field(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) {
-        // The paper knows no field.
+        // The paper's rule has no field.
         let needed = FieldInputs::may_be_needed(object.used, context.rules, object.guides);
         if !needed || context.paper {
             self.field.clear();
@@ -236,7 +236,7 @@ impl ObjectCache {
         for coat in &mut self.coats {
             let inputs = StencilInputs { particles: coat.posed().clone(), samples: Arc::clone(samples) };
             coat.stencils.resize(inputs, |StencilInputs { particles, samples }, before| {
-                // Stencils of more particles of the same order will do.
+                // Stencils of more particles of the same order serve as well.
                 before.filter(|before| before.count >= particles.len()).unwrap_or_else(|| CoatStencils {
                     count: particles.len(),
                     stencils: Arc::new(samples.stencils(particles)),
@@ -250,7 +250,7 @@ impl ObjectCache {
         self.field.output().and_then(Clone::clone)
     }
 
-    /// The coats that have particles, baked; the body layer's comes even without any.
+    /// Bakes the coats that have particles, and the body layer's in any case.
     pub(crate) fn bake(&mut self, context: &Context<'_>, object: ObjectInputs<'_>) -> Vec<Arc<Coat>> {
         let surface = self.object_surface().clone();
         let field = self.field.inputs().cloned().zip(self.field.output().cloned());

@@ -19,7 +19,8 @@ pub(crate) struct OrderEntry {
     pub(crate) particle: u32,
 }
 
-/// All particles in painting order, each as its number among those of all coats.
+/// All particles in painting order. Each is stored as its number; the numbers run through all coats, one after the
+/// other.
 #[derive(Debug, Default)]
 pub(crate) struct PaintingOrder {
     numbers: Vec<u32>,
@@ -103,7 +104,7 @@ impl OrderInputs {
         for (index, coat) in self.coats.iter().enumerate() {
             for (layer, particles) in coat.by_layer(&self.layers) {
                 let queue =
-                    Queue { first: firsts[index], name_hash: coat.name_hash, of: coat.count, particles };
+                    Queue { first: firsts[index], name_hash: coat.name_hash, count: coat.count, particles };
                 runs.entry((layer, coat.kind)).or_default().push(queue);
             }
         }
@@ -130,7 +131,7 @@ impl OrderedCoat {
 
 /// Particles of a coat that are in one layer, in progressive order.
 enum LayerParticles {
-    /// The first so many.
+    /// The coat's first particles: how many.
     First(u32),
     These(Vec<u32>),
 }
@@ -141,7 +142,7 @@ struct Queue {
     first: u32,
     name_hash: u32,
     /// How many particles the coat has.
-    of: usize,
+    count: usize,
     particles: LayerParticles,
 }
 
@@ -163,30 +164,31 @@ impl Queue {
         }
     }
 
-    /// The rank of a particle times two, (2 index + 1) / count, as bits: those of positive floats are in the floats' own order.
+    /// Twice the rank of a particle, (2 index + 1) / count, as bits: the bits of positive floats sort as the floats do.
     fn rank(&self, particle: u32) -> u64 {
-        ((u64::from(particle) * 2 + 1) as f64 / self.of as f64).to_bits()
+        ((u64::from(particle) * 2 + 1) as f64 / self.count as f64).to_bits()
     }
 }
 
-/// The next particle of a queue: its rank; then, least first, the name's hash, the particle and the queue's index.
+/// The next particle of a queue as the heap compares it: the highest rank first, then the least hash of the name,
+/// particle and index of the queue.
 type Head = (u64, Reverse<(u32, u32, usize)>);
 
 /// The numbers of the particles of queues, the highest rank first; each queue is sorted already.
 fn merged(mut queues: Vec<Queue>) -> Vec<u32> {
     let mut order = Vec::with_capacity(queues.iter().map(Queue::len).sum());
     let mut heads: BinaryHeap<Head> = BinaryHeap::new();
-    for (number, queue) in queues.iter_mut().enumerate() {
+    for (index, queue) in queues.iter_mut().enumerate() {
         if let Some(particle) = queue.pop() {
-            heads.push((queue.rank(particle), Reverse((queue.name_hash, particle, number))));
+            heads.push((queue.rank(particle), Reverse((queue.name_hash, particle, index))));
         }
     }
     while let Some(mut head) = heads.peek_mut() {
-        let (_, Reverse((_, particle, number))) = *head;
-        let queue = &mut queues[number];
+        let (_, Reverse((_, particle, index))) = *head;
+        let queue = &mut queues[index];
         order.push(queue.first + particle);
         match queue.pop() {
-            Some(next) => *head = (queue.rank(next), Reverse((queue.name_hash, next, number))),
+            Some(next) => *head = (queue.rank(next), Reverse((queue.name_hash, next, index))),
             None => drop(PeekMut::pop(head)),
         }
     }

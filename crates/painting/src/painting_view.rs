@@ -25,7 +25,7 @@ pub(crate) struct PaintingView<'a> {
     pub(crate) coats: Vec<CoatView<'a>>,
     /// Half the picture's width and height.
     pub(crate) half_px: [f32; 2],
-    /// What lengths in pixels of the scene's own size are multiplied by.
+    /// The factor from pixels at the scene's own size to pixels of the picture.
     pub(crate) px_scale: f32,
     /// Nearest and farthest visible depth, world units.
     pub(crate) near_far: [f32; 2],
@@ -49,7 +49,7 @@ pub(crate) struct CoatView<'a> {
     pub(crate) shown: Option<Vec<u32>>,
     /// With `horn-exact`, the reference and this view.
     clip_views: Option<(ClipView, ClipView)>,
-    /// By rule; none for those that paint nothing.
+    /// For each rule; `None` where it paints nothing.
     pub(crate) presence_bounds: Vec<Option<PresenceBound>>,
 }
 
@@ -62,7 +62,7 @@ struct PosedBody {
 }
 
 impl PosedBody {
-    /// The vertices when the coats were baked and now; none where they have not moved.
+    /// The vertices when the coats were baked and now; `None` where they have not moved.
     fn moved_vertices(&self, surface: &BodySurface, baked_shape: &BodyShape) -> Option<&[Vertices; 2]> {
         let rests = |shape: &BodyShape| surface.is_at_rest(shape);
         if self.shape == *baked_shape || (rests(&self.shape) && rests(baked_shape)) {
@@ -73,7 +73,7 @@ impl PosedBody {
     }
 }
 
-/// A stroke that follows the size of its surface becomes at most this much larger than stated.
+/// A stroke that follows the size of its surface becomes at most this many times as large as stated.
 pub(crate) const MOST_GROWTH: f32 = 64.0;
 
 impl Painting {
@@ -137,7 +137,7 @@ impl Painting {
         CoatView { coat, baked, map, particle_view, world_from_model, shown, clip_views, presence_bounds }
     }
 
-    /// What lengths in pixels of the scene's own size are multiplied by in a picture.
+    /// The factor from pixels at the scene's own size to pixels of a picture.
     pub(crate) fn px_scale(&self, options: &FrameOptions) -> f32 {
         if options.keep_stroke_px { 1.0 } else { options.shot_height_px() / self.scene().size.1 as f32 }
     }
@@ -162,7 +162,7 @@ impl PaintingView<'_> {
 }
 
 impl CoatView<'_> {
-    /// Of all particles of the coat a bit each: whether it faces the eye within these bounds.
+    /// A bit for each particle of the coat: whether it faces the eye within these bounds.
     pub(crate) fn within(&self, bounds: &Bounds) -> Vec<u64> {
         self.particle_view.within(&self.baked, bounds)
     }

@@ -10,7 +10,7 @@ use impasto_core::screen_map::area_px;
 /// The polygons of a body, and which of them each particle belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PolygonCounts {
-    /// Index into `sides` per particle, and the particle's number in it.
+    /// For each particle, the index of its polygon side in `sides`, and its number there.
     of_particle: Vec<(u32, u32)>,
     sides: Vec<PolygonSide>,
 }
@@ -21,6 +21,7 @@ struct PolygonSide {
     center: DVec3,
     normal: DVec3,
     area: f64,
+    /// How many particles it has.
     count: u32,
 }
 
@@ -57,7 +58,7 @@ impl PolygonCounts {
     }
 
     /// How many particles of each polygon show in a view. Fractions are rounded at a threshold that is random but fixed for each
-    /// polygon, so that of polygons smaller than a stroke the right share is painted.
+    /// polygon, so that of the polygons smaller than a stroke, the right share is painted.
     pub(crate) fn shown(&self, map: &ScreenMap, wanted_per_px: f64) -> Vec<u32> {
         self.sides
             .iter()

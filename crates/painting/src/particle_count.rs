@@ -6,7 +6,7 @@ use impasto_core::sampling::Surface;
 use impasto_core::screen_map::{area_px, facing};
 use rayon::prelude::*;
 
-/// Bounds of the number found.
+/// The least and the greatest number that is found.
 const LEAST: f64 = 64.0;
 const MOST: f64 = 400_000.0;
 
@@ -30,8 +30,8 @@ struct CountedFace<const LAYERS: usize> {
     wanted_per_px: [f64; LAYERS],
 }
 
-/// For each layer, the count with which nine tenths of the surface's picture have all the strokes wanted there, in the view that
-/// needs most. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
+/// For each layer, how many particles give nine tenths of the object's area in the picture all the strokes wanted
+/// there, in the view that needs most. `wanted_per_px` gives the strokes per pixel wanted on a triangle.
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],

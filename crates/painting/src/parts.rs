@@ -1,4 +1,4 @@
-//! The parts of a body as a painter sees them: the largest stroke that each can carry, and its automatic direction.
+//! The parts of a body: the largest stroke that each can carry, and its automatic direction.
 
 use glam::DVec3;
 use impasto_core::parts::{Part, parts};
@@ -17,15 +17,16 @@ const LEAST_CAP_PX: f64 = 3.0;
 /// Strokes stay at least this much longer than wide.
 const LEAST_ASPECT: f32 = 1.2;
 
-/// A part is long when its longest extent is this much more than its second.
+/// A part is long when its longest extent is more than this many times its second.
 const LONG: f64 = 1.12;
 
-/// A backdrop fills this share of the picture, is at most this thick for its height, and faces the eye by this cosine.
+/// A part is a backdrop when it fills this share of the picture, is at most this thick relative to its second extent,
+/// and faces the eye with at least this cosine.
 const BACKDROP_SHARE: f64 = 0.9;
 const BACKDROP_THICKNESS: f64 = 0.2;
 const BACKDROP_FACING: f64 = 0.6;
 
-/// The two families of strokes on a backdrop, degrees.
+/// The angles of the two crossing families of strokes on a backdrop, degrees.
 const BACKDROP_FAMILIES_DEG: (f64, f64) = (-58.0, 4.0);
 
 /// The parts of a body.

@@ -57,7 +57,8 @@ impl Preparer {
         self.prepare_with(loaded, &PrepareOptions::default())
     }
 
-    /// As [`Preparer::prepare`], with options. Where it is given up, the steps done by then are not done again the next time.
+    /// As [`Preparer::prepare`], with options. When it is given up, the steps done by then are not done again the next
+    /// time.
     ///
     /// # Errors
     /// As there, [`PrepareError::GivenUp`], and [`PrepareError::Memory`] before any memory is taken for particles.
@@ -187,7 +188,8 @@ impl Preparer {
         Err(PrepareError::GivenUp)
     }
 
-    /// The caches of the scene's objects, in their order; those of objects that are gone stay behind.
+    /// The caches of the scene's objects, in their order. Those of objects that are gone stay behind; `put_back` drops
+    /// them.
     fn take_caches(&mut self, scene: &Scene) -> Vec<ObjectCache> {
         let mut take = |name: &String| self.objects.remove(name).unwrap_or_default();
         scene.objects.iter().map(|object| take(&object.name)).collect()
@@ -266,7 +268,8 @@ fn surface_inputs(loaded: &LoadedScene) -> Result<Vec<SurfaceInputs>, PrepareErr
         .collect()
 }
 
-/// Views that stand for the whole timeline: the reference, and up to 17 evenly over it, with the poses of all objects.
+/// Views that stand for the whole timeline: the reference, and up to 17 spread evenly over it, each with the poses of
+/// all objects.
 fn sample_views(scene: &Scene) -> Vec<(PictureView, Vec<DAffine3>)> {
     let (first, last) = (scene.timeline.first as f64, scene.timeline.last as f64);
     let count = (last - first).clamp(0.0, 16.0) as u32;

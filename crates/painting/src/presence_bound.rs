@@ -1,4 +1,4 @@
-//! A cheap upper bound on a stroke's presence, known before the stroke is computed: most strokes are absent.
+//! A cheap upper bound on a stroke's presence: most strokes are absent, and it rules them out before they are computed.
 
 use impasto_core::presence;
 
@@ -8,15 +8,15 @@ use crate::painting::Painting;
 use crate::parts::Cap;
 use crate::regions::RegionRule;
 
-/// Near the limb strokes fade, and more of them make up for it; below this fade no further ones do.
+/// Strokes fade near a body's outline, and more strokes make up for that; a fade below this counts as this.
 pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
 
-/// The bound is rounded differently from the presence itself: a little more is let through.
+/// The bound is rounded differently from the presence itself, so it lets a little more through.
 const LEEWAY: f64 = 1.001;
 
-/// For one rule on one coat, in one view.
+/// The bound for one rule on one coat, in one view.
 pub(crate) struct PresenceBound {
-    /// How far from its centre a stroke reaches, pixels, before it follows the size of its surface.
+    /// How far from its centre a stroke reaches, pixels, before it grows with its surface.
     pub(crate) reach_px: f32,
     /// By part: a stroke can be present only while its particle's index is below this times its projected area (px² per unit of
     /// surface). Infinite where presence does not depend on the index.
@@ -24,7 +24,8 @@ pub(crate) struct PresenceBound {
 }
 
 impl Painting {
-    /// By rule; `None` for rules that paint nothing on this coat. `by_polygon` where the paper's rule decides what shows.
+    /// For each rule; `None` where it paints nothing on this coat. `by_polygon` where the paper's rule decides what
+    /// shows.
     pub(crate) fn presence_bounds(
         &self,
         coat: &Coat,

@@ -1,5 +1,5 @@
-//! Which strokes the last picture of a moving view had: few of all strokes are present, and mostly the same ones in the next
-//! picture, so that the others need not all be computed.
+//! Which strokes the last picture of a moving view had. Few of all strokes are present, and mostly the same ones again
+//! in the next picture, so that not all others need to be computed.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use crate::frame::Frame;
 use crate::order::PaintingOrder;
 use crate::painting::Painting;
 
-/// Of the small strokes that were absent, each picture computes another sixteenth: they may appear late without being missed.
+/// Of the small strokes that were absent, each picture computes another sixteenth: they may appear late unnoticed.
 const SMALL: u64 = 0x0001_0001_0001_0001;
 
-/// Of the large ones every other: if they appear late they leave holes.
+/// Of the large strokes that were absent, each picture computes one half: where they appear late they leave holes.
 const LARGE: u64 = 0x5555_5555_5555_5555;
 
 /// Which strokes were present in a picture.

@@ -10,7 +10,8 @@ use impasto_scene::motion;
 
 use crate::view::PictureView;
 
-/// Cosines between normal and eye: a reference states nothing about surfaces below `NONE`, and all from `WHOLE` on.
+/// Cosines between the normal and the direction to the eye: a reference states nothing about surfaces below `NONE`, and
+/// states directions wholly from `WHOLE` on.
 const NONE: f64 = 0.2;
 const WHOLE: f64 = 0.5;
 
@@ -26,7 +27,7 @@ pub(crate) struct ReferencePose {
 pub(crate) struct SceneReferences {
     /// The scene's own, the further ones, then those of regions.
     pub(crate) poses: Vec<ReferencePose>,
-    /// How many further ones there are.
+    /// How many further references there are.
     pub(crate) further: usize,
     /// For each rule, the reference that its directions refer to.
     pub(crate) of_rule: Vec<u16>,
@@ -153,8 +154,8 @@ impl BodyReferences {
         &self.all[usize::from(self.of_rule[rule])]
     }
 
-    /// How a point is seen. `horn` may replace the tangent plane's lift in the reference of the point's rule: by another, or by
-    /// none, as if the reference did not face it.
+    /// How a point is seen. `horn` may replace the lift of the tangent plane in the reference of the point's rule: by
+    /// another (`Some(Some(lift))`), or by none (`Some(None)`), as if the reference did not face the point.
     pub(crate) fn views(
         &self,
         point: SurfacePoint,

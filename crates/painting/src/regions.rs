@@ -64,7 +64,7 @@ pub(crate) struct BodyGuide {
 pub(crate) fn guides(scene: &Scene, object: &str) -> Vec<BodyGuide> {
     let mut guides = Vec::new();
     for (rule, region) in scene.regions.iter().enumerate() {
-        // One that smooths nothing would have the body's field solved for nothing.
+        // Guides that smooth nothing are left out: they would make the body's field be solved for nothing.
         let is_idle = |guide: &&Guide| guide.mode == GuideMode::Smooth && guide.strength <= 0.0;
         for guide in region.guides.iter().filter(|guide| !is_idle(guide)) {
             if guide.object.as_deref().or(region.on.object()) == Some(object) {
@@ -119,7 +119,7 @@ pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
 /// The regions of one object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BodyRegions {
-    /// For each triangle, the last region without dabs that covers it; the implicit one where none does.
+    /// For each triangle, the last of the regions without dabs that covers it; the implicit region where none does.
     of_triangle: Vec<u16>,
     /// Regions that have dabs, in the order of the file.
     dabbed: Vec<Dabbed>,
@@ -138,7 +138,7 @@ struct Dabbed {
     whole: Vec<u32>,
 }
 
-/// A dab; the later one of two that touch a point decides.
+/// A dab. Where two touch a point, the later one decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlacedDab {
     at: Vec3,
@@ -159,8 +159,9 @@ impl BodyRegions {
             }
             let index = index as u16;
             let patches = region.on.patches();
-            let dabs = patches.iter().any(|patch| matches!(patch, PatchRef::Dabs(dabs) if !dabs.is_empty()));
-            if dabs {
+            let has_dabs =
+                patches.iter().any(|patch| matches!(patch, PatchRef::Dabs(dabs) if !dabs.is_empty()));
+            if has_dabs {
                 regions.dabbed.push(Dabbed::new(index, &patches, file, mesh));
                 continue;
             }
@@ -196,7 +197,7 @@ impl BodyRegions {
         let center = (a + b + c) / 3.0;
         let reach = [a, b, c].iter().map(|corner| corner.distance(center)).fold(0.0, f32::max);
         let touching = self.dabbed.iter().filter(move |dabbed| {
-            dabbed.whole.get(triangle).is_some_and(|&rank| rank > 0) || dabbed.may_touch(center, reach)
+            dabbed.whole.get(triangle).is_some_and(|&whole| whole > 0) || dabbed.may_touch(center, reach)
         });
         [self.of_triangle[triangle]].into_iter().chain(touching.map(|dabbed| dabbed.rule))
     }
@@ -285,7 +286,7 @@ impl Dabbed {
         }
     }
 
-    /// The dabs in the cells that are at most so many away.
+    /// The dabs in the cell of a point and in those at most `cells` away.
     fn near(&self, at: Vec3, cells: i32) -> impl Iterator<Item = u32> + '_ {
         let home = (at / self.cell).floor().as_ivec3();
         let span = -cells..=cells;

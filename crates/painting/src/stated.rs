@@ -10,7 +10,7 @@ use crate::regions::RegionRule;
 /// The directions that the rules state on one body.
 pub(crate) struct DirectionRules<'a> {
     pub(crate) rules: &'a [RegionRule],
-    /// Of each part: its direction where the rule says `Auto`.
+    /// For each part, its direction where the rule says `Auto`.
     pub(crate) automatic: Vec<Direction>,
     /// Centre and length of the diagonal of the body's bounds, model space.
     pub(crate) extent: (DVec3, f64),
@@ -54,7 +54,7 @@ impl Line {
     }
 }
 
-/// How directions of a rule repeat.
+/// Which directions of a rule count as equal.
 pub(crate) fn symmetry(rule: &RegionRule) -> Symmetry {
     match rule.sense {
         Sense::Lines => Symmetry::Lines,
@@ -63,7 +63,7 @@ pub(crate) fn symmetry(rule: &RegionRule) -> Symmetry {
 }
 
 impl DirectionRules<'_> {
-    /// The direction of a point; of two crossing families, the first.
+    /// The direction that the rule of a point states; the part's automatic one where the rule leaves it open.
     pub(crate) fn direction(&self, point: SurfacePoint) -> &Direction {
         let stated = &self.rules[point.rule].direction;
         match stated {
@@ -126,8 +126,9 @@ impl DirectionRules<'_> {
         if tangent == DVec3::ZERO { Line::Shown(0.0) } else { Line::OnSurface(tangent) }
     }
 
-    /// Whether the surface at a point faces along the axis that states its direction, within 26 degrees. For a stated angle that
-    /// is the world's up, by which directions are guessed on surfaces that no reference sees.
+    /// Whether the surface at a point faces along the axis that states its direction, within 26 degrees. A stated angle
+    /// has no such axis: the world's up stands in, from which directions are guessed on surfaces that no reference
+    /// sees.
     pub(crate) fn is_pole(&self, point: SurfacePoint, up_in_model: DVec3) -> bool {
         const COSINE: f64 = 0.9;
         let axis = match *self.direction(point) {

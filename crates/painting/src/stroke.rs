@@ -1,4 +1,4 @@
-//! From a particle in a view to its stroke: size, presence, mark, paint.
+//! Makes the stroke of a particle in a view: size, presence, mark, paint.
 
 use glam::{DVec2, DVec3};
 use impasto_core::ScreenMap;
@@ -22,24 +22,24 @@ use crate::traits::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
 };
 
-/// Deviations of length and width of their own, as shares of the size jitter.
+/// Length and width also vary each on its own: standard deviations of their logarithms, as shares of the size jitter.
 const LENGTH_SHARE: f32 = 1.1;
 const WIDTH_SHARE: f32 = 0.75;
 
-/// Deviation of a stroke's thickness in ln.
+/// Standard deviation of the logarithm of a stroke's thickness.
 const THICKNESS_DEVIATION: f32 = 0.2;
 
-/// Deviation of the bow in half widths at the usual angle jitter, and the most that it is.
+/// The bow in half widths: its standard deviation at the usual angle jitter, and the most that it is.
 const BOW_DEVIATION: f32 = 0.35;
 const MOST_BOW: f32 = 0.9;
 
-/// Deviation of how far strokes bend, as a share of the size jitter.
+/// Standard deviation of the logarithm of the factor on a bend, as a share of the size jitter.
 const BEND_SHARE: f32 = 1.5;
 
 /// How strongly the slow noise of edges changes the overrun.
 const EDGE_SWING: f32 = 0.6;
 
-/// A stroke's quad over the stroke itself: there is room for ragged ends.
+/// Size of a stroke's quad over that of the stroke itself; the margin has room for ragged ends.
 const QUAD: f32 = 1.0 / impasto_core::brush::FILL;
 
 /// ln(D/u) of a stroke that is present whatever its rank.
@@ -91,7 +91,7 @@ impl PaintingView<'_> {
         if facing <= 0.0 {
             return None;
         }
-        // The paper's count knows no fading. In ours, more strokes make up for those that fade.
+        // The paper's count has no fading. In ours, more strokes make up for those that fade.
         let facing_fade = if coat_view.shown.is_some() { 1.0 } else { presence::of_facing(facing) };
         let supply_ln = supply_ln - facing_fade.max(LEAST_COUNTED_FADE).ln();
         if supply_ln + most_wanted(coat.kind).ln() <= presence::ABSENT_LN {
@@ -111,8 +111,8 @@ impl PaintingView<'_> {
         );
         let chance = Chance { bits };
         let size_px = chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
-        let flat = Shape { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
-        let Shape { angle_rad, length_px, width_px, skew } = match self.rotation {
+        let flat = Outline { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
+        let Outline { angle_rad, length_px, width_px, skew } = match self.rotation {
             Rotation::Mapped => {
                 let base = coat_view.base_angle_rad(index);
                 let lift = match self.painting.solver {
@@ -123,10 +123,11 @@ impl PaintingView<'_> {
             }
             Rotation::On | Rotation::Off | Rotation::Random => flat,
         };
-        let (taper, bend_rad) = shape(coat.kind, strokes);
+        let (taper, bend_rad) = taper_and_bend(coat.kind, strokes);
         // A stroke that bends may reach as far in either axis as it is long.
         let (sin, cos) = if bend_rad == 0.0 { angle_rad.sin_cos() } else { (1.0, 1.0) };
         let most_width_px = width_px * (1.0 + taper.abs());
+        // The second term: the resolve shader may shift a stroke along itself.
         let reach_px = |along: f32, across: f32| {
             (0.5 * QUAD * (along.abs() * length_px + across.abs() * most_width_px))
                 + 0.5 * length_px * along.abs()
@@ -202,7 +203,7 @@ impl PaintingView<'_> {
 
 /// A stroke's outline in the picture.
 #[derive(Clone, Copy)]
-struct Shape {
+struct Outline {
     angle_rad: f32,
     length_px: f32,
     width_px: f32,
@@ -211,12 +212,12 @@ struct Shape {
 
 /// The outline of a stroke that is mapped like a texture: `flat` is its outline in the reference picture, at the scene's own
 /// size, and `map` takes that picture to this one.
-fn mapped(map: PixelMap2, flat: Shape, px_scale: f64) -> Shape {
+fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
     let along = DVec2::new(map.x.x, map.y.x) * f64::from(flat.length_px) / px_scale;
     let across = DVec2::new(map.x.y, map.y.y) * f64::from(flat.width_px) / px_scale;
     let axis = along.normalize_or(DVec2::X);
     let width = across.dot(axis.perp()).abs().max(1e-3);
-    Shape {
+    Outline {
         angle_rad: axis.to_angle() as f32,
         length_px: along.length() as f32,
         width_px: width as f32,
@@ -236,11 +237,11 @@ fn trust_srgb8(kappa: f32) -> u32 {
 }
 
 /// Taper and bend of a layer's strokes. The underpainting is there to cover: it stays broad and straight.
-fn shape(kind: LayerKind, strokes: &ResolvedStrokes) -> (f32, f32) {
+fn taper_and_bend(kind: LayerKind, strokes: &ResolvedStrokes) -> (f32, f32) {
     if kind == LayerKind::Underpainting { (0.0, 0.0) } else { (strokes.taper, strokes.bend_rad) }
 }
 
-/// Scumble lies in patches: the share of it that is wanted where slow noise (mean 0, deviation 1) has this value.
+/// Scumble lies in patches: how much of it is wanted, 0..=1, where slow noise (mean 0, deviation 1) has this value.
 fn patch(noise: f32) -> f32 {
     smoothstep(0.5 + 0.45 * noise).max(0.02)
 }
@@ -255,8 +256,8 @@ fn mixing(strokes: &ResolvedStrokes, palette: u8) -> Mixing {
     }
 }
 
-/// Turns a stroke near the limb towards its body's contour, by the share `contour`; of the contour's two directions, towards
-/// the nearer.
+/// Turns a stroke near its body's outline towards that outline, by the share `contour`, and towards the nearer one of
+/// its two directions.
 pub(crate) fn along_contour(
     angle_rad: f32,
     contour: f32,
@@ -304,9 +305,9 @@ impl Chance {
         (BEND_SHARE * jitter * self.normal(BEND)).exp()
     }
 
-    fn paint(&self, layer: &ResolvedLayer, lively: bool) -> Paint {
+    fn paint(&self, layer: &ResolvedLayer, varied: bool) -> Paint {
         let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
-        let (thickness, dryness) = if lively {
+        let (thickness, dryness) = if varied {
             let dryness = hash::unit(hash::combine(self.bits, DRYNESS_JITTER));
             ((THICKNESS_DEVIATION * self.normal(THICKNESS_JITTER)).exp(), 0.4 + 1.2 * dryness)
         } else {
@@ -328,7 +329,7 @@ mod tests {
     use impasto_core::screen_map::PixelLens;
 
     #[test]
-    fn strokes_at_the_limb_lie_along_the_contour_and_the_others_stay() {
+    fn strokes_near_the_outline_lie_along_it_and_the_others_stay() {
         let view = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
         let lens = PixelLens::Orthographic { px_per_unit: 100.0 };
         let map = ScreenMap::new(view, DAffine3::IDENTITY, lens);

@@ -1,4 +1,4 @@
-//! The directions of strokes without their paint, as an editor shows them: a few of the body layer, spread over the picture.
+//! The directions of strokes without their paint, for an editor: a few of the body layer, spread over the picture.
 
 use glam::DVec3;
 use impasto_core::screen_map::facing;
@@ -62,10 +62,10 @@ pub struct ShownDirection {
 const LEAST_COSINE: f64 = 0.5;
 
 impl Painting {
-    /// Directions in a view: in each cell of `cell_px` × `cell_px`, of all strokes of the body layer that are in the picture, face
-    /// the eye and are `accepted`, the one of the lowest rank (of equal ranks the first object's). In the order of the cells, row
-    /// by row. Bodies in front are not considered: that is for `accepted` to do, which is given everything but angle and κ (both
-    /// 0).
+    /// At most one direction for each cell of `cell_px` × `cell_px` pixels, row by row. It is that of the stroke of the
+    /// lowest rank (of equal ranks the first object's) among the strokes of the body layer that are in the cell, face
+    /// the eye and are `accepted`. Whether another body hides a stroke is for `accepted` to judge; it is given all but
+    /// angle and κ (both 0).
     pub fn stroke_directions(
         &self,
         camera: &CameraPose,
@@ -156,7 +156,7 @@ impl SurfacePlace {
     }
 }
 
-/// The rank of one of all particles of a coat.
+/// The rank of a particle of a coat; `solved` has all of them.
 fn rank(index: usize, solved: &SolvedParticles) -> f32 {
     (index as f32 + 0.5) / solved.area_px.len() as f32
 }

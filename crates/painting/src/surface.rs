@@ -1,4 +1,4 @@
-//! From an object of the document to the surface that is sampled and drawn.
+//! Makes the surface that is sampled and drawn from an object of the document; its vertices in any shape; its albedo.
 
 use std::sync::Arc;
 
@@ -172,7 +172,7 @@ impl BodySurface {
         }
     }
 
-    /// Whether the surface in this shape is just as its mesh has it.
+    /// Whether the surface in this shape is the unchanged mesh.
     pub fn is_at_rest(&self, shape: &BodyShape) -> bool {
         (self.morph.is_none() || shape.morph == 0.0) && shape.displacing().is_none()
     }
@@ -246,7 +246,7 @@ pub(crate) enum Albedo {
 }
 
 impl Albedo {
-    /// Of a particle, which lies on this triangle of the surface.
+    /// The albedo of a particle, which lies on this triangle of the surface.
     pub(crate) fn of(&self, surface: &BodySurface, particle: usize, triangle: usize) -> u32 {
         match self {
             Self::OfMaterial(all) => {

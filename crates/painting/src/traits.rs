@@ -1,4 +1,4 @@
-//! Traits: what a particle has whatever its direction: its region, its random numbers, its slow noise.
+//! Traits: what is fixed for a particle besides its direction: its region, its random numbers, its slow noise.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::parts::{BodyParts, px_per_unit};
 use crate::references::BodyReferences;
 use crate::regions::{BodyRegions, RegionRule};
 
-/// The random numbers of a particle, by what they are used for.
+/// A particle has several random numbers: which of them is used for what.
 pub(crate) const ANGLE_JITTER: u32 = 1;
 pub(crate) const LENGTH_JITTER: u32 = 2;
 pub(crate) const WIDTH_JITTER: u32 = 3;
@@ -21,20 +21,20 @@ pub(crate) const SIZE_JITTER: u32 = 4;
 pub(crate) const BOW: u32 = 5;
 pub(crate) const THICKNESS_JITTER: u32 = 6;
 pub(crate) const DRYNESS_JITTER: u32 = 7;
-const RANK_BREAKING: u32 = 8;
+const STRAY: u32 = 8;
 const FAMILY: u32 = 9;
 pub(crate) const BEND: u32 = 10;
 
-/// The length of one cycle of slow noise, in pixels of a picture 720 high at the reference pose: of angle and hue, of a
-/// backdrop's angle, of edges.
+/// The length of one cycle of slow noise, in pixels of a picture 720 high at the reference pose: for angle and hue, for
+/// the angle of crossing strokes, for edges.
 const SWING_PX: f64 = 170.0;
-const BACKDROP_SWING_PX: f64 = 260.0;
+const CROSSING_SWING_PX: f64 = 260.0;
 const EDGE_PX: f64 = 60.0;
 
-/// This share of the strokes strays from its neighbours by this deviation, or less where the angle jitter is under
-/// [`USUAL_JITTER_DEG`].
-const RANK_BREAKERS: f32 = 0.08;
-const RANK_BREAKING_DEG: f64 = 38.0;
+/// This share of the strokes strays from its neighbours by this standard deviation, or less where the angle jitter is
+/// under [`USUAL_JITTER_DEG`].
+const STRAY_SHARE: f32 = 0.08;
+const STRAY_DEG: f64 = 38.0;
 pub(crate) const USUAL_JITTER_DEG: f64 = 7.0;
 
 /// Two crossing families of strokes swing and scatter this much more than one family does; this share is of the second.
@@ -45,7 +45,7 @@ const SECOND_FAMILY: f32 = 0.42;
 /// How many particles one task computes.
 const CHUNK: usize = 512;
 
-/// All that traits depend on. How many particles there are is not compared.
+/// All that traits depend on. The number of particles is not compared.
 #[derive(Clone)]
 pub(crate) struct TraitInputs {
     particles: Particles,
@@ -61,7 +61,7 @@ pub(crate) struct TraitInputs {
     second_of_part_rad: Vec<Option<f64>>,
 }
 
-/// What traits depend on of a rule.
+/// The part of a rule that traits depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct TraitRule {
     angle_jitter_rad: f32,
@@ -72,7 +72,7 @@ struct TraitRule {
 /// How many families of strokes a rule has.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Family {
-    /// As the part's automatic direction has it.
+    /// One or two, as the part's automatic direction says.
     #[default]
     OfPart,
     One,
@@ -184,7 +184,7 @@ impl TraitInputs {
         }
     }
 
-    /// The traits of all particles; those `before`, of the same inputs, are cut or continued.
+    /// The traits of all particles. `before` was made from equal inputs: it is shortened or extended.
     pub(crate) fn traits(&self, before: Option<CoatTraits>) -> CoatTraits {
         let count = self.particles.len();
         let (mut dabbed, mut drift, mut stray_rad) = (Vec::new(), Vec::new(), Vec::new());
@@ -260,9 +260,9 @@ impl TraitInputs {
         }
     }
 
-    /// The length of one cycle of the swing.
+    /// The length of one cycle of the swing, pixels of a picture 720 high.
     fn cycle_px(&self, rule: TraitRule, part: usize) -> f64 {
-        if self.second_rad(rule, part).is_some() { BACKDROP_SWING_PX } else { SWING_PX }
+        if self.second_rad(rule, part).is_some() { CROSSING_SWING_PX } else { SWING_PX }
     }
 
     /// What chance and slow noise add to a particle's base angle, radians.
@@ -274,9 +274,9 @@ impl TraitInputs {
         let (swing, jitter) = if second.is_some() { (CROSSING_SWING, CROSSING_JITTER) } else { (1.0, 1.0) };
         let jitter_rad = f64::from(rule.angle_jitter_rad);
         let mut stray = jitter_rad * jitter * normal(ANGLE_JITTER);
-        if hash::unit(hash::combine(bits, RANK_BREAKING)) < RANK_BREAKERS {
+        if hash::unit(hash::combine(bits, STRAY)) < STRAY_SHARE {
             let share = (jitter_rad.to_degrees() / USUAL_JITTER_DEG).min(1.0);
-            stray += RANK_BREAKING_DEG.to_radians() * share * normal(hash::combine(RANK_BREAKING, 1));
+            stray += STRAY_DEG.to_radians() * share * normal(hash::combine(STRAY, 1));
         }
         if rule.swing_rad > 0.0 {
             stray += f64::from(rule.swing_rad) * swing * f64::from(swing_noise);

@@ -1,4 +1,4 @@
-//! From the document's camera to the matrices and lenses that projection and drawing use.
+//! A camera with a picture's size: the matrices and maps that projection and drawing use.
 
 use glam::{DMat4, DVec2};
 use impasto_core::horn_exact::ClipView;

@@ -92,7 +92,8 @@ impl AssetError {
         }
     }
 
-    /// The problem to report for the file `path`, which names this one. A file that is too large is always a limit.
+    /// The problem to report for the file `path`, which names this one. A file that is too large always gives
+    /// [`Severity::Limit`].
     pub fn to_problem(&self, severity: Severity, path: &Path, place: Option<TextPosition>) -> Problem {
         let severity = if matches!(self, Self::TooLarge { .. }) { Severity::Limit } else { severity };
         Problem {
@@ -120,8 +121,8 @@ impl AssetFolders {
     /// Finds a file that another file names, without opening it: first beside that file, then in the extra folders.
     ///
     /// # Errors
-    /// [`AssetError`] when the name is absolute, a URL, over [`MAX_NAME_BYTES`] or leads (also through a link) out of the
-    /// scene's folder and the extra folders; when no folder has it.
+    /// [`AssetError`] when the name is absolute, a URL, over [`MAX_NAME_BYTES`] or leads (also through a link) out of
+    /// the scene's folder and the extra folders; when no folder has it.
     pub fn find(&self, request: &AssetRequest<'_>) -> Result<PathBuf, AssetError> {
         let name = request.name.trim().replace('\\', "/");
         if let Some(why) = refusal(&name) {

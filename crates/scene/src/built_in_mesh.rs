@@ -10,8 +10,8 @@ use crate::mesh_file::{Material, MeshFile};
 /// The beginning of the names of built-in meshes.
 pub const PREFIX: &str = "impasto:";
 
-/// A photographer's backdrop, a floor that bends up into a wall: 2 wide, the floor at height 0 from z = 1 back to −0.28, the wall
-/// 1.3 high.
+/// A photographer's backdrop, a floor that bends up into a wall: 2 wide, the floor at height 0 from z = 1 back to
+/// −0.28, the wall 1.3 high.
 pub const BACKDROP: &str = "impasto:backdrop";
 
 const FRONT: f32 = 1.0;
@@ -21,7 +21,7 @@ const HEIGHT: f32 = 1.3;
 /// Radius of the bend between floor and wall.
 const BEND: f32 = 0.12;
 
-/// Numbers of quads: across; and along the floor, in the bend and up the wall.
+/// Numbers of quads: across; and, along the profile, on the floor, in the bend and up the wall.
 const ACROSS: usize = 24;
 const ALONG: [usize; 3] = [16, 10, 14];
 

@@ -66,7 +66,7 @@ pub(crate) fn check_anew(
     findings.done()
 }
 
-/// What an earlier check found right and has not changed since.
+/// Parts of the document that an earlier check found right and that have not changed since.
 #[derive(Debug, Default)]
 pub(crate) struct Known {
     /// Objects whose morphs match their meshes, by index.
@@ -84,7 +84,7 @@ struct Findings {
 }
 
 impl Findings {
-    /// Adds one. `finding` runs only while there is room, so that a thousand wrong names are not all compared.
+    /// Adds a finding. `finding` runs only while there is room, since it may compare a wrong name with all known ones.
     fn add(&mut self, severity: Severity, finding: impl FnOnce() -> (String, String, String)) {
         if self.found.len() < limits::MAX_PROBLEMS {
             let (field_path, message, mend) = finding();

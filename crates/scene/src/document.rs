@@ -227,7 +227,8 @@ pub struct Light {
     /// `Ambient`: the colour from below; left out, `color`, dimmer and warmer.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ground: Option<Color>,
-    /// Multiplies the colour, from 0 to 1000000. A point light of intensity 1 lights a facing surface at distance 1 as a sun of 1.
+    /// Multiplies the colour, from 0 to 1000000. A point light of intensity 1 lights a facing surface at distance 1 as
+    /// a sun of 1.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub intensity: f64,
 }
@@ -243,7 +244,7 @@ pub enum LightKind {
     Ambient,
 }
 
-/// A field with its usual value is not saved.
+/// Whether a field has its default value; such a field is not saved.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }

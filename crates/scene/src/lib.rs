@@ -1,4 +1,5 @@
-//! The document and everything that reads files: scenes, meshes, pictures, keyframes, presets, saving, and located problems.
+//! The document and everything that reads files: scenes, meshes, pictures, keyframes, presets, saving, and located
+//! problems.
 
 pub mod assets;
 pub mod built_in_mesh;

@@ -54,7 +54,7 @@ pub const MAX_STROKE_PX: f64 = 4096.0;
 /// Strokes per pixel × length × width.
 pub const MAX_COVERAGE: f64 = 20.0;
 
-/// Factors without a natural limit: jitter of colour, temperature, relief, weave, varnish.
+/// Factors without a natural limit: jitter of colour, temperature, relief, weave, varnish, bloom.
 pub const MAX_STRENGTH: f64 = 10.0;
 
 /// Thickness of a layer of paint.
@@ -102,7 +102,7 @@ pub const MAX_FLOODS: usize = 256;
 /// Patches that all regions of a scene cover.
 pub const MAX_PATCHES: usize = 16_384;
 
-/// Numbers of a noise-displaced material without a natural limit.
+/// Numbers without a natural limit in a noise-displaced material.
 pub const NOISE_RATE: std::ops::RangeInclusive<f64> = -1000.0..=1000.0;
 
 /// Layers of a noise-displaced material: each but the first is looked up twice for every pixel.

@@ -38,8 +38,8 @@ pub struct LoadOptions {
 
 /// Reads a document from its text; `path` is for messages only, no file is opened. A byte order mark is skipped.
 ///
-/// This finds text that is not RON, unknown fields, and values of the wrong kind. Whether the values make sense together is
-/// checked by [`crate::check`].
+/// This finds text that is not RON, unknown fields, and values of the wrong kind. Whether the values make sense
+/// together is checked by [`crate::check`].
 ///
 /// # Errors
 ///
@@ -96,8 +96,8 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
     finish(path, parsed, options, None)
 }
 
-/// Loads a mesh in a new scene. The scene is written as text and read again, so that `--set` works as on a file that `impasto new`
-/// writes, and both are painted alike.
+/// Loads a mesh in a new scene. The scene is written as text and read again, so that `--set` works as on a file that
+/// `impasto new` writes, and both are painted alike.
 fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     let (mesh, warnings) = load_mesh(path, &options.folders)?;
     let scene = crate::new_scene::for_mesh(path, &mesh);
@@ -194,8 +194,8 @@ impl FieldLocator<'_> {
     }
 }
 
-/// Sorts the scene's problems by position, then those of its files in the order of use; at most [`limits::MAX_PROBLEMS`] of either,
-/// with a last one that counts the rest.
+/// Sorts the scene's problems by position, then those of its files in the order of use; at most
+/// [`limits::MAX_PROBLEMS`] of either, with a last one that counts the rest.
 fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Problem>) {
     let is_of_scene = |problem: &Problem| problem.path == path;
     problems.extend(of_files.extract_if(.., |problem| is_of_scene(problem)));
@@ -212,9 +212,6 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
         problems.push(Problem { severity, ..error_in(path, None, message, "mend those above first") });
     }
 }
-
-#[cfg(test)]
-mod tests;
 
 /// Reads a mesh that the scene names.
 fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
@@ -273,3 +270,5 @@ fn folder_of(path: &Path) -> &Path {
 
 #[cfg(test)]
 mod hostile_tests;
+#[cfg(test)]
+mod tests;

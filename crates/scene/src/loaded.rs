@@ -8,7 +8,8 @@ use crate::document::Scene;
 use crate::mesh_file::{MeshFile, Texture};
 use crate::problem::Problem;
 
-/// A scene and the files that it names. `check` has passed: names resolve, numbers are finite and in range, limits hold.
+/// A scene and the files that it names. `check` has passed: names resolve, numbers are finite and in range, limits
+/// hold.
 #[derive(Clone, Debug)]
 pub struct LoadedScene {
     /// The scene file, or the mesh file that the scene was made for.
@@ -17,7 +18,7 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// Mesh files, by the path written in the document.
     pub meshes: BTreeMap<String, Arc<MeshFile>>,
-    /// Override textures, by the path written in the document.
+    /// Pictures that materials of the document name, by the path written there.
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Pictures that serve as brushes, by the path written in the document.
     pub brushes: BTreeMap<String, Arc<Texture>>,
@@ -26,7 +27,7 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// Every file that it was read from; these must not be overwritten.
+    /// The scene file, and the files that it names, each as a path from its folder; these must not be overwritten.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
         let named = self.meshes.keys().chain(self.textures.keys()).chain(self.brushes.keys());

@@ -1,8 +1,8 @@
 //! Finds values in the text of a scene file: a tolerant scan of RON into a tree of positions.
 //!
-//! The scan knows brackets, names, strings and comments, but no types. It has three uses: problems get a line and a column; text
-//! that would harm the real parser is refused beforehand (endless nesting, numbers of a million digits); and `--set` finds the
-//! text that it replaces.
+//! The scan knows brackets, names, strings and comments, but no types. It has three uses: problems get a line and a
+//! column; text that would harm the real parser is refused beforehand (endless nesting, numbers of a million digits);
+//! and `--set` finds the text that it replaces.
 
 use crate::limits;
 use crate::problem::TextPosition;
@@ -96,8 +96,8 @@ impl Located {
         rest.char_indices().nth(column.saturating_sub(1)).map_or(text.len(), |(at, _)| start + at)
     }
 
-    /// The position of a field such as `objects[2].keys[1].frame`. If the file leaves it out (it has a default, or a variant has no
-    /// such field), that of the nearest value around it.
+    /// The position of a field such as `objects[2].keys[1].frame`. If the file leaves it out (it has a default, or a
+    /// variant has no such field), that of the nearest value around it.
     pub fn place_of(&self, field_path: &str) -> TextPosition {
         let mut node = &self.root;
         for step in Step::split(field_path) {
@@ -145,8 +145,9 @@ impl Located {
                     // An offset between two values belongs to the later one only if that starts there.
                     let index = items.partition_point(|item| (item.end as usize) < offset);
                     items.get(index).filter(|item| holds(item)).inspect(|_| {
-                        let is_payload = node.name_bytes > 0;
-                        if !is_payload {
+                        // In field paths, what a variant such as `Frame(0)` holds has no index.
+                        let is_variant = node.name_bytes > 0;
+                        if !is_variant {
                             path.push_str(&format!("[{index}]"));
                         }
                     })
@@ -178,7 +179,8 @@ pub(crate) enum Step<'a> {
 }
 
 impl<'a> Step<'a> {
-    /// `objects[2].name` is the field `objects`, the item 2, the field `name`. An index that is no number ends it.
+    /// `objects[2].name` is the field `objects`, the item 2, the field `name`. An index that is not a number ends the
+    /// steps.
     pub(crate) fn split(field_path: &'a str) -> impl Iterator<Item = Step<'a>> {
         field_path.split(['.', '[']).filter(|part| !part.is_empty()).map_while(|part| {
             match part.strip_suffix(']') {

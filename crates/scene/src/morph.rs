@@ -15,8 +15,8 @@ pub struct MorphTarget {
 
 /// The vertices of `base` with their positions and normals in `target`.
 ///
-/// Both must have the same faces in the same order, corner by corner. Vertices are matched by the corners of triangles, so the two
-/// files may split their vertices differently.
+/// Both must have the same faces in the same order, corner by corner. Vertices are matched by the corners of triangles,
+/// so the two files may split their vertices differently.
 ///
 /// # Errors
 /// A phrase that names the difference, where the topologies differ.

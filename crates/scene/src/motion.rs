@@ -22,8 +22,9 @@ pub struct CameraPose {
 impl CameraPose {
     /// World space to view space: right-handed, looking down −Z, Y up.
     ///
-    /// The camera turns counter-clockwise by `roll_rad`, so a thing at the screen angle φ without roll shows at φ − roll. `check`
-    /// refuses a gaze along the Y axis; for such a pose Z is used as up, so that the matrix is always finite.
+    /// The camera turns counter-clockwise by `roll_rad`, so a thing at the screen angle φ without roll shows at
+    /// φ − roll. `check` refuses a gaze along the Y axis; for such a pose Z is used as up, so that the matrix is always
+    /// finite.
     pub fn view_from_world(&self) -> DMat4 {
         let gaze = (self.target - self.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
         let up = if gaze.cross(DVec3::Y).length_squared() > 1e-20 { DVec3::Y } else { DVec3::Z };
@@ -34,8 +35,8 @@ impl CameraPose {
 
 /// The camera at a frame, which need not be whole. It stands still before the first and after the last key.
 ///
-/// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the earlier key. A key without a field of
-/// view keeps the one of the key before; the first keys take it from the lens.
+/// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the earlier key. A key without a
+/// field of view keeps the one of the key before; the first keys take it from the lens.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     let span = Span::at(keys, frame, |key| (key.frame, key.ease));
@@ -85,11 +86,11 @@ fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
     keys.iter().rev().find_map(|key| key.fov_y_deg)
 }
 
-/// `world_from_model` of every object, in the order of the file: rotation, translation and uniform scale. Keys are in the space of
-/// the parent, which may come later in the file.
+/// `world_from_model` of every object, in the order of the file: rotation, translation and uniform scale. Keys are in
+/// the space of the parent, which may come later in the file.
 ///
-/// Takes time and memory proportional to the number of objects and follows chains of any depth. An unknown parent, or one that
-/// closes a cycle, counts as none (`check` refuses both).
+/// Takes time and memory proportional to the number of objects and follows chains of any depth. An unknown parent, or
+/// one that closes a cycle, counts as none (`check` refuses both).
 pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     let objects = &scene.objects;
     let parents = parent_indices(objects);
@@ -113,12 +114,13 @@ pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
     scene.objects.iter().map(weight).collect()
 }
 
-/// The time of every object in seconds since frame 0, in the order of the file. An object that holds its pose holds its time too.
+/// The time of every object in seconds since frame 0, in the order of the file. An object that holds its pose holds its
+/// time too.
 pub fn seconds_at(scene: &Scene, frame: f64) -> Vec<f64> {
     scene.objects.iter().map(|object| held_frame(scene, object, frame) / scene.timeline.fps).collect()
 }
 
-/// The frame whose pose an object shows: with `hold`, the last one that it did not skip.
+/// The frame whose pose an object shows: with `hold`, the last frame in which its pose changed.
 fn held_frame(scene: &Scene, object: &Object, frame: f64) -> f64 {
     let first = scene.timeline.first as f64;
     match object.hold {
@@ -220,8 +222,8 @@ pub fn rotation_from_euler_deg(angles_deg: DVec3) -> DMat3 {
     about_z * (about_y * about_x)
 }
 
-/// The Euler angles in degrees that [`rotation_from_euler_deg`] makes this rotation of. Where Y is at ±90 one of the other two
-/// is free, and is 0.
+/// The Euler angles in degrees that [`rotation_from_euler_deg`] makes this rotation of. Where the angle about Y is
+/// ±90, one of the other two is free, and is 0.
 pub fn euler_deg_from_rotation(rotation: DMat3) -> DVec3 {
     let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
     DVec3::new(x, y, z).map(f64::to_degrees)
@@ -264,7 +266,7 @@ struct Span {
 }
 
 impl Span {
-    /// The span at a frame; `frame_and_ease` gives those of a key. `None` without keys.
+    /// The span at a frame; `None` without keys. `frame_and_ease` gives the frame and the ease of a key.
     fn at<K>(keys: &[K], frame: f64, frame_and_ease: impl Fn(&K) -> (f64, Ease)) -> Option<Self> {
         let last = keys.len().checked_sub(1)?;
         let right = keys.partition_point(|key| frame_and_ease(key).0 <= frame);
@@ -282,7 +284,7 @@ impl Span {
         Some(Self { left: right - 1, right, share })
     }
 
-    /// Exactly `left` at share 0.
+    /// A value between that of the left key and that of the right one; exactly `left` at share 0.
     fn mix(&self, left: f64, right: f64) -> f64 {
         left + (right - left) * self.share
     }

@@ -1,6 +1,7 @@
 //! Suggests the known name that a mistyped one was probably meant to be.
 
-/// The known name nearest to a mistyped one; `None` where none is near. Only the first thousand known names are compared.
+/// The known name nearest to a mistyped one; `None` where none is near. Only the first thousand known names are
+/// compared.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Long texts are no typing mistakes, and comparing them takes time proportional to the product of their lengths.
     const LONGEST: usize = 128;

@@ -21,7 +21,7 @@ const FOV_Y_DEG: f64 = 35.0;
 /// Share of the picture that stays free at each border.
 const MARGIN: f64 = 0.08;
 
-/// Size of the backdrop over the diagonal of the mesh, so that it fills the picture.
+/// Size of the backdrop, as a multiple of the diagonal of the mesh; with this it fills the picture.
 const BACKDROP_SCALE: f64 = 3.0;
 const BACKDROP_NAME: &str = "backdrop";
 
@@ -30,9 +30,9 @@ const SIZE_PX: (u32, u32) = (1280, 720);
 
 /// A scene with one object before a backdrop, framed with a margin of 8 % whatever its size and position.
 ///
-/// The object comes first and is named after the file. Its mesh is the file's bare name, so the scene belongs into the same folder.
-/// An open mesh that shows its back to the usual viewpoint is seen from the other side; if that is from below, there is no backdrop,
-/// since its floor would hide the mesh.
+/// The object comes first and is named after the file. Its mesh is the file's bare name, so the scene belongs into the
+/// same folder. An open mesh that shows its back to the usual viewpoint is seen from the other side; if that is from
+/// below, there is no backdrop, since its floor would hide the mesh.
 pub fn for_mesh(path: &Path, mesh: &MeshFile) -> Scene {
     let name = object_name(path);
     let view = View::of(mesh);
@@ -109,8 +109,9 @@ struct View {
     near: f64,
     far: f64,
     axes: Axes,
-    /// The middle of the mesh's underside, world space, and the diagonal of its bounds.
+    /// The middle of the underside of the mesh's bounds, world space.
     foot: DVec3,
+    /// The diagonal of the mesh's bounds.
     size: f64,
 }
 
@@ -214,8 +215,8 @@ impl View {
     }
 }
 
-/// The direction from the mesh to the eye: three quarters from the front, slightly from above. An open mesh that would show its back
-/// is seen from the side that shows the most of its front.
+/// The direction from the mesh to the eye: three quarters from the front, slightly from above. An open mesh that would
+/// show its back is seen from the side that shows the most of its front.
 fn viewpoint(mesh: &MeshFile) -> DVec3 {
     const USUAL: DVec3 = DVec3::new(0.5, 0.27, 0.9);
     let mut area_vector = DVec3::ZERO;
@@ -242,7 +243,8 @@ fn used_points(mesh: &MeshFile) -> impl Iterator<Item = DVec3> {
     mesh.mesh.triangles.iter().flatten().map(|&vertex| mesh.mesh.positions[vertex as usize].as_dvec3())
 }
 
-/// The nearest eye that sees all points inside the margin, in camera space about the centre.
+/// The nearest eye that sees all points inside the margin. In camera space, from the mesh's centre, in lengths of its
+/// diagonal.
 #[derive(Debug)]
 struct Framing {
     eye: DVec3,

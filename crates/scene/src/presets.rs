@@ -89,7 +89,8 @@ pub fn is_paper(scene: &Scene) -> bool {
 /// The settings of region `region` of the scene; `None` means everything that no region covers.
 ///
 /// A value comes from the first that states it: the region, the region's preset, the scene, the scene's preset, the
-/// style's own preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's regions.
+/// style's own preset. An unknown preset counts as none (`check` refuses it). The index must be one of the scene's
+/// regions.
 pub fn resolve(scene: &Scene, region: Option<usize>) -> ResolvedStrokes {
     resolve_with(scene, &scene.strokes, region.map(|region| &scene.regions[region].strokes))
 }

@@ -18,7 +18,8 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// What a decoder may allocate, in bytes.
 const MAX_DECODER_BYTES: u64 = 384 << 20;
 
-/// No PNG, BMP, TGA or JPEG has more pixels per byte than this: deflate packs at most 1032 : 1, and a pixel has at least one bit.
+/// No PNG, BMP, TGA or JPEG has more pixels per byte than this: deflate packs at most 1032 : 1, and a pixel has at
+/// least one bit.
 const MAX_PIXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// A picture and the warnings about it.
@@ -109,7 +110,8 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
 /// Finds, reads and decodes a picture that another file names.
 ///
 /// # Errors
-/// As [`decode`], and a warning (or a limit, when the file is too large) that names the paths tried when it is not there.
+/// As [`decode`], and a warning (or a limit, when the file is too large) that names the paths tried when it is not
+/// there.
 pub fn read(folders: &AssetFolders, request: &AssetRequest<'_>) -> Result<Decoded, Problem> {
     let asset =
         folders.open(request).map_err(|error| error.to_problem(Severity::Warning, request.beside, None))?;
@@ -127,7 +129,8 @@ fn format_of(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
         })
 }
 
-/// The size in a PNG's header, read by hand so that a file cut off right after it is still refused for the size it claims.
+/// The size in a PNG's header, read by hand so that a file cut off right after it is still refused for the size it
+/// claims.
 fn claimed_png_size(bytes: &[u8]) -> Option<[u32; 2]> {
     let header = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(4..16)?.strip_prefix(b"IHDR")?;
     let number = |from: usize| {

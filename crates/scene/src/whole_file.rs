@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
 
-/// Characters of the target's name in the name of its part, so that no name becomes too long for a file system.
+/// How many characters of the target's name go into the name of the unfinished file, which must not become too long for
+/// a file system.
 const NAME_CHARS: usize = 60;
 
 /// Permissions of a new file before the user's umask, and of one that only the user may read.
@@ -16,8 +17,8 @@ const PRIVATE_MODE: u32 = 0o600;
 /// A file that is being written. It lies beside its target as `.NAME~RANDOM.part` and gets the target's name when it is
 /// finished; dropped before that, it is removed.
 ///
-/// A link is followed: the file it points to is replaced. A file that is replaced passes on its permissions, and one that is
-/// read-only is left alone. What is no regular file (a device, a pipe) is never replaced: it is written into.
+/// A link is followed: the file it points to is replaced. A file that is replaced passes on its permissions, and one
+/// that is read-only is left alone. What is no regular file (a device, a pipe) is never replaced: it is written into.
 #[derive(Debug)]
 pub struct WholeFile {
     writer: BufWriter<File>,
@@ -100,7 +101,8 @@ impl WholeFile {
         let Some(part) = self.part else { return Ok(()) };
         file.sync_all()?;
         rename(part, &self.target)?;
-        // The new name is on the disk only with its folder. The file is in place: where this fails, there is nothing to take back.
+        // The new name is on the disk only with its folder. The file is in place: where this fails, there is nothing to
+        // take back.
         #[cfg(unix)]
         let _ = File::open(folder_of(&self.target)).and_then(|folder| folder.sync_all());
         Ok(())
@@ -195,7 +197,7 @@ mod tests {
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
     }
 
-    /// A pipe, because a fault must not cost this machine its `/dev/null`.
+    /// Tried with a pipe, because a bug here could replace `/dev/null`.
     #[cfg(unix)]
     #[test]
     fn what_is_no_regular_file_is_written_into() {

@@ -1,4 +1,5 @@
-//! Tests of reading OBJ files: good files are read whole, errors in bad ones have a place, and no mutation breaks an invariant.
+//! Tests of reading OBJ files: good files are read whole, errors in bad ones have a place, and no mutation breaks an
+//! invariant.
 
 use std::fs;
 use std::path::Path;

@@ -1,10 +1,9 @@
-//! Work on several threads whose results are taken in one after the other, in the order of the jobs.
+//! Works on jobs on several threads, and takes their results in one by one, in the order of the jobs.
 
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// How many jobs per thread may be under way or waiting to be taken in: enough that no thread waits for a single slow
-/// job.
+/// How many jobs per thread may be under way or waiting to be taken in: enough that one slow job holds up no thread.
 const AHEAD: u64 = 2;
 
 /// Does one job after the other on its thread.
@@ -16,7 +15,7 @@ pub(crate) struct Workers<'a, J, T> {
     pub(crate) own: Worker<'a, J, T>,
     /// How many further threads.
     pub(crate) further: usize,
-    /// Makes the worker of a further thread, on that thread. Where it makes none, the others do its share.
+    /// Makes the worker of a further thread, on that thread. Where it gives `None`, the others do that thread's share.
     pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, J, T>> + Sync),
 }
 
@@ -36,7 +35,7 @@ struct State<I, J, T> {
 struct Shared<I, J, T> {
     state: Mutex<State<I, J, T>>,
     changed: Condvar,
-    /// How many jobs may be begun and not taken in.
+    /// How many jobs may be begun and not yet taken in.
     max_open: u64,
 }
 
@@ -47,8 +46,8 @@ enum Next<J, T> {
     Nothing,
 }
 
-/// Works on `jobs`, which are asked for as they are needed, and calls `take_in` on this thread with each result in their order.
-/// Where that fails, no more jobs are begun.
+/// Works on `jobs`, which are asked for as they are needed, and calls `take_in` on this thread with each result, in the
+/// order of the jobs. When `take_in` fails, no more jobs are begun.
 pub(crate) fn in_order<I, J, T, E>(
     jobs: I,
     mut workers: Workers<'_, J, T>,
@@ -97,7 +96,7 @@ where
 }
 
 impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
-    /// Only the iterator of jobs may panic while the lock is held, and then the work ends; so a poisoned lock is ignored.
+    /// A poisoned lock is ignored: only the iterator of jobs may panic while it is held, and then the work ends anyway.
     fn state(&self) -> MutexGuard<'_, State<I, J, T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -123,7 +122,7 @@ impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
         }
     }
 
-    /// For a further thread: the next job with its number; none where no more are given out.
+    /// For a further thread: the next job with its number; `None` when no more are given out.
     fn wait_for_work(&self) -> Option<(u64, J)> {
         let mut state = self.state();
         loop {

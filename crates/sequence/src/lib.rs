@@ -1,4 +1,5 @@
-//! Renders a sequence of frames in its order, on several threads: the one loop behind `impasto render` and `F12`.
+//! Renders a sequence of frames on several threads and hands them over in order: the one loop behind `impasto render`
+//! and `F12`.
 //!
 //! ```text
 //! Sequence::render, render_files ─▶ in_order ─▶ painters: each draws whole frames, with a renderer and a thread of its own
@@ -30,7 +31,7 @@ const MAX_PAINTERS: u64 = 4;
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
 
-/// What the render targets of one painter take, and what those of all painters may take.
+/// What the render targets of one painter take per pixel, and what those of all painters may take together.
 const TARGET_BYTES_PER_PIXEL: u64 = 128;
 const MAX_TARGET_BYTES: u64 = 1 << 30;
 

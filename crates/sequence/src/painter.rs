@@ -17,7 +17,7 @@ pub(crate) struct Painter<'a> {
     renderer: &'a mut Renderer,
 }
 
-/// A painter for the calling thread; `None` where the same driver gives no further context.
+/// The worker of a further thread, opened on that thread; `None` where the same driver cannot be opened once more.
 pub(crate) fn further<'a>(
     sequence: &'a Sequence,
     driver: &str,

@@ -32,9 +32,9 @@ pub struct Sequence {
     pub shaders: ShaderTexts,
     /// What is made of each frame.
     pub wanted: Wanted,
-    /// Times each pass. That slows frames down, and only one painter works.
+    /// Whether each pass is timed. That slows frames down, and only one painter works.
     pub timed: bool,
-    /// Counts the strokes that were painted.
+    /// Whether the strokes that were painted are counted.
     pub counted: bool,
 }
 
@@ -44,7 +44,7 @@ pub struct Drawn {
     pub picture: Option<Picture>,
     /// The bytes of its PNG file, where that is wanted.
     pub png: Vec<u8>,
-    /// How many strokes the frame has, painted or too faint to be.
+    /// How many strokes the frame has, including those too faint to be painted.
     pub strokes: usize,
     /// How many strokes were painted, where they are counted.
     pub painted_strokes: Option<usize>,

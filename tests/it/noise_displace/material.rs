@@ -14,7 +14,7 @@ use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
 
 use super::seed::Frag;
-use super::{material, shared};
+use super::{material, with_texture};
 
 const SIDE: u32 = 96;
 
@@ -189,7 +189,7 @@ fn the_order_of_the_file_does_not_matter_to_what_is_seen_through() {
 fn what_is_within_another_body_is_seen_through_it() {
     let ball = |name: &str, scale: f64, tint: [f32; 3], opacity: f64| {
         let mut object = shapes::object(name, 100);
-        // The inner sheet's middle is nearer to the eye.
+        // The inner ball's middle is nearer to the eye, so bodies cannot be ordered by their middles.
         object.keys =
             vec![ObjectKey { translation: [0.0, 0.0, 0.1 - 0.1 * scale], scale, ..ObjectKey::at(0.0) }];
         let surface = SurfaceNoise { layer_count: 1, tint: Color(tint), opacity, ..Default::default() };
@@ -208,7 +208,7 @@ fn what_is_within_another_body_is_seen_through_it() {
 fn grey(surface: SurfaceNoise, grey: u8, renderer: &mut Renderer) -> Picture {
     let scene = sheet(SurfaceNoise { texture: Some("grey.png".to_owned()), ..surface });
     let loaded = shapes::loaded(scene, [shapes::sheet(4)]);
-    let loaded = shared(LoadedScene::clone(&loaded), "grey.png", [grey, grey, grey, 255]);
+    let loaded = with_texture(LoadedScene::clone(&loaded), "grey.png", [grey, grey, grey, 255]);
     let painting = prepare(loaded).unwrap();
     renderer.render(&painting.at(0.0, &FrameOptions::new([SIDE, SIDE]))).unwrap()
 }

@@ -54,6 +54,7 @@ fn pixel(at: DVec3) -> DVec2 {
     at.truncate() * focal_px / (4.0 - at.z)
 }
 
+/// Where the source's shader puts a place of the surface at this time.
 fn judge(seconds: f64) -> impl Fn(DVec3) -> DVec3 {
     let tile = gaussian();
     move |at| {
@@ -166,7 +167,7 @@ fn painted_strokes_are_seen_on_the_displaced_surface() {
             let frame = painting.at(frame, &OPTIONS);
             renderer.render(&frame).unwrap();
             let resolved = renderer.resolved_strokes();
-            // Strokes that face the eye on the nearest surface are not hidden by their own body.
+            // Strokes that face the eye must not count as hidden by their own body.
             let body = frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
             let range = body.first as usize..(body.first + body.count) as usize;
             let open = range

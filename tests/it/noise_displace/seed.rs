@@ -1,4 +1,5 @@
-//! The source's shader (its tables 4 and 5) line by line, to judge ours. `_Time.x` is seconds / 20.
+//! The source's shader (its tables 4 and 5), rewritten line by line to judge ours. `time_x`, Unity's `_Time.x`, is
+//! seconds / 20.
 
 use glam::{DAffine3, DVec3};
 use impasto_core::noise_displace::Tile;

@@ -1,18 +1,19 @@
-//! The list of the gallery's pictures.
+//! The pictures of the gallery, except those of noise and of ink.
 
 /// A picture of the docs.
 pub(super) struct Picture {
     pub(super) name: &'static str,
     pub(super) view: View,
-    /// Rendered at the scene's own size.
+    /// Rendered at the scene's own size instead of the gallery's.
     pub(super) own_size: bool,
+    /// Panels side by side.
     pub(super) columns: usize,
     /// One entry per panel: the values that are set in the scene; `--frames`, `--rotation` and `--colors` go to the
     /// command line.
     pub(super) panels: &'static [&'static [(&'static str, &'static str)]],
 }
 
-/// What is looked at.
+/// What a picture shows.
 pub(super) enum View {
     /// A frame of a scene, whole or a part of it: left, top, width, height.
     Scene { scene: &'static str, frame: i64, crop: Option<[usize; 4]> },
@@ -33,9 +34,10 @@ const fn whole(name: &'static str, scene: &'static str, frame: i64) -> Picture {
 /// A part of the still life: apple, lemon and cloth.
 const FRUIT: [usize; 4] = [520, 270, 300, 230];
 
-/// Another: jug and wall.
+/// A part of the still life: jug and wall.
 const JUG: [usize; 4] = [330, 60, 300, 230];
 
+/// A part of the still life with other values in each panel.
 const fn sweep(
     name: &'static str,
     crop: [usize; 4],
@@ -46,10 +48,11 @@ const fn sweep(
     Picture { name, view, own_size: false, columns, panels }
 }
 
-/// Blades of grass that are broad enough to be looked at.
+/// Makes blades of grass broad enough to show their shape.
 const BROAD: (&str, &str) = ("regions.grass.strokes.width_px", "18");
 
-const fn of_the_meadow(
+/// A part of the meadow with other values in each panel.
+const fn meadow(
     name: &'static str,
     crop: [usize; 4],
     panels: &'static [&'static [(&'static str, &'static str)]],
@@ -73,7 +76,7 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("fish", "fish", 0),
     whole("falling_log", "falling_log", 12),
     whole("meadow", "meadow", 0),
-    of_the_meadow(
+    meadow(
         "stroke_taper",
         [760, 560, 360, 160],
         &[
@@ -82,7 +85,7 @@ pub(super) const PICTURES: &[Picture] = &[
             &[("regions.grass.strokes.taper", "1"), BROAD],
         ],
     ),
-    of_the_meadow(
+    meadow(
         "stroke_bend",
         [820, 0, 360, 270],
         &[
@@ -91,7 +94,7 @@ pub(super) const PICTURES: &[Picture] = &[
             &[("regions.sky.strokes.bend_deg", "-110")],
         ],
     ),
-    // A globe and a deer, combed, all the way round.
+    // A globe and a deer, combed, turned all the way round.
     Picture {
         columns: 2,
         panels: &[

@@ -1,4 +1,4 @@
-//! `cargo xtask gallery`: the pictures of the README and the docs, rendered anew. With names, only those.
+//! `cargo xtask gallery`: renders the pictures of the README and the docs anew. With names, only those.
 
 mod list;
 mod noise;
@@ -15,7 +15,8 @@ use crate::tidy::pictures::DOCS_LIMIT_BYTES;
 use list::{Picture, View};
 use panel::Panel;
 
-/// Size at which everything is rendered; crops count its pixels.
+/// Size at which pictures are rendered that do not ask for their scene's own; crops are in pixels of the rendered
+/// picture.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// Renders every picture into `docs/pictures/`, or those whose names are given.

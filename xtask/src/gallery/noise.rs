@@ -2,7 +2,7 @@
 
 use super::list::{Picture, View};
 
-/// The ball of the scene.
+/// The part of the picture that has the ball.
 const BALL: [usize; 4] = [200, 150, 380, 370];
 
 const fn sweep(

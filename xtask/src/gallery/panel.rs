@@ -1,4 +1,4 @@
-//! Pictures of the gallery: read, cut, put side by side, reduced, written with 256 colours.
+//! A picture of the gallery in memory: to be read, cropped, put beside others, reduced, and written with 256 colours.
 
 use std::path::Path;
 
@@ -55,7 +55,7 @@ impl Panel {
         Ok(Self { size_px, rgba8 })
     }
 
-    /// The same picture at a share of its size: each pixel the mean of what it stands for.
+    /// The same picture at a share of its size: each pixel is the mean of those that it replaces.
     pub(super) fn reduced(&self, percent: usize) -> Self {
         let size_px = self.size_px.map(|side| (side * percent / 100).max(1));
         let span = |at: usize, axis: usize| {

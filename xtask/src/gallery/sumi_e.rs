@@ -1,8 +1,8 @@
-//! Pictures of ink on paper.
+//! The pictures of ink on paper: each setting of the style swept over its range.
 
 use super::list::{Picture, View};
 
-/// A part of the ink's apple, at the scene's own size.
+/// A part of the apple in ink, in pixels of the scene's own size.
 const APPLE: [usize; 4] = [440, 440, 400, 330];
 
 /// Leaves of the bamboo.

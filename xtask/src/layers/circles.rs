@@ -1,6 +1,6 @@
 //! Circles between the files of one crate: files that, directly or through others, use each other.
 //!
-//! A module and the modules inside it are one thing: that a child uses its parent (`super::…`) is no finding by itself.
+//! A module and the modules inside it belong together: a child may use its parent (`super::…`).
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ fn uses(modules: &BTreeMap<Names, Module>) -> Uses {
     uses
 }
 
-/// Longer chains of re-exports are not followed: a chain may run in a circle itself.
+/// Chains of re-exports are followed this far only, because a chain may itself run in a circle.
 const MOST_RE_EXPORTS: usize = 16;
 
 /// The module that defines the item of a path, and the item's name; `None` for a path to a module or into another crate.
@@ -119,7 +119,7 @@ fn reached(uses: &Uses, from: &PathBuf) -> BTreeSet<PathBuf> {
     reached
 }
 
-/// The shortest way from a file back to itself; the file stands at both ends.
+/// The shortest way from a file back to itself; the file is its first and its last entry.
 fn shortest(uses: &Uses, file: &PathBuf) -> Option<Vec<PathBuf>> {
     let mut queue = VecDeque::from([vec![file.clone()]]);
     let mut seen = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! The dependency graph, out of `cargo metadata`.
+//! Which packages use which, read from the output of `cargo metadata`.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::PathBuf;
@@ -9,6 +9,7 @@ use serde_json::Value;
 /// Who uses whom, by package name; arrows of every kind (normal, build and dev).
 #[derive(Debug, Default)]
 pub struct Graph {
+    /// The Cargo.toml of each crate of the workspace.
     ours: BTreeMap<String, String>,
     uses: BTreeMap<String, BTreeSet<String>>,
     roots: Vec<PathBuf>,

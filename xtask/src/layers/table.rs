@@ -9,7 +9,7 @@ use anyhow::{Context as _, bail};
 pub struct Rules {
     /// For each crate of ours, the crates of ours that it may use.
     pub may_use: BTreeMap<String, BTreeSet<String>>,
-    /// For each fenced outside crate, the crates of ours that may reach it.
+    /// For each outside crate that the second table names, the crates of ours that may reach it.
     pub outside: BTreeMap<String, BTreeSet<String>>,
 }
 

@@ -164,7 +164,7 @@ fn a_re_export_counts_as_the_file_that_defines_it() {
         ("a/c.rs", "use crate::a::B; pub struct C(B);"),
     ]);
     assert!(found.len() == 1 && found[0].contains("a/c.rs uses `B` of a/b.rs"), "{found:?}");
-    // To re-export something is not to use it.
+    // A re-export alone is not a use.
     let found = circles_in(&[
         ("lib.rs", "mod a; mod b;"),
         ("a.rs", "pub use crate::b::B; pub struct A;"),

@@ -1,4 +1,4 @@
-//! How long each test took, derived from the lines that the test runner prints as tests end.
+//! How long each test took, told from the moments at which the test runner prints that tests have ended.
 //!
 //! The runner of a stable toolchain gives no times. It starts tests in the order of their names, as many at once as there are
 //! threads, and the next whenever one ends: so the moments at which tests end tell when each began.

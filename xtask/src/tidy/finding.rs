@@ -1,8 +1,8 @@
-//! One untidy place.
+//! A finding of `cargo xtask tidy`: one untidy place.
 
 use std::fmt;
 
-/// Where, what, and the mend.
+/// One untidy place.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Finding {
     /// Path from the repository's root, with `/`.

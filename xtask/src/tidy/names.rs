@@ -1,11 +1,11 @@
-//! Files and folders are named for what is in them.
+//! Checks that the names of files and folders say what is in them.
 
 use super::finding::Finding;
 
 /// Starts of names that say nothing about what is inside.
 const EMPTY_NAMES: &[&str] = &["util", "misc", "helper", "common", "manager"];
 
-/// Names along the path that say nothing.
+/// The parts of a path that say nothing.
 pub fn check(file: &str) -> Vec<Finding> {
     let empty = |part: &&str| EMPTY_NAMES.iter().any(|name| part.to_lowercase().starts_with(name));
     file.split('/')

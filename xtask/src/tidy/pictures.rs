@@ -1,4 +1,4 @@
-//! Files that are too big to live in a repository.
+//! Checks that no picture, and no other file, is too big for the repository.
 
 use super::finding::Finding;
 use super::tree::extension;

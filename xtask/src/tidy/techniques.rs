@@ -1,11 +1,11 @@
-//! Checks that every technique has all its parts (shader folder, style, page, tests), called by the same word.
+//! Checks that every technique has all its parts (shader folder, style, page, tests) under the same name.
 
 use std::collections::BTreeMap;
 
 use super::finding::Finding;
 
-/// A part that every technique has: what it is, the folders of which one holds it, and how its file names end (`/`
-/// for a folder).
+/// A part that every technique has: what it is, the folders one of which holds it, and how its file name ends (`/` for
+/// a folder).
 type Place = (&'static str, &'static [&'static str], &'static str);
 const PLACES: &[Place] = &[
     ("a shader folder", &["shaders/"], "/"),
@@ -49,7 +49,8 @@ fn word_in<'a>(file: &'a str, folders: &[&str], end: &str) -> Option<&'a str> {
     folders.iter().find_map(|folder| word(file, folder, end))
 }
 
-/// The word that a file stands for in a place: `shaders/WORD/…`, `docs/techniques/WORD.md`; a module may be a folder.
+/// The technique that a file in this folder belongs to: WORD of `shaders/WORD/…`, `docs/techniques/WORD.md`. A module
+/// may be a folder.
 fn word<'a>(file: &'a str, folder: &str, end: &str) -> Option<&'a str> {
     let rest = file.strip_prefix(folder)?;
     match rest.split_once('/') {

@@ -1,4 +1,4 @@
-//! What is untidy inside a text file.
+//! Checks the insides of text files: length, spaces, unfinished work, lint exceptions, absolute paths.
 
 use super::finding::Finding;
 use super::tree::{extension, name};
@@ -20,7 +20,7 @@ pub fn check(file: &str, content: &str) -> Vec<Finding> {
     }
     let mut findings: Vec<Finding> = length(file, content).into_iter().collect();
     findings.extend(spaces(file, content));
-    // Legal texts and tables may hold such words.
+    // Legal texts and tables may hold such marks.
     if matches!(extension(file), "rs" | "glsl" | "vert" | "frag" | "ron" | "md" | "toml") {
         findings.extend(unfinished(file, content));
     }

@@ -1,4 +1,4 @@
-//! The deer's body as a field of distance, drawn in units of its height at the withers: x forwards, z to its right.
+//! The deer's body as a distance field, in units of its height at the withers: x forwards, z to its right.
 
 use glam::DVec3;
 
@@ -89,8 +89,8 @@ const HEEL: [[f64; 5]; 3] = [
     [-0.560, 0.330, 0.088, 0.026, 0.024],
 ];
 
-/// How far each hoof stands before (+) or behind the place that the drawings of the legs give it: right fore, left
-/// fore, right hind, left hind.
+/// How far each hoof stands in front of (+) or behind its place in `FORE_LEG` or `HIND_LEG`: right fore, left fore,
+/// right hind, left hind.
 const STANCE: [f64; 4] = [0.060, -0.070, -0.055, 0.090];
 
 /// The whole animal but for ears, antlers and eyes.
@@ -130,7 +130,7 @@ impl Form {
         }
     }
 
-    /// The same animal with legs, head and tail thicker by `by`: a skin woven round it has more faces round each.
+    /// The same animal with legs, head and tail thicker by `by`, so that a skin woven round it has enough faces there.
     pub fn swollen(&self, by: f64) -> Self {
         let swell = |limbs: &Vec<Limb>| limbs.iter().map(|limb| limb.swollen(by)).collect();
         Self {
@@ -163,7 +163,7 @@ impl Form {
     }
 }
 
-/// A hoof under a pastern at `[x, z]`, standing a little before it.
+/// A hoof under a pastern at `[x, z]`, a little in front of it.
 fn hoof([x, z]: [f64; 2]) -> [[f64; 5]; 3] {
     [
         [x + 0.002, 0.062, z, 0.029, 0.028],

@@ -42,6 +42,8 @@ pub fn bust() -> PolyMesh {
     mesh
 }
 
+/// A point of the jacket without folds: `ring` counts rows of `JACKET` (fractions lie between two), `angle` is 0 in
+/// front.
 fn ring(ring: f64, angle: f64) -> DVec3 {
     let index = (ring.max(0.0) as usize).min(JACKET.len() - 2);
     let t = ring - index as f64;
@@ -60,8 +62,8 @@ fn ring(ring: f64, angle: f64) -> DVec3 {
     )
 }
 
-/// How high the wool stands at a place of the jacket, about −1..=1: it is gathered under the collar, and the gathers
-/// run together as they fall.
+/// How far the wool stands out at a place of the jacket, about −1..=1: it has narrow folds under the collar, which join
+/// into wide ones farther down.
 fn fold(down: f64, angle: f64) -> f64 {
     let round = angle / TAU;
     let wander = 0.9 * noise(round, down * 0.22, 7, 31) + 0.25 * noise(round, down * 0.5, 15, 12);
@@ -100,7 +102,7 @@ fn collar(mesh: &mut PolyMesh) {
     mesh.blade(
         [ALONG, ACROSS],
         |column, row| {
-            // From the front round the neck to the front again, seen from outside to the right.
+            // From the front round the neck to the front again; to the right, seen from outside.
             let angle = 0.10 + (TAU - 0.20) * column as f64 / ALONG as f64;
             // Rows run up: from the lower edge on the jacket to the edge that stands at the neck.
             let up = row as f64 / ACROSS as f64;

@@ -8,7 +8,7 @@ use super::loft::Skin;
 use crate::curve::{bump, smoothstep};
 use crate::poly_mesh::{Look, PolyMesh};
 
-/// Where the +X eye turns.
+/// The centre of the eye at +X.
 const EYE: DVec3 = DVec3::new(0.133, 0.498, 0.266);
 
 const fn look(group: &'static str, material: &'static str) -> Look {
@@ -19,7 +19,7 @@ const fn look(group: &'static str, material: &'static str) -> Look {
 pub fn eyes(mesh: &mut PolyMesh) {
     for side in [1.0, -1.0] {
         ball(mesh, side);
-        // From the edge of the lid up under the brow.
+        // Elevations of the lid's edge and of its end in the socket.
         lid(mesh, side, [-0.18, 1.05], 0.0655);
         lid(mesh, side, [-0.46, -1.15], 0.0635);
     }
@@ -58,8 +58,8 @@ fn ball(mesh: &mut PolyMesh, side: f64) {
     );
 }
 
-/// One lid: a shell over the ball from its edge (elevation in the middle `from`) to where it runs into the socket
-/// (`to`), between the corners of the eye.
+/// One lid: a shell over the eyeball between the corners of the eye. In the middle of the eye it reaches from the
+/// elevation `from`, its free edge, to the elevation `to` in the socket.
 fn lid(mesh: &mut PolyMesh, side: f64, [from, to]: [f64; 2], radius: f64) {
     const COLUMNS: usize = 18;
     const ROWS: usize = 7;

@@ -8,7 +8,7 @@ use super::loft::form;
 use crate::curve::{Profile, bump, smoothstep};
 use crate::poly_mesh::{Look, PolyMesh};
 
-/// Down to which ring of the head the hair reaches: angle from the front, ring.
+/// The ring of the head at which the hair ends: angle from the front, ring.
 const HAIRLINE: [[f64; 2]; 9] = [
     [0.0, 3.70],
     [0.30, 3.85],
@@ -42,7 +42,7 @@ fn cap(mesh: &mut PolyMesh) {
     );
 }
 
-/// Where a row lies across its lock: 0 in the furrow, 1 on the back of the lock.
+/// Where a row lies across its lock: 0 in the furrow, 1 on the crest.
 fn lock(down: f64) -> f64 {
     (down * LOCKS * PI).sin().abs()
 }

@@ -1,4 +1,4 @@
-//! The big form of head and neck: rings drawn through a front, a side and a back point each.
+//! The basic form of head and neck: rings, each through a front, a side and a back point; and the skin over it.
 
 use std::f64::consts::PI;
 
@@ -41,7 +41,8 @@ const RINGS: [[f64; 9]; 26] = [
 /// Number of the last ring.
 pub const LAST_RING: f64 = (RINGS.len() - 1) as f64;
 
-/// The bare form: `ring` counts rings (fractions lie between two), `angle` is 0 in front, a quarter turn at the +X side.
+/// A point of the basic form: `ring` counts rings (fractions lie between two), `angle` is 0 in front, a quarter turn
+/// at the +X side.
 pub fn form(ring: f64, angle: f64) -> DVec3 {
     let index = (ring.max(0.0) as usize).min(RINGS.len() - 2);
     let t = ring - index as f64;
@@ -65,7 +66,7 @@ pub fn form(ring: f64, angle: f64) -> DVec3 {
     )
 }
 
-/// The head's skin: the bare form with its relief.
+/// The head's skin: the basic form with its relief.
 pub struct Skin {
     relief: Relief,
 }

@@ -1,4 +1,4 @@
-//! The sitter of the portrait: a woman's head on its neck, in the planes a sculptor would give it, and her bust.
+//! The sitter of the portrait: a woman's head and neck, and the bust that they stand on.
 
 mod bust;
 mod features;
@@ -17,7 +17,7 @@ pub use bust::bust;
 
 use loft::{LAST_RING, Skin};
 
-/// Where the head turns on the neck, in the head's drawing (chin at 0, crown at 1); the mesh's origin.
+/// The point that the head turns about, with the chin at y = 0 and the crown at y = 1. It becomes the mesh's origin.
 const PIVOT: DVec3 = DVec3::new(0.0, -0.20, -0.12);
 
 /// A head of one unit from chin to crown, facing +Z, with neck, hair, ears and pearls.
@@ -82,8 +82,9 @@ pub fn head() -> PolyMesh {
 }
 
 fn skin(mesh: &mut PolyMesh, form: &Skin) {
-    /// Faces on each half of the head, and how many of them lie on the half of that which faces forwards.
+    /// Faces of a ring on each side of the head.
     const HALF: usize = 34;
+    /// How many of them lie between the front and the angle `TURN`.
     const FORWARDS: usize = 29;
     const TURN: f64 = 1.65;
     let rings = rings();
@@ -129,6 +130,7 @@ fn tone(point: DVec3) -> &'static str {
         (-((seen - DVec2::from_array(centre)) / DVec2::from_array(size)).length_squared()).exp()
     };
     let in_front = smoothstep(0.0, 0.12, point.z);
+    // The nostrils.
     if in_front > 0.5 && near([0.031, 0.296], [0.013, 0.006]) > 0.5 && point.z > 0.39 {
         return "skin_shade";
     }
@@ -154,7 +156,7 @@ fn tone(point: DVec3) -> &'static str {
     }
 }
 
-/// An angle all the way round, in `count` steps.
+/// The angle of a step when `count` steps make a whole turn.
 fn turn(step: usize, count: usize) -> f64 {
     TAU * step as f64 / count as f64
 }

@@ -1,4 +1,4 @@
-//! What the planes of a face add to the big form: brow, sockets, nose, cheekbones, mouth, chin, neck muscles.
+//! What the features add to the head's basic form: brow, sockets, nose, cheekbones, mouth, chin, neck muscles.
 
 use glam::{DVec2, DVec3};
 
@@ -38,7 +38,7 @@ fn hump(point: DVec2, centre: [f64; 2], size: [f64; 2]) -> f64 {
     (-away.length_squared()).exp()
 }
 
-/// The features as distances over the bare form.
+/// The features as distances from the basic form.
 pub struct Relief {
     ridge: Profile,
     width: Profile,
@@ -49,7 +49,7 @@ impl Relief {
         Self { ridge: Profile::through(&RIDGE), width: Profile::through(&NOSE_WIDTH) }
     }
 
-    /// Moves a point of the bare form to where the features put it.
+    /// Moves a point of the basic form to where the features put it.
     pub fn raise(&self, point: DVec3) -> DVec3 {
         let in_front = smoothstep(0.02, 0.16, point.z);
         let seen = DVec2::new(point.x.abs(), point.y);
@@ -104,7 +104,7 @@ fn mouth(seen: DVec2) -> f64 {
     muzzle - philtrum + column - corner - fold + chin - laugh
 }
 
-/// What moves the face's outline sideways: cheekbones out, temples in.
+/// How far the face's sides are moved: cheekbones out, temples in.
 fn sides(seen: DVec2, z: f64) -> f64 {
     let bone = 0.012 * hump(DVec2::new(z, seen.y), [0.14, 0.425], [0.10, 0.050]);
     let temple = 0.014 * hump(DVec2::new(z, seen.y), [0.17, 0.600], [0.09, 0.060]);

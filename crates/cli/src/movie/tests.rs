@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Bands of flat colour, left to right: colours that differ between BT.601 and BT.709, and both ends of each channel.
+/// Bands of flat colour, left to right: colours that BT.601 and BT.709 show differently, white, black and grey.
 const BANDS: [[u8; 4]; 6] = [
     [0, 160, 0, 255],
     [200, 30, 30, 255],
@@ -53,7 +53,7 @@ fn output(program: &str, arguments: &[&str], path: &Path, more: &[&str]) -> Vec<
     output.stdout
 }
 
-/// What ffprobe says about the movie's stream: `name=value` lines.
+/// What ffprobe says about the movie's stream, as lines of `name=value`.
 fn probed(path: &Path, entries: &str) -> String {
     let entries = format!("stream={entries}");
     let arguments =
@@ -61,7 +61,7 @@ fn probed(path: &Path, entries: &str) -> String {
     String::from_utf8(output("ffprobe", &arguments, path, &[])).unwrap()
 }
 
-/// The RGBA pixel in the middle of each band of the last frame.
+/// The RGBA pixel in the middle of each band of the last frame. `before` are arguments of ffmpeg before its input.
 fn decoded(path: &Path, bands: usize, width: usize, before: &[&str]) -> Vec<[u8; 4]> {
     let arguments = [&["-v", "error"], before, &["-i"]].concat();
     let pixels = output("ffmpeg", &arguments, path, &["-f", "rawvideo", "-pix_fmt", "rgba", "-"]);

@@ -3,7 +3,7 @@
 use crate::hash;
 use crate::presence::smoothstep;
 
-/// Value noise, 0..1, for u and across from −[`MARGIN`] to 1 + [`MARGIN`], with a fixed number of lattice cells each way.
+/// Value noise, 0..1, on a grid of random values. `u` and `across` run from −[`MARGIN`] to 1 + [`MARGIN`].
 pub(super) struct Lattice {
     columns: usize,
     cycles: [f32; 2],
@@ -28,14 +28,14 @@ impl Between {
 const MARGIN: f32 = 0.25;
 
 impl Lattice {
-    /// `cycles` along u and across, in the unit square.
+    /// `cycles`: how many grid cells the unit square has along u and across.
     pub(super) fn new(seed: u32, cycles: [f32; 2]) -> Self {
         let [columns, rows] = cycles.map(|cycles| (cycles * (1.0 + 2.0 * MARGIN)).ceil() as usize + 2);
         let values = (0..columns * rows).map(|index| hash::unit(hash::combine(seed, index as u32))).collect();
         Self { columns, cycles, values }
     }
 
-    /// Noise of one dimension, read with [`Lattice::along`].
+    /// Noise of one dimension, to be read with [`Lattice::along`].
     pub(super) fn line(seed: u32, cycles: f32) -> Self {
         Self::new(seed, [cycles, 0.0])
     }

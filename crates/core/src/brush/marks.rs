@@ -13,15 +13,15 @@ const ASPECT: f32 = 6.2;
 struct Brush {
     /// How many hairs across.
     hairs: f32,
-    /// Rounding of the loaded start and of the lifted end, half widths.
+    /// How far the loaded start and the lifted end are rounded, in half widths.
     caps: [f32; 2],
     /// How ragged the end is, as a share of the length.
     ragged: f32,
     /// Dryness at the start and at the end.
     dry: [f32; 2],
-    /// How much the hairs show in the paint's body.
+    /// How deep the furrows are that the hairs draw in the paint.
     furrows: f32,
-    /// Ridge of paint pushed aside along the edges, and where the brush lifts.
+    /// Height of the ridges of paint: along the edges, and where the brush lifts.
     ridges: [f32; 2],
     shape: Shape,
 }
@@ -96,7 +96,7 @@ pub(super) fn of_brush(index: usize, variant: u32) -> Mark {
         let across = hairs.across(v);
         for here in &columns {
             texels.push(match brush.shape {
-                // Spreading hairs shift u and v by another amount in every texel.
+                // Spreading hairs shift u and v differently in every texel.
                 Shape::Fan => {
                     let spread = v / (0.50 + 0.48 * here.along.powf(1.2));
                     hairs.texel(&hairs.along(here.u - 0.10 * v * v, here.along), &hairs.across(spread))
@@ -135,7 +135,7 @@ impl Hairs {
         }
     }
 
-    /// What depends on u alone; `along` is u before the hairs spread, 0..=1.
+    /// What depends on u alone. `along` is the place along the mark, 0..=1: u itself, except where hairs spread.
     fn along(&self, u: f32, along: f32) -> AlongHere {
         let brush = &self.brush;
         let width = match brush.shape {
@@ -146,7 +146,7 @@ impl Hairs {
         AlongHere {
             u,
             along,
-            // The same at both ends, so that the mark as a whole stays straight.
+            // Equal at both ends, so that the mark as a whole stays straight.
             wander: (0.5 * (self.wander.along(u) + self.wander.along(1.0 - u)) - 0.5) * 0.10,
             widths: [0, 1].map(|side| width + (self.edges[side].along(u) - 0.5) * 0.10),
             dryness: brush.dry[0] + (brush.dry[1] - brush.dry[0]) * along.powf(1.6),
@@ -213,12 +213,12 @@ struct AcrossHere {
     rows: [Between; STREAKS],
 }
 
-/// Lattices of streaks: three of paint, one of half-mixed paint.
+/// How many lattices streaks are made of: three for the paint, one for how far another colour is mixed in.
 const STREAKS: usize = 4;
 
 /// Streaks that the hairs draw.
 pub(super) struct Streaks {
-    /// The last is of half-mixed paint.
+    /// The last one is for the mixed-in colour.
     along: [Lattice; STREAKS],
     hairs: [Lattice; 3],
 }
@@ -237,7 +237,7 @@ impl Streaks {
         }
     }
 
-    /// How much paint the hairs carry here, about 0..1, and how half-mixed it is, −1..1.
+    /// How much paint the hairs carry here, about 0..1, and how far another colour is mixed in, −1..1.
     pub(super) fn at(&self, u: f32, across: f32) -> (f32, f32) {
         self.between(&self.columns(u), &self.rows(across), self.hairs(across))
     }

@@ -7,7 +7,7 @@ use crate::hash;
 /// How many hairs across are laid over the picture, so that no two marks are quite alike.
 const HAIRS: f32 = 16.0;
 
-/// A picture with less than this between its emptiest and its fullest texel holds no mark; levels of 255.
+/// A picture whose emptiest and fullest texels differ by less than this (of 255) holds no mark.
 const LEAST_CONTRAST: f32 = 8.0;
 
 /// Whether a picture holds a mark, that is, has any contrast in lightness times opacity. `rgba8` holds
@@ -45,7 +45,7 @@ pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
         if !(0.0..1.0).contains(&u) || !(-1.0..1.0).contains(&v) {
             return 0.0;
         }
-        // All texels of the picture that fall on one of the mark's, so that a large picture is averaged.
+        // All texels of the picture that one texel of the mark covers, so that a large picture is averaged.
         let span = |at: f32, ours: f32, theirs: usize| {
             let first = ((at - 0.5 / ours).max(0.0) * theirs as f32) as usize;
             let last = ((at + 0.5 / ours) * theirs as f32).ceil() as usize;

@@ -39,16 +39,16 @@ impl Stencils {
     /// Finds the samples (about `spacing` apart) near each of `particles`.
     pub fn new(particles: Points<'_>, samples: Points<'_>, spacing: f64) -> Self {
         let reach = (REACH_SPACINGS * spacing) as f32;
-        // Twice as many as are used, as `carry` skips samples for which `sample` gives `None`. Nearest first.
+        // Nearest first, and twice as many as are used, since `carry` skips samples for which `sample` gives `None`.
         Self { lists: Neighbours::find_among(particles, samples, reach, 2 * MAX_SAMPLES), spacing }
     }
 
     /// The direction and the anchor of a particle, from the samples near it for which `sample` gives something.
     ///
-    /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned by the
-    /// mean of these turns. Where the turns disagree, as around a singular point of the stated directions, it goes over to the mean
-    /// of the samples' solved directions, transported to the particle. `None` where no sample counts, or where the directions
-    /// cancel.
+    /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned
+    /// by the mean of these turns. The less the turns agree, as around a singular point of the stated directions, the
+    /// more the mean of the samples' solved directions, transported to the particle, takes its place. `None` where no
+    /// sample counts, or where the directions cancel.
     pub fn carry(
         &self,
         particle: usize,

@@ -7,7 +7,7 @@ use super::tangent_axes;
 /// The principal curvatures of a point and their directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature {
-    /// The one of greater magnitude, then the other; 1 / model units, positive where the surface bends away from its normal.
+    /// The one of greater magnitude first; 1 / model units, positive where the surface bends away from its normal.
     pub curvatures: [f64; 2],
     /// Their unit tangents, model space.
     pub directions: [DVec3; 2],
@@ -45,7 +45,7 @@ pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> O
     } else {
         [mean - radius, mean + radius]
     };
-    // The first eigenvector is any column of S − (second eigenvalue)·1; the longer one is exacter.
+    // Any column of S − (second eigenvalue)·1 is a first eigenvector; the longer one is more exact.
     let others = shape - DMat2::from_diagonal(DVec2::splat(values[1]));
     let column = if others.x_axis.length_squared() > others.y_axis.length_squared() {
         others.x_axis
@@ -53,8 +53,8 @@ pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> O
         others.y_axis
     };
     let first = column.try_normalize().unwrap_or(DVec2::X);
-    let lift = |v: DVec2| right * v.x + above * v.y;
-    Some(Curvature { curvatures: values, directions: [lift(first), lift(first.perp())] })
+    let in_space = |v: DVec2| right * v.x + above * v.y;
+    Some(Curvature { curvatures: values, directions: [in_space(first), in_space(first.perp())] })
 }
 
 #[cfg(test)]

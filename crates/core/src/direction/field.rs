@@ -1,9 +1,9 @@
-//! The direction field of a body: few samples, a sparse solve with parallel transport (Knöppel et al. 2013, the guided case,
-//! on points in place of a mesh).
+//! The direction field of a body: a sparse linear solve on a few samples, with parallel transport between them (Knöppel
+//! et al. 2013, the guided case, on points instead of a mesh).
 //!
 //! The unknown is one complex number `u` per sample (see [`super`]). The field minimises
 //! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`, ρ the transport of j's axes to i's, raised to the field's power. The solution
-//! is normalised, and the same sum is then lowered further with every `u` on the unit circle.
+//! is normalised, and then steps with every `u` on the unit circle make the same sum smaller still.
 
 use std::sync::OnceLock;
 
@@ -16,7 +16,7 @@ use crate::neighbours::Neighbours;
 /// How many samples the field of a body has, at most.
 pub const MAX_SAMPLES: usize = 4096;
 
-/// Neighbours lie within this many spacings of the hexagonal lattice.
+/// Samples within this many spacings (of the hexagonal lattice) of each other are neighbours.
 const REACH_SPACINGS: f64 = 1.9;
 
 /// Conjugate gradients stop after this many steps, or when the residual has fallen by this factor.
@@ -29,7 +29,7 @@ const UNIT_ROUNDS: usize = 24;
 /// Samples with their neighbours and the transport between them.
 #[derive(Clone, Debug)]
 pub struct FieldGraph {
-    /// Index of the first edge of each sample, and the number of all edges.
+    /// Index of the first edge of each sample; last, the number of all edges.
     starts: Vec<u32>,
     edges: Vec<Edge>,
     /// Sum of the weights of each sample's edges.
@@ -51,7 +51,7 @@ struct Edge {
 pub struct Constraint {
     /// The unit number that the sample should have.
     pub target: DVec2,
-    /// How firmly, in units of one neighbour's weight, > 0.
+    /// How strong the pull is, in units of one neighbour's weight, > 0.
     pub weight: f64,
 }
 
@@ -172,8 +172,8 @@ impl System<'_> {
         })
     }
 
-    /// Solves the linear problem (preconditioned by the diagonal) and normalises. Sums run in order, so that threads do not
-    /// change a bit.
+    /// Solves the linear problem (preconditioned by the diagonal) and normalises. Sums run in a fixed order, so the
+    /// bits do not depend on the threads.
     fn conjugate_gradients(&self) -> Vec<DVec2> {
         let count = self.graph.len();
         let diagonal: Vec<f64> =
@@ -300,7 +300,7 @@ mod tests {
         let (median, p95) = (apart[apart.len() / 2], apart[apart.len() * 95 / 100]);
         println!("neighbours differ by {median:.2}, p95 {p95:.2} degrees over {} pairs", apart.len());
         assert!(median < 3.0 && p95 < 12.0, "median {median}, p95 {p95}");
-        // Threads do not change a bit.
+        // The number of threads changes no bit.
         let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         assert_eq!(one.install(|| graph.solve(symmetry, &constraints)), field);
     }

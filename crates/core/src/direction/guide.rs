@@ -5,7 +5,7 @@ use glam::DVec3;
 /// A polyline on a surface with its reach, model space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
-    /// At least two; no two neighbours coincide.
+    /// At least two; consecutive ones do not coincide.
     points: Vec<Corner>,
     /// How far it reaches, model units.
     radius: f64,
@@ -55,7 +55,7 @@ pub struct Influence {
     pub weight: f64,
     /// Unit, along the gesture; not tangent to the surface.
     pub along: DVec3,
-    /// How far strokes are turned from it, radians, counter-clockwise as seen.
+    /// How far strokes are turned from `along`, radians, counter-clockwise as seen.
     pub turn_rad: f64,
 }
 
@@ -97,7 +97,7 @@ impl Guide {
         Some(Self { points: kept, radius, strength, falloff, ball })
     }
 
-    /// Its influence on a point with this unit normal, with a radius of at least `least_reach`. `None` out of reach.
+    /// The influence on a point with this unit normal, if any. The guide reaches at least as far as `least_reach`.
     pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
         let reach = self.radius.max(least_reach);
         if position.distance(self.ball.0) > self.ball.1 + reach {

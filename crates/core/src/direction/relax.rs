@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::Symmetry;
 use super::field::{Constraint, FieldGraph};
 
-/// Where the blend of the surroundings is shorter than this, opposite directions meet: it is torn, and would jump instead of
-/// turning.
+/// Where the blended complex number is shorter than this, opposite directions meet and nearly cancel: a tear.
+/// Normalised, the field would jump there from one to the other instead of turning.
 const TORN: f64 = 0.5;
 
 /// Weight of the constraint that makes a tear turn one way round, in units of one neighbour's weight.
@@ -18,7 +18,7 @@ const LEAD: f64 = 0.5;
 const MOST_STEPS: usize = 400;
 const RESIDUAL: f64 = 1e-6;
 
-/// Rounds of evening out the turns between neighbours.
+/// How often the turns between neighbours are evened out.
 const ROUNDS: usize = 3;
 
 impl FieldGraph {
@@ -43,14 +43,17 @@ impl FieldGraph {
 
 /// The free samples of a field and their edges.
 struct FreeSamples {
+    /// The free samples, as indices into the field; the arrays below are in the same order.
     inner: Vec<usize>,
+    /// What pulls each.
     hold: Vec<Constraint>,
+    /// The edges of each.
     ties: Vec<Vec<Tie>>,
 }
 
 struct Tie {
     to: usize,
-    /// Its index among the free samples; `None` if it is fixed.
+    /// The index of `to` among the free samples; `None` if it is fixed.
     inner: Option<usize>,
     weight: f64,
     /// ρ of the edge.
@@ -83,8 +86,8 @@ impl FreeSamples {
         let mut firm = Vec::with_capacity(self.inner.len());
         let mut pull = Vec::with_capacity(self.inner.len());
         for (index, hold) in self.hold.iter().enumerate() {
-            let from_held = self.ties[index].iter().filter(|tie| tie.inner.is_none());
-            let outside: DVec2 = from_held.map(|tie| tie.turn.rotate(field[tie.to]) * tie.weight).sum();
+            let to_fixed = self.ties[index].iter().filter(|tie| tie.inner.is_none());
+            let outside: DVec2 = to_fixed.map(|tie| tie.turn.rotate(field[tie.to]) * tie.weight).sum();
             let lead = leads[index].unwrap_or(Constraint { target: DVec2::ZERO, weight: 0.0 });
             firm.push(hold.weight + lead.weight);
             pull.push(hold.target * hold.weight + lead.target * lead.weight + outside);
@@ -93,8 +96,8 @@ impl FreeSamples {
         self.solve(start, &firm, &pull, |tie, there| tie.turn.rotate(there))
     }
 
-    /// Where the blend is torn, a constraint that decides which way it turns: perpendicular to the line along which it changes,
-    /// to the same side over the whole tear, and to the side that is the shorter way.
+    /// For each sample of a tear, a constraint that decides which way the field turns there: perpendicular to the line
+    /// along which the blend changes, to the same side over the whole tear, and to the side that is the shorter way.
     fn leads(&self, field: &[DVec2], blend: &[DVec2]) -> Vec<Option<Constraint>> {
         let torn = |index: usize| blend[index].length() < TORN;
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);
@@ -156,7 +159,8 @@ impl FreeSamples {
         }
     }
 
-    /// Solves (firm + Σ w) x − Σ w ρ x = pull over the free samples by conjugate gradients from `start`; sums run in order.
+    /// Solves (firm + Σ w) x − Σ w ρ x = pull over the free samples by conjugate gradients from `start`; `carried`
+    /// applies ρ. Sums run in a fixed order.
     fn solve(
         &self,
         start: Vec<DVec2>,

@@ -1,6 +1,6 @@
-//! Where a direction field has no direction: the points that lines run round or out of.
+//! Singular points, where a direction field has no direction: lines run round them or out of them.
 //!
-//! The index of a loop is how often the field turns along it, minus the turn that parallel transport alone makes. On a closed
+//! The index of a loop is how often the field turns along it, less what parallel transport alone turns. On a closed
 //! surface without handles the indices add up to 2, whatever the field (Poincaré and Hopf).
 
 use glam::{DVec2, DVec3, Vec3};
@@ -29,7 +29,8 @@ pub fn find(
     let index_of = |ring: &[usize]| index_of_loop(ring, normals, field, symmetry);
     let indices: Vec<f64> =
         (0..graph.len()).map(|sample| index_of(&ring(graph, sample, positions, normals))).collect();
-    // The loops of neighbours overlap. Neighbours with an index make one cluster; the loop round it gives its index.
+    // Loops round neighbouring samples overlap. Neighbours with an index make one cluster, whose index is that of the
+    // loop round it.
     let mut seen = vec![false; indices.len()];
     let mut found = Vec::new();
     for start in 0..indices.len() {
@@ -68,12 +69,12 @@ fn index_of_loop(ring: &[usize], normals: &[Vec3], field: &[DVec2], symmetry: Sy
         turned += symmetry.turn(rho).rotate(field[from]).angle_to(field[to]) / n;
         transport += rho;
     }
-    // What transport alone turns round the loop: the curvature inside, a small angle.
+    // Transport alone turns by the curvature inside the loop, a small angle.
     ((turned + wrap_pi(transport)) / std::f64::consts::TAU * n).round() / n
 }
 
-/// The samples round a cluster, counter-clockwise as seen from outside: in each of many directions the nearest that is not in the
-/// cluster.
+/// The samples round a cluster, counter-clockwise as seen from outside: in each of 16 directions the nearest neighbour
+/// that is not in the cluster itself.
 fn ring_of_cluster(
     graph: &FieldGraph,
     cluster: &[usize],

@@ -25,7 +25,7 @@ impl CellSpace {
         let finite = positions.into_par_iter().flatten().filter(|position| position.is_finite());
         let (low, high) = finite.map(|&position| (position, position)).reduce(|| none, joined);
         let extent = (high.as_dvec3() - low.as_dvec3()).max(glam::DVec3::ZERO).to_array();
-        // A little wider than needed, against rounding, and wide enough for all cell numbers to be in range.
+        // A little wider than needed, because of rounding, and so wide that cell numbers fit into 64 bits.
         let mut width = f64::from(radius.max(f32::MIN_POSITIVE)) * 1.00001;
         let cells = loop {
             let cells = extent.map(|extent| (extent / width).floor() + 3.0);
@@ -42,7 +42,7 @@ impl CellSpace {
     fn number(&self, position: Vec3) -> u64 {
         let position = position.as_dvec3().to_array();
         let [x, y, z] = [0, 1, 2].map(|axis| {
-            // In range whatever the position, even NaN.
+            // `as` and `min` keep any position in range, even NaN.
             let cell = ((position[axis] - self.low[axis]) * self.cells_per_unit) as u64;
             cell.min(self.cells[axis] - 3) + 1
         });
@@ -57,7 +57,7 @@ impl CellSpace {
     }
 }
 
-/// Points in the order of their cells, one array per number.
+/// Points in the order of their cells, one array per component.
 pub(super) struct SortedPoints {
     cells: Vec<u64>,
     /// Positions, then normals: x, y, z.
@@ -74,7 +74,7 @@ impl SortedPoints {
             .map(|(number, position)| (space.number(*position), number as u32))
             .collect();
         sorted.par_sort_unstable();
-        // Position and normal together, so that there is one cache miss per point.
+        // Positions and normals are gathered once, not once per axis: each point's place in memory is a cache miss.
         let numbers = sorted.par_iter().with_min_len(4096);
         let gathered: Vec<[Vec3; 2]> = numbers
             .map(|&(_, number)| [points.positions[number as usize], points.normals[number as usize]])

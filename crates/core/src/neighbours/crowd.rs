@@ -9,13 +9,13 @@ use std::ops::Range;
 pub(super) const LANES: usize = 16;
 
 /// Buckets of the counting sort by distance. At most [`MANY`] candidates are sorted this way, so that counts fit into bytes.
-const CLASSES: usize = 256;
+const BUCKETS: usize = 256;
 
 /// More candidates than this are first reduced to the nearest by selection.
 const MANY: usize = 255;
 
 /// Room for all sorted candidates and for a block read past their end.
-const SLOTS: usize = CLASSES + 64;
+const SLOTS: usize = BUCKETS + 64;
 
 /// Working memory of one task.
 pub(super) struct Crowd {
@@ -34,10 +34,10 @@ impl Default for Crowd {
     }
 }
 
-/// A way to write the near points of a block one after the other.
+/// A way to pick the near points of a block and write them without gaps.
 pub(super) trait PackNear {
-    /// Writes a key (the bits of the squared distance, then the number) for each squared distance up to `radius_sq`, without
-    /// gaps, and returns how many. What is in `found` behind them has no meaning.
+    /// Writes a key (the bits of the squared distance, then the number) for each squared distance up to `radius_sq` and
+    /// returns how many. What `found` holds after them has no meaning.
     fn pack(
         distances_sq: &[f32; LANES],
         numbers: &[u32; LANES],
@@ -46,7 +46,8 @@ pub(super) trait PackNear {
     ) -> usize;
 }
 
-/// Portable, without a branch that would often be mispredicted: each key is written, and stays only if it is near.
+/// Portable code. To avoid a branch that would often be mispredicted, every key is written, and the next one overwrites
+/// it unless it is near.
 pub(super) struct OneByOne;
 
 impl PackNear for OneByOne {
@@ -94,7 +95,7 @@ impl Crowd {
         self.found.resize(padded + LANES, 0);
     }
 
-    /// Writes the nearest points, nearest first, equal distances by number; returns how many.
+    /// Writes the numbers of the nearest points, nearest first, equal distances by number; returns how many.
     #[inline(always)]
     pub(super) fn nearest<P: PackNear>(&mut self, query: &Query, list: &mut [u32]) -> usize {
         let count = self.collect::<P>(query);
@@ -105,7 +106,7 @@ impl Crowd {
             found = &mut found[..most];
             found.sort_unstable();
         } else {
-            sort_by_class(found, &mut self.sorted, query);
+            sort_by_bucket(found, &mut self.sorted, query);
             found = &mut self.sorted[..count];
         }
         let most = query.most.min(found.len());
@@ -139,19 +140,19 @@ impl Crowd {
     }
 }
 
-/// Sorts the nearest `query.most` keys, and perhaps more: a counting sort into equal ranges of squared distance (on a surface
+/// Sorts at least the nearest `query.most` keys: a counting sort into equal ranges of squared distance (on a surface,
 /// each holds about equally many points), then an insertion sort.
 #[inline(always)]
-fn sort_by_class(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
-    let classes_per_sq = (CLASSES - 1) as f32 / (query.radius * query.radius);
-    let class = |key: u64| {
+fn sort_by_bucket(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
+    let buckets_per_sq = (BUCKETS - 1) as f32 / (query.radius * query.radius);
+    let bucket = |key: u64| {
         let distance_sq = f32::from_bits((key >> 32) as u32);
-        // Adding 2^23 leaves the rounded number in the lowest bits.
-        (distance_sq * classes_per_sq + 8_388_608.0).to_bits() as usize % CLASSES
+        // Rounds: adding 2^23 leaves the nearest whole number in the lowest bits.
+        (distance_sq * buckets_per_sq + 8_388_608.0).to_bits() as usize % BUCKETS
     };
-    let mut ends = [0u8; CLASSES];
+    let mut ends = [0u8; BUCKETS];
     for &key in found {
-        ends[class(key)] += 1;
+        ends[bucket(key)] += 1;
     }
     let mut sum = 0u64;
     for ends in ends.as_chunks_mut::<8>().0 {
@@ -164,13 +165,13 @@ fn sort_by_class(found: &[u64], sorted: &mut [u64; SLOTS], query: &Query) {
         sum += word >> 56;
     }
     for &key in found {
-        let end = &mut ends[class(key)];
+        let end = &mut ends[bucket(key)];
         *end -= 1;
         sorted[usize::from(*end)] = key;
     }
     let count = found.len();
-    let last = if count < query.most { CLASSES } else { class(sorted[query.most - 1]) };
-    let end = (query.most..count).find(|&i| class(sorted[i]) > last).unwrap_or(count);
+    let last = if count < query.most { BUCKETS } else { bucket(sorted[query.most - 1]) };
+    let end = (query.most..count).find(|&i| bucket(sorted[i]) > last).unwrap_or(count);
     sort_nearly_sorted(sorted, end);
 }
 

@@ -16,7 +16,7 @@ fn scattered(count: u32, size: Vec3) -> (Vec<Vec3>, Vec<Vec3>) {
     (positions, normals)
 }
 
-/// The lists by definition. With `own`, the point that has the query's own index counts too.
+/// The lists by definition. With `own`, the point with the query's own index counts too.
 fn brute_force(
     queries: Points<'_>,
     points: Points<'_>,
@@ -66,7 +66,7 @@ fn lists_equal_brute_force() {
 #[test]
 fn lists_of_others_equal_brute_force() {
     let (positions, normals) = scattered(700, Vec3::new(1.0, 1.0, 0.1));
-    // Some of them far from all points.
+    // Some queries are far from all points.
     let (around, around_normals) = scattered(900, Vec3::new(3.0, 1.5, 0.2));
     let points = Points { positions: &positions, normals: &normals };
     let queries = Points { positions: &around, normals: &around_normals };

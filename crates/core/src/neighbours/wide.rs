@@ -1,5 +1,6 @@
-//! The search with AVX-512, which has an instruction that packs the near points together; shorter vectors gain nothing over
-//! portable code. Both builds round alike (no fused multiply-add), so the bits do not depend on the machine.
+//! Runs the search with AVX-512 where the processor has it: one of its instructions packs the near points together.
+//! Shorter vectors gain nothing over portable code. Both builds round alike (no fused multiply-add), so the bits do not
+//! depend on the machine.
 #![expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 
 use super::crowd::OneByOne;
@@ -23,7 +24,7 @@ fn run_avx512(search: &Search<'_>, part: Part<'_>) {
     search.run::<Compressed>(part);
 }
 
-/// Packs eight keys at a time by `vpcompressq`. Used in [`run_avx512`] alone.
+/// Packs eight keys at a time with `vpcompressq`. Only [`run_avx512`] may use it.
 #[cfg(target_arch = "x86_64")]
 struct Compressed;
 
@@ -36,7 +37,7 @@ impl PackNear for Compressed {
         radius_sq: f32,
         found: &mut [u64; LANES],
     ) -> usize {
-        // SAFETY: only run_avx512 asks for this, where both were found.
+        // SAFETY: only run_avx512 uses this, and it runs only where both were found.
         unsafe { compress(distances_sq, numbers, radius_sq, found) }
     }
 }
@@ -66,7 +67,7 @@ fn compress(
     let count = near_lower.count_ones() as usize;
     let (lower, upper) =
         (_mm512_maskz_compress_epi64(near_lower, lower), _mm512_maskz_compress_epi64(near_upper, upper));
-    // SAFETY: eight numbers are written, from the first and from at most the ninth of sixteen.
+    // SAFETY: of the sixteen places of `found`, eight are written from the first on, then eight from at most the ninth.
     unsafe {
         _mm512_storeu_si512(found.as_mut_ptr().cast(), lower);
         _mm512_storeu_si512(found.as_mut_ptr().add(count).cast(), upper);

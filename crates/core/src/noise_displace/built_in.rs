@@ -41,7 +41,7 @@ pub fn gaussian() -> Arc<Tile> {
 pub fn perlin() -> Arc<Tile> {
     static TILE: LazyLock<Arc<Tile>> = LazyLock::new(|| {
         let octaves: Vec<Perlin> = (0..OCTAVES).map(|octave| Perlin::new(17 + octave)).collect();
-        // Taken on a torus in four dimensions, which has no seam.
+        // Sampled on a torus in four dimensions, so that the texture has no seam.
         let value = |index: usize| {
             let angle = |at: usize| TAU * (at as f64 + 0.5) / PERLIN_SIDE as f64;
             let (u, v) = (angle(index % PERLIN_SIDE).sin_cos(), angle(index / PERLIN_SIDE).sin_cos());

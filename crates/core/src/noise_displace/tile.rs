@@ -5,7 +5,7 @@ use glam::DVec2;
 /// The longest side of a tile: larger pictures are reduced.
 const MAX_SIDE: usize = 1024;
 
-/// A repeating texture. Values are as they are stored, never decoded from sRGB: noise is no colour.
+/// A repeating texture. Values are taken as they are stored, never decoded from sRGB: noise is not a colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile {
     size: [usize; 2],
@@ -20,7 +20,7 @@ impl Tile {
         Self { size, texels }
     }
 
-    /// From a picture, top row first. One of more than 1024 texels a side is halved until it fits.
+    /// From a picture, top row first. One with a side of more than 1024 texels is halved until it fits.
     pub fn of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Self {
         let size = size_px.map(|side| side as usize);
         let texels = rgba8.chunks_exact(size[0]).rev().flatten();

@@ -1,4 +1,4 @@
-//! Candidates side by side, so that chance and normals are computed in wide vectors.
+//! A block of dart throwing's candidates, side by side, so that wide vectors compute their random places and normals.
 
 use glam::Vec3;
 
@@ -6,18 +6,19 @@ use super::throw::Throw;
 use super::{Particle, Surface};
 use crate::wide::{Wide, widest};
 
-/// Candidates of a block.
+/// How many candidates a block has.
 pub(super) const LANES: usize = 64;
 
 /// [`LANES`] candidates.
 pub(super) struct Block {
     faces: [u32; LANES],
-    /// Weights of the second and third corners.
+    /// Weights of the second and third corner of each one's face.
     barycentric: [[f32; LANES]; 2],
 }
 
 impl Block {
-    /// The candidates of these numbers; `face` finds one by the area that comes before it and the step of area that it is in.
+    /// The candidates with these numbers. `face` finds a candidate's face from the area that comes before the candidate
+    /// and the step of area that it is in.
     #[inline]
     pub(super) fn new(
         (seed, numbers): (u32, &[u32; LANES]),
@@ -32,13 +33,13 @@ impl Block {
         Self { faces, barycentric: thrown.barycentric }
     }
 
-    /// Where one lies: its face, and the weights of the face's second and third corner.
+    /// Where a candidate lies: its face, and the weights of the face's second and third corner.
     #[inline]
     pub(super) fn place(&self, lane: usize) -> (usize, [f32; 2]) {
         (self.faces[lane] as usize, self.barycentric.each_ref().map(|weights| weights[lane]))
     }
 
-    /// All of them, as [`Surface::particle`] gives them.
+    /// All candidates as particles, as [`Surface::particle`] gives them.
     #[inline]
     pub(super) fn particles(&self, surface: &Surface<'_>) -> [Particle; LANES] {
         let mut corners = Corners::EMPTY;
@@ -58,7 +59,7 @@ impl Block {
         let placed = widest(Placing { corners: &corners, barycentric: &self.barycentric });
         std::array::from_fn(|lane| {
             let (face, barycentric) = self.place(lane);
-            if placed.bent[lane] {
+            if placed.normals_cancel[lane] {
                 return surface.particle(face, barycentric);
             }
             let face = surface.faces[face];
@@ -74,18 +75,20 @@ impl Block {
     }
 }
 
-/// What chance says of a block.
+/// Finds the random places of a block.
 struct Throwing<'a> {
     seed: u32,
     numbers: &'a [u32; LANES],
-    /// Of area, equally large.
+    /// Into how many equal steps the surface's area is cut.
     steps: usize,
-    /// Of the surface.
+    /// The surface's area.
     area: f64,
 }
 
 struct Thrown {
+    /// The area that comes before each candidate.
     areas: [f64; LANES],
+    /// The step of area that each is in.
     steps: [i32; LANES],
     barycentric: [[f32; LANES]; 2],
 }
@@ -108,11 +111,11 @@ impl Wide for Throwing<'_> {
     }
 }
 
-/// Of each candidate's triangle: by corner, then by axis.
+/// The corners of each candidate's triangle, indexed by corner, axis and candidate.
 struct Corners {
     positions: [[[f32; LANES]; 3]; 3],
     normals: [[[f32; LANES]; 3]; 3],
-    /// −1 on its back.
+    /// 1 on the triangle's front, −1 on its back.
     sides: [f32; LANES],
 }
 
@@ -121,7 +124,7 @@ impl Corners {
         Self { positions: [[[0.0; LANES]; 3]; 3], normals: [[[0.0; LANES]; 3]; 3], sides: [0.0; LANES] };
 }
 
-/// [`Particle::on`] for a block, bit by bit.
+/// [`Particle::on`] for a block, with the same bits.
 struct Placing<'a> {
     corners: &'a Corners,
     barycentric: &'a [[f32; LANES]; 2],
@@ -130,8 +133,8 @@ struct Placing<'a> {
 struct Placed {
     positions: [[f32; LANES]; 3],
     normals: [[f32; LANES]; 3],
-    /// Where the normals of the corners cancel each other.
-    bent: [bool; LANES],
+    /// Whether the normals of the corners cancel, so that another normal must be found.
+    normals_cancel: [bool; LANES],
 }
 
 impl Wide for Placing<'_> {
@@ -140,8 +143,11 @@ impl Wide for Placing<'_> {
     #[inline(always)]
     fn run(self) -> Placed {
         let Self { corners, barycentric: [vs, ws] } = self;
-        let mut placed =
-            Placed { positions: [[0.0; LANES]; 3], normals: [[0.0; LANES]; 3], bent: [false; LANES] };
+        let mut placed = Placed {
+            positions: [[0.0; LANES]; 3],
+            normals: [[0.0; LANES]; 3],
+            normals_cancel: [false; LANES],
+        };
         for lane in 0..LANES {
             let (v, w) = (vs[lane], ws[lane]);
             let u = 1.0 - v - w;
@@ -165,7 +171,7 @@ impl Wide for Placing<'_> {
             let turned = if facing * corners.sides[lane] < 0.0 { -1.0 } else { 1.0 };
             let length_sq = smooth[0] * smooth[0] + smooth[1] * smooth[1] + smooth[2] * smooth[2];
             let scale = 1.0 / length_sq.sqrt();
-            placed.bent[lane] = !((scale > 0.0) & (scale < f32::INFINITY));
+            placed.normals_cancel[lane] = !((scale > 0.0) & (scale < f32::INFINITY));
             for axis in 0..3 {
                 placed.positions[axis][lane] = position[axis];
                 placed.normals[axis][lane] = smooth[axis] * turned * scale;

@@ -9,13 +9,15 @@ use super::dart_grid::Dart;
 use super::throw::Throw;
 use super::{Particle, Surface};
 
-/// `count` particles by chance, spread evenly by area: what dart throwing picks from, without the picking. The first so many are
-/// the same for every count. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
+/// `count` random particles, spread evenly by area: all candidates of dart throwing, none refused. A greater count
+/// keeps the particles of a smaller one. The result depends on the mesh, the count and the seed alone. An empty surface
+/// gives no particles.
 pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     if surface.faces.is_empty() {
         return Vec::new();
     }
     let candidates = Candidates::new(surface, seed);
+    // Each task keeps the block that it computed last.
     let indices = (0..count).into_par_iter().with_min_len(16 * LANES);
     indices
         .map_init(
@@ -37,7 +39,7 @@ pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle
 /// The sequence: its `i`th place depends on the surface, the seed and `i` alone.
 pub(super) struct Candidates<'a> {
     surface: &'a Surface<'a>,
-    /// For each of as many equal steps of area as there are faces, the face that the step begins in.
+    /// The area is cut into equal steps, as many as there are faces: the face where each begins, then the last face.
     guide: Vec<u32>,
     seed: u32,
 }
@@ -48,13 +50,13 @@ impl<'a> Candidates<'a> {
         Self { surface, guide: guide_table(&surface.area_up_to), seed }
     }
 
-    /// The candidates from `first` on, side by side.
+    /// The next [`LANES`] candidates from `first` on, side by side.
     #[inline]
     fn block_from(&self, first: u32) -> Block {
         self.block(&std::array::from_fn(|lane| first.wrapping_add(lane as u32)))
     }
 
-    /// Some candidates, side by side.
+    /// The candidates with these numbers, side by side.
     #[inline]
     fn block(&self, numbers: &[u32; LANES]) -> Block {
         let (steps, total) = (self.guide.len() - 1, self.surface.area());
@@ -68,7 +70,7 @@ impl<'a> Candidates<'a> {
         (face, throw.barycentric())
     }
 
-    /// The face before whose end so much area comes.
+    /// The face in which a candidate lies, from the area that comes before it; its step of area narrows the search.
     #[inline(always)]
     fn face(&self, area: f64, step: i32) -> usize {
         let Self { surface, guide, .. } = self;
@@ -86,13 +88,13 @@ impl<'a> Candidates<'a> {
         face.min(surface.faces.len() - 1)
     }
 
-    /// What of a candidate most are ever asked for.
+    /// The face and position of a candidate: most candidates are never asked for more.
     pub(super) fn dart(&self, number: u32) -> Dart {
         let (face, place) = self.place(number);
         Dart { position: self.surface.position(face, place), face: face as u32, number }
     }
 
-    /// The same of some.
+    /// [`Candidates::dart`] for several.
     pub(super) fn darts(&self, numbers: Range<u32>) -> Vec<Dart> {
         let mut darts = Vec::with_capacity(numbers.len());
         for first in numbers.clone().step_by(LANES) {
@@ -106,7 +108,7 @@ impl<'a> Candidates<'a> {
         darts
     }
 
-    /// The whole of some candidates.
+    /// Several candidates as particles.
     pub(super) fn particles(&self, numbers: &[u32]) -> Vec<Particle> {
         let mut particles = Vec::with_capacity(numbers.len());
         for numbers in numbers.chunks(LANES) {
@@ -117,14 +119,14 @@ impl<'a> Candidates<'a> {
         particles
     }
 
-    /// The whole candidate.
+    /// A candidate as a particle, with its normal.
     pub(super) fn particle(&self, number: u32) -> Particle {
         let (face, place) = self.place(number);
         self.surface.particle(face, place)
     }
 }
 
-/// More steps than this find a face no sooner, and their number is a whole one in 32 bits.
+/// More steps than this would not find a face sooner; step numbers fit into an `i32`.
 const MOST_STEPS: usize = 1 << 24;
 
 fn guide_table(area_up_to: &[f64]) -> Vec<u32> {

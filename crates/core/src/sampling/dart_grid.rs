@@ -18,8 +18,8 @@ pub(super) struct Dart {
 /// How many darts are tested together.
 const LANES: usize = 8;
 
-/// Size of a cell in search radii, a little over 2 and 4 against rounding: a search reads two neighbouring cells of a row along x,
-/// and the same of the next rows in y and z where they are within reach.
+/// Size of a cell in search radii, a little over 2 and 4 because of rounding. A search reads two neighbouring cells
+/// along x, in its own row of cells and in the next rows in y and z where they are within reach.
 const CELL: Vec3 = Vec3::new(2.02, 4.04, 4.04);
 
 /// Darts by grid cell. Cells are hashed into buckets so that neighbours along x have neighbouring buckets; distant cells may share
@@ -31,7 +31,7 @@ pub(super) struct DartGrid {
     row_stride: u32,
     /// One less than the number of buckets, a power of two.
     mask: u32,
-    /// First dart of each bucket, and the end.
+    /// Index of the first dart of each bucket; last, the number of all darts.
     starts: Vec<u32>,
     /// Positions of the darts, then [`LANES`] that are infinitely far away.
     axes: [Vec<f32>; 3],
@@ -40,7 +40,7 @@ pub(super) struct DartGrid {
 }
 
 impl DartGrid {
-    /// For searches within `radius`.
+    /// A grid for searches within `radius`.
     pub(super) fn new(darts: &[Dart], radius: f32) -> Self {
         let buckets = darts.len().next_power_of_two().max(64);
         let cells_per_unit = (CELL * radius).recip();
@@ -139,7 +139,7 @@ impl DartGrid {
             axis.resize(count + LANES, f32::INFINITY);
             axis[count..].fill(f32::INFINITY);
         }
-        // From the last one down: what lies between two new darts moves up by the number of new ones before it.
+        // From the last new dart down. Old darts between two new ones move up by the number of new ones before them.
         let mut bucket_end = self.starts.len();
         for (before, &key) in order.iter().enumerate().rev() {
             let (after, index) = ((key >> 32) as usize + 1, key as u32 as usize);

@@ -1,10 +1,11 @@
-//! A cone of normals for each face: most pairs of particles are on the same side of the surface, or not, by their faces alone.
+//! A cone of normals for each face. For most pairs of particles it tells from their faces alone whether they are on the
+//! same side of the surface.
 
 use glam::Vec3;
 
 use super::{Face, Surface};
 
-/// More than all rounding of unit vectors and of interpolation between them.
+/// More than rounding changes unit vectors and interpolation between them.
 const MARGIN: f32 = 1e-3;
 
 /// For each face, a cone that holds the interpolated normals of all its points.
@@ -36,7 +37,7 @@ impl FaceCones {
         }
         let second = &self.cones[second as usize];
         let product = first.axis.dot(second.axis);
-        // sin(a + b) <= sin a + sin b.
+        // With half angles a and b, the sign is sure where the product exceeds sin(a + b), which is <= sin a + sin b.
         let unsure = first.spread + second.spread;
         if product > unsure {
             Some(true)

@@ -11,7 +11,7 @@ const FLIPPED: u32 = 1 << 31;
 /// The part of a [`Particle`] that cannot be computed from its mesh, in 12 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackedParticle {
-    /// Index of the triangle, with [`FLIPPED`].
+    /// Index of the triangle; the top bit is [`FLIPPED`].
     triangle_and_side: u32,
     /// Weights of the triangle's second and third corner.
     barycentric: [f32; 2],

@@ -16,7 +16,7 @@ pub struct PolygonParticle {
     pub count_in_polygon: u32,
 }
 
-/// `count` particles at random points, equally many on each visible side of a polygon (seed paper, 2.1); the first
+/// `count` particles at random points, equally many on each visible side of a polygon (source paper, 2.1); the first
 /// `count % polygons` get one more.
 pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<PolygonParticle> {
     let polygons = polygons(surface);

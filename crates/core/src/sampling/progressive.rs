@@ -9,7 +9,7 @@ use super::dart_grid::{Dart, DartGrid};
 use super::face_cones::FaceCones;
 use super::{Particle, Surface, hexagonal_spacing};
 
-/// Least distance between particles, as a share of the hexagonal spacing of as many as their level is meant to end with.
+/// Least distance between particles, as a share of the hexagonal spacing of those that their level should end with.
 const SPACING: f64 = 0.56;
 
 /// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
@@ -22,12 +22,12 @@ const GROWTH: f64 = 1.08;
 /// share of the particles that it is meant to end with, regardless of distances, so that the work stays proportional to the count.
 const LEAST_FILLED: f64 = 0.5;
 
-/// How many candidates one task handles. Fewer are not worth another thread; the more there are, the better they can be sorted so
-/// that consecutive searches share the cache.
+/// How many candidates one task handles. Fewer are not worth another thread. The more there are, the better sorting
+/// lets consecutive searches share the cache.
 const LEAST_CHUNK: usize = 1024;
 const MOST_CHUNK: usize = 1 << 20;
 
-/// The index of no dart.
+/// Stands for no dart, in place of an index.
 const NONE: u32 = u32::MAX;
 
 /// `count` particles in progressive blue-noise order: the first `n` of them are spread evenly, for every `n`, and a
@@ -43,8 +43,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     particles
 }
 
-/// How far a progressive order has come, so that it can go on later: more particles cost no more than what is added, and one
-/// pass over what is there.
+/// How far a progressive order has come, so that it can go on later: more particles then cost what is added, and one
+/// pass over those that are there.
 #[derive(Clone, Copy, Debug)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -79,7 +79,7 @@ impl ProgressiveState {
             grid.fit(radius);
             let tries = ((*level_end - level_begin) * TRIES) as u32;
             let level = *thrown..thrown.wrapping_add(tries);
-            // First against the particles of earlier levels; then the few that are left, against each other.
+            // First against the particles of earlier levels; the few candidates that are left, then against each other.
             let clear = field.clear_of(&Accepted { grid: &grid, particles, radius }, level.clone());
             let mut added = field.thinned(&level, &clear, radius);
             let least = (*level_end as f64 * LEAST_FILLED) as usize;
@@ -146,8 +146,8 @@ impl DartField<'_> {
         darts
     }
 
-    /// The darts that stay when each in turn, by number, is dropped if an earlier one that stays crowds it. They come in order of
-    /// their numbers.
+    /// Goes through the darts by number, drops each that an earlier dart crowds which was not dropped, and gives the
+    /// others in order of their numbers.
     fn thinned(&self, level: &Range<u32>, darts: &[Dart], radius: f32) -> Vec<Dart> {
         let grid = DartGrid::new(darts, radius);
         let rivals = |dart: &Dart| {

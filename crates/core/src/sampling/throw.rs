@@ -6,11 +6,11 @@ use crate::hash;
 /// The random numbers of one candidate.
 #[derive(Clone, Copy)]
 pub(super) struct Throw {
-    /// The sum of both is the share of the area that comes before it, 0..1. It has 53 random bits, so that a tiny face beside a
-    /// huge one still gets its share.
+    /// `high + low` is the share of the area that comes before the candidate, 0..1. It has 53 random bits, so that a
+    /// tiny face beside a huge one still gets its share.
     high: f64,
     low: f64,
-    /// Where on its face, 0..1.
+    /// Where on its face the candidate lies: two numbers in 0..1.
     on_face: [f32; 2],
 }
 
@@ -25,13 +25,13 @@ impl Throw {
         }
     }
 
-    /// The area that comes before it, of a surface with this area.
+    /// The area that comes before the candidate, on a surface of area `total`.
     #[inline(always)]
     pub(super) fn area(&self, total: f64) -> f64 {
         (self.high + self.low) * total
     }
 
-    /// Which of so many equal steps of area it is in, give or take one.
+    /// In which of `steps` equal steps of area the candidate is; it may be off by one, since `low` is ignored.
     #[inline(always)]
     pub(super) fn step(&self, steps: usize) -> i32 {
         ((self.high * steps as f64) as i32).min(steps as i32 - 1)

@@ -1,4 +1,4 @@
-//! Culling: which particles may show in a view, a bit each; and the solve of those that do, one at a time.
+//! Culling: marks with one bit each which particles may show in a view, and solves single particles.
 
 use rayon::prelude::*;
 
@@ -15,7 +15,7 @@ pub struct ParticleView {
     rows: Rows,
 }
 
-/// Bounds that a particle must keep to show.
+/// Bounds within which a particle must be to show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Greatest distance from the picture's centre in x and y, exclusive.
@@ -65,7 +65,8 @@ impl ParticleView {
         }
     }
 
-    /// One bit per particle, set where it faces the eye and keeps the bounds; 64 particles per word, the first in the lowest bit.
+    /// One bit per particle, set where it faces the eye and is within the bounds; 64 particles per word, the first in
+    /// the lowest bit.
     pub fn within(&self, particles: &BakedParticles, bounds: &Bounds) -> Vec<u64> {
         let mut words = vec![0; particles.len().div_ceil(WORD)];
         words.par_chunks_mut(CHUNK / WORD).enumerate().for_each(|(chunk, words)| {
@@ -94,7 +95,7 @@ impl Wide for Marking<'_> {
             let first = self.first + number * WORD;
             let mut flags = [0; WORD];
             match particles.len() - first {
-                // Of one known length, so that the compiler vectorises it.
+                // The length is known here, so the compiler vectorises the loop.
                 WORD.. => mark_word(particles, first, rows, bounds, &mut flags),
                 rest => mark_word(particles, first, rows, bounds, &mut flags[..rest]),
             }
@@ -110,7 +111,7 @@ fn mark_word(particles: &BakedParticles, first: usize, rows: &Rows, bounds: &Bou
     let [nx, ny, nz] = slices(&particles.normal, first, count);
     for (i, flag) in flags.iter_mut().enumerate() {
         let seen = project(rows, [px[i], py[i], pz[i]], [nx[i], ny[i], nz[i]]);
-        // Without branches: every test is cheap.
+        // `&`, not `&&`: every test is cheaper than a branch.
         *flag = u8::from(
             (seen.area_px > 0.0)
                 & (seen.area_px * bounds.most_per_area > (first as i32 + i as i32) as f32)

@@ -20,12 +20,12 @@ use crate::names;
 use crate::refusal::Refusal;
 use crate::selection::{Item, Selection};
 
-/// A move, turn and even scaling of whole motions, in the world.
+/// A move, turn and uniform scaling of whole motions (objects with all their keys), in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shift {
-    /// Where each point of the world goes: a rotation, an even scale above 0 and a translation.
+    /// Where each point of the world goes: a rotation, a uniform scale above 0 and a translation.
     pub world_from_world: DAffine3,
-    /// The frame at which it is done: children of a moving parent are shifted in the parent's pose at this frame.
+    /// The frame whose poses count: a child is shifted in the space of its parent as the parent stands at this frame.
     pub frame: f64,
 }
 
@@ -40,7 +40,7 @@ pub enum PoseField {
     Scale,
 }
 
-/// Things and their places.
+/// Objects, lights and cameras, and their poses.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Arrange {
     /// Adds an object for a mesh file, with a region for each of its groups, and selects it.
@@ -73,7 +73,7 @@ pub enum Arrange {
         /// Factors, none 0.
         factors: DVec3,
     },
-    /// Shifts the whole motion so that one number is this at a frame.
+    /// Sets one number of an object's pose at a frame, by shifting all its keys.
     SetPoseField {
         /// The object.
         object: String,
@@ -92,7 +92,7 @@ pub enum Arrange {
     SetMaterial(String, Option<MaterialOverride>),
     /// Sets the number of particles of an object; `None` computes it from the coverage.
     SetParticles(String, Option<u64>),
-    /// Adds a light of a kind at a point of the world, shining on another.
+    /// Adds a light of a kind at one point of the world, aimed at another.
     AddLight {
         /// Its kind.
         kind: LightKind,
@@ -112,7 +112,7 @@ pub enum Arrange {
     },
     /// The lens of the shot.
     SetLens(Lens),
-    /// Shifts the shot's camera with all its keys so that this is its pose at a frame.
+    /// Gives the shot's camera this pose at a frame, by shifting all its keys.
     SetCamera {
         /// The frame.
         frame: f64,
@@ -141,7 +141,7 @@ impl Arrange {
                 let edited = unlocked_object(scene, object)?;
                 let stretched = DVec3::from(edited.scale.0) * *factors;
                 edited.scale.0 = stretched.map(tidy).to_array();
-                carry_guides(scene, object, DMat3::from_diagonal(*factors));
+                carry_along(scene, object, DMat3::from_diagonal(*factors));
                 Ok(Done::new(format!("Scale {object}")))
             }
             Self::SetPoseField { object, frame, field, value } => {
@@ -151,10 +151,10 @@ impl Arrange {
                 let object = unlocked_object(scene, name)?;
                 let old = object.model_from_file();
                 object.up = if object.up == Up::Y { Up::Z } else { Up::Y };
-                // Sizes go with the axes that they belonged to.
+                // Each size stays with the axis that it belonged to.
                 object.scale.0.swap(1, 2);
                 let turn = object.model_from_file() * old.inverse();
-                carry_guides(scene, name, turn);
+                carry_along(scene, name, turn);
                 Ok(Done::new(format!("Turn {name} upright")))
             }
             Self::ScaleTo(name, length) => {
@@ -170,7 +170,7 @@ impl Arrange {
                     return Err(Refusal::new(format!("{name} is a single point")));
                 }
                 object.scale.0 = object.scale.0.map(|side| tidy(side * factor));
-                carry_guides(scene, name, DMat3::from_diagonal(DVec3::splat(factor)));
+                carry_along(scene, name, DMat3::from_diagonal(DVec3::splat(factor)));
                 Ok(Done::new(format!("Scale {name}")))
             }
             Self::SetMaterial(name, material) => {
@@ -208,7 +208,7 @@ impl Arrange {
             }
             Self::SetLens(lens) => {
                 scene.camera.lens = lens.clone();
-                // Keys that say otherwise would hide what was just set.
+                // A field of view in a key would hide the one that was just set.
                 for key in &mut scene.camera.keys {
                     key.fov_y_deg = None;
                 }
@@ -243,7 +243,7 @@ fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<
     for name in objects {
         let index = scene.objects.iter().position(|object| object.name == *name);
         let index = index.ok_or_else(|| Refusal::unknown("object", name))?;
-        if rides_on_one_of(scene, index, objects) {
+        if has_ancestor_among(scene, index, objects) {
             continue;
         }
         let parent = scene.objects[index].parent.as_deref();
@@ -268,7 +268,7 @@ fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<
 }
 
 /// Whether any of the objects above this one is among `objects`.
-fn rides_on_one_of(scene: &Scene, index: usize, objects: &[String]) -> bool {
+fn has_ancestor_among(scene: &Scene, index: usize, objects: &[String]) -> bool {
     let mut above = scene.objects[index].parent.as_deref();
     for _ in 0..scene.objects.len() {
         let Some(name) = above else { return false };
@@ -281,8 +281,8 @@ fn rides_on_one_of(scene: &Scene, index: usize, objects: &[String]) -> bool {
     false
 }
 
-/// Transforms everything that is stated in an object's own space when that space changes.
-fn carry_guides(scene: &mut Scene, object: &str, new_from_old: DMat3) {
+/// Converts what is stated in an object's own space (guides, dabs, directions) when that space changes.
+fn carry_along(scene: &mut Scene, object: &str, new_from_old: DMat3) {
     let normal_matrix = new_from_old.inverse().transpose();
     let point = |at: &mut [f64; 3]| *at = (new_from_old * DVec3::from(*at)).map(tidy).to_array();
     let normal = |n: &mut [f64; 3]| {

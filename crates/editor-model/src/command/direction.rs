@@ -116,8 +116,8 @@ pub enum Directions {
     Flip(RegionTarget),
     /// Whether strokes have a beginning and an end.
     SetSense(String, Sense),
-    /// Leaves out points of guides that lie within a distance of the line between their neighbours, and guides that later
-    /// ones cover.
+    /// Leaves out points of guides that lie within a distance of the line between their neighbours, and guides that
+    /// later ones cover.
     Simplify {
         /// The region.
         region: String,
@@ -312,7 +312,8 @@ fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     Ok(Done::new(format!("Simplify {before} guides to {after}")))
 }
 
-/// The old reference stays for everything that was stated in it, so that no direction changes.
+/// Changes the scene's reference. Guides and regions that were stated in the old one get it written down, so that no
+/// direction changes.
 fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let new = Reference::Frame(frame);
     if scene.reference == new {

@@ -19,7 +19,7 @@ pub enum Edit {
     Duplicate(Vec<Item>),
     /// Gives a thing another name.
     Rename(Item, String),
-    /// Makes an object the child of another one, or of none; its pose at the reference stays.
+    /// Makes an object the child of another one, or of none; its pose in the world at the reference stays.
     SetParent {
         /// The object.
         object: String,
@@ -113,7 +113,7 @@ fn delete_object(scene: &mut Scene, name: &str) -> Result<(), Refusal> {
         .map(|object| object.name.clone())
         .collect();
     for child in children {
-        put_on(scene, &child, parent.as_deref(), frame)?;
+        reparent(scene, &child, parent.as_deref(), frame)?;
     }
     scene.objects.retain(|object| object.name != name);
     scene.regions.retain(|region| region.on.object() != Some(name));
@@ -165,7 +165,7 @@ fn duplicate_object(scene: &mut Scene, name: &str) -> Result<String, Refusal> {
         scene.regions.iter().filter(|region| region.on.object() == Some(name)).cloned().collect();
     for mut region in of_it {
         region.name = names::unique(&region.name, scene.regions.iter().map(|region| region.name.as_str()));
-        // A scene of this region alone, so that only its own names are changed.
+        // `rename_object` gets a scene with only this region, so that nothing else is renamed.
         let mut alone = Scene { objects: Vec::new(), regions: vec![region], ..scene.clone() };
         names::rename_object(&mut alone, name, &new);
         scene.regions.append(&mut alone.regions);
@@ -222,7 +222,7 @@ fn set_parent(scene: &mut Scene, object: &str, parent: Option<&str>) -> Result<D
     }
     let frame = motion::referred_to(scene, &scene.reference).1;
     let before = object_mut(scene, object)?.parent.clone();
-    put_on(scene, object, parent, frame)?;
+    reparent(scene, object, parent, frame)?;
     Ok(Done::new(match (parent, before) {
         (Some(parent), _) => format!("Put {object} under {parent}"),
         (None, Some(before)) => format!("Take {object} off {before}"),
@@ -231,13 +231,13 @@ fn set_parent(scene: &mut Scene, object: &str, parent: Option<&str>) -> Result<D
 }
 
 /// Changes an object's parent; its keys are converted to the new parent's space in its pose at `frame`.
-fn put_on(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> Result<(), Refusal> {
+fn reparent(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> Result<(), Refusal> {
     let poses = motion::poses_at(scene, frame);
     let pose_of = |name: Option<&str>| {
         let index = name.and_then(|name| scene.objects.iter().position(|object| object.name == name));
         index.map_or(DAffine3::IDENTITY, |index| poses[index])
     };
-    let (old, new) = (object_mut_parent(scene, object), parent);
+    let (old, new) = (parent_of(scene, object), parent);
     let new_from_old = pose_of(new).inverse() * pose_of(old.as_deref());
     let object = object_mut(scene, object)?;
     object.parent = parent.map(str::to_owned);
@@ -259,7 +259,7 @@ fn put_on(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> 
     Ok(())
 }
 
-fn object_mut_parent(scene: &Scene, object: &str) -> Option<String> {
+fn parent_of(scene: &Scene, object: &str) -> Option<String> {
     scene.objects.iter().find(|other| other.name == object).and_then(|object| object.parent.clone())
 }
 

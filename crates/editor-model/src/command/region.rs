@@ -42,11 +42,11 @@ pub enum StrokeChange {
 /// Regions and their strokes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Regions {
-    /// Adds a region over those that are there; its name is made unique.
+    /// Adds a region on top of the others; its name is made unique.
     Add(Box<Region>),
     /// Changes what a region covers.
     SetSelector(String, Selector),
-    /// Adds dabs of the region brush, or takes away what they touch.
+    /// Adds dabs of the region brush; each adds what it touches to the region, or takes it away.
     Paint {
         /// The region.
         region: String,

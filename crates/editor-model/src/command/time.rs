@@ -29,8 +29,8 @@ pub enum Pose {
 pub enum Time {
     /// Sets a key with the current pose at a frame.
     SetKey(KeyOf, f64),
-    /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the reference, so
-    /// that there is a motion between the two.
+    /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the
+    /// reference, so that there is a motion between the two.
     PoseAtFrame(Pose, f64),
     /// Moves keys by this many frames; a key that lands on another replaces it.
     MoveKeys(Vec<(KeyOf, f64)>, f64),

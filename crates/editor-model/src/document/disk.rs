@@ -81,8 +81,8 @@ impl Document {
         Ok(file)
     }
 
-    /// Whether the document's file has changed since it was last read or written here. A deleted file does not count, because
-    /// saving would overwrite nothing.
+    /// Whether the document's file has changed since it was last read or written here. A deleted file does not count,
+    /// because saving would overwrite nothing.
     pub fn is_changed_outside(&self) -> bool {
         let is_other = |file: &PathBuf| Stamp::is_other(self.stamp.as_ref(), file) && file.exists();
         self.file.as_ref().is_some_and(is_other)
@@ -109,7 +109,8 @@ impl Document {
 
     fn may_save_over(&self, target: &Path) -> Result<(), SaveError> {
         let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        // Compared by `loaded.path`: a recovered copy that was read with losses has no `file`, but must not overwrite its origin.
+        // Compared by `loaded.path`: a recovered copy that was read with losses has no `file`, but must not overwrite
+        // its origin.
         let is_own = real(target) == real(&self.loaded.path);
         match self.first_loss().filter(|_| is_own) {
             Some(line) => Err(SaveError::Problems { count: self.loss_count(), line }),
@@ -117,12 +118,12 @@ impl Document {
         }
     }
 
-    /// Writes the scene to another file; the document keeps its own. Returns the files that the scene names but that are in
-    /// neither folder, if `target` is in another folder.
+    /// Writes the scene to another file; the document keeps its own. Returns the files that the scene names but that
+    /// are in neither folder, if `target` is in another folder.
     ///
     /// # Errors
-    /// If a file that the scene names is in the scene's folder but not in that of `target`, or if writing fails; then `target`
-    /// is untouched.
+    /// If a file that the scene names is in the scene's folder but not in that of `target`, or if writing fails; then
+    /// `target` is untouched.
     pub fn save_copy(&self, target: &Path) -> Result<Vec<String>, SaveError> {
         let folder_of = |path: &Path| {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -161,15 +162,15 @@ impl Document {
         names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }
 
-    /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought back. If the
-    /// file has errors, nothing changes.
+    /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought
+    /// back. If the file has errors, nothing changes.
     ///
     /// # Errors
     /// What is wrong with the file.
     pub fn reload(&mut self) -> Result<Step, Report> {
         let Some(file) = self.file.clone() else { return Ok(nothing()) };
         let read = Self::open(&file, &self.options)?;
-        Ok(self.go_on_with(read))
+        Ok(self.replace_by(read))
     }
 
     /// As [`Document::reload`], but reads as much as possible of a file with errors.
@@ -179,10 +180,10 @@ impl Document {
     pub fn read_again(&mut self) -> Result<Step, Report> {
         let Some(file) = self.file.clone() else { return Ok(nothing()) };
         let read = Self::open_with_problems(&file, &self.options)?;
-        Ok(self.go_on_with(read))
+        Ok(self.replace_by(read))
     }
 
-    fn go_on_with(&mut self, read: Self) -> Step {
+    fn replace_by(&mut self, read: Self) -> Step {
         let change = SceneChange::between(self.scene(), read.scene());
         let sources = [self.source.clone(), read.source.clone()];
         let is_nothing = change.is_none() && sources.iter().all(Option::is_none);
@@ -201,7 +202,8 @@ impl Document {
         Step { text, note: None }
     }
 
-    /// Reads the meshes and pictures that the scene names again. The scene does not change, so there is no history entry.
+    /// Reads the meshes and pictures that the scene names again. The scene does not change, so there is no history
+    /// entry.
     ///
     /// # Errors
     /// What is wrong with them, in the words to show; then the old ones stay.

@@ -56,8 +56,8 @@ impl Document {
     pub fn problems(&self) -> Vec<ProblemRow> {
         let losses = self.open_losses().map(|(index, loss)| {
             let mut repairs = Vec::new();
-            let user = |mesh: &String| self.scene().objects.iter().find(|object| object.mesh == *mesh);
-            if let Some(object) = loss.mesh.as_ref().and_then(user) {
+            let object_with = |mesh: &String| self.scene().objects.iter().find(|object| object.mesh == *mesh);
+            if let Some(object) = loss.mesh.as_ref().and_then(object_with) {
                 repairs.push(Repair::Locate { object: object.name.clone() });
             }
             repairs.extend(loss.fix.as_ref().map(|fix| Repair::Fix {
@@ -152,8 +152,8 @@ impl Document {
         let loaded = match &self.source {
             // The scene was edited since it was read: merge the edits with the new text.
             Some(source) if source.scene != *self.scene() => {
-                let scene = both(&source.scene, &read.loaded.scene, self.scene())?;
-                // Keeps meshes that were read, and the boxes in place of unusable ones.
+                let scene = merged_scene(&source.scene, &read.loaded.scene, self.scene())?;
+                // With the meshes that were read, and the boxes in place of unusable ones.
                 let held = after.as_ref().map(|after| after.held(&read.loaded));
                 let held = held.as_ref().unwrap_or(&read.loaded);
                 held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?
@@ -218,39 +218,39 @@ impl Document {
     }
 }
 
-/// The region and the guide in `regions[1].guides[2].points[0].at`.
+/// The indices of region and guide in a path such as `regions[1].guides[2].points[0].at`.
 fn guide_in(field_path: &str) -> Option<(usize, usize)> {
     let (region, rest) = field_path.strip_prefix("regions[")?.split_once("].guides[")?;
     let (guide, _) = rest.split_once("].points[")?;
     Some((region.parse().ok()?, guide.parse().ok()?))
 }
 
-/// Three-way merge of two versions of a scene that both came from `from`.
-fn both(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
+/// Three-way merge of two versions, `left` and `right`, of the scene `from`. Refused where both changed the same thing.
+fn merged_scene(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refusal> {
     let mut scene = Scene {
-        size: either(&from.size, &left.size, &right.size, "size")?,
-        seed: either(&from.seed, &left.seed, &right.seed, "seed")?,
-        background: either(&from.background, &left.background, &right.background, "background")?,
-        timeline: either(&from.timeline, &left.timeline, &right.timeline, "timeline")?,
-        reference: either(&from.reference, &left.reference, &right.reference, "reference")?,
-        further_references: either(
+        size: merged_value(&from.size, &left.size, &right.size, "size")?,
+        seed: merged_value(&from.seed, &left.seed, &right.seed, "seed")?,
+        background: merged_value(&from.background, &left.background, &right.background, "background")?,
+        timeline: merged_value(&from.timeline, &left.timeline, &right.timeline, "timeline")?,
+        reference: merged_value(&from.reference, &left.reference, &right.reference, "reference")?,
+        further_references: merged_value(
             &from.further_references,
             &left.further_references,
             &right.further_references,
             "references",
         )?,
-        camera: either(&from.camera, &left.camera, &right.camera, "shot camera")?,
-        strokes: either(&from.strokes, &left.strokes, &right.strokes, "strokes")?,
-        style: either(&from.style, &left.style, &right.style, "style")?,
+        camera: merged_value(&from.camera, &left.camera, &right.camera, "shot camera")?,
+        strokes: merged_value(&from.strokes, &left.strokes, &right.strokes, "strokes")?,
+        style: merged_value(&from.style, &left.style, &right.style, "style")?,
         ..head(right)
     };
-    scene.lights = items(&from.lights, &left.lights, &right.lights, |light| &light.name)?;
-    scene.objects = items(&from.objects, &left.objects, &right.objects, |object| &object.name)?;
-    scene.regions = items(&from.regions, &left.regions, &right.regions, |region| &region.name)?;
+    scene.lights = merged_list(&from.lights, &left.lights, &right.lights, |light| &light.name)?;
+    scene.objects = merged_list(&from.objects, &left.objects, &right.objects, |object| &object.name)?;
+    scene.regions = merged_list(&from.regions, &left.regions, &right.regions, |region| &region.name)?;
     Ok(scene)
 }
 
-fn either<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str) -> Result<T, Refusal> {
+fn merged_value<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str) -> Result<T, Refusal> {
     if left == from || left == right {
         Ok(right.clone())
     } else if right == from {
@@ -261,7 +261,7 @@ fn either<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str) -> Re
 }
 
 /// Three-way merge of lists of named things: `right` with the changes, additions and removals of `left`.
-fn items<T: Clone + PartialEq>(
+fn merged_list<T: Clone + PartialEq>(
     from: &[T],
     left: &[T],
     right: &[T],
@@ -272,7 +272,7 @@ fn items<T: Clone + PartialEq>(
     for item in right {
         let [was, now] = [from, left].map(|list| find(list, item).map(|index| &list[index]));
         match (was, now) {
-            (Some(was), Some(now)) => merged.push(either(was, now, item, name(item))?),
+            (Some(was), Some(now)) => merged.push(merged_value(was, now, item, name(item))?),
             (Some(was), None) if was == item => {}
             _ => merged.push(item.clone()),
         }

@@ -52,9 +52,10 @@ impl Document {
         self.source.as_ref()
     }
 
-    /// Whether a mesh, by its name in the scene, is missing or cannot be used, so that a box or nothing is shown in its place.
+    /// Whether a mesh, by its name in the scene, is missing or cannot be used, so that a box or nothing is shown in its
+    /// place.
     pub fn lacks_mesh(&self, mesh: &str) -> bool {
-        let is_boxed = |source: &Arc<Source>| source.has_stand_in(mesh);
-        self.source.as_ref().is_some_and(is_boxed) || !self.shown().meshes.contains_key(mesh)
+        let has_box = |source: &Arc<Source>| source.has_stand_in(mesh);
+        self.source.as_ref().is_some_and(has_box) || !self.shown().meshes.contains_key(mesh)
     }
 }

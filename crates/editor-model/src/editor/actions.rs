@@ -17,7 +17,7 @@ use crate::transform::{Operation, TransformEvent};
 impl Editor {
     /// Does what an action says.
     pub fn act(&mut self, action: Action, view: &View) {
-        if self.act_on_keys(action) || self.act_on_the_hand(action, view) {
+        if self.act_on_keys(action) || self.act_on_tools(action, view) {
             return;
         }
         match action {
@@ -40,7 +40,7 @@ impl Editor {
             Action::ToggleColumn => self.requests.push(Request::ToggleColumn),
             Action::MaximiseViewport => self.requests.push(Request::MaximiseViewport),
             Action::NextArea => self.requests.push(Request::NextArea),
-            Action::Undo | Action::Redo => self.travel(action),
+            Action::Undo | Action::Redo => self.undo_or_redo(action),
             Action::Arrange => self.set_mode(Mode::Arrange, view),
             Action::Paint => self.set_mode(Mode::Paint, view),
             Action::Animate => self.set_mode(Mode::Animate, view),
@@ -130,7 +130,7 @@ impl Editor {
     }
 
     /// Actions on tools and on the interaction under way; whether the action was one of these.
-    fn act_on_the_hand(&mut self, action: Action, view: &View) -> bool {
+    fn act_on_tools(&mut self, action: Action, view: &View) -> bool {
         let tool = match action {
             Action::Select => Tool::Select,
             Action::Comb => Tool::Comb,
@@ -147,7 +147,8 @@ impl Editor {
                     Action::Turn => (Operation::Turn, Tool::Turn),
                     _ => (Operation::Scale, Tool::Scale),
                 };
-                // Over the viewport the key takes hold at once, as in Blender; elsewhere it takes the tool up.
+                // With Blender's keys, a key pressed over the viewport starts the transform at once; else it takes the
+                // tool up.
                 match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
                     Some(at_px) if matches!(self.busy, Busy::Idle) => {
                         self.begin_transform(operation, None, at_px, false, view);
@@ -230,7 +231,7 @@ impl Editor {
         }
     }
 
-    fn travel(&mut self, action: Action) {
+    fn undo_or_redo(&mut self, action: Action) {
         if self.is_moving() {
             return self.refuse(&Refusal::new("Finish or cancel the gesture first"));
         }
@@ -327,7 +328,7 @@ impl Editor {
         let turn = now.get(object)?.matrix3 * before.get(object)?.matrix3.inverse();
         let quat = glam::DQuat::from_mat3(&(turn * (1.0 / turn.determinant().cbrt())));
         let (axis, angle_rad) = quat.to_axis_angle();
-        // As the picture shows it: counter-clockwise about the way to the eye.
+        // Positive is counter-clockwise as the picture shows it.
         let angle_rad = impasto_core::angle::wrap_pi(angle_rad);
         Some((angle_rad * -axis.dot(gaze)).to_degrees())
     }

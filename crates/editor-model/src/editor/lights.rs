@@ -11,7 +11,7 @@ use crate::selection::Item;
 use crate::session::Mode;
 use crate::transform::{Operation, TransformDelta};
 
-/// Distance of the icon of a light without position from the middle of the scene, world units.
+/// How far from the middle of the scene a sun's icon is, world units.
 const AWAY: f64 = 2.0;
 
 /// Radius of an icon for the pointer, pixels.
@@ -70,7 +70,7 @@ impl Editor {
 
     /// The command that moves or turns a light; `axes` are those of the delta.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
-        // From where it was at the beginning of the drag.
+        // As it was at the beginning of the drag, not as it is previewed.
         let light = self.document.scene().lights.iter().find(|light| light.name == name)?;
         let middle = self.middle();
         let tidy = |at: DVec3| at.map(euler::tidy).to_array();
@@ -80,7 +80,7 @@ impl Editor {
                 Light { position: Some(tidy(position)), ..light.clone() }
             }
             (LightKind::Sun, TransformDelta::Move(by)) => {
-                // It goes round the scene and keeps its distance.
+                // The icon goes round the scene at a constant distance.
                 let direction = (middle - place_of(light, middle)? - axes * by).try_normalize()?;
                 Light { direction: Some(tidy(direction)), ..light.clone() }
             }

@@ -26,7 +26,7 @@ pub enum Mend {
 pub struct Mended {
     document: Document,
     result: Result<Step, Refusal>,
-    /// What the document was when it began.
+    /// Revision of the document, and whether it was edited, when the repair began.
     version_of: (u64, bool),
     /// The message after success, where nobody asked for the repair.
     unasked: Option<String>,
@@ -88,8 +88,8 @@ impl Editor {
         })
     }
 
-    /// Reads what changed on the disk; view, selection and mode stay. To be run on any thread, since it may read many files.
-    /// None if that would lose edits, so that the user has to be asked.
+    /// Reads what changed on the disk; view, selection and mode stay. To be run on any thread, since it may read many
+    /// files. None if that would lose edits, so that the user has to be asked.
     pub fn taking_in(&self, news: News) -> Option<impl FnOnce() -> Mended + Send + use<>> {
         if news == News::Scene && self.document.is_edited() {
             return None;

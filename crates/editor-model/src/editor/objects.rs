@@ -24,8 +24,8 @@ impl Editor {
         self.document.hold_mesh(mesh, file);
     }
 
-    /// Begins a transform of what is selected; false where nothing is, or it is locked. `at_px` is where the pointer is, and
-    /// `held` whether its button is down.
+    /// Begins a transform of what is selected; false where nothing is, or it is locked. `at_px` is where the pointer
+    /// is, and `held` whether its button is down.
     pub(super) fn begin_transform(
         &mut self,
         operation: Operation,
@@ -154,12 +154,12 @@ impl Editor {
             TransformDelta::Turn { axis, angle_rad } => {
                 let turn =
                     DMat3::from_quat(DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad));
-                (about(pivot, turn), "Turn")
+                (about_pivot(pivot, turn), "Turn")
             }
             TransformDelta::Scale(factors) if factors.max_element() - factors.min_element() < 1e-12 => {
-                (about(pivot, DMat3::from_diagonal(factors)), "Scale")
+                (about_pivot(pivot, DMat3::from_diagonal(factors)), "Scale")
             }
-            // Along one axis: an object's own, whatever space it was asked in.
+            // Uneven factors are along the object's own axes, whatever space was chosen: poses hold no others.
             TransformDelta::Scale(factors) => {
                 let object = active.clone();
                 return Some(Command::Arrange(Arrange::Stretch { object, factors }));
@@ -190,7 +190,7 @@ impl Editor {
     }
 }
 
-fn about(pivot: DVec3, matrix: DMat3) -> DAffine3 {
+fn about_pivot(pivot: DVec3, matrix: DMat3) -> DAffine3 {
     DAffine3::from_translation(pivot) * DAffine3::from_mat3(matrix) * DAffine3::from_translation(-pivot)
 }
 

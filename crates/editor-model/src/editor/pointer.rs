@@ -18,7 +18,7 @@ use crate::transform::{Operation, Snap, TransformEvent};
 /// A drag of an object begins after this many pixels.
 const DRAG_PX: f64 = 4.0;
 
-/// One wheel step brings the eye this much nearer, in drags of pixels.
+/// A zooming drag of this many pixels counts as one step of the wheel.
 const ZOOM_PX_PER_STEP: f64 = 60.0;
 
 /// The kind of a pointer event.
@@ -30,7 +30,7 @@ pub enum PointerKind {
     Press(Button),
     /// A button goes up.
     Release(Button),
-    /// The wheel turns, steps towards the screen are positive.
+    /// The wheel turns by this many steps; positive is towards the screen.
     Wheel(f64),
     /// It leaves the viewport.
     Leave,
@@ -72,8 +72,8 @@ impl Editor {
         }
     }
 
-    /// To be called as time passes without pointer events: shows what waits for a resting pointer, and hides what belongs to a
-    /// moving one. `at_secs` is on the clock of the pointer's events.
+    /// To be called as time passes without pointer events: shows what waits for a resting pointer, and hides what
+    /// belongs to a moving one. `at_secs` is on the clock of the pointer's events.
     pub fn rested(&mut self, at_secs: f64, view: &View) {
         let waits = matches!(self.busy, Busy::Idle)
             && self.session.mode == Mode::Paint
@@ -250,7 +250,8 @@ impl Editor {
         self.session.mode == Mode::Animate && self.session.lock_to_view && self.looking == Looking::Shot
     }
 
-    /// The point that the view turns about: the one under the pointer, else the selection, else one at the target's depth.
+    /// The point that the view turns about: the one under the pointer, else the selection, else one at the target's
+    /// depth.
     fn about(&self, at_px: DVec2, view: &View) -> glam::DVec3 {
         if let Some(hit) = self.hit(at_px, view) {
             return hit.position_in_world;

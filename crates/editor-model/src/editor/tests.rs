@@ -17,7 +17,7 @@ mod time;
 
 const SIZE_PX: DVec2 = DVec2::new(960.0, 540.0);
 
-/// An editor with the paper's apple, prepared.
+/// An editor with `apple.ron`, prepared.
 fn with_apple() -> Editor {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
     let document = Document::open(&path, &LoadOptions::default()).expect("a shipped scene opens");
@@ -60,7 +60,7 @@ fn key(editor: &mut Editor, key: Key) {
     assert!(editor.key(key, Modifiers::default(), false, &view), "{key:?} means nothing here");
 }
 
-/// The middle, in pixels, of the object that covers most of the picture.
+/// Where the middle of the apple shows, in pixels.
 fn middle_of_the_apple(editor: &Editor) -> DVec2 {
     let scene = editor.document().scene();
     let apple =

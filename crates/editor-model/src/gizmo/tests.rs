@@ -94,7 +94,7 @@ fn rings_show_the_half_that_faces_the_eye() {
     for handle in gizmo.handles() {
         let HandleShape::Ring { points_px } = &handle.shape else { panic!() };
         if let Constraint::Axis(axis) = handle.constraint {
-            // Points of the true half circle in the world, nearer to the eye than its centre.
+            // Points of the circle in the world that are nearer to the eye than its centre.
             let [first, second] = axis.others().map(Axis::unit);
             for step in 0..64 {
                 let (sin, cos) = (f64::from(step) * 0.1).sin_cos();

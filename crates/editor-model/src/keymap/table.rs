@@ -12,7 +12,7 @@ const MODAL: &[Where] = &[Where::In(Scope::Transform), Where::In(Scope::Drawing)
 const UNDERWAY: &[Where] =
     &[Where::In(Scope::Transform), Where::In(Scope::Drawing), Where::In(Scope::Typing), Where::Everywhere];
 
-/// The digits that replace the number pad's.
+/// The digits of the main row that do what the number pad's do, with [`super::Digits::NumPad`].
 pub(super) const DIGITS_AS_NUMPAD: &[(Action, u8)] = &[
     (Action::ViewFront, 1),
     (Action::ViewRight, 3),
@@ -21,6 +21,7 @@ pub(super) const DIGITS_AS_NUMPAD: &[(Action, u8)] = &[
     (Action::LookThrough, 0),
 ];
 
+/// A key with modifiers: `c` for Ctrl, `s` for Shift, `a` for Alt.
 const fn held(key: Key, held: &[u8]) -> Chord {
     let mut modifiers = Modifiers { ctrl: false, shift: false, alt: false };
     let mut index = 0;
@@ -59,6 +60,7 @@ const fn ctrl_alt(key: Key) -> Chord {
     held(key, b"ca")
 }
 
+/// A binding with the same keys in both presets.
 const fn both(
     action: Action,
     name: &'static str,
@@ -68,6 +70,7 @@ const fn both(
     Binding { action, name, holds, blender: keys, maya: keys }
 }
 
+/// A binding with different keys in each preset.
 const fn each(
     action: Action,
     name: &'static str,
@@ -78,7 +81,7 @@ const fn each(
     Binding { action, name, holds, blender, maya }
 }
 
-/// Where an action stands twice, it has other keys elsewhere.
+/// All bindings, in the order of the menus. An action that is listed twice has different keys in different scopes.
 pub(super) const BINDINGS: &[Binding] = &[
     both(Action::NewScene, "New scene", EVERYWHERE, &[ctrl(Key::Letter('N'))]),
     both(Action::OpenScene, "Open", EVERYWHERE, &[ctrl(Key::Letter('O'))]),

@@ -1,16 +1,17 @@
-//! Interpolates the pointer between two reports by a centripetal Catmull-Rom curve (Barry and Goldman 1988; Yuksel, Schaefer and
-//! Keyser 2011), walked in equal steps.
+//! Interpolates the pointer between two reports by a centripetal Catmull-Rom curve (Barry and Goldman 1988; Yuksel,
+//! Schaefer and Keyser 2011), walked in equal steps.
 
 use glam::DVec2;
 
 use super::STEP_PX;
 
-/// A curve through the reported points. It is one point behind: how it bends into a point depends on the next.
+/// A curve through the reported points. It ends one point before the last: how it bends into a point depends on the
+/// next.
 #[derive(Clone, Debug)]
 pub(super) struct PointerCurve {
-    /// The last three points, neighbours apart.
+    /// The last points, at most three; neighbours are never at the same place.
     points: Vec<DVec2>,
-    /// From the last step to the end of what was walked.
+    /// Length of the curve from the last step to where the walk ended.
     walked_px: f64,
 }
 
@@ -22,7 +23,7 @@ impl PointerCurve {
         Self { points: vec![at_px], walked_px: 0.0 }
     }
 
-    /// Takes a point; returns the steps on the piece that is certain now.
+    /// Takes a point; returns the steps on the piece of the curve that is final from now on.
     pub(super) fn move_to(&mut self, at_px: DVec2) -> Vec<DVec2> {
         if self.points.last().is_some_and(|last| last.distance(at_px) < SAME_PX) {
             return Vec::new();
@@ -82,7 +83,7 @@ impl PointerCurve {
     }
 }
 
-/// The mirror image of a point in the middle between two others: the next one on the same arc.
+/// Mirrors a point in the line halfway between `from` and `to`: the next point on the arc through all three.
 fn mirrored(point: DVec2, from: DVec2, to: DVec2) -> DVec2 {
     let along = (to - from).normalize_or_zero();
     point - along * (2.0 * (point - (from + to) * 0.5).dot(along))

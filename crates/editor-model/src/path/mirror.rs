@@ -30,8 +30,8 @@ impl MirrorAxes {
     }
 }
 
-/// A guide's mirror image laid onto the surface; in pieces where nothing lies within half its radius. `nearest` finds the
-/// surface near a point, facing a way, within a distance. `seen` and `reference` are as in
+/// A guide's mirror image laid onto the surface; in pieces where nothing lies within half its radius. `nearest` finds
+/// the surface near a point, facing a way, within a distance. `seen` and `reference` are as in
 /// [`super::SurfacePath::guides`].
 pub fn mirrored(
     guide: &Guide,
@@ -40,7 +40,7 @@ pub fn mirrored(
     reference: &ObjectView,
     nearest: &mut dyn FnMut(DVec3, DVec3, f64) -> Option<SurfacePoint>,
 ) -> Vec<Guide> {
-    // A mirror image turns the other way.
+    // Each mirroring changes the sign of a turn.
     let handedness = flip.x * flip.y * flip.z;
     let mut pieces: Vec<Vec<GuidePoint>> = vec![Vec::new()];
     for point in &guide.points {

@@ -5,7 +5,7 @@ use impasto_scene::document::GuidePoint;
 
 use super::PathPoint;
 
-/// A path keeps the points this many steps from its ends: they fix the direction in which it begins and ends.
+/// A path keeps the points this many steps from its ends, so that it begins and ends in the same direction as before.
 const END_STEPS: usize = 3;
 
 /// Those points of a path that keep it within `tolerance` (model units); both ends stay.
@@ -46,7 +46,7 @@ fn needed(places: &[DVec3], ends: &[usize], tolerance: f64) -> Vec<bool> {
     keep
 }
 
-/// From a point to a piece of a line.
+/// Distance from a point to a line segment.
 fn off(point: DVec3, from: DVec3, to: DVec3) -> f64 {
     let piece = to - from;
     let t = ((point - from).dot(piece) / piece.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

@@ -80,7 +80,7 @@ fn drag(
 }
 
 /// An S over the middle of the picture.
-fn swing(count: u32) -> Vec<DVec2> {
+fn s_curve(count: u32) -> Vec<DVec2> {
     (0..count)
         .map(|index| {
             let t = f64::from(index) / f64::from(count - 1);
@@ -97,8 +97,8 @@ fn own_view() -> ObjectView {
 fn the_same_drag_gives_the_same_guide_at_any_event_rate() {
     for steady in [0.0, 0.2] {
         let settings = PathSettings { steady, ..SETTINGS };
-        let drags =
-            [7, 60, 1000].map(|count| drag(&swing(count), &settings, &mut |at_px| on_ball(&front(), at_px)));
+        let drags = [7, 60, 1000]
+            .map(|count| drag(&s_curve(count), &settings, &mut |at_px| on_ball(&front(), at_px)));
         let finest = &drags[2];
         for path in &drags[..2] {
             assert_eq!(path.pieces().len(), 1);

@@ -4,8 +4,8 @@ use glam::{DAffine3, DVec3};
 use impasto_scene::document::{GuideView, Lens};
 use impasto_scene::motion::CameraPose;
 
-/// A camera in an object's own space. Roll, lens and picture size do not matter to a guide: they turn and scale what is drawn
-/// and what is shown alike.
+/// A camera in an object's own space. Roll, lens and picture size do not matter to a guide: they turn and scale what is
+/// drawn and what is shown alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectView {
     /// The eye.
@@ -42,9 +42,10 @@ impl ObjectView {
         Self { eye, target, rays }
     }
 
-    /// What a guide states that was drawn here; nothing where this is the reference. `middle` is a point of the guide.
+    /// The view that a guide states if it was drawn here; `None` if this is the reference. `middle` is a point of the
+    /// guide.
     pub fn guide_view(&self, reference: &Self, middle: DVec3) -> Option<GuideView> {
-        if self.is_as(reference) {
+        if self.is_same_as(reference) {
             return None;
         }
         let distance = self.eye.distance(self.target);
@@ -69,7 +70,7 @@ impl ObjectView {
         (self.target - self.eye).normalize_or(DVec3::NEG_Z)
     }
 
-    fn is_as(&self, other: &Self) -> bool {
+    fn is_same_as(&self, other: &Self) -> bool {
         let aligned = (self.gaze() - other.gaze()).length() <= SAME;
         let distance = other.eye.distance(other.target);
         let together = self.eye.distance(other.eye) <= SAME * distance;

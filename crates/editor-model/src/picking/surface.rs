@@ -38,7 +38,6 @@ pub(super) struct SurfaceTree {
     /// Its morph and noise.
     shape: BodyShape,
     positions: Vec<Vec3>,
-    /// Found when a back is first met: it takes as long as the tree.
     tree: Bvh2,
     /// Least and greatest corner.
     bounds: Option<[DVec3; 2]>,
@@ -62,7 +61,8 @@ impl SurfaceTree {
         let (low, high) =
             used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
         let bounds = (!mesh.triangles.is_empty()).then(|| [low.as_dvec3(), high.as_dvec3()]);
-        // Boxes are met in single precision: they are wider than the triangles by a few roundings.
+        // Rays are tested against boxes in single precision, so boxes are a few rounding errors larger than the
+        // triangles.
         let margin =
             bounds.map_or(0.0, |_| 1e-6 * (low.abs().max(high.abs()).max_element() + f32::MIN_POSITIVE));
         let boxes: Vec<TriangleBox> = mesh
@@ -110,8 +110,8 @@ impl SurfaceTree {
         self.mesh().triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
     }
 
-    /// The nearest point that a ray meets within `farthest` (in lengths of `direction`), that distance, and whether its painted
-    /// side was met. All in the object's own space.
+    /// The nearest point that a ray meets within `farthest` (in lengths of `direction`), that distance, and whether its
+    /// painted side was met. All in the object's own space.
     pub(super) fn first_hit(
         &self,
         origin: DVec3,
@@ -146,8 +146,8 @@ impl SurfaceTree {
         Some((point, (distance + skipped) / length, front))
     }
 
-    /// The nearest point of the surface within `farthest`, of those that `faces` (given the normal of the painted side; of a
-    /// sheet, of either) holds for.
+    /// The point of the surface nearest to `to`, within `farthest`, of those whose painted side (of a sheet, either
+    /// side) faces the way of `facing`.
     pub(super) fn closest(&self, to: DVec3, farthest: f64, facing: DVec3) -> Option<SurfacePoint> {
         if self.tree.nodes.is_empty() || !to.is_finite() {
             return None;
@@ -196,7 +196,8 @@ impl SurfaceTree {
     ) -> (SurfacePoint, bool) {
         let corners = self.corners(triangle);
         let winding = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(DVec3::Y);
-        // A front that faces the eye is the painted side, except inside shells that are inside out, where an eye is hardly ever.
+        // A front that is looked at counts as painted. That is wrong only inside a closed shell that winds inwards,
+        // where the eye hardly ever is.
         let sign = if looked_at(winding) {
             1.0
         } else {
@@ -206,7 +207,7 @@ impl SurfaceTree {
         let normals = self.mesh().triangles[triangle as usize]
             .map(|vertex| self.mesh().normals[vertex as usize].as_dvec3());
         let smooth = blend(normals, barycentric).normalize_or(winding);
-        // A file's normals and its winding may disagree: the side is the winding's.
+        // A file's normals may point to the other side than its winding: the winding decides.
         let normal = if smooth.dot(face_normal) < 0.0 { -smooth } else { smooth };
         let position = blend(corners, barycentric);
         let front = looked_at(face_normal);
@@ -218,8 +219,8 @@ fn blend(corners: [DVec3; 3], [u, v, w]: [f64; 3]) -> DVec3 {
     corners[0] * u + corners[1] * v + corners[2] * w
 }
 
-/// Where a ray meets a triangle from either side: distance in lengths of `direction`, and the corners' weights (Möller and
-/// Trumbore 1997).
+/// Where a ray meets a triangle from either side: distance in lengths of `direction`, and the corners' weights (Möller
+/// and Trumbore 1997).
 fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, [f64; 3])> {
     let (ab, ac) = (b - a, c - a);
     let across = direction.cross(ac);
@@ -228,7 +229,7 @@ fn meet([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, 
     let v = to_origin.dot(across) / determinant;
     let w = direction.dot(to_origin.cross(ab)) / determinant;
     let distance = ac.dot(to_origin.cross(ab)) / determinant;
-    // A tolerance of a rounding error at each edge, so that no ray slips between two triangles.
+    // Each edge gets the tolerance of a rounding error, so that no ray slips between two triangles.
     let slack = -1e-12;
     let inside = v >= slack && w >= slack && v + w <= 1.0 - slack;
     (inside && distance >= 0.0 && distance.is_finite()).then_some((distance, [1.0 - v - w, v, w]))

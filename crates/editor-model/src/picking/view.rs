@@ -66,7 +66,8 @@ impl View {
         self.map(DAffine3::IDENTITY).depth(position_in_world)
     }
 
-    /// How many pixels a world unit across the gaze takes at a point's depth; for what stands at the eye, at the least depth.
+    /// How many pixels a world unit across the gaze takes at a point's depth; for what stands at the eye, at the least
+    /// depth.
     pub fn px_per_unit(&self, position_in_world: DVec3) -> f64 {
         match self.camera.lens {
             Lens::Perspective { near, .. } => self.focal_px() / self.depth(position_in_world).max(near),

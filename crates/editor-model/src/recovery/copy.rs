@@ -11,6 +11,7 @@ use impasto_scene::save;
 
 use crate::stamp::{Stamp, hash};
 
+/// The first and the last comment line above the scene.
 const FIRST: &str = "// Impasto: a copy of unsaved work, 1";
 const LAST: &str = "// end of what it is a copy of";
 
@@ -129,7 +130,7 @@ impl Copy {
     }
 }
 
-/// A path on one line of text, every byte kept: what is no plain ASCII is written as `%xx`.
+/// A path on one line of text, every byte kept: what is not plain ASCII is written as `%xx`.
 fn escaped(path: &Path) -> String {
     let is_plain = |byte: u8| (b' '..0x7f).contains(&byte) && byte != b'%';
     let bytes = path.as_os_str().as_encoded_bytes().iter();

@@ -63,7 +63,7 @@ impl Keeper {
     }
 
     fn order(&self, order: Order) {
-        // The thread ends only with this.
+        // Sending cannot fail: the thread runs until this sender is dropped.
         if let Some(orders) = &self.orders {
             let _ = orders.send(order);
         }

@@ -9,7 +9,7 @@ use super::*;
 use crate::Document;
 use crate::command::{Command, SceneEdit};
 
-/// A shipped scene, in a folder that lasts as long as the tests.
+/// A small scene file, in a folder that lasts as long as the tests.
 fn scene() -> &'static Path {
     static SCENE: OnceLock<(tempfile::TempDir, PathBuf)> = OnceLock::new();
     let (_, path) = SCENE.get_or_init(|| {

@@ -7,7 +7,8 @@ impl RenderPlan {
     /// The arguments with which `impasto` writes the same files.
     ///
     /// # Errors
-    /// Where there are none, because the document differs from its file, which the command would read.
+    /// If the scene has no file, or was read with losses: the command reads the file. Unsaved edits are no error, but
+    /// the command does not see them.
     pub fn command(&self, document: &Document) -> Result<Vec<String>, String> {
         let Some(file) = document.file() else {
             return Err("Save the scene first: a command reads its file".to_owned());

@@ -1,5 +1,5 @@
-//! Selecting and dragging keys: `Idle —press a key→ Held —3 px→ Dragging —release→ one command`. Keys that a drag would replace are
-//! shown before and replaced on release only. A drag that begins beside keys draws a selection box.
+//! Selecting and dragging keys: `Idle —press a key→ Held —3 px→ Dragging —release→ one command`. Keys that a drag would
+//! replace are shown before and replaced on release only. A drag that begins beside keys draws a selection box.
 
 use impasto_scene::limits::MAX_FRAME;
 
@@ -37,7 +37,7 @@ pub enum KeysEvent {
         /// Keys are added to those selected (Shift, Ctrl).
         adds: bool,
     },
-    /// The pointer is elsewhere, or near another frame.
+    /// The pointer moved.
     Move(LanePosition),
     /// The button goes up.
     Release,
@@ -47,7 +47,8 @@ pub enum KeysEvent {
     SelectAll,
     /// Selects none.
     SelectNone,
-    /// Copies of the selected keys follow the pointer until a press; of keys that are dragged already, copies go on.
+    /// Copies of the selected keys follow the pointer until a press. If keys are being dragged, copies are dragged
+    /// instead.
     Copy,
     /// Cancels the drag or the box.
     Cancel,
@@ -120,7 +121,7 @@ impl KeysHand {
         }
     }
 
-    /// Whether copies follow the pointer, with no button held.
+    /// Whether keys or copies follow the pointer; copies do so even with no button held.
     pub fn follows(&self) -> bool {
         matches!(self.busy, Busy::Dragging { .. })
     }

@@ -18,15 +18,15 @@ use crate::session::{RegionDoes, Tool};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
-    /// True from the first quick movement until the pointer rests.
-    foresees: bool,
+    /// True from the first quick movement until the pointer rests: strokes are previewed as a comb would lay them.
+    previews_comb: bool,
     stroke: Option<Stroke>,
 }
 
 /// A drag under way.
 #[derive(Clone, Debug)]
 struct Stroke {
-    does: Does,
+    does: Act,
     on: Paintable,
     path: SurfacePath,
     sense: PathSense,
@@ -35,17 +35,17 @@ struct Stroke {
 
 /// What a drag does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Does {
+enum Act {
     Comb,
     Smooth,
     Smear,
     Erase,
-    /// The region brush.
+    /// The region brush: adds to the selected region.
     Add,
     /// The region brush with Ctrl.
     TakeAway,
     /// The region brush, for a region that is not there yet.
-    Found,
+    AddNew,
 }
 
 impl Brush {
@@ -58,7 +58,7 @@ impl Brush {
             ToolEvent::Hover { at_px, at_secs } => self.aim(tool, at_px, at_secs, around),
             ToolEvent::Press { at_px, at_secs, held } => {
                 self.heading.forget();
-                self.foresees = false;
+                self.previews_comb = false;
                 self.heading.follow(at_px, at_secs);
                 self.press(tool, at_px, held, around)
             }
@@ -110,11 +110,11 @@ impl Brush {
         let moving = self.heading.is_moving(at_secs);
         let lying = shown.map(|shown| DVec2::from_angle(-shown.angle_rad));
         let along = if moving { self.heading.along().or(lying) } else { lying };
-        self.foresees = moving || self.foresees && !self.heading.rests(at_secs);
+        self.previews_comb = moving || self.previews_comb && !self.heading.rests(at_secs);
         output.comb_preview = self.comb_preview(tool, &hit, around);
         output.needle = along.map(|along| Needle { at_px, along, headed: moving });
         if let Some(shown) = shown.filter(|_| self.heading.rests(at_secs)) {
-            // A line has no head: its angle is shown from −90° to 90°.
+            // Both ends of a line are alike, so its angle is shown from −90° to 90°. `+ 0.0` turns −0 into 0.
             let angle_deg = shown.angle_rad.to_degrees();
             let angle_deg = (angle_deg - 180.0 * (angle_deg / 180.0).round()).round() + 0.0;
             output.label = Some(format!("{angle_deg}°  trust {:.2}", shown.trust));
@@ -125,7 +125,7 @@ impl Brush {
     /// The comb that a press would begin here, if it could.
     fn comb_preview(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<CombPreview> {
         let options = around.options;
-        let wanted = tool == Tool::Comb && options.foresee && self.foresees;
+        let wanted = tool == Tool::Comb && options.foresee && self.previews_comb;
         if !wanted || options.front_only && !hit.front {
             return None;
         }
@@ -143,7 +143,7 @@ impl Brush {
     }
 
     fn press(&mut self, tool: Tool, at_px: DVec2, held: Modifiers, around: &Surroundings) -> ToolOutput {
-        let does = Does::of(tool, held, around);
+        let does = Act::of(tool, held, around);
         let begun = does.begin(at_px, around);
         let (on, hit) = match begun {
             Ok(begun) => begun,
@@ -170,11 +170,11 @@ impl Brush {
         let along = self.heading.along();
         let angle = along.map(|along| {
             let along = if stroke.sense == PathSense::Against { -along } else { along };
-            // Zero has no sign.
+            // `+ 0.0` turns −0 into 0.
             let angle_deg = (along * DVec2::new(1.0, -1.0)).to_angle().to_degrees().round() + 0.0;
             format!(", {angle_deg}°")
         });
-        let angle = angle.filter(|_| stroke.does == Does::Comb).unwrap_or_default();
+        let angle = angle.filter(|_| stroke.does == Act::Comb).unwrap_or_default();
         let (verb, name) = (stroke.does.verb(), &stroke.on.name);
         let status = format!("{verb} {name}{angle}, radius {radius_px:.0} px   [Esc] take it back");
         let hit = around.hit(stroke.at_px).filter(|hit| hit.object == stroke.on.object);
@@ -200,14 +200,14 @@ fn rings(hit: &Hit, radius_px: f64, around: &Surroundings) -> Vec<Ring> {
     rings
 }
 
-impl Does {
+impl Act {
     fn of(tool: Tool, held: Modifiers, around: &Surroundings) -> Self {
         match tool {
             Tool::Smooth if around.options.smear => Self::Smear,
             Tool::Smooth => Self::Smooth,
             Tool::Erase => Self::Erase,
             Tool::Region if held.ctrl || around.options.region_does == RegionDoes::TakeAway => Self::TakeAway,
-            Tool::Region if around.options.region_does == RegionDoes::New => Self::Found,
+            Tool::Region if around.options.region_does == RegionDoes::New => Self::AddNew,
             Tool::Region => Self::Add,
             _ if held.shift => Self::Smooth,
             _ => Self::Comb,
@@ -222,13 +222,13 @@ impl Does {
             Self::Erase => "Erasing on",
             Self::Add => "Adding to",
             Self::TakeAway => "Taking from",
-            Self::Found => "Painting",
+            Self::AddNew => "Painting",
         }
     }
 
-    /// Whether it paints which faces belong to a region, wherever they belonged before.
+    /// Whether it paints what a region covers. Then it may cross other regions.
     fn is_for_regions(self) -> bool {
-        matches!(self, Self::Add | Self::TakeAway | Self::Found)
+        matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
     /// What a press acts on.
@@ -245,7 +245,7 @@ impl Does {
         if object.locked {
             return Err(Refusal::new(format!("{} is locked", object.name)));
         }
-        if self == Self::Found {
+        if self == Self::AddNew {
             let name = "new region".to_owned();
             let target = RegionTarget::NewOn(object.name.clone());
             return Ok((
@@ -272,7 +272,8 @@ impl Does {
         }
     }
 
-    /// Where a drag may go: the object of its press, and within its region.
+    /// Finds the surface under a pixel where a drag may go: on the object of its press and, except for the region
+    /// brush, within its region.
     fn picks<'a>(
         self,
         on: &'a Paintable,
@@ -302,11 +303,11 @@ impl Stroke {
             }))
         };
         match self.does {
-            Does::Comb => directions(Gesture::Comb, self.guides(&path, GuideMode::Comb, around)),
-            Does::Smooth => directions(Gesture::Smooth, self.guides(&path, GuideMode::Smooth, around)),
-            Does::Smear => directions(Gesture::Smear, self.guides(&path, GuideMode::Comb, around)),
-            Does::Erase => self.erased(&path, around),
-            Does::Add | Does::TakeAway | Does::Found => Some(self.dabbed(&path, around)),
+            Act::Comb => directions(Gesture::Comb, self.guides(&path, GuideMode::Comb, around)),
+            Act::Smooth => directions(Gesture::Smooth, self.guides(&path, GuideMode::Smooth, around)),
+            Act::Smear => directions(Gesture::Smear, self.guides(&path, GuideMode::Comb, around)),
+            Act::Erase => self.erased(&path, around),
+            Act::Add | Act::TakeAway | Act::AddNew => Some(self.dabbed(&path, around)),
         }
     }
 
@@ -321,7 +322,7 @@ impl Stroke {
             sense: self.sense,
         };
         let [seen, reference] = around.views(self.on.object, self.on.region);
-        let own = if self.does == Does::Smear {
+        let own = if self.does == Act::Smear {
             let stamps = path.stamps();
             let shown = stamps.iter().map(|stamp| {
                 let hit = around.hit(stamp.at_px).filter(|hit| hit.object == self.on.object)?;
@@ -380,7 +381,7 @@ impl Stroke {
     }
 
     fn dabbed(&self, path: &SurfacePath, around: &Surroundings) -> Command {
-        let take_away = self.does == Does::TakeAway;
+        let take_away = self.does == Act::TakeAway;
         let dabs: Vec<Dab> = self
             .touched(path, around)
             .iter()

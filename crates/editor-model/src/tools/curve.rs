@@ -1,6 +1,7 @@
 //! The guide curve tool: draws curves point by point, and edits existing ones by their handles.
 //!
-//! `Idle ─press─▶ Drawing ─press─▶ +1 ─Enter, double press, last point─▶ one guide`; `Idle ─press on a handle─▶ Dragging`.
+//! `Idle ─press─▶ Drawing ─press─▶ +1 ─Enter, double press, last point─▶ one guide`;
+//! `Idle ─press on a handle─▶ Dragging`.
 
 use glam::{DVec2, DVec3};
 use impasto_scene::document::{Falloff, Guide, GuideMode, GuidePoint};
@@ -27,9 +28,9 @@ const ARROW_OUT_PX: f64 = 16.0;
 /// A second press within this time and distance ends a curve.
 const DOUBLE_SECS: f64 = 0.4;
 const DOUBLE_PX: f64 = 4.0;
-/// A dragged handle moves beyond this; until then it is a click.
+/// A press on a handle is a click until the pointer has moved this far.
 const CLICK_PX: f64 = 3.0;
-/// The polyline lies within this share of the radius of the curve.
+/// The points that are kept stay this close to the curve, as a share of the radius.
 const TOLERANCE: f64 = 0.05;
 
 /// The state of the curve tool.
@@ -76,10 +77,10 @@ struct Grip {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GripOn {
     Point(usize),
-    /// Before the point of this number.
+    /// The piece of the line before the point with this index.
     Line(usize),
     Arrow,
-    /// Alt on a point.
+    /// A point that was pressed with Alt: dragging it changes the radius.
     Radius(usize),
 }
 
@@ -204,7 +205,7 @@ impl Curve {
         }
         let mut dragging = Dragging { grip, from_px: at_px, command: None };
         if matches!(dragging.grip.on, GripOn::Line(_)) {
-            // Clicked, too, a line gets a point.
+            // Even a click without a drag inserts a point into a line.
             dragging.command = dragging.command_at(at_px, around).map(Box::new);
         }
         self.state = State::Dragging(dragging);
@@ -268,7 +269,7 @@ impl Curve {
 }
 
 impl Drawing {
-    /// A point more, unless it is where the last one is.
+    /// Adds a point, unless it is where the last one is.
     fn add(&mut self, point: PathPoint) {
         if self.points.last().is_none_or(|last| last.at_px.distance(point.at_px) >= 1.0) {
             self.points.push(point);

@@ -5,17 +5,17 @@ use impasto_scene::document::{Guide, GuidePoint};
 
 use crate::path::PathPoint;
 
-/// What is left of a guide after an eraser of this radius (model units) touched these points: the whole guide, pieces of it, or
-/// nothing. Only parts that face the same way are erased.
+/// What is left of a guide after an eraser of this radius (model units) touched these points: the whole guide, pieces
+/// of it, or nothing. Only parts that face the same way are erased.
 pub(super) fn cut(guide: &Guide, touched: &[PathPoint], radius: f64) -> Vec<Guide> {
     let mut pieces: Vec<Vec<GuidePoint>> = vec![Vec::new()];
     let mut was_cut = false;
     for pair in guide.points.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);
-        let gone = gone_from(from, to, touched, radius);
-        was_cut |= !gone.is_empty();
+        let erased = erased_spans(from, to, touched, radius);
+        was_cut |= !erased.is_empty();
         let mut at = 0.0;
-        for [begins, ends] in gone {
+        for [begins, ends] in erased {
             if begins > at {
                 push(&mut pieces, mixed(from, to, at));
                 push(&mut pieces, mixed(from, to, begins));
@@ -45,14 +45,14 @@ fn push(pieces: &mut [Vec<GuidePoint>], point: GuidePoint) {
 }
 
 /// The erased intervals of a line segment, as shares of it, sorted and disjoint.
-fn gone_from(from: &GuidePoint, to: &GuidePoint, touched: &[PathPoint], radius: f64) -> Vec<[f64; 2]> {
+fn erased_spans(from: &GuidePoint, to: &GuidePoint, touched: &[PathPoint], radius: f64) -> Vec<[f64; 2]> {
     let (start, way) = (DVec3::from(from.at), DVec3::from(to.at) - DVec3::from(from.at));
     let normal = DVec3::from(from.normal) + DVec3::from(to.normal);
-    let mut gone: Vec<[f64; 2]> = touched
+    let mut erased: Vec<[f64; 2]> = touched
         .iter()
         .filter(|stamp| stamp.normal.dot(normal) > 0.0)
         .filter_map(|stamp| {
-            // |start + t·way − stamp| ≤ radius.
+            // Solves |start + t·way − stamp| = radius for t; without a solution both are NaN, and nothing is erased.
             let off = start - stamp.position;
             let (a, b, c) = (way.length_squared(), way.dot(off), off.length_squared() - radius * radius);
             let root = (b * b - a * c).sqrt();
@@ -60,8 +60,8 @@ fn gone_from(from: &GuidePoint, to: &GuidePoint, touched: &[PathPoint], radius: 
             (begins < ends).then_some([begins, ends])
         })
         .collect();
-    gone.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    gone.into_iter().fold(Vec::new(), |mut joined: Vec<[f64; 2]>, span| {
+    erased.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    erased.into_iter().fold(Vec::new(), |mut joined: Vec<[f64; 2]>, span| {
         match joined.last_mut() {
             Some(last) if span[0] <= last[1] => last[1] = last[1].max(span[1]),
             _ => joined.push(span),

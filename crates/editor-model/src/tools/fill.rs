@@ -78,7 +78,8 @@ impl Fill {
 }
 
 impl Filling {
-    /// Unit, Y down; only a constant angle has one, and a click keeps the option's.
+    /// The direction of the drag, unit, Y down. `None` for fills other than a constant angle, and for a click, which
+    /// takes the angle of the options.
     fn needle(&self, around: &Surroundings) -> Option<DVec2> {
         let drawn = self.at_px - self.from_px;
         (around.options.fill == FillKind::Angle && drawn.length() >= LEAST_NEEDLE_PX)
@@ -104,7 +105,7 @@ impl Filling {
                 let shown = (along * DVec2::new(1.0, -1.0)).to_angle();
                 let turned = to_reference_rad(&self.hit, self.on.region, around).unwrap_or(0.0);
                 let angle_deg = (shown + turned).to_degrees();
-                // A line's two ends are one.
+                // Both ends of a line are alike, so its angle is from −90° to 90°.
                 let angle_deg = angle_deg - 180.0 * (angle_deg / 180.0).round();
                 Direction::Angle((angle_deg * 10.0).round() / 10.0)
             }
@@ -127,8 +128,9 @@ impl Filling {
     }
 }
 
-/// How far a direction shown here is turned in the reference of a region, radians: the polar rotation of the screen map
-/// A = (J_ref B)(J B)⁻¹. `None` where either view sees the surface edge-on.
+/// The angle by which a direction that shows here is turned in the reference of a region, radians: the rotation in the
+/// polar decomposition of A = (J_ref B)(J B)⁻¹, where B spans the tangent plane. `None` where either view sees the
+/// surface edge-on.
 pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surroundings) -> Option<f64> {
     let (camera, pose) = around.reference(hit.object, region);
     let reference = crate::picking::View { camera, size_px: around.view.size_px };

@@ -18,8 +18,8 @@ pub struct Hand {
     tool: Option<Tool>,
     held: ToolState,
     sizing: Option<Sizing>,
-    /// The button whose press ended a resizing is still down: its release is ignored.
-    let_go: bool,
+    /// Set while the button is down whose press ended a resizing: that press begins no gesture.
+    ignores_release: bool,
     at_px: Option<DVec2>,
 }
 
@@ -63,18 +63,18 @@ impl Hand {
             let (output, goes_on) = sizing.take(event);
             if !goes_on {
                 self.sizing = None;
-                self.let_go = matches!(event, ToolEvent::Press { .. });
+                self.ignores_release = matches!(event, ToolEvent::Press { .. });
             }
             return output;
         }
-        if self.let_go {
+        if self.ignores_release {
             match event {
                 ToolEvent::Release => {
-                    self.let_go = false;
+                    self.ignores_release = false;
                     return ToolOutput::default();
                 }
                 ToolEvent::Move { .. } => return ToolOutput::default(),
-                _ => self.let_go = false,
+                _ => self.ignores_release = false,
             }
         }
         if let ToolEvent::Key(action) = *event

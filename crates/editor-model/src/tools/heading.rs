@@ -14,7 +14,7 @@ pub(crate) const REST_SECS: f64 = 0.4;
 /// The last movement of a pointer.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Heading {
-    /// The last place first.
+    /// Positions and times, the newest first.
     trail: VecDeque<(DVec2, f64)>,
 }
 
@@ -24,7 +24,7 @@ impl Heading {
             return;
         }
         self.trail.push_front((at_px, at_secs));
-        // As much as the direction and the speed need.
+        // Keeps only as much as the direction and the speed need.
         let mut length = 0.0;
         let mut keep = 1;
         for (newer, older) in self.trail.iter().zip(self.trail.iter().skip(1)) {

@@ -10,7 +10,7 @@ use crate::session::ToolOptions;
 const RADII_PX: std::ops::RangeInclusive<f64> = 2.0..=500.0;
 /// `[` and `]` change the radius by this.
 const RADIUS_STEP: f64 = 1.1;
-/// Pointer distance for the full range of the strength.
+/// How far the pointer moves for the full range of the strength, pixels.
 const STRENGTH_PX: f64 = 200.0;
 
 /// A resizing under way.

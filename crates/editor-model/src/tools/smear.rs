@@ -7,8 +7,9 @@ use crate::path::PathPoint;
 /// The share of the direction under it that the brush takes up at each stamp.
 const TAKEN_UP: f64 = 0.1;
 
-/// The directions that a brush carries along its way, one for each stamp: lines, radians counter-clockwise as they show.
-/// `shown_rad` is the direction at each stamp before the smear; where there is none, the brush keeps the one it carries.
+/// The direction that the brush carries at each stamp: the angle of a line as it shows, radians counter-clockwise.
+/// `shown_rad` is the direction at each stamp before the smear; where there is none, the brush keeps the one it
+/// carries.
 pub(super) fn carried(shown_rad: impl Iterator<Item = Option<f64>>) -> Vec<Option<f64>> {
     // Blended at twice the angle, so that opposite directions of a line are the same.
     let mut brush: Option<DVec2> = None;

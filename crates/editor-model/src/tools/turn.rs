@@ -1,4 +1,5 @@
-//! The turn tool, which flips a region's directions by a click or turns them by a drag; and Pick, which copies a direction.
+//! The turn tool, which flips a region's directions by a click or turns them by a drag; and Pick, which copies a
+//! direction.
 
 use glam::DVec2;
 
@@ -10,7 +11,7 @@ use crate::session::{FillKind, Tool, ToolOptions};
 
 /// Degrees that a pixel of drag turns.
 const DEG_PER_PX: f64 = 0.5;
-/// With Ctrl, in steps of this.
+/// The step of turns with Ctrl, degrees.
 const STEP_DEG: f64 = 5.0;
 
 /// The state of the turn tool.
@@ -110,7 +111,7 @@ pub(super) fn pick(event: &ToolEvent, around: &Surroundings) -> ToolOutput {
     let Some(shown) = around.painted.shown_at(&hit) else {
         return ToolOutput { select, ..ToolOutput::saying("No stroke shows here") };
     };
-    // Stated angles are those of the reference.
+    // A fill states its angle in the reference, not in this view.
     let region = around.painted.region_at(&hit);
     let turned = super::fill::to_reference_rad(&hit, region, around).unwrap_or(0.0);
     let angle_deg = (shown.angle_rad + turned).to_degrees();

@@ -11,7 +11,7 @@ pub(super) struct Typed {
 const MOST: usize = 12;
 
 impl Typed {
-    /// Takes a digit or a point; `-` turns the sign wherever it is typed. Anything else is left out.
+    /// Takes a digit or a point; `-` changes the sign wherever it is typed. Anything else is ignored.
     pub(super) fn push(&mut self, character: char) {
         match character {
             '-' | '−' => self.negative = !self.negative,
@@ -21,20 +21,20 @@ impl Typed {
         }
     }
 
-    /// Takes back the last character; the sign goes last.
+    /// Removes the last character; the sign is removed last.
     pub(super) fn pop(&mut self) {
         if self.digits.pop().is_none() {
             self.negative = false;
         }
     }
 
-    /// The number; `None` while nothing that is one was typed.
+    /// The number; `None` until a digit was typed.
     pub(super) fn value(&self) -> Option<f64> {
         let value: f64 = self.digits.parse().ok()?;
         Some(if self.negative { -value } else { value })
     }
 
-    /// As it stands, to be shown.
+    /// The text to show; `None` if nothing was typed.
     pub(super) fn text(&self) -> Option<String> {
         let anything = self.negative || !self.digits.is_empty();
         anything.then(|| format!("{}{}", if self.negative { "-" } else { "" }, self.digits))

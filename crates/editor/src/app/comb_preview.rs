@@ -10,21 +10,23 @@ use impasto_painting::{FrameOptions, SurfacePlace};
 use super::picture::PictureFlow;
 use crate::viewport::overlay::{Comb, CombPreviewStroke};
 
-/// At most this many strokes are looked at, and those shown are at least `APART_PX` apart, so that the picture stays visible.
-const MOST: usize = 600;
-const APART_PX: f64 = 11.0;
+/// At most this many strokes are looked at.
+const MAX_STROKES: usize = 600;
+/// Shown strokes are at least this far apart, so that the picture stays visible.
+const MIN_GAP_PX: f64 = 11.0;
 /// A preview is as long as its stroke, up to this length.
-const LONGEST_PX: f32 = 28.0;
+const MAX_LENGTH_PX: f32 = 28.0;
 /// Time to fade in and out, seconds.
 const FADE_S: f32 = 0.15;
 
 /// The strokes of the last preview, and how far they have faded in.
 #[derive(Default)]
 pub(super) struct CombPreviewStrokes {
+    /// What the strokes were made from: the preview, and the version of the prepared scene.
     of: Option<(CombPreview, u64)>,
     strokes: Vec<CombPreviewStroke>,
     comb: Option<Comb>,
-    share: f32,
+    opacity: f32,
 }
 
 impl CombPreviewStrokes {
@@ -39,7 +41,7 @@ impl CombPreviewStrokes {
             ctx.animate_bool_with_time(id, false, 0.0);
             return;
         }
-        self.share = ctx.animate_bool_with_time(id, wanted.is_some(), FADE_S);
+        self.opacity = ctx.animate_bool_with_time(id, wanted.is_some(), FADE_S);
         let Some(comb_preview) = wanted else { return };
         let options = &editor.session.options;
         let along = if held.ctrl { -comb_preview.along } else { comb_preview.along };
@@ -59,7 +61,7 @@ impl CombPreviewStrokes {
 
     /// The strokes, the comb, and the opacity to draw them with; none if nothing is to be drawn.
     pub(super) fn shown(&self) -> Option<(&[CombPreviewStroke], Comb, f32)> {
-        self.comb.filter(|_| self.share > 0.0).map(|comb| (&self.strokes[..], comb, self.share))
+        self.comb.filter(|_| self.opacity > 0.0).map(|comb| (&self.strokes[..], comb, self.opacity))
     }
 }
 
@@ -93,19 +95,19 @@ fn strokes(
         .find(|value| value.field.number.field == "length_px")
         .map_or(12.0, |value| value.shown as f32 * shot_height_px / scene.size.1.max(1) as f32);
     let direction_lines =
-        painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MOST);
+        painting.stroke_directions_near(&place, &camera, editor.session.frame, &options, MAX_STROKES);
     let stroke = |direction_line: &impasto_painting::StrokeDirection| CombPreviewStroke {
         at_px: DVec2::from(direction_line.position_px.map(f64::from)),
         angle_rad: direction_line.angle_rad,
-        length_px: length_px.clamp(6.0, LONGEST_PX),
+        length_px: length_px.clamp(6.0, MAX_LENGTH_PX),
         directed: false,
     };
-    let mut apart: Vec<CombPreviewStroke> = Vec::new();
+    let mut spaced: Vec<CombPreviewStroke> = Vec::new();
     for stroke in direction_lines.iter().filter(|direction_line| direction_line.region == region).map(stroke)
     {
-        if apart.iter().all(|other| other.at_px.distance_squared(stroke.at_px) >= APART_PX * APART_PX) {
-            apart.push(stroke);
+        if spaced.iter().all(|other| other.at_px.distance_squared(stroke.at_px) >= MIN_GAP_PX * MIN_GAP_PX) {
+            spaced.push(stroke);
         }
     }
-    Some(apart)
+    Some(spaced)
 }

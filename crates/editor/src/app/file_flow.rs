@@ -42,12 +42,13 @@ pub(super) struct FileFlow {
     pub(super) mesh_of: Option<String>,
     /// When the first unsaved edit was noticed.
     edited_since: Option<Instant>,
-    /// A save into another folder that waits for an answer: are its files to be copied there?
-    along: Option<Along>,
+    /// A save into another folder, while the user is asked whether to copy the scene's files there.
+    save_elsewhere: Option<SaveElsewhere>,
+    /// Whether the window is to close.
     closes: bool,
 }
 
-struct Along {
+struct SaveElsewhere {
     target: PathBuf,
     to: SaveTo,
     copies: Copies,
@@ -79,13 +80,13 @@ impl FileFlow {
             asks: None,
             mesh_of: None,
             edited_since: None,
-            along: None,
+            save_elsewhere: None,
             closes: false,
         }
     }
 
     pub(super) fn is_asking(&self) -> bool {
-        self.asks.is_some() || self.along.is_some() || self.dialogs.is_open()
+        self.asks.is_some() || self.save_elsewhere.is_some() || self.dialogs.is_open()
     }
 }
 
@@ -110,27 +111,28 @@ impl EditorApp {
     }
 
     pub(super) fn new_asking(&mut self) {
-        self.settle_then(Next::New);
+        self.go_on_or_ask(Next::New);
     }
 
     pub(super) fn open_asking(&mut self, path: &Path) {
-        self.settle_then(Next::Open(path.to_owned()));
+        self.go_on_or_ask(Next::Open(path.to_owned()));
     }
 
     pub(super) fn quit_asking(&mut self) {
         if !self.render.holds_window() {
-            self.settle_then(Next::Close);
+            self.go_on_or_ask(Next::Close);
         }
     }
 
-    fn settle_then(&mut self, next: Next) {
+    /// Goes on at once, or after a question about unsaved work.
+    fn go_on_or_ask(&mut self, next: Next) {
         match self.unsaved() {
             Some(unsaved) => self.wait_for(next, unsaved),
             None => self.go_on(next),
         }
     }
 
-    /// The unsaved work to ask about first; none if there is none.
+    /// The unsaved work to ask about first; none if everything is saved.
     fn unsaved(&self) -> Option<Unsaved> {
         let document = self.editor.document();
         let has_text = problems::unread_text(&self.ctx, document).is_some();
@@ -180,7 +182,7 @@ impl EditorApp {
                 true
             }
             Err(SaveError::FilesElsewhere { target, .. }) => {
-                self.take_along(target, SaveTo::Own);
+                self.offer_to_copy_files(target, SaveTo::Own);
                 false
             }
             Err(error) => {
@@ -207,8 +209,8 @@ impl EditorApp {
                 Unsaved::Text => self.ask_about_text(ctx),
                 Unsaved::Edits => self.ask_about_changes(ctx),
             }
-        } else if self.files.along.is_some() {
-            self.ask_to_take_along(ctx);
+        } else if self.files.save_elsewhere.is_some() {
+            self.ask_to_copy_files(ctx);
         } else if self.safe.is_asking() {
             self.ask_about_safety(ctx);
         } else if let Some(frame) = self.sheets.recapture
@@ -256,7 +258,7 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
-            // What waits goes on once the file is written.
+            // The waiting step follows once the file is written.
             ask_close::Answer::Save => {
                 let start = self.editor.document().suggested_file();
                 self.files.dialogs.open(ctx, FileAsk::SaveAs, &start);
@@ -285,7 +287,7 @@ impl EditorApp {
                     self.go_on(next);
                 }
             }
-            // After a scene with errors, the document goes on as the copy, so that the broken file stays as it is.
+            // A scene that was read with errors: the copy becomes the document, and the broken file stays as it is.
             FileAsk::SaveCopy if self.editor.document().loss_count() > 0 => drop(self.save(Some(&path))),
             FileAsk::SaveCopy => self.save_copy(&path),
             FileAsk::LocateMesh => self.replace_mesh(&path),
@@ -296,17 +298,17 @@ impl EditorApp {
     fn save_copy(&mut self, path: &Path) {
         match self.editor.save_copy(path) {
             Ok(()) => {}
-            Err(SaveError::FilesElsewhere { target, .. }) => self.take_along(target, SaveTo::Copy),
+            Err(SaveError::FilesElsewhere { target, .. }) => self.offer_to_copy_files(target, SaveTo::Copy),
             Err(error) => self.toast(error.to_string(), None, true),
         }
     }
 
     /// Asks whether the scene's files are to be copied into the folder of `target`.
-    fn take_along(&mut self, target: PathBuf, to: SaveTo) {
+    fn offer_to_copy_files(&mut self, target: PathBuf, to: SaveTo) {
         let document = self.editor.document();
         let folder = target.parent().unwrap_or(Path::new("."));
         match Copies::between(document.folder(), folder, document.files_named()) {
-            Ok(copies) => self.files.along = Some(Along { target, to, copies }),
+            Ok(copies) => self.files.save_elsewhere = Some(SaveElsewhere { target, to, copies }),
             Err(error) => {
                 self.files.waiting = None;
                 self.toast(error.to_string(), None, true);
@@ -314,12 +316,12 @@ impl EditorApp {
         }
     }
 
-    fn ask_to_take_along(&mut self, ctx: &Context) {
-        let Some(Along { target, copies, .. }) = &self.files.along else { return };
+    fn ask_to_copy_files(&mut self, ctx: &Context) {
+        let Some(SaveElsewhere { target, copies, .. }) = &self.files.save_elsewhere else { return };
         let folder = target.parent().unwrap_or(Path::new("."));
         let question = Question::TakeAlong { count: copies.count(), folder: folder.display().to_string() };
         let Some(answer) = ask_close::ask(ctx, &question) else { return };
-        let Some(Along { target, to, copies }) = self.files.along.take() else { return };
+        let Some(SaveElsewhere { target, to, copies }) = self.files.save_elsewhere.take() else { return };
         if answer != ask_close::Answer::Copy {
             self.files.waiting = None;
             return;

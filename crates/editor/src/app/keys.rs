@@ -1,4 +1,4 @@
-//! Translates egui's keys and `Alt` with the wheel for the editor.
+//! Passes key presses, and turns of the wheel with `Alt`, from egui to the editor.
 
 use egui::{Event, Key as EguiKey, MouseWheelUnit, Ui};
 use impasto_editor_model::editor::Editor;
@@ -6,11 +6,11 @@ use impasto_editor_model::keymap::{Key, Modifiers};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::timeline::TimelineEvent;
 
-/// Passes the keys of this pass to the editor, those of the number pad first. Keys that it uses do not reach the panels.
+/// Passes the keys of this pass to the editor, the number pad's first. Keys that it uses do not reach the panels.
 pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec<(Key, Modifiers)>) {
     let typing = ui.ctx().text_edit_focused();
     // A control with the keyboard focus uses Space, Enter and the arrows itself.
-    let walking = !typing && ui.memory(|memory| memory.focused().is_some());
+    let control_focused = !typing && ui.memory(|memory| memory.focused().is_some());
     for (key, held) in numpad {
         editor.key(key, held, typing, view);
     }
@@ -20,11 +20,11 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
         let Event::Key { key, pressed: true, modifiers, .. } = event else { continue };
         let held = Modifiers { ctrl: modifiers.command, shift: modifiers.shift, alt: modifiers.alt };
         let Some(key) = key_of(*key) else { continue };
-        let own = matches!(
+        let used_by_controls = matches!(
             key,
             Key::Space | Key::Enter | Key::Left | Key::Right | Key::Up | Key::Down | Key::Escape | Key::Tab
         );
-        if walking && own {
+        if control_focused && used_by_controls {
             continue;
         }
         if key != Key::Tab && editor.key(key, held, typing, view) {
@@ -37,7 +37,7 @@ pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec
     ui.input_mut(|input| {
         let mut index = 0;
         input.events.retain(|event| {
-            // The letter of a key that the editor used is not typed.
+            // The editor used a key, so its letter must not be typed as well.
             let is_taken = taken.contains(&index) || !typing && matches!(event, Event::Text(_));
             index += 1;
             !is_taken

@@ -43,7 +43,8 @@ fn view_of(pose: &CameraPose) -> LastView {
     }
 }
 
-/// A free view with the shot's lens. If that is perspective and the view was orthographic, things at the target keep their size.
+/// A free view with the shot's lens. If that is perspective and the view was orthographic, things at the target keep
+/// their size.
 fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
     let mut free = FreeView::new(CameraPose {
         eye: DVec3::from(view.eye),

@@ -1,4 +1,4 @@
-//! Reads files on a thread of their own, which the window never waits for; the status line shows what takes long.
+//! Reads files on a thread, so that the window never waits; the status line shows what takes long.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -32,8 +32,8 @@ pub(super) enum MeshFor {
     Replace(String),
 }
 
-/// The result of reading.
-enum Came {
+/// The outcome of reading.
+enum Outcome {
     Opened(PathBuf, Result<Box<Document>, Report>),
     Mesh(MeshFor, Result<(Adopted, Arc<MeshFile>), String>),
     /// The document's own files, read again; with what another program changed, if that was the reason.
@@ -43,7 +43,7 @@ enum Came {
 struct Reading {
     words: String,
     since: Instant,
-    came: Receiver<Came>,
+    outcome: Receiver<Outcome>,
     /// Folder and revision of the document when reading began.
     folder: PathBuf,
     revision: u64,
@@ -73,9 +73,9 @@ impl LongWork {
         Some(Work { words: reading.words.clone(), share: None, kind: WorkKind::Reading })
     }
 
-    /// Starts reading and drops what was being read. [`EditorApp::follow_reading`] takes the result in a later pass.
-    fn read(&mut self, words: String, document: &Document, work: impl FnOnce() -> Came + Send + 'static) {
-        let (sender, came) = channel();
+    /// Starts reading and drops what was being read. [`EditorApp::follow_reading`] takes the outcome in a later pass.
+    fn read(&mut self, words: String, document: &Document, work: impl FnOnce() -> Outcome + Send + 'static) {
+        let (sender, outcome) = channel();
         let waker = self.waker.clone();
         let run = move || {
             // Fails once reading was stopped and nobody listens.
@@ -89,7 +89,7 @@ impl LongWork {
             self.waker.wake();
         }
         self.reading =
-            Some(Reading { words, since: Instant::now(), came, folder, revision: document.revision() });
+            Some(Reading { words, since: Instant::now(), outcome, folder, revision: document.revision() });
     }
 }
 
@@ -101,7 +101,7 @@ impl EditorApp {
         let words = format!("Opening {}\u{2026}", name_of(&path));
         self.long.read(words, self.editor.document(), move || {
             let document = Document::open_with_problems(&path, &LoadOptions::default());
-            Came::Opened(path, document.map(Box::new))
+            Outcome::Opened(path, document.map(Box::new))
         });
     }
 
@@ -117,7 +117,7 @@ impl EditorApp {
                     .map_err(|report| report.0.first().map_or_else(String::new, ToString::to_string))?;
                 Ok((adopted, Arc::new(mesh)))
             };
-            Came::Mesh(what_for, read())
+            Outcome::Mesh(what_for, read())
         });
     }
 
@@ -129,7 +129,7 @@ impl EditorApp {
         }
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
         let mending = self.editor.mending(mend);
-        self.long.read(words, self.editor.document(), move || Came::Mended(None, Box::new(mending())));
+        self.long.read(words, self.editor.document(), move || Outcome::Mended(None, Box::new(mending())));
     }
 
     /// Starts to read what another program changed. False if that would lose edits, so that the user has to be asked.
@@ -137,7 +137,7 @@ impl EditorApp {
         let Some(taking_in) = self.editor.taking_in(news) else { return false };
         let words = format!("Reading {}\u{2026}", self.editor.document().name());
         self.long
-            .read(words, self.editor.document(), move || Came::Mended(Some(news), Box::new(taking_in())));
+            .read(words, self.editor.document(), move || Outcome::Mended(Some(news), Box::new(taking_in())));
         true
     }
 
@@ -146,7 +146,7 @@ impl EditorApp {
         self.long.reading.is_some()
     }
 
-    /// Does this at once, or when the file that is being read is done.
+    /// Does this step at once, or after the file that is being read.
     pub(super) fn take_step(&mut self, step: Step) {
         if self.long.reading.is_some() {
             return self.long.queue.push_back(step);
@@ -159,11 +159,11 @@ impl EditorApp {
         }
     }
 
-    /// Takes the result of reading, once it is there, and goes on with what waits.
+    /// Takes the outcome of reading, once it is there, and goes on with what waits.
     pub(super) fn follow_reading(&mut self, ctx: &Context) {
         let Some(reading) = self.long.reading.take() else { return };
-        match reading.came.try_recv() {
-            Ok(came) => self.take_read(came, &reading),
+        match reading.outcome.try_recv() {
+            Ok(outcome) => self.take_read(outcome, &reading),
             Err(TryRecvError::Empty) => {
                 ctx.request_repaint_after(SHOWN_AFTER.saturating_sub(reading.since.elapsed()));
                 self.long.reading = Some(reading);
@@ -216,10 +216,10 @@ impl EditorApp {
         self.long.forget();
     }
 
-    fn take_read(&mut self, came: Came, reading: &Reading) {
+    fn take_read(&mut self, outcome: Outcome, reading: &Reading) {
         let document = self.editor.document();
-        match came {
-            Came::Opened(path, opened) => {
+        match outcome {
+            Outcome::Opened(path, opened) => {
                 // Edits that were made while it was read are not thrown away.
                 if document.revision() != reading.revision && document.is_edited() {
                     let name = document.name();
@@ -228,8 +228,8 @@ impl EditorApp {
                 }
                 self.opened(&path, opened.map(|document| *document));
             }
-            Came::Mended(..) | Came::Mesh(..) if document.folder() != reading.folder => {}
-            Came::Mended(news, mended) => match (self.editor.take(*mended), news) {
+            Outcome::Mended(..) | Outcome::Mesh(..) if document.folder() != reading.folder => {}
+            Outcome::Mended(news, mended) => match (self.editor.take(*mended), news) {
                 (Took::In(_), None) => {}
                 (Took::In(_), Some(_)) => self.sheets.problems |= self.editor.document().loss_count() > 0,
                 (Took::Late, Some(news)) => self.changed_outside(news),
@@ -239,7 +239,7 @@ impl EditorApp {
                     self.toast(words, None, true);
                 }
             },
-            Came::Mesh(what_for, Ok((adopted, file))) => {
+            Outcome::Mesh(what_for, Ok((adopted, file))) => {
                 if !adopted.copied.is_empty() {
                     self.toast(format!("Copied {} beside the scene", adopted.name), None, false);
                 }
@@ -252,7 +252,7 @@ impl EditorApp {
                     }
                 };
             }
-            Came::Mesh(_, Err(words)) => self.toast(words, None, true),
+            Outcome::Mesh(_, Err(words)) => self.toast(words, None, true),
         }
     }
 }

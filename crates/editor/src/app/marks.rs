@@ -1,4 +1,4 @@
-//! The marks over the picture: rings, guides, direction lines, outlines. Costly ones are cached until their inputs change.
+//! The marks over the picture: rings, guides, direction lines, outlines. Costly ones are cached.
 
 use egui::{Color32, Ui};
 use glam::{DAffine3, DVec2, DVec3};
@@ -36,6 +36,7 @@ pub(super) struct MarkCache {
     pub(super) comb_preview: CombPreviewStrokes,
 }
 
+/// The cached marks of one picture.
 #[derive(Default)]
 struct Half {
     of: Option<Key>,
@@ -108,14 +109,14 @@ impl MarkCache {
         if half.of.as_ref() == Some(&key) {
             return;
         }
-        let shows_hairs = session.mode == Mode::Paint
+        let shows_lines = session.mode == Mode::Paint
             && session.overlays.direction_lines != DirectionLines::Off
             || session.overlays.trust;
         let active = editor.active_object();
         let outlines = session.mode != Mode::Paint && active.is_some();
-        let kept = half.map.take();
+        let old_map = half.map.take();
         *half = Half { of: Some(key), ..Half::default() };
-        if !(shows_hairs || session.overlays.regions || outlines) {
+        if !(shows_lines || session.overlays.regions || outlines) {
             return;
         }
         let view = framing.view(picture.camera);
@@ -125,13 +126,13 @@ impl MarkCache {
             framing,
             cells_per_point: if editor.is_navigating() { MOVING_CELLS_PER_POINT } else { CELLS_PER_POINT },
         };
-        let (key, map) = kept.filter(|(before, _)| *before == key).unwrap_or_else(|| {
+        let (key, map) = old_map.filter(|(before, _)| *before == key).unwrap_or_else(|| {
             let map = SurfaceMap::new(&key.bodies, &view, key.cells_per_point);
             (key, map)
         });
         let scene = painting.scene();
         let colours = region_colours(scene);
-        if shows_hairs {
+        if shows_lines {
             let region = selected_region(editor, scene).filter(|_| session.mode == Mode::Paint);
             let object = active.filter(|_| session.mode != Mode::Paint);
             let look = HairLook { overlays: session.overlays, region_colours: &colours, region, object };

@@ -93,7 +93,9 @@ struct Sheets {
 #[derive(Default)]
 struct Folds {
     column: bool,
+    /// All panels: only the viewport is left.
     everything: bool,
+    /// Whether the window had the focus in the previous pass.
     had_focus: bool,
 }
 
@@ -145,6 +147,7 @@ impl EditorApp {
         app
     }
 
+    /// Uses the keys and the comb preview of the preferences.
     fn keymap(&mut self) {
         self.editor.keymap = Keymap {
             preset: match self.preferences.keys {
@@ -259,7 +262,7 @@ impl EditorApp {
         }
     }
 
-    fn lines(&mut self, ctx: &Context) {
+    fn show_toasts(&mut self, ctx: &Context) {
         for Said { words, offers, is_refusal } in self.editor.take_said() {
             self.toast(words, offers, is_refusal);
         }
@@ -346,7 +349,7 @@ impl window::App for EditorApp {
         self.render_sheets(&ctx);
         self.keep_safe(&ctx);
         self.look_at_shaders(&ctx);
-        self.lines(&ctx);
+        self.show_toasts(&ctx);
         self.tell_rest(&ctx);
     }
 

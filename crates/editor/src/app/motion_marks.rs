@@ -11,9 +11,9 @@ use crate::viewport::Framing;
 use crate::viewport::overlay::{MissingMesh, MotionPath, Outline};
 use crate::viewport::surface_map::{StandingBody, SurfaceMap};
 
-/// The most dots of a path.
-const MOST_PLACES: f64 = 400.0;
-/// Cells per point of the map that ghosts are outlined from; coarse.
+/// A path has about this many dots at most.
+const MAX_PLACES: f64 = 400.0;
+/// Cells per point of the coarse map from which ghosts, the outlines at other frames, are made.
 const CELLS_PER_POINT: f64 = 0.3;
 
 /// The path of an object from its first key to its last; none if it does not move.
@@ -21,7 +21,7 @@ pub(super) fn path(scene: &Scene, object: usize) -> Option<MotionPath> {
     let keys = &scene.objects.get(object)?.keys;
     let (first, last) = (keys.first()?.frame, keys.last()?.frame);
     let place = |frame: f64| motion::poses_at(scene, frame)[object].translation;
-    let step = ((last - first) / MOST_PLACES).max(1.0);
+    let step = ((last - first) / MAX_PLACES).max(1.0);
     let count = ((last - first) / step).floor() as usize;
     let places = (0..=count).map(|index| first + index as f64 * step).chain([last]);
     let places: Vec<DVec3> = places.map(place).collect();
@@ -76,18 +76,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_way_goes_from_key_to_key_and_what_stands_still_has_none() {
+    fn a_path_goes_from_key_to_key_and_what_stands_still_has_none() {
         let path_of = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
         let mut scene = impasto_scene::load::load(&path_of, &Default::default()).expect("it opens").scene;
         assert_eq!(path(&scene, 1), None);
         let key = |frame, x| ObjectKey { translation: [x, 0.0, 0.0], ..ObjectKey::at(frame) };
         scene.objects[1].keys = vec![key(0.0, -1.0), key(60.0, 1.0)];
-        let way = path(&scene, 1).expect("it moves");
-        assert_eq!(way.keys, [(0.0, DVec3::NEG_X), (60.0, DVec3::X)]);
-        assert_eq!((way.places.first(), way.places.last()), (Some(&DVec3::NEG_X), Some(&DVec3::X)));
-        assert_eq!(way.places.len(), 62, "one a frame, and the end");
+        let track = path(&scene, 1).expect("it moves");
+        assert_eq!(track.keys, [(0.0, DVec3::NEG_X), (60.0, DVec3::X)]);
+        assert_eq!((track.places.first(), track.places.last()), (Some(&DVec3::NEG_X), Some(&DVec3::X)));
+        assert_eq!(track.places.len(), 62, "one a frame, and the end");
         scene.objects[1].keys[1].frame = 1e9;
-        assert!(path(&scene, 1).is_some_and(|way| way.places.len() <= 402), "a long film has no more");
+        assert!(path(&scene, 1).is_some_and(|track| track.places.len() <= 402), "a long film has no more");
         assert_eq!(path(&scene, 9), None);
     }
 }

@@ -34,6 +34,7 @@ pub(super) struct PictureFlow {
     driver: String,
     pub(super) pictures: Pictures,
     pub(super) trouble: Option<String>,
+    /// The version of the scene and the views that were asked for last.
     asked: Option<(u64, Vec<ViewJob>)>,
     /// The version of the scene that was prepared last.
     prepared: u64,
@@ -42,7 +43,8 @@ pub(super) struct PictureFlow {
     layout: Layout,
     strokes: usize,
     strokes_of: Vec<(String, usize)>,
-    came: VecDeque<Instant>,
+    /// When the latest pictures came.
+    arrivals: VecDeque<Instant>,
 }
 
 impl PictureFlow {
@@ -71,7 +73,7 @@ impl PictureFlow {
             ),
             strokes: 0,
             strokes_of: Vec::new(),
-            came: VecDeque::new(),
+            arrivals: VecDeque::new(),
         }
     }
 
@@ -101,8 +103,9 @@ impl PictureFlow {
     }
 
     pub(super) fn pictures_per_second(&self) -> Option<f64> {
-        let newest = self.came.back()?;
-        let recent = self.came.iter().filter(|at| newest.duration_since(**at).as_secs_f64() < SPAN_S).count();
+        let newest = self.arrivals.back()?;
+        let recent =
+            self.arrivals.iter().filter(|at| newest.duration_since(**at).as_secs_f64() < SPAN_S).count();
         (newest.elapsed().as_secs_f64() < SPAN_S && recent > 1).then_some(recent as f64)
     }
 
@@ -164,9 +167,9 @@ impl PictureFlow {
                 }
                 Report::Picture(picture) => {
                     self.trouble = None;
-                    self.came.push_back(Instant::now());
-                    while self.came.len() > 120 {
-                        self.came.pop_front();
+                    self.arrivals.push_back(Instant::now());
+                    while self.arrivals.len() > 120 {
+                        self.arrivals.pop_front();
                     }
                     if picture.exact {
                         self.strokes = picture.strokes;
@@ -200,7 +203,7 @@ impl PictureFlow {
         asked.is_some_and(|(_, views)| !views.iter().enumerate().all(shows)) && self.trouble.is_none()
     }
 
-    /// The version of the scene, once all views that were asked for show it exactly and none of them is moving; none before.
+    /// The version of the scene, once all views that were asked for show it exactly and at rest; none before.
     pub(super) fn at_rest(&self) -> Option<u64> {
         let (version, views) = self.asked.as_ref()?;
         let is_done =

@@ -31,7 +31,7 @@ pub(super) struct RenderFlow {
     running: Option<Rendering>,
     picture: Option<TextureHandle>,
     asks: Option<About>,
-    /// Whether the end was reported.
+    /// Whether the user was told how the last rendering ended.
     told: bool,
 }
 
@@ -89,7 +89,7 @@ impl RenderFlow {
 
     fn begin(&mut self, plan: RenderPlan, shaders: ShaderTexts) -> Result<(), String> {
         let waker = self.waker.clone();
-        // The rendering before is finished, and its files are written.
+        // The previous rendering is over, and its files are written.
         self.running = None;
         self.picture = None;
         let running = Rendering::start(plan, shaders, move || waker.wake());

@@ -1,4 +1,5 @@
-//! Keeps work from being lost: recovery copies, offers of copies that a crash left behind, and files that other programs change.
+//! Keeps work from being lost: recovery copies, offers of copies that a crash left behind, and files that other
+//! programs change.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -19,14 +20,14 @@ use crate::panels::ask_close::{self, Answer, Question};
 /// How often the document's files are checked for changes.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// The recovery copy of this session, offers of older ones, and the files that are watched.
+/// The recovery copy of the open document, offers of older copies, and the files that are watched.
 pub(super) struct SafeKeeping {
     folder: Option<PathBuf>,
     keeper: Option<Keeper>,
     cadence: Cadence,
-    /// Whether a copy of this session is on the disk or being written.
+    /// Whether a copy of the open document is on the disk or being written.
     has_copy: bool,
-    /// Copies that earlier sessions left behind, to be asked about one by one.
+    /// Copies that earlier runs of the editor left behind, to be asked about one by one.
     offers: VecDeque<Offer>,
     watch: Watch,
     next_look: Instant,
@@ -99,7 +100,7 @@ impl SafeKeeping {
 }
 
 impl EditorApp {
-    /// Finds copies that earlier sessions left behind, of one scene or of any, to ask about them.
+    /// Finds copies that earlier runs of the editor left behind, of one scene or of any, to ask about them.
     pub(super) fn offer_copies(&mut self, of: Option<&Path>) {
         let Some(folder) = &self.safe.folder else { return };
         let of = of.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned()));

@@ -1,4 +1,4 @@
-//! Reports to tests and scripts what the window shows (`impasto edit --tell`): the picture at rest, playback, the controls.
+//! Reports to tests and scripts what the window shows (`impasto edit --tell`): the picture at rest, playback, controls.
 
 use std::fmt::Write as _;
 
@@ -29,8 +29,8 @@ impl Telling {
         self.tell.is_some()
     }
 
-    /// Reports the names and rectangles of all controls, once two passes in a row laid them out alike: in its first pass a
-    /// sheet or a menu is only measured.
+    /// Reports the names and rectangles of all controls, once two passes in a row laid them out alike: in its first
+    /// pass a sheet or a menu is only measured.
     pub(super) fn tell_controls(&mut self, ctx: &Context, controls: &TreeUpdate) {
         let Some(tell) = self.tell else { return };
         let words = controls_in_words(controls);

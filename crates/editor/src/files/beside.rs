@@ -38,8 +38,8 @@ pub enum CopyError {
 }
 
 impl Copies {
-    /// The files to copy from `from` to `to`: those that the scene names and that its meshes name in turn, if they are inside
-    /// `from` and the same files are not in `to` already.
+    /// The files to copy from `from` to `to`: those that the scene names and that its meshes name in turn, if they
+    /// are inside `from` and the same files are not in `to` already.
     ///
     /// # Errors
     /// If `to` has a different file of the same name.
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_lost_keeps_nothing_from_being_saved() {
+    fn a_missing_mesh_does_not_prevent_saving() {
         let (folder, mut document) = scene();
         std::fs::remove_file(folder.path().join("meshes/a.obj")).unwrap();
         let to = tempfile::tempdir().unwrap();

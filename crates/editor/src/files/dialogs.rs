@@ -1,8 +1,8 @@
 //! Asks for a file: with the desktop's dialog if there is one, else with a sheet in the window.
 //!
-//! The desktop's dialog can be missing or stuck without reporting it. So it runs on a thread of its own. If it is cancelled
-//! sooner than a user could do it, there is no dialog, and the sheet is shown. After [`PATIENCE`] the window offers its own
-//! sheet instead.
+//! The desktop's dialog can be missing or stuck without reporting it. So it runs on a thread of its own. If it is
+//! cancelled sooner than a user could do it, there is no dialog, and the sheet is shown. After [`PATIENCE`] the
+//! window offers its own sheet instead.
 
 #[cfg(test)]
 mod tests;
@@ -19,7 +19,7 @@ use crate::theme::{Theme, measure, type_face};
 use crate::widgets::Button;
 
 /// No user cancels a dialog this soon after it was opened.
-const HAND: Duration = Duration::from_millis(300);
+const FASTEST_CANCEL: Duration = Duration::from_millis(300);
 
 /// How long the window waits for the desktop's dialog before it offers its own sheet.
 pub const PATIENCE: Duration = Duration::from_secs(3);
@@ -29,7 +29,8 @@ pub const PATIENCE: Duration = Duration::from_secs(3);
 pub struct Answer {
     /// What was asked.
     pub ask: FileAsk,
-    /// The file; none if the user cancelled. To save, its name has the right ending, and an existing file may be replaced.
+    /// The file; none if the user cancelled. To save, its name has the right ending, and an existing file may be
+    /// replaced.
     pub path: Option<PathBuf>,
 }
 
@@ -50,7 +51,7 @@ pub struct FileDialogs {
     open: Option<Open>,
 }
 
-/// Shows the desktop's dialog and waits for the answer; the path is the folder to start in or, to save, the proposed file.
+/// Shows the desktop's dialog and waits for the answer. The path is the start folder or, to save, the proposed file.
 type Choose = fn(FileAsk, &Path) -> Option<PathBuf>;
 
 struct Open {
@@ -77,8 +78,8 @@ impl FileDialogs {
         self.open.is_some()
     }
 
-    /// Asks for a file. `start` is the folder to start in or, to save, the proposed file. Does nothing while another dialog
-    /// is open.
+    /// Asks for a file. `start` is the folder to start in or, to save, the proposed file. Does nothing while another
+    /// dialog is open.
     pub fn open(&mut self, ctx: &Context, ask: FileAsk, start: &Path) {
         if self.open.is_some() {
             return;
@@ -111,7 +112,7 @@ impl FileDialogs {
             },
             ShownAs::Desktop(answers) => match (answers.try_recv(), open.since.elapsed()) {
                 (Ok(Some(path)), _) => Some(ask.completed(path)),
-                (Ok(None), waited) if waited > HAND => None,
+                (Ok(None), waited) if waited > FASTEST_CANCEL => None,
                 (Ok(None) | Err(TryRecvError::Disconnected), _) => {
                     // There is no dialog here: do not try it again.
                     self.source = Source::InApp;

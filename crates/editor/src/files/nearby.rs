@@ -10,15 +10,15 @@ const MAX_FILES: usize = 4000;
 /// Names that differ by more letters than this, or by more than a third of their letters, are not similar.
 const MAX_APART: usize = 2;
 
-/// For each missing mesh, the mesh in the scene's folder that is likely meant: one of the same name in another folder, else
-/// the one of the most similar name.
+/// For each missing mesh, the mesh in the scene's folder that is likely meant: one of the same name in another
+/// folder, else the one of the most similar name.
 pub fn meshes_like(folder: &Path, missing: &[&str]) -> Vec<(String, String)> {
     if missing.is_empty() {
         return Vec::new();
     }
     let mut there = Vec::new();
     list(folder, "", MAX_DEPTH, &mut there);
-    missing.iter().filter_map(|name| Some(((*name).to_owned(), likest(name, &there)?.to_owned()))).collect()
+    missing.iter().filter_map(|name| Some(((*name).to_owned(), nearest(name, &there)?.to_owned()))).collect()
 }
 
 /// Adds the meshes under a folder, by their paths relative to the scene's folder. Links are not followed.
@@ -38,7 +38,7 @@ fn list(folder: &Path, within: &str, depth: usize, found: &mut Vec<String>) {
     }
 }
 
-fn likest<'a>(missing: &str, there: &'a [String]) -> Option<&'a str> {
+fn nearest<'a>(missing: &str, there: &'a [String]) -> Option<&'a str> {
     let wanted = file_name(missing);
     let rank = |name: &str| {
         let name = file_name(name);

@@ -1,4 +1,4 @@
-//! The window's own file dialog: a list of a folder's files, and a field for a path. It needs nothing of the desktop.
+//! The window's own file dialog: a list of a folder's files, and a field for a path. It needs nothing from the desktop.
 
 mod listing;
 #[cfg(test)]

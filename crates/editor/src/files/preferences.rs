@@ -22,8 +22,8 @@ pub const MAX_RECENT: usize = 10;
 /// For how many scenes the last mode and view are remembered.
 pub const MAX_LAST_SEEN: usize = 50;
 
-/// The user's choices, recent files, and last views. Fields that are missing in the file get their defaults; unknown ones
-/// are ignored.
+/// The user's choices, recent files, and last views. Fields that are missing in the file get their defaults; unknown
+/// ones are ignored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
@@ -96,7 +96,7 @@ pub enum DriverChoice {
     Egl,
     /// OSMesa, always in software.
     Osmesa,
-    /// Software for the window, too.
+    /// OSMesa, and the window in software, too.
     Software,
 }
 
@@ -137,7 +137,7 @@ pub struct LastView {
 impl Preferences {
     /// Puts a file that was opened or saved on top of the recent ones, unless its path is not valid Unicode.
     pub fn note_recent(&mut self, file: &Path) {
-        let Some(file) = lasting(file) else { return };
+        let Some(file) = storable(file) else { return };
         self.recent.retain(|known| *known != file);
         self.recent.insert(0, file);
         self.recent.truncate(MAX_RECENT);
@@ -150,7 +150,7 @@ impl Preferences {
 
     /// Remembers the last mode and view in a scene.
     pub fn note_last_seen(&mut self, file: &Path, mode: Mode, view: Option<LastView>) {
-        let Some(file) = lasting(file) else { return };
+        let Some(file) = storable(file) else { return };
         self.last_seen.retain(|known| known.file != file);
         self.last_seen.insert(0, LastSeen { file, mode, view });
         self.last_seen.truncate(MAX_LAST_SEEN);
@@ -158,7 +158,7 @@ impl Preferences {
 
     /// The last mode and view in a scene, if they are remembered.
     pub fn last_seen_in(&self, file: &Path) -> Option<&LastSeen> {
-        let file = lasting(file)?;
+        let file = storable(file)?;
         self.last_seen.iter().find(|known| known.file == file)
     }
 
@@ -184,7 +184,7 @@ impl Preferences {
 }
 
 /// The absolute path; none if it is not valid Unicode.
-fn lasting(file: &Path) -> Option<PathBuf> {
+fn storable(file: &Path) -> Option<PathBuf> {
     let file = std::path::absolute(file).ok()?;
     file.to_str().is_some().then_some(file)
 }

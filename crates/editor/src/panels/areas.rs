@@ -1,11 +1,11 @@
-//! The areas of the window, which `F6` steps through. Each has a focus stop before its first control, so that `Tab` goes on
-//! into the area.
+//! The areas of the window, which `F6` steps through. Each has a focus stop before its first control, so that `Tab`
+//! goes on into the area.
 
 use egui::{Context, Id, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 
 use crate::theme::Tokens;
 
-/// The areas in the order of `F6`, with their spoken names.
+/// The areas in the order of `F6`, with their names for screen readers.
 const ORDER: [(Area, &str); 7] = [
     (Area::TopBar, "Top bar"),
     (Area::Options, "Tool options"),

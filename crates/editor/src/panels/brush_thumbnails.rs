@@ -19,7 +19,7 @@ const LEAST_PAINT: u8 = 24;
 
 type Known = BTreeMap<String, (usize, TextureHandle)>;
 
-/// The thumbnail of a brush, by its name in a scene; cached. None where the brush is neither built in nor the scene's own.
+/// The thumbnail of a brush, by its name in a scene; cached. None if the brush is neither built in nor the scene's.
 pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<TextureHandle> {
     let known: Arc<Known> = ctx.data_mut(|data| data.get_temp(key())).unwrap_or_default();
     let picture = loaded.brushes.get(name);
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_brush_of_the_house_shows_a_stroke_of_its_own() {
+    fn every_built_in_brush_shows_a_stroke_of_its_own() {
         let mut seen: Vec<ColorImage> = Vec::new();
         for name in brush::NAMES {
             let mark = brush::marks_of(name).expect("the house has it").swap_remove(0);

@@ -1,4 +1,4 @@
-//! What the right column remembers between passes and is not part of the document: what is open, searched, renamed, copied.
+//! What the right column remembers between passes: what is open, searched, renamed, copied.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
-//! The panels round the viewport. Each is a function from what is shown to what is asked for; none changes anything itself.
+//! The panels round the viewport. Each is a function from what is shown to what is asked for; none changes anything.
 //!
-//! Each bar takes its strip off the `Ui` that it is handed, so the order of the calls lays out the window: top bar, status
-//! line, strip, right column, options bar, rail; the rest is the viewport.
+//! Each bar takes its strip off the `Ui` that it is handed, so the order of the calls lays out the window: top bar,
+//! status line, strip, right column, options bar, rail; the rest is the viewport.
 
 mod areas;
 pub mod ask_close;

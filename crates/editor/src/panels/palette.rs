@@ -96,7 +96,7 @@ fn contents(ui: &mut egui::Ui, memory: &mut Memory, shown: &PanelInput<'_>, asks
     escape || run.is_some()
 }
 
-/// The commands that may be meant by what was typed, the likeliest first.
+/// The commands that may be meant by what was typed, the most likely first.
 fn found(typed: &str) -> Vec<Action> {
     let mut found: Vec<_> = menus::actions()
         .into_iter()
@@ -107,8 +107,8 @@ fn found(typed: &str) -> Vec<Action> {
     found.into_iter().map(|(_, action)| action).collect()
 }
 
-/// How far a name is from what was typed: 0 at the name's start, 1 at a word's start, 2 anywhere, 3 only the letters in order;
-/// none for no match.
+/// How far a name is from what was typed: 0 at the name's start, 1 at a word's start, 2 anywhere, 3 only the letters
+/// in order; none for no match.
 fn distance(typed: &str, name: &str) -> Option<u8> {
     let (typed, name) = (typed.trim().to_lowercase(), name.to_lowercase());
     if name.starts_with(&typed) {
@@ -133,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_likeliest_command_comes_first() {
+    fn the_most_likely_command_comes_first() {
         assert_eq!(found("comb").first(), Some(&Action::Comb));
         assert_eq!(found("sel").first(), Some(&Action::SelectAll), "menu order among equals");
         assert_eq!(found("frame s").first(), Some(&Action::FrameSelected));

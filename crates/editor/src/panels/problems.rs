@@ -77,15 +77,15 @@ pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> boo
         });
         ui.painter().hline(whole.x_range(), head_rect.bottom(), (1.0, tokens.div));
         let left = egui::Rangef::new(whole.left(), split);
-        let has_certain = shown.document.certain().len();
-        let foot = if has_certain > 0 { FOOT } else { 0.0 };
+        let certain_count = shown.document.certain().len();
+        let foot = if certain_count > 0 { FOOT } else { 0.0 };
         let list_rect = part(left, head_rect.bottom() + 1.0, whole.bottom() - foot);
         within(ui, list_rect, egui::Layout::top_down(Align::Min), |ui| {
             list(ui, &rows, &mut memory, asks);
         });
-        if has_certain > 0 {
+        if certain_count > 0 {
             let rect = part(left, whole.bottom() - FOOT, whole.bottom()).shrink2(vec2(12.0, 0.0));
-            within(ui, rect, row(), |ui| fix_all(ui, has_certain, asks));
+            within(ui, rect, row(), |ui| fix_all(ui, certain_count, asks));
         }
         ui.painter().vline(split, head_rect.bottom()..=whole.bottom(), (1.0, tokens.div));
         let source_rect =

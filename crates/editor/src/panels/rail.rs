@@ -20,7 +20,7 @@ const PAINT: &[&[Tool]] = &[
 pub fn rail(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::left("rail").exact_size(measure::RAIL).resizable(false).frame(frame).show(ui, |ui| {
-        // Above the open lanes of the timeline, a low window has no room for all tools.
+        // A low window with open lanes has no room for all tools.
         ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(ui, |ui| {
             ui.add_space(6.0);
             ui.vertical_centered(|ui| tools(ui, shown, asks));

@@ -1,4 +1,4 @@
-//! All keys on one sheet.
+//! The sheet that lists all keys.
 
 use egui::{RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mouse_is_told_as_each_preset_has_it() {
+    fn mouse_buttons_are_listed_as_each_preset_has_them() {
         let of = |preset| mouse(&Keymap { preset, ..Keymap::default() }).into_iter().map(|row| row.1);
         assert!(of(Preset::Blender).eq(["Alt Left, Middle", "Shift Middle", "Ctrl Middle, Wheel"]));
         assert!(of(Preset::Maya).eq(["Alt Left", "Alt Middle", "Alt Right, Wheel"]));

@@ -9,11 +9,11 @@ use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, Tip};
 
-/// From this window width on, in points, the bars show what is otherwise behind a button.
+/// In a window at least this wide, in points, the bars show what is otherwise behind a button.
 pub(super) const WIDE: f32 = 1600.0;
 /// The mode switch never begins left of this, in points, so that the document's name does not move it.
 const SWITCH_LEFT: f32 = 525.0;
-const SWITCH: f32 = 278.0;
+const SWITCH_WIDTH: f32 = 278.0;
 const MODES: [Mode; 3] = [Mode::Arrange, Mode::Paint, Mode::Animate];
 
 /// Takes the top 40 points of `ui`.
@@ -21,9 +21,9 @@ pub fn top_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).alt);
     Panel::top("top bar").exact_size(measure::TOP_BAR).resizable(false).frame(frame).show(ui, |ui| {
         let whole = ui.max_rect();
-        let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH) / 2.0);
+        let switch = whole.left() + SWITCH_LEFT.max((whole.width() - SWITCH_WIDTH) / 2.0);
         let part = |left: f32, right: f32| egui::Rect::from_x_y_ranges(left..=right, whole.y_range());
-        let end = switch + SWITCH + measure::GAP;
+        let end = switch + SWITCH_WIDTH + measure::GAP;
         within(ui, part(whole.left(), switch - 6.0), row(), |ui| left(ui, shown, asks));
         within(ui, part(switch, end), row(), |ui| modes(ui, shown, asks));
         within(ui, part(end, whole.right()), row_from_right(), |ui| right(ui, shown, asks));
@@ -44,7 +44,7 @@ fn left(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         (Action::Undo, icons::UNDO, shown.document.undo_text()),
         (Action::Redo, icons::REDO, shown.document.redo_text()),
     ] {
-        if travel(ui, shown, action, icon, entry).clicked() {
+        if undo_button(ui, shown, action, icon, entry).clicked() {
             asks.push(Ask::Act(action));
         }
         ui.add_space(4.0);
@@ -54,7 +54,13 @@ fn left(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
 }
 
 /// The button for undo or redo; its tooltip names the entry of the history.
-fn travel(ui: &mut Ui, shown: &PanelInput<'_>, action: Action, icon: Icon, entry: Option<&str>) -> Response {
+fn undo_button(
+    ui: &mut Ui,
+    shown: &PanelInput<'_>,
+    action: Action,
+    icon: Icon,
+    entry: Option<&str>,
+) -> Response {
     let response =
         ui.add_enabled_ui(entry.is_some(), |ui| widgets::icon_button(ui, icon, action.name())).inner;
     match entry {

@@ -1,4 +1,4 @@
-//! The sheet that a newcomer sees first.
+//! The welcome sheet: three steps to begin with, a few settings, and what to open.
 
 use egui::{Align, Align2, Layout, Rect, RichText, Sense, Ui, vec2};
 use impasto_editor_model::keymap::{Action, Keymap, Preset};
@@ -53,12 +53,12 @@ pub fn welcome(ctx: &egui::Context, choices: &mut Choices) -> Option<Left> {
         ui.add_space(18.0);
         cards(ui, &Keymap { preset: choices.keys, ..Keymap::default() });
         ui.add_space(14.0);
-        habits(ui, choices);
+        settings(ui, choices);
         ui.add_space(22.0);
         let line = ui.available_rect_before_wrap();
         ui.painter().hline(line.x_range(), line.top(), (1.0, Tokens::of(ui).div));
         ui.add_space(18.0);
-        let left = verbs(ui, choices);
+        let left = buttons(ui, choices);
         let escape = ui.input(|input| input.key_pressed(egui::Key::Escape));
         left.or((close || escape).then_some(Left::Closed))
     })
@@ -134,9 +134,9 @@ fn cards(ui: &mut Ui, keymap: &Keymap) {
     }
 }
 
-fn habits(ui: &mut Ui, choices: &mut Choices) {
+fn settings(ui: &mut Ui, choices: &mut Choices) {
     let tokens = Tokens::of(ui);
-    let row = |ui: &mut Ui, label: &str, contents: &mut dyn FnMut(&mut Ui)| {
+    let labelled_row = |ui: &mut Ui, label: &str, contents: &mut dyn FnMut(&mut Ui)| {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 26.0), Sense::hover());
         within(ui, rect, row(), |ui| {
             ui.label(RichText::new(label).font(type_face::body()).color(tokens.weak));
@@ -147,7 +147,7 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
             contents(ui);
         });
     };
-    row(ui, "Mouse and keys like", &mut |ui| {
+    labelled_row(ui, "Mouse and keys like", &mut |ui| {
         for (keys, words, name) in
             [(Preset::Blender, "Blender", "Keys like Blender"), (Preset::Maya, "Maya", "Keys like Maya")]
         {
@@ -162,7 +162,7 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
         ui.label(RichText::new(words).font(type_face::small()).color(tokens.weak));
     });
     ui.add_space(8.0);
-    row(ui, "Theme", &mut |ui| {
+    labelled_row(ui, "Theme", &mut |ui| {
         for (theme, name) in [(Theme::Dark, "Dark"), (Theme::Light, "Light")] {
             if widgets::radio(ui, name, choices.theme == theme).clicked() {
                 choices.theme = theme;
@@ -179,7 +179,7 @@ fn habits(ui: &mut Ui, choices: &mut Choices) {
     });
 }
 
-fn verbs(ui: &mut Ui, choices: &mut Choices) -> Option<Left> {
+fn buttons(ui: &mut Ui, choices: &mut Choices) -> Option<Left> {
     let mut left = None;
     ui.horizontal(|ui| {
         let mesh = Button::new("Open a mesh\u{2026}").name("Open a mesh").icon(icons::OPEN_FOLDER).primary();

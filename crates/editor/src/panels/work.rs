@@ -30,7 +30,7 @@ pub enum WorkKind {
 
 const BAR: f32 = 72.0;
 
-/// Shows one, in a row that is laid out from right to left.
+/// Shows one piece of work, in a row that is laid out from right to left.
 pub(super) fn show(ui: &mut Ui, work: &Work, asks: &mut Vec<Ask>) {
     if work.kind == WorkKind::Rendering {
         if chip(ui, work, Sense::click()).clicked() {
@@ -64,7 +64,7 @@ fn chip(ui: &mut Ui, work: &Work, sense: Sense) -> egui::Response {
     let done = match work.share {
         Some(share) => whole.with_max_x(whole.left() + BAR * share.clamp(0.0, 1.0)),
         None => {
-            // It goes to and fro while the share is unknown.
+            // While the share is unknown, a short piece moves back and forth.
             let time = ui.input(|input| input.time);
             ui.ctx().request_repaint_after(std::time::Duration::from_millis(50));
             let at = (time * 0.8).fract() as f32;

@@ -22,9 +22,9 @@ pub(super) fn definitions() -> FontDefinitions {
     ] {
         fonts.font_data.insert(name.to_owned(), Arc::new(data));
     }
-    let behind = fonts.families.entry(FontFamily::Proportional).or_default();
-    let semibold: Vec<_> = std::iter::once(SEMIBOLD.to_owned()).chain(behind.iter().cloned()).collect();
-    behind.insert(0, "Inter".to_owned());
+    let proportional = fonts.families.entry(FontFamily::Proportional).or_default();
+    let semibold: Vec<_> = std::iter::once(SEMIBOLD.to_owned()).chain(proportional.iter().cloned()).collect();
+    proportional.insert(0, "Inter".to_owned());
     fonts.families.insert(FontFamily::Name(SEMIBOLD.into()), semibold);
     fonts.families.insert(FontFamily::Name(ICONS.into()), vec![ICONS.to_owned()]);
     fonts

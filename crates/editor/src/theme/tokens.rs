@@ -51,7 +51,7 @@ pub struct Tokens {
     pub weak: Color32,
     /// What cannot be used now.
     pub dis: Color32,
-    /// Cobalt as a fill: the mode, the tool, the first verb of a sheet.
+    /// Cobalt as a fill: the mode, the tool, the main button of a sheet.
     pub accent: Color32,
     /// Cobalt as text, and the focus ring.
     pub accent_text: Color32,
@@ -67,11 +67,11 @@ pub struct Tokens {
     pub viridian: Color32,
     /// Direction lines where the trust in the reference is low.
     pub pink: Color32,
-    /// Under everything while a dialog is open.
+    /// Over everything but the dialog, while one is open.
     pub scrim: Color32,
-    /// Under chips that float over the picture.
+    /// The fill of chips, which float over the picture.
     pub chip: Color32,
-    /// The axes X, Y and Z; always shown with their letter.
+    /// The axes X, Y and Z; handles show their letters as well.
     pub axis: [Color32; 3],
 }
 
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn every_text_is_readable_on_every_ground_it_may_stand_on() {
+    fn every_text_is_readable_on_every_fill_it_may_stand_on() {
         let mut weak_pairs = Vec::new();
         for (theme, tokens) in [("dark", DARK), ("light", LIGHT)] {
             let texts = [
@@ -174,7 +174,7 @@ mod tests {
                 ("vermilion", tokens.vermilion),
                 ("viridian", tokens.viridian),
             ];
-            let grounds = [
+            let fills = [
                 ("app", tokens.app),
                 ("panel", tokens.panel),
                 ("alt", tokens.alt),
@@ -183,9 +183,9 @@ mod tests {
                 ("sel", tokens.sel),
             ];
             for (text, colour) in texts {
-                for (ground, fill) in grounds {
+                for (under, fill) in fills {
                     if contrast(colour, fill) < 4.5 {
-                        weak_pairs.push(format!("{theme} {text} on {ground}: {:.2}", contrast(colour, fill)));
+                        weak_pairs.push(format!("{theme} {text} on {under}: {:.2}", contrast(colour, fill)));
                     }
                 }
             }

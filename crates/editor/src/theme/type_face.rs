@@ -2,7 +2,7 @@
 
 use egui::{FontFamily, FontId};
 
-/// The family of heads and verbs: Inter SemiBold.
+/// The family of headings and main buttons: Inter SemiBold.
 pub const SEMIBOLD: &str = "semibold";
 /// The family of icons.
 pub const ICONS: &str = "icons";

@@ -134,7 +134,7 @@ fn badge(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
             Badge::Free(_) => ("To the shot", "To the shot", tokens.accent_text),
         }
     };
-    if verb_of(ui, verb, name, colour) {
+    if text_button(ui, verb, name, colour) {
         match (input.now.is_some(), input.badge) {
             (true, _) | (false, Badge::Turned { .. }) => events.asks.push(Ask::Act(Action::Compare)),
             (false, Badge::Reference(_)) => events.recapture = true,
@@ -145,7 +145,7 @@ fn badge(ui: &mut Ui, input: &ViewportInput<'_>, events: &mut ViewportEvents) {
 }
 
 /// A button of plain words. Returns whether it was clicked.
-fn verb_of(ui: &mut Ui, words: &str, name: &str, colour: egui::Color32) -> bool {
+fn text_button(ui: &mut Ui, words: &str, name: &str, colour: egui::Color32) -> bool {
     let tokens = Tokens::of(ui);
     let galley = ui.painter().layout_no_wrap(words.to_owned(), type_face::small(), colour);
     let size = galley.size() + vec2(12.0, 0.0);

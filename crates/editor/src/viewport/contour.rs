@@ -7,11 +7,11 @@ use glam::DVec2;
 /// Rounds of smoothing; each moves a point to the mean of itself and its two neighbours.
 const ROUNDS: usize = 6;
 
-/// The lines between cells in a set and cells not in it, in cells from the upper left corner, Y down. No line runs along the
-/// rim of the grid, which is no edge of the set: lines that reach the rim end there, all others are closed.
+/// The lines between cells in a set and cells not in it, in cells from the upper left corner, Y down. No line runs
+/// along the rim of the grid, which is no edge of the set: lines that reach the rim end there, all others are closed.
 pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<DVec2>> {
-    // Each piece runs along one side of a cell, with the set on its right as seen on the screen. Where two lines meet at a
-    // corner, they turn there and do not cross.
+    // Each piece runs along one side of a cell, with the set on its right as seen on the screen. Where two lines meet
+    // at a corner, they turn there and do not cross.
     let mut next: HashMap<(usize, usize), Vec<(usize, usize)>> = HashMap::new();
     let mut piece = |from: (usize, usize), to: (usize, usize)| next.entry(from).or_default().push(to);
     for row in 0..rows {
@@ -57,6 +57,7 @@ pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> boo
     lines
 }
 
+/// Takes one line that begins at `start` out of `next`; none if no piece begins there.
 fn follow(
     start: (usize, usize),
     next: &mut HashMap<(usize, usize), Vec<(usize, usize)>>,

@@ -8,8 +8,8 @@ use impasto_scene::motion::CameraPose;
 
 /// A viewport and the shot in its middle, as large as fits, with the scene's aspect.
 ///
-/// The picture fills the viewport. Its lens is widened so that the shot's part shows exactly the shot. The free camera is
-/// widened in the same way, so that nothing moves when the user leaves the shot camera.
+/// The picture fills the viewport. Its lens is widened so that the shot's part shows exactly the shot. The free camera
+/// is widened in the same way, so that nothing moves when the user leaves the shot camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
     viewport: Rect,
@@ -56,7 +56,8 @@ impl Framing {
         CameraPose { lens, ..camera.clone() }
     }
 
-    /// The view through a camera in this viewport, for picking and tools; places count in points from its upper left corner.
+    /// The view through a camera in this viewport, for picking and tools; places count in points from its upper left
+    /// corner.
     pub fn view(&self, camera: &CameraPose) -> View {
         let size = self.viewport.size();
         View { camera: self.widened(camera), size_px: DVec2::new(f64::from(size.x), f64::from(size.y)) }

@@ -11,7 +11,7 @@ use super::framing::Framing;
 /// A pinch by this factor counts as one step of the wheel.
 const PINCH_STEP: f64 = 1.1;
 
-/// The pointer over the viewport, from one pass to the next.
+/// What is known of the pointer, kept from one pass to the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pointer {
     buttons: Vec<Button>,
@@ -20,7 +20,8 @@ pub(super) struct Pointer {
 }
 
 impl Pointer {
-    /// The events of this pass. `over` says whether a place in the window is on the picture and not on a chip or sheet over it.
+    /// The events of this pass. `over` says whether a place in the window is on the picture and not on a chip or sheet
+    /// over it.
     pub(super) fn events(
         &mut self,
         ui: &Ui,

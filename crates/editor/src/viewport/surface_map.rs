@@ -1,5 +1,5 @@
-//! A coarse map of the visible surfaces, for outlines and regions and to hide direction lines behind surfaces. It is drawn
-//! on the CPU in the window's thread, as the picture itself comes later from another thread.
+//! A coarse map of the visible surfaces, for outlines and regions and to hide direction lines behind surfaces. It is
+//! drawn on the CPU in the window's thread, because the picture itself comes later from another thread.
 
 use std::sync::Arc;
 
@@ -118,8 +118,8 @@ impl SurfaceMap {
         (face != NOTHING).then_some(face)
     }
 
-    /// Whether a point of an object is visible: no farther than the object's farthest visible face in its cell and the cells
-    /// around it.
+    /// Whether a point of an object is visible: no farther than the object's farthest visible face in its cell and the
+    /// cells around it.
     pub fn shows(&self, at_px: DVec2, depth: f64, object: usize) -> bool {
         let at = (at_px * self.cells_per_point).floor();
         if !(at.x >= 0.0 && at.y >= 0.0 && at.x < self.size[0] as f64 && at.y < self.size[1] as f64) {
@@ -139,7 +139,7 @@ impl SurfaceMap {
     }
 
     fn add(&mut self, corners: [Corner; 3], near: f64, size_px: DVec2, face: Face) {
-        let kept = before(corners, near);
+        let kept = clip_at_near(corners, near);
         for index in 2..kept.len() {
             self.fill([kept[0], kept[index - 1], kept[index]], size_px, face);
         }
@@ -191,7 +191,7 @@ fn corners(body: &StandingBody, map: &ScreenMap) -> Vec<Corner> {
 }
 
 /// Clips a triangle at the near plane, which leaves none, three or four corners.
-fn before(corners: [Corner; 3], near: f64) -> Vec<Corner> {
+fn clip_at_near(corners: [Corner; 3], near: f64) -> Vec<Corner> {
     let mut kept = Vec::with_capacity(4);
     for index in 0..3 {
         let (from, to) = (corners[index], corners[(index + 1) % 3]);

@@ -12,9 +12,9 @@ enum Weight {
     /// Only its words, until the pointer is over it.
     Plain,
     Usual,
-    /// The verb that most users want; one in a group.
+    /// What most users want; only one button of a group.
     Primary,
-    /// A verb that takes something away.
+    /// It takes something away.
     Danger,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Button<'a> {
         Self { icon: Some(icon), ..self }
     }
 
-    /// Filled with the accent: the verb that most users want.
+    /// Filled with the accent, for what most users want.
     pub fn primary(self) -> Self {
         Self { weight: Weight::Primary, ..self }
     }
@@ -64,7 +64,7 @@ impl<'a> Button<'a> {
         Self { on: Some(on), ..self }
     }
 
-    /// As high as a sheet's verbs.
+    /// As high as the buttons of a sheet.
     pub fn on_sheet(self) -> Self {
         Self { height: measure::SHEET_BUTTON, ..self }
     }
@@ -112,7 +112,7 @@ impl<'a> Button<'a> {
     }
 }
 
-/// The verb that most users want, filled with the accent.
+/// A button for what most users want, filled with the accent.
 pub fn primary_button(ui: &mut Ui, words: &str) -> Response {
     Button::new(words).primary().show(ui)
 }
@@ -126,8 +126,8 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
 
 /// As [`icon_button`], filled like the field that it stands in for.
 pub fn field_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
-    let ground = Tokens::of(ui).field;
-    let response = square(ui, icon, None, ground);
+    let rest = Tokens::of(ui).field;
+    let response = square(ui, icon, None, rest);
     draw::named(&response, Role::Button, name);
     response
 }
@@ -143,12 +143,12 @@ pub fn icon_toggle(ui: &mut Ui, icon: Icon, name: &str, on: &mut bool) -> Respon
     response
 }
 
-fn square(ui: &mut Ui, icon: Icon, on: Option<bool>, ground: Color32) -> Response {
+fn square(ui: &mut Ui, icon: Icon, on: Option<bool>, rest: Color32) -> Response {
     let tokens = Tokens::of(ui);
     let side = if on.is_some() { 26.0 } else { measure::BUTTON };
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let (rest, colour) =
-        if on == Some(true) { (tokens.sel, tokens.accent_text) } else { (ground, tokens.text) };
+        if on == Some(true) { (tokens.sel, tokens.accent_text) } else { (rest, tokens.text) };
     let fill = if on == Some(true) { rest } else { draw::fill(tokens, &response, rest) };
     ui.painter().rect_filled(rect, draw::corner(), fill);
     draw::icon(ui.painter(), rect.center(), icon, measure::ICON, colour);

@@ -29,7 +29,7 @@ pub fn checkbox(ui: &mut Ui, name: &str, on: &mut bool) -> Response {
     response
 }
 
-/// One of several, with its name beside it.
+/// A radio button, with its name beside it.
 pub fn radio(ui: &mut Ui, name: &str, on: bool) -> Response {
     radio_named(ui, name, name, on)
 }

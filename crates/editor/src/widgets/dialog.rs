@@ -14,14 +14,14 @@ pub struct Dialog<'a> {
     pub words: &'a str,
     /// What can be done, left to right; the last is the safe one, which `Enter` does.
     pub verbs: &'a [&'a str],
-    /// Which verb `Esc` does.
+    /// Index of the one that `Esc` does.
     pub cancel: usize,
 }
 
-/// The verb that was chosen in this pass of a [`dialog`], if any.
+/// Index of the verb that was chosen in this pass of a [`dialog`], if any.
 pub type DialogResponse = Option<usize>;
 
-/// Shows a question over everything. Returns the verb that was chosen.
+/// Shows a question over everything.
 pub fn dialog(ctx: &Context, asked: &Dialog<'_>) -> DialogResponse {
     let mut chosen = None;
     let wide = ctx.fonts_mut(|fonts| {

@@ -8,7 +8,7 @@ use egui::{
 use crate::icons::Icon;
 use crate::theme::{Tokens, measure, type_face};
 
-/// The fill of a control that is `rest` while nobody touches it.
+/// The fill of a control: `rest`, unless the pointer is over it or presses it.
 pub(super) fn fill(tokens: &Tokens, response: &Response, rest: Color32) -> Color32 {
     if response.is_pointer_button_down_on() {
         tokens.act
@@ -60,10 +60,12 @@ pub(super) fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
 }
 
+/// Tells screen readers the role and the name of a control.
 pub(super) fn named(response: &Response, role: Role, name: &str) {
     response.widget_info(|| WidgetInfo::labeled(role, response.enabled(), name));
 }
 
+/// As [`named`], for a control that is on or off.
 pub(super) fn named_state(response: &Response, role: Role, name: &str, on: bool) {
     response.widget_info(|| WidgetInfo::selected(role, response.enabled(), on, name));
 }

@@ -15,10 +15,10 @@ use super::{Tip, draw};
 use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 
-/// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`, or
-/// stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held. Otherwise the
-/// wheel scrolls what the field stands in. A double click brings the default back. Typed text that is no number, or beyond
-/// the limits, is marked and rejected.
+/// A number in a box whose filled part shows where it lies in its range. It is dragged, typed after a click or `Enter`,
+/// or stepped: by the arrow keys while it has the focus, by the wheel while it has the focus or `Ctrl` is held.
+/// Otherwise the wheel scrolls what the field stands in. A double click brings the default back. Typed text that is no
+/// number, or beyond the limits, is marked and rejected.
 pub struct NumberField<'a> {
     name: &'a str,
     value: &'a mut f64,
@@ -179,7 +179,7 @@ impl<'a> NumberField<'a> {
             if stepped != 0.0 {
                 self.set(before + stepped * self.step);
             }
-            let spoken = self.set_by_reader(ui, &response);
+            let spoken = self.set_by_screen_reader(ui, &response);
             was_step = stepped != 0.0 || spoken;
             began |= was_step;
             ended |= was_step;
@@ -257,7 +257,7 @@ impl<'a> NumberField<'a> {
         f64::from(steps)
     }
 
-    fn set_by_reader(&mut self, ui: &Ui, response: &Response) -> bool {
+    fn set_by_screen_reader(&mut self, ui: &Ui, response: &Response) -> bool {
         let before = *self.value;
         let (up, down, told) = ui.input(|input| {
             let told = input.accesskit_action_requests(response.id, Action::SetValue).last();

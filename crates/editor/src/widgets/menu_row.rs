@@ -13,9 +13,9 @@ pub struct MenuRow<'a> {
     pub words: &'a str,
     /// Its keys, empty where it has none.
     pub keys: &'a str,
-    /// A tick before it.
+    /// Whether a tick stands before it.
     pub on: bool,
-    /// `Enter` would do it.
+    /// Whether `Enter` would run it.
     pub marked: bool,
 }
 

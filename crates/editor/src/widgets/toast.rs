@@ -16,7 +16,7 @@ pub struct Toast {
     pub error: bool,
 }
 
-/// Shows the newest three of `shown` at the bottom, above `clear` points, the newest lowest.
+/// Shows the newest three of `shown`, `clear` points above the window's lower edge, the newest lowest.
 /// Returns the place in `shown` of the one whose action was clicked.
 pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
     let first = shown.len().saturating_sub(3);

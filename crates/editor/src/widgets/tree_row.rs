@@ -29,15 +29,15 @@ pub struct TreeRow<'a> {
     pub depth: usize,
     /// Whether it is open, for a row with rows under it.
     pub expanded: Option<bool>,
-    /// It is the selected one.
+    /// Whether it is selected.
     pub selected: bool,
     /// Words at its right end.
     pub note: &'a str,
-    /// It has keys: a small ochre diamond at its end.
+    /// Whether it has keys, which a small ochre diamond at its end shows.
     pub keyed: bool,
-    /// Whether the eye is shut.
+    /// Whether it is hidden: its eye is shut.
     pub hidden: bool,
-    /// Whether the lock is closed.
+    /// Whether it is locked.
     pub locked: bool,
 }
 

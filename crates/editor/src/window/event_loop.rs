@@ -76,7 +76,8 @@ pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<
 }
 
 fn build_event_loop() -> Result<EventLoop<Happening>, WindowError> {
-    // Code below winit panics if libxkbcommon-x11 or libwayland-egl is missing. The error shows its message to the user.
+    // Code below winit panics if libxkbcommon-x11 or libwayland-egl is missing. The panic's message goes into
+    // the error, so it is not printed here.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| ()));
     let built = catch_unwind(|| EventLoop::with_user_event().build());
@@ -366,10 +367,10 @@ impl<A: App> OpenWindow<A> {
             return Ok(close);
         }
         self.holds = false;
-        // A timer ran out, and nothing looks different.
         let size = self.window.inner_size();
         let page = Page { shapes: shapes.clone(), scale, size: size.into() };
         let is_shown = self.textures.is_empty() && self.shown.as_ref() == Some(&page);
+        // When only a timer ran out and nothing looks different, nothing is shown.
         if due == Due::ByTimer && is_shown {
             return Ok(close);
         }

@@ -1,4 +1,4 @@
-//! The window's OpenGL: opens it, and resets state that the app left before egui draws.
+//! The window's OpenGL: opens it, and before egui draws, resets the state that the app has changed.
 
 #![expect(
     unsafe_code,
@@ -22,8 +22,8 @@ use winit::event_loop::ActiveEventLoop;
 use winit::raw_window_handle::HasWindowHandle as _;
 use winit::window::{Window, WindowAttributes};
 
-/// Makes Mesa draw the window in software, by environment variables; those that the user has set stay. Must be called before
-/// anything else of the window, on the main thread, while no other thread runs.
+/// Makes Mesa draw the window in software, by environment variables; those that the user has set stay. Must be called
+/// before anything else in this module, on the main thread, while no other thread runs.
 pub fn force_software() {
     for (name, value) in [("LIBGL_ALWAYS_SOFTWARE", "1"), ("__GLX_VENDOR_LIBRARY_NAME", "mesa")] {
         if std::env::var_os(name).is_none() {

@@ -10,9 +10,9 @@ const STROKES: [([[f32; 2]; 2], [u8; 3]); 3] = [
     ([[0.24, 0.56], [0.80, 0.46]], [255, 131, 112]),
     ([[0.22, 0.78], [0.70, 0.70]], [143, 180, 255]),
 ];
-const GROUND: [u8; 3] = [34, 34, 37];
+const BACKGROUND: [u8; 3] = [34, 34, 37];
 
-/// The program's icon: three strokes on a dark ground.
+/// The program's icon: three strokes on a dark background.
 pub(super) fn icon() -> Option<Icon> {
     let rgba = (0..SIDE * SIDE).flat_map(|index| pixel(index % SIDE, index / SIDE)).collect();
     Icon::from_rgba(rgba, SIDE, SIDE).ok()
@@ -20,7 +20,7 @@ pub(super) fn icon() -> Option<Icon> {
 
 fn pixel(x: u32, y: u32) -> [u8; 4] {
     let at = [(x as f32 + 0.5) / SIDE as f32, (y as f32 + 0.5) / SIDE as f32];
-    let mut colour = GROUND;
+    let mut colour = BACKGROUND;
     for ([from, to], paint) in STROKES {
         let covered = coverage(distance(at, from, to) - HALF_WIDTH);
         colour = std::array::from_fn(|i| mix(colour[i], paint[i], covered));

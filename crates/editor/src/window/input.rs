@@ -2,11 +2,11 @@
 
 use egui::{Event, RawInput};
 
-/// Splits the input since the last frame, so that no pass has more than one press or release of a button, nor a key after
-/// a move or click of the pointer.
+/// Splits the input since the last frame, so that no pass has more than one press or release of a button, nor a key
+/// after a move or click of the pointer.
 ///
-/// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss it. The page handles the
-/// keys of a pass before the pointer: for `Ctrl Z` right after a drag, the drag would still be under way.
+/// A slow frame may gather a whole drag. egui looks at the pointer once per pass, and would miss it. The page handles
+/// the keys of a pass before the pointer: for `Ctrl Z` right after a drag, the drag would still be under way.
 pub(super) fn one_thing_each(mut input: RawInput) -> Vec<RawInput> {
     let events = std::mem::take(&mut input.events);
     let mut parts = vec![Vec::new()];

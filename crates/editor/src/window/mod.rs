@@ -102,8 +102,8 @@ impl Frame<'_> {
         self.asks.close = true;
     }
 
-    /// Does not show this pass, because a better one will follow soon (with the picture of a view that is being moved). The
-    /// window stays as it is, for a tenth of a second at most.
+    /// Does not show this pass, because a better one will follow soon (with the picture of a view that is being moved).
+    /// The window stays as it is, for a tenth of a second at most.
     pub fn hold(&mut self) {
         self.asks.hold = true;
     }

@@ -41,8 +41,8 @@ impl Ahead {
         self.0 = thread.ok().map(|frame| Computing { view: view.clone(), size_px, is_exact, serial, frame });
     }
 
-    /// Takes the frame that was computed and its view, if it can be shown for `view`: it is of the same view or, while playback
-    /// goes on to `next`, of the frame just before `view`.
+    /// Takes the frame that was computed and its view, if it can be shown for `view`: it is of the same view or, while
+    /// playback goes on to `next`, of the frame just before `view`.
     pub(super) fn take(
         &mut self,
         serial: u64,

@@ -1,12 +1,14 @@
 //! Chooses the size of drafts: as large as can be drawn fast enough for a smooth drag.
 
-/// All drafts of a job together should take no longer than this, seconds: fifteen a second, with some time left to prepare.
+/// All drafts of a job together should take no longer than this, seconds: fifteen a second, with some time left to
+/// prepare.
 const BUDGET_S: f64 = 0.055;
-/// The sides of a draft are these parts of the exact picture's: few sizes, so that render targets are seldom made anew.
+/// The sides of a draft are a whole number of twentieths of the exact picture's: with so few sizes, render targets are
+/// seldom made anew.
 const STEPS: u32 = 20;
-/// The least share: 0.35.
+/// The smallest draft: a share of 0.35.
 const LEAST: u32 = 7;
-/// The share of the first draft: 0.5.
+/// The first draft: a share of 0.5.
 const FIRST: u32 = 10;
 
 /// Chooses the size of the next draft by what the last one took.
@@ -31,7 +33,7 @@ impl DraftSize {
     pub(super) fn took(&mut self, seconds: f64) {
         let ideal = f64::from(self.steps) * (BUDGET_S / seconds.max(1e-4)).sqrt();
         let steps = ((ideal + 1e-6) as u32).clamp(LEAST, STEPS);
-        // Grows only with a margin: at the limit the size would swing.
+        // It grows only with a margin, else it would swing between two sizes.
         if steps < self.steps || ideal > f64::from(self.steps) + 1.5 {
             self.steps = steps;
         }

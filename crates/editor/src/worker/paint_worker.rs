@@ -18,7 +18,7 @@ use super::mailbox::{Mailbox, Order};
 use super::view_frame::{DrawOptions, frame_of, frame_options, styled};
 use super::{Picture, Report, ViewJob};
 
-/// A job is drawn exactly once it is this old and no later one has come.
+/// The exact pictures of a job are drawn when it is this old and no later job has come.
 const REST: Duration = Duration::from_millis(100);
 
 /// Works until the mailbox is closed. A panic is reported and the worker dropped; the next job gets a new one.
@@ -36,7 +36,7 @@ pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
             }
         }));
         if let Err(panic) = worked {
-            tell(Report::Failed(format!("the picture could not be made: {}", words(panic.as_ref()))));
+            tell(Report::Failed(format!("the picture could not be made: {}", panic_message(panic.as_ref()))));
             let broken = worker.take();
             // A broken driver may panic again when it is dropped.
             let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
@@ -51,7 +51,7 @@ pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
     mailbox.end();
 }
 
-fn words(panic: &(dyn Any + Send)) -> String {
+fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().cloned();
     text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
         .unwrap_or_else(|| "no reason was given".to_owned())
@@ -72,7 +72,7 @@ struct PaintWorker {
     drawn: Vec<Option<Drawn>>,
     draft_size: DraftSize,
     /// The view whose picture the renderer still holds.
-    on_driver: Option<usize>,
+    held_view: Option<usize>,
     /// The number of pictures drawn so far.
     turn: u32,
     /// How long the last exact picture took, seconds.
@@ -120,7 +120,7 @@ impl PaintWorker {
             shaders: 0,
             drawn: Vec::new(),
             draft_size: DraftSize::default(),
-            on_driver: None,
+            held_view: None,
             turn: 0,
             exact_s: None,
             ahead: Ahead::default(),
@@ -132,12 +132,12 @@ impl PaintWorker {
         let views = &order.job.views;
         self.drawn.resize_with(views.len(), || None);
         if self.is_new(order) {
-            self.glimpse(order, tell);
+            self.show_unpainted(order, tell);
         }
         let Some(painting) = self.prepare(order, mailbox, tell) else { return };
         let wanted: Vec<usize> =
             (0..views.len()).filter(|&index| !views[index].size_px.contains(&0)).collect();
-        wanted.iter().for_each(|&index| self.relight(order, index, tell));
+        wanted.iter().for_each(|&index| self.redraw_light_icons(order, index, tell));
         let drafts = wanted.iter().copied().filter(|&index| !self.shows(order, index));
         let drafts: Vec<usize> = drafts.collect();
         if !drafts.is_empty() && !DraftSize::is_needless(self.exact_s) {
@@ -189,9 +189,9 @@ impl PaintWorker {
         !order.job.loaded.meshes.values().any(known)
     }
 
-    /// Shows a new scene lit but unpainted, in few pixels, until its strokes are prepared. Errors are ignored here: they come
-    /// again when the scene is prepared and drawn, and are reported then.
-    fn glimpse(&mut self, order: &Order, tell: Tell<'_>) {
+    /// Shows a new scene lit but unpainted, in few pixels, until its strokes are prepared. Errors are ignored here:
+    /// they come again when the scene is prepared and drawn, and are reported then.
+    fn show_unpainted(&mut self, order: &Order, tell: Tell<'_>) {
         let Some(renderer) = &mut self.renderer else { return };
         let Ok(plain) = self.preparer.prepare_plain(&order.job.loaded) else { return };
         for (index, view) in order.job.views.iter().enumerate() {
@@ -202,7 +202,7 @@ impl PaintWorker {
             let size_px = self.draft_size.of(view.size_px);
             let options = DrawOptions { size_px, is_exact: false, give_up: &|| false };
             let frame = plain.bare(&view.camera, view.frame, &frame_options(view, &options));
-            self.on_driver = None;
+            self.held_view = None;
             renderer.set_billboards(&view.lights_in(size_px));
             let Ok(picture) = renderer.render(&frame) else { return };
             tell(Report::Picture(Picture {
@@ -245,11 +245,12 @@ impl PaintWorker {
         }
     }
 
-    /// If only the icons of lights over an exact picture changed, and the renderer still holds it, redraws the icons alone.
-    fn relight(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
+    /// If only the icons of lights over an exact picture changed, and the renderer still holds it, redraws the icons
+    /// alone.
+    fn redraw_light_icons(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         let (Some(renderer), Some(drawn)) = (&mut self.renderer, &mut self.drawn[index]) else { return };
-        let is_there = self.on_driver == Some(index) && drawn.serial == serial && drawn.exact;
+        let is_there = self.held_view == Some(index) && drawn.serial == serial && drawn.exact;
         if !is_there || drawn.view.looks_like(view) || !drawn.view.differs_in_lights_alone(view) {
             return;
         }
@@ -302,11 +303,11 @@ impl PaintWorker {
             self.ahead.begin(painting, serial, next, options, recall.clone());
         }
         let recall = recall.as_deref();
-        self.on_driver = None;
+        self.held_view = None;
         renderer.set_billboards(&view.lights_in(options.size_px));
         let (frame, picture) = render(renderer, painting, &view, frame, options, recall);
         let strokes = frame.strokes.len();
-        let strokes_of = counted(&frame, painting.scene().regions.len());
+        let strokes_of = strokes_per_region(&frame, painting.scene().regions.len());
         let picture = match picture {
             Ok(Some(picture)) => picture,
             Ok(None) => return false,
@@ -325,7 +326,7 @@ impl PaintWorker {
         let is_there = |index: usize| resolved.get(index).is_some_and(|stroke| stroke.alpha > 0.0);
         let recall = (strokes > 0).then(|| Arc::new(Recall::of(painting, &frame, is_there, self.turn)));
         let exact = options.is_exact;
-        self.on_driver = Some(index);
+        self.held_view = Some(index);
         self.drawn[index] =
             Some(Drawn { view: view.clone(), serial, exact, strokes: (strokes, strokes_of.clone()), recall });
         let image = Arc::new(picture);
@@ -334,7 +335,7 @@ impl PaintWorker {
     }
 }
 
-fn counted(frame: &Frame, regions: usize) -> Vec<usize> {
+fn strokes_per_region(frame: &Frame, regions: usize) -> Vec<usize> {
     let mut counts = vec![0; regions + 1];
     for source in &frame.sources {
         counts[(source.region as usize).min(regions)] += 1;

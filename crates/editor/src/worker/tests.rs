@@ -136,11 +136,11 @@ fn a_new_scene_is_seen_unpainted_before_its_strokes_are_prepared() {
     worker.0.show(job(1));
     let told = until(&worker, |report| matches!(report, Report::Picture(_)));
     assert!(!told.iter().any(|report| matches!(report, Report::Prepared(..))));
-    let glimpse = pictures(&told)[0];
-    assert!(!glimpse.exact && glimpse.strokes == 0);
-    let small = ViewJob { size_px: glimpse.image.size.map(|side| side as u32), ..view(&loaded, 3.0) };
+    let unpainted = pictures(&told)[0];
+    assert!(!unpainted.exact && unpainted.strokes == 0);
+    let small = ViewJob { size_px: unpainted.image.size.map(|side| side as u32), ..view(&loaded, 3.0) };
     // Drafts differ a little: their shadows have hard edges.
-    let (seen, exact) = (bytes(glimpse), rendered(&loaded, &small, Some(Style::Reference)));
+    let (seen, exact) = (bytes(unpainted), rendered(&loaded, &small, Some(Style::Reference)));
     let differs: usize = seen.iter().zip(&exact).map(|(one, other)| usize::from(one.abs_diff(*other))).sum();
     assert!(differs < 2 * seen.len(), "{differs} over {} bytes", seen.len());
     until(&worker, is_exact);

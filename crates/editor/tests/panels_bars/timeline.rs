@@ -226,7 +226,7 @@ fn the_ruler_of_the_lanes_scrubs_and_its_ends_are_the_range() {
     assert_eq!(harness.state().session.frame, 60.0, "a grip does not scrub");
 }
 
-/// Puts the page after playback that has dropped frames in a few places.
+/// Plays the page so that frames are dropped in a few places.
 fn dropped(page: &mut Page) {
     let course = Course { first: 0, last: 119, fps: 24.0, looped: true, pacing: Pacing::RealTime };
     let playback = &mut page.time.playback;

@@ -27,7 +27,7 @@ mod with_devices {
     use super::super::opening::{OpenOptions, Opened, VERSIONS};
     use crate::gl::Platform;
 
-    /// Opens the first device that works, those of real graphics cards first.
+    /// Opens the first device that works; graphics cards are tried before software.
     pub(in super::super) fn open(options: &OpenOptions) -> Result<Opened, String> {
         let mut devices: Vec<Device> = Device::query_devices().map_err(|error| error.to_string())?.collect();
         devices.sort_by_key(|device| device.extensions().contains("EGL_MESA_device_software"));

@@ -138,7 +138,7 @@ struct Surfaceless {
 impl Platform for Surfaceless {
     fn make_current(&self) -> Result<(), String> {
         let none = std::ptr::null_mut();
-        // SAFETY: display and context are alive; no surface is a surface of the surfaceless platform.
+        // SAFETY: display and context are alive; on this platform a context needs no surface.
         match unsafe { (self.egl.make_current)(self.display, none, none, self.context) } {
             0 => Err("the context cannot be made current".to_owned()),
             _ => Ok(()),

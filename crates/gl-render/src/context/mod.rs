@@ -36,8 +36,8 @@ impl Context {
         &self.report
     }
 
-    /// OpenGL's functions, for another painter in the same context. They call whatever context is current
-    /// ([`Context::make_current`]), and must not be called once this one is dropped.
+    /// OpenGL's functions, for other code that draws in this context. They act on whatever context is current
+    /// ([`Context::make_current`]), and must not be called after this one is dropped.
     pub fn glow(&self) -> Arc<glow::Context> {
         self.gpu.functions()
     }
@@ -46,7 +46,7 @@ impl Context {
     ///
     /// # Errors
     ///
-    /// The driver's words, where it refuses.
+    /// The driver's message, if it refuses.
     pub fn make_current(&self) -> Result<(), String> {
         self.gpu.make_current().map_err(|error| error.to_string())
     }
@@ -86,7 +86,7 @@ fn ways(driver: Driver) -> Vec<(Driver, &'static str, Opener)> {
     all.into_iter().filter(|(candidate, ..)| driver == Driver::Auto || driver == *candidate).collect()
 }
 
-/// Turns a panic below (a driver that answers nonsense) into a reason.
+/// Turns a panic of the attempt (some drivers answer nonsense) into an error message.
 fn guarded<T>(attempt: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(attempt)).unwrap_or_else(|payload| {
         let text = payload

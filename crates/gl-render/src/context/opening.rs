@@ -1,4 +1,4 @@
-//! What every way of opening a context takes and gives.
+//! What all ways of opening a context have in common: options, result, and the versions to ask for.
 
 use crate::gl::Platform;
 

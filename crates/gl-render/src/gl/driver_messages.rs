@@ -35,7 +35,7 @@ impl DriverMessages {
 
     fn push(&self, text: &str) {
         let mut pending = self.pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        // Otherwise an error in a loop would fill the memory.
+        // Without a limit, an error that repeats would fill the memory.
         if pending.len() < 64 {
             pending.push(text.trim_end().to_owned());
         }
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_count_and_chatter_does_not() {
+    fn errors_are_faults_and_notifications_are_not() {
         assert!(is_fault(glow::DEBUG_TYPE_ERROR, glow::DEBUG_SEVERITY_LOW));
         assert!(is_fault(glow::DEBUG_TYPE_OTHER, glow::DEBUG_SEVERITY_HIGH));
         assert!(!is_fault(glow::DEBUG_TYPE_OTHER, glow::DEBUG_SEVERITY_NOTIFICATION));

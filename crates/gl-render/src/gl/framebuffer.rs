@@ -16,7 +16,7 @@ pub(crate) struct Framebuffer {
 }
 
 impl Framebuffer {
-    /// All textures have one size.
+    /// The textures must all have the same size.
     pub(crate) fn new(
         gpu: &Gpu,
         colors: &[&Rc<Texture>],

@@ -9,7 +9,7 @@ use glow::HasContext as _;
 
 use super::{DriverMessages, GlError, Platform, ShaderTexts};
 
-/// A context, shared by everything that was created in it; it is destroyed after the last of them.
+/// A context, shared by everything that was created in it. It is destroyed when the last of them is dropped.
 #[derive(Clone)]
 pub(crate) struct Gpu {
     shared: Rc<Shared>,
@@ -115,7 +115,7 @@ impl Gpu {
         unsafe { self.gl().finish() };
     }
 
-    /// Ends a pass: everything since the last lap belongs to it. Does nothing unless passes are timed.
+    /// Ends a pass: the time since the last lap is its own. Does nothing unless passes are timed.
     pub(crate) fn lap(&self, pass: &'static str) {
         if let Some(clock) = self.shared.clock.borrow_mut().as_mut() {
             self.finish();
@@ -124,7 +124,7 @@ impl Gpu {
         }
     }
 
-    /// Draws; while passes are timed, also counts the fragments.
+    /// Runs `draw`; while passes are timed, also counts the fragments that it draws.
     pub(super) fn counting_fragments(&self, draw: impl FnOnce()) {
         let mut clock = self.shared.clock.borrow_mut();
         let Some(clock) = clock.as_mut() else { return draw() };
@@ -140,7 +140,7 @@ impl Gpu {
         }
     }
 
-    /// Stops timing. Returns the passes with their seconds, in order, and the number of fragments of all strokes.
+    /// Stops timing. Returns the passes with their seconds, in order, and the number of fragments of all quads.
     pub(crate) fn stop_clock(&self) -> (Vec<(&'static str, f64)>, u64) {
         self.shared.clock.borrow_mut().take().map(|clock| (clock.laps, clock.fragments)).unwrap_or_default()
     }

@@ -8,22 +8,22 @@ use super::{Buffer, Framebuffer, GlError, Gpu, VertexArray};
 /// How a new colour combines with the old one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Blend {
-    /// It replaces it.
+    /// The new colour replaces the old one.
     #[default]
     Off,
-    /// Premultiplied "over".
+    /// The new colour is laid over the old one; both are premultiplied.
     Over,
-    /// The larger of each colour stays; alpha as in "over".
+    /// The larger value of each colour channel stays; alpha as in `Over`.
     Largest,
-    /// Premultiplied "under".
+    /// The new colour is laid under the old one; both are premultiplied.
     Under,
 }
 
-/// The state of a pass. Everything else is reset to its default each time, because others may use the context too.
+/// The state of a pass. All other state is reset at each pass, because other code may use the context too.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrawState {
     pub depth_test: bool,
-    /// Keeps the depth of earlier passes, and draws what is equally near.
+    /// Keeps the depth of earlier passes; what is equally near is drawn too.
     pub depth_kept: bool,
     pub blend: Blend,
     /// Clears every colour target to this.
@@ -113,7 +113,7 @@ impl Gpu {
             Vertices::Indexed { first, count } => unsafe {
                 gl.draw_elements(glow::TRIANGLES, count as i32, glow::UNSIGNED_INT, first as i32 * 4);
             },
-            // SAFETY: likewise.
+            // SAFETY: as for indexed triangles.
             Vertices::Quads { instances } => self.counting_fragments(|| unsafe {
                 gl.draw_arrays_instanced(glow::TRIANGLE_STRIP, 0, 4, instances as i32);
             }),
@@ -123,8 +123,8 @@ impl Gpu {
         Ok(())
     }
 
-    /// Runs a vertex shader over points and writes its outputs into `output`: `count` records of `record_bytes`, from record
-    /// `first` on. Nothing is drawn.
+    /// Runs a vertex shader over points and writes what it puts out into `output`, one record for each point. Nothing
+    /// is drawn.
     pub(crate) fn capture(
         &self,
         bound: Bound<'_>,

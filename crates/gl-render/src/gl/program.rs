@@ -49,7 +49,7 @@ pub(crate) struct Program {
     uniforms: Vec<Uniform>,
     /// Uniforms that the shader may leave out.
     optional: Vec<&'static str>,
-    /// Whether the shader may leave out any uniform, because the user's own text replaces one of ours.
+    /// Whether a user's text replaces some shader file. If so, any uniform may be missing.
     is_replaced: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Shader texts: `#include`, and driver messages that name our files and lines.
+//! Shader texts: expands `#include`, and makes driver messages name our files and lines.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -28,7 +28,7 @@ impl ShaderTexts {
     }
 }
 
-/// A file with its includes put in.
+/// The text of a shader with all its includes in place.
 #[derive(Debug)]
 pub(super) struct Expanded {
     pub text: String,
@@ -43,7 +43,8 @@ pub(super) struct Sources<'a> {
     pub replaced: &'a ShaderTexts,
 }
 
-/// `#define`s these names, then replaces every `#include "path"` by its file, each file once. Paths start at `shaders/`.
+/// `#define`s these names, then replaces every `#include "path"` by that file, which is taken only once. Paths start at
+/// `shaders/`.
 pub(super) fn expand(sources: Sources<'_>, path: &str, defined: &[&str]) -> Result<Expanded, String> {
     let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
     for name in defined {
@@ -130,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_included_once_and_lines_stay_true() {
+    fn a_file_is_included_once_and_line_numbers_stay_right() {
         let expanded = expand(&[FILES], "a.frag", &[]).unwrap();
         let wanted = "#version 330 core\n#line 1 0\none\n#line 1 1\ninner\n#line 3 0\n#line 4 0\nfour\n";
         assert_eq!(expanded.text, wanted);

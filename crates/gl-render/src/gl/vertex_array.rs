@@ -9,7 +9,7 @@ use super::{Buffer, GlError, Gpu};
 pub(crate) struct Attribute<'a> {
     pub location: u32,
     pub buffer: &'a Buffer,
-    /// Floats, or unsigned integers where `integer`.
+    /// How many floats, or unsigned integers where `integer` is set.
     pub components: i32,
     pub integer: bool,
     pub stride_bytes: i32,

@@ -1,5 +1,5 @@
-//! Where on a mark there is paint. Most of a mark's rectangle is room for ragged ends, and a dry or faint stroke covers even
-//! less. A quad that is cut to the painted box looks the same and covers far fewer pixels.
+//! Finds where on a mark there is paint. Most of a mark's rectangle is room for ragged ends, and a dry or faint stroke
+//! covers even less. A quad that is cut to the painted box looks the same and covers far fewer pixels.
 
 use impasto_core::brush::SIZE;
 use rayon::prelude::*;
@@ -12,7 +12,8 @@ pub(super) type Texel = [u8; 4];
 /// How many amounts of paint have a box of their own; `paint.vert` has the same number.
 const STEPS: usize = 32;
 
-/// The box: from and to along the mark, then across, as shares of the mark. From is above to where there is no paint.
+/// A box: start and end along the mark, then start and end across it, as shares of the mark. Where there is no paint,
+/// each start is larger than its end.
 type Bounds = [f32; 4];
 
 /// A row of [`STEPS`] boxes for each mark.
@@ -26,7 +27,7 @@ pub(super) fn texture(gpu: &Gpu, marks: &[Vec<Texel>]) -> Result<Texture, GlErro
 
 const NOWHERE: Bounds = [1.0, 0.0, 1.0, 0.0];
 
-/// For each step, the box around the texels with more paint than that.
+/// For each amount of paint, the box around the texels with more paint than that.
 fn of_mark(texels: &[Texel]) -> [Bounds; STEPS] {
     let (mut along, mut across) = ([0; SIZE[0]], [0; SIZE[1]]);
     for (y, row) in texels.chunks_exact(SIZE[0]).enumerate() {

@@ -1,10 +1,11 @@
-//! Bodies that noise colours: several layers of noise that travel over a body, blended over what is behind it, and that may
-//! glow. They are drawn after the rest of the reference picture, the farthest first.
+//! Bodies that noise colours: several layers of noise travel over the body. They are blended over what is behind it,
+//! and may glow. Such bodies are drawn after the rest of the reference picture, the farthest first.
 //!
-//! Targets: `glow`, and two of a quarter of its size. Passes: for each body place (depth and id) and look (colour, blended);
-//! background (where nothing else is behind); where something glows, gather, spread (twice), bloom.
+//! Targets: `glow`, and two with a quarter of its width and height. Passes: for each body, `place` (depth and id) and
+//! `look` (colour, blended); `background`, where nothing else is behind; and if something glows, `gather`, `spread`
+//! (twice) and `bloom`.
 //!
-//! That noise also displaces vertices is not done here but in `body_program`.
+//! Noise that displaces vertices is not handled here but in `body_program`.
 
 mod bloom;
 
@@ -44,7 +45,7 @@ struct Programs {
 }
 
 struct Targets {
-    /// Of the reference picture that these belong to.
+    /// Colour of the reference picture that these targets belong to.
     color: Rc<Texture>,
     depth_and_id: Rc<Texture>,
     glow: Rc<Texture>,
@@ -145,13 +146,13 @@ fn draw_body(
     DrawnBody { body, mesh }: &DrawnBody<'_>,
 ) -> Result<(), GlError> {
     let (Some(noise), Some(layers)) = (&body.noise, layers(body)) else { return Ok(()) };
-    let before_what_is_there = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
-    gpu.begin_pass(&targets.place_pass, before_what_is_there);
+    let in_front = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
+    gpu.begin_pass(&targets.place_pass, in_front);
     for part in &mesh.parts {
         let bound = set_camera(programs.place.bind(body, tiles), frame).set("body_id", body_id);
         gpu.draw(bound, &mesh.array, part.vertices())?;
     }
-    gpu.begin_pass(&targets.look_pass, DrawState { blend: Blend::Over, ..before_what_is_there });
+    gpu.begin_pass(&targets.look_pass, DrawState { blend: Blend::Over, ..in_front });
     for part in &mesh.parts {
         let bound =
             set_layers(set_camera(programs.look.bind(body, tiles), frame), layers, noise.travelled, tiles);
@@ -160,7 +161,7 @@ fn draw_body(
     Ok(())
 }
 
-/// Sets the other uniforms of `noise_displace/look.vert`.
+/// Sets the uniforms of `noise_displace/look.vert` itself.
 fn set_camera<'a>(bound: Bound<'a>, frame: &Frame) -> Bound<'a> {
     bound.set("view_from_world", frame.view.view_from_world).set("clip_from_view", frame.view.clip_from_view)
 }
@@ -186,8 +187,8 @@ fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles
         .set("threshold", layers.threshold)
 }
 
-/// The bodies that are drawn here, sorted by the depth of their centres. A body inside another goes before it. Those that are
-/// fully transparent are left out.
+/// Indices of the bodies that are drawn here, the farthest centre first; but a body inside another comes before that
+/// one. Fully transparent bodies are left out.
 fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
     let depth = |DrawnBody { body, mesh }: &DrawnBody<'_>| {
         let (low, high) = mesh.bounds.unwrap_or_default();

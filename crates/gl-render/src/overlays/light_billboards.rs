@@ -1,7 +1,8 @@
 //! Lights as icons that face the camera.
 //!
-//! The corners of a quad (its centre ± the camera's right ± the camera's up) are uniforms. The vertex shader picks one by
-//! `gl_VertexID`, and the fragment shader finds its texture coordinates by inverse bilinear interpolation. No buffer is read.
+//! The corners of a quad (its centre ± the camera's right ± the camera's up) are uniforms, so no buffer is read. The
+//! vertex shader picks a corner by `gl_VertexID`; the fragment shader finds texture coordinates by inverse bilinear
+//! interpolation.
 
 mod icons;
 
@@ -50,8 +51,8 @@ pub enum BillboardSize {
 }
 
 impl LightBillboard {
-    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height; `None` where it is
-    /// nearer than the near plane, and so not visible.
+    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height; `None`
+    /// where it does not show, because it is nearer than the near plane or has no size.
     pub fn corners(&self, view: &FrameView, height_px: u32) -> Option<[Vec3; 4]> {
         let depth = -view.view_from_world.transform_point3(self.position).z;
         let half = match self.size {

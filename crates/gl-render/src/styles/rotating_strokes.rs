@@ -1,8 +1,8 @@
 //! Brush strokes that turn with what they lie on.
 //!
-//! Targets: `detail` (where small strokes are wanted), `paint` (premultiplied, linear), `height` (of the paint), `below` (the
-//! picture before a layer), `soft height`. Passes: detail, spread (twice), resolve (a colour, a presence and a place per
-//! stroke), paint (a billboard per stroke, one layer after the other), soften, encode.
+//! Targets: `detail` (where small strokes are wanted), `paint` (premultiplied, linear), `height` (of the paint),
+//! `below` (the picture before a layer), `soft height`. Passes: detail, spread (twice), resolve (finds colour,
+//! presence and place of each stroke), paint (a billboard per stroke, one layer after the other), soften, encode.
 
 mod canvas;
 mod programs;
@@ -35,7 +35,7 @@ const BLOCK_PX: f32 = 4.0;
 /// How far detail is spread over its body: standard deviation of a Gaussian, pixels at the scene's size.
 const SPREAD_PX: f32 = 16.0;
 
-/// The most that is painted before the caller is asked again whether to stop, pixels of strokes.
+/// The caller is asked whether to stop after strokes that cover this many pixels.
 const PIECE_PX: f32 = 400_000.0;
 
 /// Draws brush strokes.
@@ -80,7 +80,7 @@ impl Targets {
         let half = size_px.map(|side| side.div_ceil(2));
         let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;
         let blocks = size_px.map(|side| side.div_ceil(block_px));
-        // One number holds both a body's id and its share of the block.
+        // 32 bits, because one channel holds both a body's id and its share of the block.
         let detail = [
             target(Format::Rgba32F, blocks, Filter::Nearest)?,
             target(Format::Rgba32F, blocks, Filter::Nearest)?,
@@ -147,7 +147,7 @@ impl RotatingStrokes {
         }
     }
 
-    /// Finds where small strokes are wanted. The result is in the first of the two targets.
+    /// Finds where small strokes are wanted. The result is in the first of the two `detail` targets.
     fn find_detail(&self, input: &StyleInput<'_>, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
@@ -203,7 +203,7 @@ impl RotatingStrokes {
         }
     }
 
-    /// Lays a layer of paint; in several pieces where the caller may want to stop.
+    /// Lays a layer of paint; in several pieces if the caller may stop.
     fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
         let strokes = strokes_of(input, layer);
         let shaped = strokes.iter().any(Stroke::is_shaped);
@@ -264,7 +264,8 @@ impl RotatingStrokes {
             Some(ground) => (Vec4::from((glam::Vec3::from(ground.color), ground.hides)), WASH),
             None => (Vec4::ZERO, 0.0),
         };
-        // Pixels of the picture, then of the scene's own size with the origin in the middle, then of the canvas.
+        // From pixels of the picture to pixels at the scene's size, counted from the middle, then to tiles of the
+        // canvas.
         let scale = 1.0 / frame.px_scale;
         let tiles = 1.0 / canvas::SIDE as f32;
         let half_px = glam::UVec2::from(frame.size_px).as_vec2() * 0.5;

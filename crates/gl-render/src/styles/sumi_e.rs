@@ -1,11 +1,11 @@
 //! Ink on paper: a dark silhouette over an interior of four tones.
 //!
-//! The source's rule. Targets, 8 bits each: `silhouette`, `blurred silhouette`, `interior`, `blurred interior`. Passes: those
-//! of [`SOURCE_PASSES`].
+//! The rule of the source that the style follows. Targets, 8 bits each: `silhouette`, `blurred silhouette`, `interior`,
+//! `blurred interior`. Passes: those of [`SOURCE_PASSES`].
 //!
-//! Our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash blurred a little, and far),
-//! `strokes`. Passes: wash, soften (four times), resolve (an ink, a presence and a place per stroke), ink strokes (a billboard
-//! each), lay.
+//! Our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash blurred a little,
+//! and far), `strokes`. Passes: wash, soften (four times), resolve (finds ink, presence and place of each stroke), ink
+//! strokes (a billboard each), lay.
 
 mod paper;
 mod programs;
@@ -43,7 +43,7 @@ pub(crate) struct SumiE {
     gpu: Gpu,
     fibres: Texture,
     screen: VertexArray,
-    /// Created when a frame first uses this rule.
+    /// Created, as is `painter`, when a frame first uses its rule.
     source: Option<SourcePrograms>,
     painter: Option<PainterPrograms>,
     source_targets: Option<SourceTargets>,
@@ -169,7 +169,7 @@ impl SumiE {
         ];
         for (from, to, axis, deviation) in runs {
             gpu.begin_pass(to, DrawState::default());
-            // A wide blur has its taps further apart.
+            // A blur that would reach farther than the shader's 24 taps has its taps farther apart.
             let apart = (deviation * 2.6 / 24.0).max(1.0);
             let bound = programs
                 .soften
@@ -278,7 +278,7 @@ fn silhouette_range(settings: &Settings) -> Vec2 {
     Vec2::new(from, (settings.silhouette_to as f32).max(from + 1e-4))
 }
 
-/// How much of its ink each body gets, a texel each: a backdrop gets none.
+/// A texture with a texel for each body that says how much ink it gets: a backdrop gets none.
 fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
     let most = gpu.limits().max_side_px as usize;
     let mut texels: Vec<u8> =
@@ -289,7 +289,7 @@ fn shares(gpu: &Gpu, frame: &Frame) -> Result<Texture, GlError> {
 
 /// Sets the uniforms of `sumi_e/paper.glsl`.
 fn paper<'a>(bound: Bound<'a>, frame: &Frame, settings: &Settings) -> Bound<'a> {
-    // Pixels of the picture, then of the scene's own size with the origin in the middle, then of the paper.
+    // From pixels of the picture to pixels at the scene's size, counted from the middle, then to tiles of the paper.
     let scale = 1.0 / frame.px_scale;
     let tiles = 1.0 / paper::SIDE as f32;
     let half_px = glam::UVec2::from(frame.size_px).as_vec2() * 0.5;

@@ -12,7 +12,7 @@ use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
 use crate::versions::{SceneVersion, flat_color};
 
-/// There are no colours for more bodies than this that are far enough apart.
+/// For more objects than this, [`flat_color`] has no further colours.
 const MOST_COLORS: usize = 26;
 
 /// How many frames are measured, at most.

@@ -24,10 +24,11 @@ const TILTS_DEG: [f64; 6] = [0.0, 20.0, 40.0, 60.0, 70.0, 80.0];
 /// Side of the sheet's picture, large enough for thousands of strokes.
 const SHEET_PX: u32 = 2048;
 
-/// The share of the sheet's sides within which strokes are counted: near its border, strokes from beyond it are missing.
+/// Strokes are counted within this share of the sheet's sides: near its border, strokes from beyond it are missing.
 const WINDOW: f64 = 0.85;
 
-/// Strokes wanted per particle from which on the last ranks are not fully present any more.
+/// If more strokes are wanted per particle than this, particles run out: all ranks together show fewer strokes than
+/// wanted.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.
@@ -43,8 +44,8 @@ struct ObjectDensity {
 pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M14,
-        "body layer of the object that fills most of the reference picture (backdrops aside), zoomed in up to 20 times; a flat sheet with its \
-         strokes, tilted up to 80 deg",
+        "body layer of the object that fills most of the reference picture (backdrops aside), zoomed in up \
+         to 20 times; a flat sheet with its strokes, tilted up to 80 deg",
         "density 0.9 to 1.1 until particles run out; spacing ≥ 0.6 to 60 deg, ≥ 0.5 to 80 deg",
     );
     let camera = context.reference_camera();
@@ -141,7 +142,7 @@ fn of_object(
 /// Depths of one surface differ by less than this share within a pixel.
 const DEPTH_SHARE: f32 = 0.004;
 
-/// Whether the pixel under a stroke's centre shows the stroke's surface, not one in front of it (another body's or its own's).
+/// Whether the pixel under a stroke's centre shows the surface that the stroke lies on, not one in front of it.
 fn is_seen(shown: &DrawnFrame, stroke: &Stroke) -> bool {
     let [x, y] = stroke.center_px;
     let [width, height] = shown.frame.size_px.map(|side| side as i64);

@@ -1,4 +1,4 @@
-//! A part of M11: do strokes on a guide show as it was drawn, seen from where it was drawn?
+//! A part of M11, authoring: do strokes on a guide follow it as drawn, seen from where it was drawn?
 
 use glam::DVec3;
 use impasto_painting::frame::LayerKind;
@@ -16,7 +16,7 @@ use crate::versions::SceneVersion;
 /// Strokes within this share of a guide's radius count as lying on it.
 const ON_IT: f64 = 0.05;
 
-/// Strokes that face the eye by a smaller cosine are left out.
+/// Strokes are left out if the cosine between their surface's normal and the direction to the eye is smaller.
 const FACED: f64 = 0.35;
 
 /// The largest difference allowed, degrees.
@@ -48,7 +48,7 @@ pub(super) fn add(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<boo
     Ok(spread.count > 0 && spread.max <= MOST_DEG)
 }
 
-/// How far the strokes on a guide lie from it as drawn, degrees.
+/// The angles between the strokes on a guide and the guide as drawn, degrees.
 fn at_guide(
     context: &mut MeasureContext<'_>,
     scene: &Scene,
@@ -76,8 +76,8 @@ fn at_guide(
     let others: Vec<&Guide> = scene.regions[region].guides.iter().filter(|other| *other != guide).collect();
     let mut errors = Vec::new();
     for (key, stroke) in of_layer(&strokes, LayerKind::Body) {
-        let is_its = key.body_id as usize == object + 1 && stroke.region as usize == region;
-        if !is_its || stroke.facing < FACED {
+        let is_of_region = key.body_id as usize == object + 1 && stroke.region as usize == region;
+        if !is_of_region || stroke.facing < FACED {
             continue;
         }
         let at = painting.particles(object).at(key.particle as usize).position.as_dvec3();
@@ -98,8 +98,9 @@ fn at_guide(
     Ok(errors)
 }
 
-/// Distance of a point to a guide's line, the direction of the gesture at the nearest point (it turns evenly from the middle of one
-/// piece to the middle of the next), and by how many degrees strokes are turned from it.
+/// Distance of a point to a guide's line, the direction of the gesture there, and by how many degrees strokes are
+/// turned from it. The direction at a point of the guide is the mean of its two pieces', and changes evenly in
+/// between.
 fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3, f64)> {
     let points: Vec<DVec3> = guide.points.iter().map(|point| DVec3::from(point.at)).collect();
     let pieces: Vec<DVec3> = points.windows(2).map(|pair| (pair[1] - pair[0]).normalize_or_zero()).collect();

@@ -40,8 +40,8 @@ impl Pair {
 pub(super) fn row(context: &mut MeasureContext<'_>, series: &mut Vec<Series>) -> Result<Row, MeasureError> {
     let mut row = Row::new(
         Metric::M4,
-        "neighbouring frames as drawn, all layers: the shot, bodies that move; a turntable of the reference pose, 1 deg a frame; a zoom, 1 % a \
-         frame; strokes at the picture's border left out",
+        "neighbouring frames as drawn, all layers: the shot, bodies that move; a turntable of the \
+         reference pose, 1 deg a frame; a zoom, 1 % a frame; strokes at the picture's border left out",
         "turntable and zoom 0 %; shot ≤ 0.1 %",
     );
     let shot = shot(context, SceneVersion::Board)?;

@@ -12,7 +12,7 @@ use crate::report::{LEAST_STROKES, Reading, Row, Verdict};
 use crate::reveal::{Difference, NEIGHBOURS, revealed};
 use crate::versions::{SceneVersion, TurnSolver};
 
-/// Views from about a quarter and half of the way round, several of each for enough strokes.
+/// Views from about a quarter of the way round and from about half of it, several of each for enough strokes.
 const QUARTER_DEG: [f64; 6] = [-90.0, 90.0, -100.0, 100.0, -80.0, 80.0];
 const HALF_DEG: [f64; 5] = [180.0, 170.0, 190.0, 160.0, 200.0];
 
@@ -20,8 +20,8 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
     let mut row = Row::new(
         Metric::M6,
         "camera round its target by 80 to 100 and by 160 to 200 deg; body layer without chance, second families and contour; \
-         strokes that the reference view saw from behind, against their 10 nearest visible neighbours of the same region that face the same way and lie within 1.5 lengths; poles are the singular \
-         points of the directions",
+         strokes that the reference view saw from behind, against their 10 nearest visible neighbours of the \
+         same region that face the same way and lie within 1.5 lengths; poles are the singular points of the directions",
         "90 deg: median ≤ 3, p95 ≤ 12; 180 deg: median ≤ 6, p95 ≤ 25",
     );
     let versions = [

@@ -25,13 +25,13 @@ const DISK: f64 = 0.85;
 /// Deviation of the window of structure tensors, pixels.
 const TENSOR_PX: f64 = 2.0;
 
-/// Rolls that are no quarter turns.
+/// Rolls by other angles than quarter turns.
 const ODD_DEG: [f64; 3] = [7.0, 30.0, 137.0];
 
 /// With more particles than this, M2 measures each angle at one picture size only.
 const MANY_PARTICLES: usize = 120_000;
 
-/// How rolled pictures differ from the straight one, turned.
+/// How the pictures of a rolled camera differ from the straight picture when that is turned likewise.
 #[derive(Default)]
 struct Turned {
     mean: f64,

@@ -114,8 +114,8 @@ fn median_length_px(strokes: &StrokesByKey) -> f64 {
     lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// The least number of frames after which half of the pixels of moving bodies have moved by more than half a stroke; `None` where
-/// the shot ends before.
+/// The least number of frames after which half of the pixels of moving bodies have moved by more than half a stroke;
+/// `None` if the shot ends before that.
 fn least_step(
     context: &mut MeasureContext<'_>,
     now: &DrawnFrame,

@@ -10,15 +10,18 @@ use super::inputs::{FieldInputs, SamplePoint};
 use super::samples::FieldSamples;
 use crate::stated::symmetry;
 
-/// Guesses where no reference faces the surface pull as firmly as it takes to hold them from this share of the body's size away
-/// from what is known. The firmness of a sample's neighbours together is `NEIGHBOURS`.
+/// Where no reference faces the surface, the stated direction is a guess. It pulls so weakly that directions which are
+/// known win over it up to about this share of the body's size away.
 const GUESS_REACH: f64 = 0.25;
+
+/// How firmly all neighbours of a sample together pull at it.
 const NEIGHBOURS: f64 = 8.0;
 
-/// Firmness of the automatic direction where guides rule.
+/// How firmly the stated direction pulls where guides, the curvature or a soft seam decide instead.
 const FAINT: f64 = 1e-6;
 
-/// For samples a guide reaches at least this many of their spacings: it may be narrower than they are apart.
+/// A guide acts on samples up to at least this many spacings away, since it may be narrower than the gap between
+/// samples.
 const LEAST_REACH_SPACINGS: f64 = 1.2;
 
 impl FieldInputs {
@@ -61,13 +64,13 @@ impl FieldInputs {
             .collect()
     }
 
-    /// What pulls at one sample, but for the curvature.
+    /// What pulls at one sample, except the curvature.
     pub(super) fn constraint(&self, sample: &SamplePoint, anchor: f64, free: &[bool]) -> Constraint {
         let spacings = GUESS_REACH * self.extent.1 / self.samples.spacing;
         let guess = NEIGHBOURS / (spacings * spacings).max(1.0);
-        let faint = if free[sample.point.rule] || anchor < 1.0 { FAINT } else { guess };
+        let weakest = if free[sample.point.rule] || anchor < 1.0 { FAINT } else { guess };
         // Inside a soft seam the field joins the two sides; what is stated there pulls little.
-        let mut weight = faint + FIRM * anchor.powi(12) * sample.base.exact.powi(2);
+        let mut weight = weakest + FIRM * anchor.powi(12) * sample.base.exact.powi(2);
         let mut target = sample.stated;
         let rule = &self.rules[sample.point.rule];
         let symmetry = symmetry(rule);
@@ -101,11 +104,11 @@ impl FieldInputs {
         constraints.par_iter_mut().enumerate().with_min_len(256).for_each(|(sample, constraint)| {
             let Some(bend) = bends(&points[sample]) else { return };
             let normal = normals[sample].as_dvec3();
-            let near = graph.neighbours(sample).map(|other| {
+            let neighbours = graph.neighbours(sample).map(|other| {
                 let offset = (positions[other] - positions[sample]).as_dvec3();
                 (offset, normals[other].as_dvec3())
             });
-            let Some(found) = curvature::principal(normal, near) else { return };
+            let Some(found) = curvature::principal(normal, neighbours) else { return };
             let [most, least] = found.curvatures.map(f64::abs);
             let direction = match bend {
                 Bend::Max => found.directions[0],

@@ -18,12 +18,12 @@ use crate::stated::symmetry;
 /// Firmness, in units of one neighbour, of what is stated outright and of a guide's own line.
 pub(super) const FIRM: f64 = 300.0;
 
-/// Firmness of a sample that no guide loosens, and of one that is loosened wholly.
+/// How firmly a sample is held that no guide loosens, and one that is loosened wholly.
 const HELD: f64 = 1e4;
 const LET_GO: f64 = 1e-6;
 
-/// The share of the relaxed field in a stroke, for the weight of a smoothing guide there. It rises steeply: the field itself is
-/// already loosened by that weight, and is what it was at the guide's rim.
+/// How much of the relaxed field a stroke takes, from the weight of a smoothing guide there. It may rise steeply,
+/// because the relaxed field itself changes with that weight: at the guide's rim it still equals the solved one.
 fn relaxed_share(weight: f64) -> f64 {
     1.0 - (1.0 - weight).powi(4)
 }
@@ -72,7 +72,8 @@ impl FieldInputs {
             return on_surface;
         }
         let flatness = f64::from(self.rules[rule].strokes.flatness);
-        // The angle that shows turns with the tangent: one to one for flat strokes, else at a slope that is measured.
+        // Newton's method: turns the tangent until its stroke shows at the wanted angle. The two turn one to one for
+        // flat strokes; for others the slope is measured.
         let mut tangent = views.tangent_at(wanted, jacobian);
         let error = |tangent: DVec3| wrap_pi(wanted - views.lift(tangent).map(jacobian).shown_rad(flatness));
         for _ in 0..16 {
@@ -84,11 +85,11 @@ impl FieldInputs {
             tangent = turned(tangent, (off / slope.clamp(0.2, 20.0)).clamp(-0.6, 0.6));
         }
         let lines = Symmetry::Lines;
-        let mix = |tangent: DVec3| lines.encode(tangent, views.axes);
+        let encoded = |tangent: DVec3| lines.encode(tangent, views.axes);
         if trust >= 1.0 {
             return tangent;
         }
-        let mixed = mix(tangent) * trust + mix(on_surface) * (1.0 - trust);
+        let mixed = encoded(tangent) * trust + encoded(on_surface) * (1.0 - trust);
         let mixed = lines.decode(mixed, views.axes);
         if mixed.dot(tangent) < 0.0 { -mixed } else { mixed }
     }
@@ -128,8 +129,8 @@ impl FieldInputs {
         self.guides.iter().any(|guide| guide.mode == GuideMode::Smooth)
     }
 
-    /// What holds the samples that a guide loosens; `None` for all others. A smoothing guide weakens the pull towards what was
-    /// solved, by geometric steps; a combing one after it pulls towards its gesture.
+    /// What holds the samples that a guide loosens; `None` for all others. Each smoothing guide weakens the pull
+    /// towards what was solved by a factor; a combing guide after it pulls towards its gesture.
     pub(super) fn holds(
         &self,
         points: &[SamplePoint],

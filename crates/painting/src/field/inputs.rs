@@ -37,7 +37,7 @@ pub(crate) struct FieldInputs {
 pub(super) struct SamplePoint {
     pub(super) point: SurfacePoint,
     pub(super) base: StatedDirection,
-    /// The stated direction, a unit number in the axes of the normal.
+    /// The stated direction, as a unit complex number (`impasto_core::direction`).
     pub(super) stated: DVec2,
 }
 
@@ -112,7 +112,8 @@ impl FieldInputs {
         if a.part != b.part {
             return false;
         }
-        // Of two regions the upper one states the seam; the implicit region lies under all.
+        // The upper one of two regions states the seam. The implicit region, whose rule is the last, lies under all
+        // others.
         let height = |rule: usize| if rule + 1 == self.rules.len() { 0 } else { rule + 1 };
         let upper = if height(a.rule) > height(b.rule) { a.rule } else { b.rule };
         a.rule == b.rule || self.rules[upper].seam != Seam::Hard

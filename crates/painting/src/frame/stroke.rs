@@ -23,8 +23,8 @@ pub struct Stroke {
     pub width_px: f32,
     /// Fades strokes out before their surface turns away: 0 edge-on .. 1.
     pub facing_fade: f32,
-    /// ln(D/u): strokes wanted per pixel over particles per pixel, over rank, where the layer is wanted in full. Half of
-    /// the stroke is there at 0.
+    /// ln(D/u): the logarithm of the supply D over the rank u, where the layer is wanted in full. D is the strokes
+    /// wanted per pixel over the particles per pixel. At 0, half of the stroke is there.
     pub supply_ln: f32,
     /// Random bits of the stroke, the same in every frame.
     pub bits: u32,
@@ -164,10 +164,10 @@ pub struct Strokes {
 /// A run of strokes of one layer of paint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LayerRun {
-    /// Which.
+    /// Which layer.
     pub kind: LayerKind,
-    /// First stroke.
+    /// Index of the first stroke.
     pub first: u32,
-    /// How many.
+    /// How many strokes.
     pub count: u32,
 }

@@ -42,13 +42,13 @@ pub enum PrepareError {
 const PEAK_BYTES: u64 = 240;
 const PEAK_BYTES_WITH_LISTS: u64 = 520;
 
-/// Particles of all coats that a number can name.
+/// How many particles of all coats together can be numbered.
 const MOST_PARTICLES: u64 = 1 << 31;
 
 /// How to prepare.
 #[derive(Clone, Copy)]
 pub struct PrepareOptions<'a> {
-    /// Whether to give up.
+    /// Asked between steps: whether to give up.
     pub give_up: &'a (dyn Fn() -> bool + Sync),
     /// What particles may take in memory, bytes; `None` for as much as there is.
     pub memory_bytes: Option<u64>,
@@ -57,7 +57,7 @@ pub struct PrepareOptions<'a> {
 }
 
 impl Default for PrepareOptions<'_> {
-    /// To the end, without limit.
+    /// Never gives up, and sets no limit.
     fn default() -> Self {
         Self { give_up: &|| false, memory_bytes: None, peak_bytes: &|| None }
     }

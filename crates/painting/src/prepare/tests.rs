@@ -41,7 +41,7 @@ fn reused(before: &Painting, now: &Painting) -> Vec<[bool; 3]> {
 }
 
 #[test]
-fn a_moved_object_does_nothing_again() {
+fn moving_an_object_recomputes_nothing() {
     let (start, mut preparer) = (start(), Preparer::default());
     let before = preparer.prepare(Arc::clone(&start)).unwrap();
     let moved = edited(&start, |scene| {

@@ -46,8 +46,9 @@ fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
         findings.number(&format!("{object_path}.keys[{index}].scale"), key.scale, limits::KEY_SCALE);
         findings.number(&format!("{object_path}.keys[{index}].morph"), key.morph, 0.0..=1.0);
     }
-    let unmorphed = object.keys.iter().position(|key| key.morph != 0.0).filter(|_| object.morph.is_none());
-    if let Some(index) = unmorphed {
+    let without_target =
+        object.keys.iter().position(|key| key.morph != 0.0).filter(|_| object.morph.is_none());
+    if let Some(index) = without_target {
         let message = "the object has nothing to turn into";
         let mend = "name a mesh of equal topology in the object's `morph`";
         findings.error(format!("{object_path}.keys[{index}].morph"), message, mend);
@@ -120,7 +121,7 @@ fn check_parents(objects: &[Object], findings: &mut Findings) {
     }
 }
 
-/// The least index of every cycle. Each object is walked over at most twice.
+/// The least index in each cycle of parents. Each object is visited at most twice.
 fn first_of_each_cycle(parents: &[Option<usize>]) -> Vec<usize> {
     let mut walk_of: Vec<Option<usize>> = vec![None; parents.len()];
     let mut firsts = Vec::new();

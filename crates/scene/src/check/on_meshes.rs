@@ -104,8 +104,8 @@ fn check_guide(
         let corners = mesh.corners(triangle).map(|corner| model_from_file * corner.as_dvec3());
         (at - nearest_point(at, corners)).length()
     };
-    // Points of a guide lie close together, so each search begins at the triangle found last; corners are tried
-    // first, which is cheap.
+    // Points of a guide lie close together, so each search begins at the triangle found last. It tries one corner
+    // of each triangle before it measures any distance, because that is cheap.
     let mut last = 0;
     let mut is_near = |at: DVec3| {
         let corner = |triangle: usize| mesh.positions[mesh.triangles[triangle][0] as usize].as_dvec3();

@@ -90,15 +90,15 @@ fn check_dabs(field_path: &str, dabs: &[Dab], findings: &mut Findings) {
         let mend = "paint it somewhere, or remove it";
         findings.warning(field_path, "the region has no dabs and covers nothing", mend);
     }
-    // Fields of a tuple's items have no path of their own, so the whole list is named.
+    // What a variant such as `Dabs(…)` holds has no field path of its own, so the path of the variant is given.
     for dab in dabs {
         findings.vector(field_path, dab.at);
         findings.direction(field_path, dab.normal);
-        radius(field_path, "a dab", dab.radius, findings);
+        check_radius(field_path, "a dab", dab.radius, findings);
     }
 }
 
-fn radius(field_path: &str, what: &str, radius: f64, findings: &mut Findings) {
+fn check_radius(field_path: &str, what: &str, radius: f64, findings: &mut Findings) {
     if radius <= 0.0 {
         let message = format!("{what} with a radius of {} reaches nothing", super::short(radius));
         findings.error(field_path, message, "give a radius above 0");
@@ -134,7 +134,7 @@ fn check_guide_object(
 
 fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
     let path = |field: &str| format!("{guide_path}.{field}");
-    radius(&path("radius"), "a guide", guide.radius, findings);
+    check_radius(&path("radius"), "a guide", guide.radius, findings);
     findings.number(&path("strength"), guide.strength, 0.0..=1.0);
     for (index, point) in guide.points.iter().enumerate() {
         findings.vector(&path(&format!("points[{index}].at")), point.at);
@@ -167,6 +167,7 @@ fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
 
 /// Warns of regions that a later one covers completely.
 fn check_covered(scene: &Scene, findings: &mut Findings) {
+    // The last region on each object (`o`), group (`g`) and material (`m`), and on everything (the empty key).
     let mut last_of: HashMap<String, usize> = HashMap::new();
     let mut cover = |key: String, index: usize| last_of.insert(key, index);
     for (index, region) in scene.regions.iter().enumerate() {

@@ -21,7 +21,7 @@ usual_fields! {
 usual_fields! {
     /// Noise that moves vertices.
     pub struct VertexNoise {
-        /// Picture file, relative to the scene file; left out, the coloured Gaussian noise of the house.
+        /// Picture file, relative to the scene file; left out, the built-in coloured Gaussian noise.
         pub texture: Option<String> = None,
         /// Where vertices look their noise up.
         pub space: NoiseSpace = NoiseSpace::World,
@@ -69,7 +69,7 @@ pub enum NoiseNormals {
 usual_fields! {
     /// Noise that colours a surface: layers of one texture that move against each other, multiplied.
     pub struct SurfaceNoise {
-        /// Picture file, relative to the scene file; left out, the grey Perlin noise of the house.
+        /// Picture file, relative to the scene file; left out, the built-in grey Perlin noise.
         pub texture: Option<String> = None,
         /// How many layers are multiplied, from 1 to 64; 1 shows the tint alone.
         pub layer_count: u32 = 4,

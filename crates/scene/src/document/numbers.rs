@@ -14,7 +14,7 @@ pub struct Number<T, V = f64> {
     pub effect: &'static str,
     /// Its value.
     pub get: fn(&T) -> V,
-    /// Its value, to be set.
+    /// A reference to its value, through which it is set.
     pub of: fn(&mut T) -> &mut V,
 }
 

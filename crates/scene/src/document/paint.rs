@@ -12,7 +12,7 @@ use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX, MAX_THICKNESS};
 pub struct LayerNumber {
     /// Its name, its range in a scene file, what it does, and how to get and set it.
     pub number: Number<LayerSettings, Option<f64>>,
-    /// The same number of a resolved layer, to be set.
+    /// A reference to the same number of a resolved layer, through which it is set.
     pub resolved: fn(&mut ResolvedLayer) -> &mut f32,
 }
 
@@ -23,7 +23,8 @@ macro_rules! layer_numbers {
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
         #[serde(deny_unknown_fields)]
         pub struct LayerSettings {
-            /// `underpainting`, `body`, `form`, `scumble`, `accents` or `lights`; `ground` is the tone under all of them.
+            /// `underpainting`, `body`, `form`, `scumble`, `accents` or `lights`; `ground` is the tone under all of
+            /// them.
             pub name: String,
             /// Brush, or a mix of brushes.
             #[serde(default, skip_serializing_if = "is_default")]
@@ -73,7 +74,8 @@ layer_numbers! {
     pickup: 0.0..=1.0,
 }
 
-/// A brush by name, a PNG of the user's own (grey is paint), or a list of them: one named twice is taken twice as often.
+/// A brush by name, a PNG of the user's own (grey is paint), or a list of them: one named twice is taken twice as
+/// often.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrushMix(pub Vec<String>);
 

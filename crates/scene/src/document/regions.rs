@@ -15,8 +15,8 @@ pub struct Region {
     /// Base direction of its strokes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub direction: Direction,
-    /// Gestures on the surface that strokes follow: within their radius, or, where the direction is `Auto`, everywhere in
-    /// the region; a later one over an earlier one.
+    /// Gestures on the surface that strokes follow: within their radius, or, where the direction is `Auto`, everywhere
+    /// in the region; a later one over an earlier one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub guides: Vec<Guide>,
     /// How its directions meet those of the regions that it lies on.
@@ -111,8 +111,8 @@ pub struct Dab {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Direction {
-    /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops. Guides
-    /// overrule it wherever they reach.
+    /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops.
+    /// Guides overrule it wherever they reach.
     #[default]
     Auto,
     /// Degrees counter-clockwise from the picture's +X, as seen in the reference pose.
@@ -161,8 +161,8 @@ pub enum Sense {
     Arrows,
 }
 
-/// A gesture on the surface of an object that strokes follow; all in the object's own space, so that it holds at any frame
-/// and survives a new mesh.
+/// A gesture on the surface of an object that strokes follow; all in the object's own space, so that it holds at any
+/// frame and survives a new mesh.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
@@ -219,8 +219,8 @@ pub struct GuidePoint {
     pub at: [f64; 3],
     /// Normal of the surface there.
     pub normal: [f64; 3],
-    /// How far strokes are turned from the gesture's own line here: degrees counter-clockwise, as seen in the guide's view;
-    /// between two points, in between.
+    /// How far strokes are turned from the gesture's own line here: degrees counter-clockwise, as seen in the guide's
+    /// view; between two points, in between.
     #[serde(default, skip_serializing_if = "is_default")]
     pub turn_deg: f64,
 }

@@ -1,4 +1,5 @@
-//! The style of brush strokes, as a scene file states it: how strokes turn, and what the paint and its canvas look like.
+//! The style of brush strokes, as a scene file states it: how strokes turn, and what the paint and its canvas look
+//! like.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +8,7 @@ use super::style_settings::{CanvasFollows, Preparation, SettingRule, Solver, Sty
 use crate::limits::MAX_STRENGTH;
 
 usual_fields! {
-    /// Brush strokes: how they turn, and what the paint is like as a body.
+    /// Brush strokes: how they turn, and what the paint and its canvas look like.
     pub struct RotatingStrokes {
         /// How the turn is found.
         pub solver: Solver = Solver::Tangent; saved always,

@@ -69,8 +69,8 @@ const FACTOR: Shown = Shown { unit: "×", drag: 0.0..=8.0, step: 0.1, decimals: 
 //   in the file, radians once resolved);
 // - `usual`: its value in the default preset, and in every preset that says nothing else (`presets/table.rs`);
 // - `limits`: the values that a scene file may give;
-// - `shown`: how the inspector shows it. `place` is where it stands there: `Main(3)` is third from the top, `Advanced(3)`
-//   third under Advanced.
+// - `shown`: how the inspector shows it. `place` is where it stands there: `Main(3)` is third from the top,
+//   `Advanced(3)` third under Advanced.
 //
 // `body` holds the sizes of the body layer, which `presets.rs` resolves by hand; `form` how a stroke lies on its
 // surface; `color` its colour. `CONTRIBUTING.md` says what else a new row needs.

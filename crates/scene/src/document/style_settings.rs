@@ -89,7 +89,7 @@ pub enum SettingRule {
 }
 
 impl SettingRule {
-    /// The limits of a number, and its value in these settings.
+    /// The rule that a number of these settings lies within its limits.
     pub(crate) fn range<T>(number: &Number<T>, settings: &T) -> Self {
         Self::Range { field: number.field, value: (number.get)(settings), limits: number.limits.clone() }
     }

@@ -15,8 +15,8 @@ usual_fields! {
         pub drawing: InkDrawing = InkDrawing::Both,
         /// Where the light on the interior stands.
         pub light: InkLight = InkLight::Scene,
-        /// Towards the light in the eye's space (X right, Y up, Z to the eye), for a light that goes with the eye. The
-        /// source's own, which is left-handed, with Z turned round.
+        /// Direction to the light in the eye's space (X right, Y up, Z to the eye), for `light: Eye`. The default is
+        /// the source's light with Z negated, because the source is left-handed.
         pub to_light: [f64; 3] = [0.96, 0.64, 1.08],
         /// The four tones, from the darkest ink to the thinnest; 0 black, 1 the paper.
         pub tones: [f64; 4] = [0.07, 0.36, 0.68, 0.96],

@@ -12,12 +12,13 @@ use crate::loaded::LoadedScene;
 use crate::problem::{Problem, Report};
 
 impl LoadedScene {
-    /// This scene with another document, checked as if it had been read from the same path. Files that are already loaded are
-    /// shared, others that it names are read, and files that it no longer names are dropped.
+    /// This scene with another document, checked as if it had been read from the same path. Files that are already
+    /// loaded are shared, others that it names are read, and files that it no longer names are dropped.
     ///
     /// # Errors
     /// All problems, warnings included; at least one is fatal. There is no text, so they have no line: each has its
-    /// `field_path`, and its message begins with it, by names where things have them (`objects.apple.keys[1].scale: …`).
+    /// `field_path`, and its message begins with it, by names where things have them (`objects.apple.keys[1].scale:
+    /// …`).
     pub fn with_scene(&self, scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
         let locator = FieldLocator { path, written: None, applied: &[], edited: Some(&scene) };
@@ -50,8 +51,8 @@ impl LoadedScene {
         Ok(Self { path: path.clone(), scene, meshes, textures, brushes, warnings: problems })
     }
 
-    /// The parts of another document that are equal to parts of this one and need no check again. This document has passed: its
-    /// morphs fit, and guides that no warning names lie on their surfaces.
+    /// The parts of another document that need no new check, because they equal parts of this one. This one has passed:
+    /// its morphs fit, and guides that no warning names lie on their surfaces.
     fn known_in(&self, scene: &Scene) -> check::Known {
         let old = &self.scene;
         let same_surface = |old: &Object, new: &Object| {
@@ -60,18 +61,18 @@ impl LoadedScene {
                 && [&old.mesh, &new.mesh].iter().all(|mesh| self.meshes.contains_key(*mesh))
                 && (&old.mesh, &old.group, &old.morph) == (&new.mesh, &new.group, &new.morph)
         };
-        let of_old: HashMap<&str, &Object> =
+        let old_objects: HashMap<&str, &Object> =
             old.objects.iter().map(|object| (object.name.as_str(), object)).collect();
         let mut known = check::Known::default();
         let mut kept = HashSet::new();
         for (index, object) in scene.objects.iter().enumerate() {
-            if of_old.get(object.name.as_str()).is_some_and(|old| same_surface(old, object)) {
+            if old_objects.get(object.name.as_str()).is_some_and(|old| same_surface(old, object)) {
                 known.objects.insert(index);
                 kept.insert(object.name.as_str());
             }
         }
         let doubted: Vec<&str> = self.warnings.iter().map(|warning| &*warning.field_path).collect();
-        // The list of warnings was cut off.
+        // Whether the list of warnings was cut off: then a guide without a warning may be off its surface as well.
         let is_cut = self.warnings.iter().any(|warning| {
             warning.field_path.is_empty() && warning.path == self.path && warning.place.is_none()
         });
@@ -107,7 +108,7 @@ impl LoadedScene {
             let mut dropped = self.meshes.keys().filter(|name| !still_named.contains_key(*name));
             dropped.any(|name| problem.path.ends_with(name))
         };
-        // Warnings about the document have a field path; they were found again.
+        // Warnings about the document have a field path; the new check finds those again.
         let of_files = self.warnings.iter().filter(|problem| problem.field_path.is_empty());
         let of_files = of_files.filter(|problem| problem.path != self.path || problem.place.is_some());
         of_files.filter(|problem| !is_dropped(problem)).cloned().collect()

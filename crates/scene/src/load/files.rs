@@ -30,7 +30,8 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// Reads every file once, however many objects name it. `at` gives a problem the position of a field of the document.
+    /// Reads every file once, however many objects name it. `at` gives a problem the position of a field of the
+    /// document.
     pub(super) fn read(scene: &Scene, readers: &Readers<'_>, at: impl Fn(Problem, &str) -> Problem) -> Self {
         let mut files = Self::default();
         let meshes = first_uses(scene, |object| Some(&object.mesh), "mesh");
@@ -44,7 +45,7 @@ impl Files {
                     files.meshes.insert(name.to_owned(), mesh);
                 }
                 Err(Report(problems)) => {
-                    // Without a place in the mesh file, the place that names it is the best one.
+                    // A problem without a place in the mesh file gets the place of the field that names the file.
                     files.problems.extend(problems.into_iter().map(|problem| match problem.place {
                         Some(_) => problem,
                         None => at(problem, &field_path),

@@ -118,7 +118,8 @@ fn mutate(dice: &mut Dice) -> String {
     pieces.concat()
 }
 
-/// A text is a scene that reads back and stands still, or it is refused with a place and a mend. Whether it was taken.
+/// Asserts that a text is refused with a place and a mend, or is a scene; a scene that passes the checks must also be
+/// saved so that it reads back equal, and have finite poses. Returns whether it was taken.
 fn assert_handled(text: &str) -> bool {
     let path = Path::new("s.ron");
     let lines = text.matches('\n').count() + 1;

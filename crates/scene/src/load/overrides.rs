@@ -92,6 +92,7 @@ impl Spot {
     }
 }
 
+/// Where the value of a field goes: in place of its old value or, where the file leaves the field out, into a new one.
 fn find_spot(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     let mut node = located.root();
     let mut rest = field_path;
@@ -190,13 +191,14 @@ fn is_variant(segment: &str) -> bool {
     segment.starts_with(|first: char| first.is_ascii_uppercase())
 }
 
-/// Lists, tuples and the values of variants, but not `()`, which is a struct with all its fields left out.
+/// Whether a value has items that an index can name: it is a list, a tuple or what a variant holds, but not `()`, which
+/// is a struct with all its fields left out.
 fn is_list(located: &Located, node: &Node) -> bool {
     let is_empty = matches!(&node.inside, Inside::Items(items) if items.is_empty());
     !(is_empty && located.text_of(node).ends_with(')'))
 }
 
-/// Up to the next `.` or `[`, and what is behind; an index is a segment with its brackets.
+/// The first segment of a path, which ends before the next `.` or `[`, and the rest. An index keeps its brackets.
 fn first_segment(field_path: &str) -> (&str, &str) {
     let from = usize::from(field_path.starts_with('['));
     let end = field_path[from..].find(['.', '[']).map_or(field_path.len(), |at| from + at);

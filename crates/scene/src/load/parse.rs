@@ -23,7 +23,7 @@ pub(super) struct Parsed {
     pub(super) located: Located,
 }
 
-/// Parses a text without byte order mark. All unknown fields are reported at once, and the first of any other faults.
+/// Parses a text without byte order mark. Reports all unknown fields at once, but only the first fault of another kind.
 pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
     let located = source::scan(path, text).map_err(|problem| Report(vec![problem]))?;
     check_version(path, &located).map_err(|problem| Report(vec![problem]))?;
@@ -162,6 +162,7 @@ pub(super) fn blank_range(text: &mut String, range: Range<usize>) {
     text.replace_range(range, &blanked);
 }
 
+/// The problem to report for an error of the parser between two offsets; `unknown` is the field that it complains of.
 pub(super) fn explain(
     path: &Path,
     located: &Located,
@@ -273,7 +274,7 @@ fn enclosing_struct(located: &Located, offset: usize) -> (String, usize) {
     (named(&field_path), node.start as usize)
 }
 
-/// The path of that struct, empty for the scene.
+/// The path of the struct in whose brackets the parser stood, empty for the scene.
 pub(super) fn enclosing_struct_path(located: &Located, offset: usize) -> String {
     let (mut field_path, mut node) = located.innermost(offset);
     let is_open = |node: &Node| {

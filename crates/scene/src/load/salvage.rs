@@ -55,7 +55,7 @@ pub struct Loss {
     pub problem: Problem,
     /// What is used until it is mended, as a sentence.
     pub instead: String,
-    /// The mesh that a box stands in for, as the document writes it; none where the loss is one of the text.
+    /// The mesh that a box stands in for, as the document writes it; none for any other loss.
     pub mesh: Option<String>,
     /// What would mend it.
     pub fix: Option<Fix>,
@@ -175,7 +175,8 @@ impl Reading<'_> {
         }))
     }
 
-    /// Adds a loss; returns its index.
+    /// Adds a loss; returns its index. Beyond the limit it is only counted, and the index is that of the last one
+    /// listed.
     fn lose(&mut self, problem: Problem, instead: String) -> usize {
         self.add(Loss { problem, instead, mesh: None, fix: None })
     }
@@ -278,7 +279,7 @@ impl Reading<'_> {
             "camera" => "camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
             _ => return Err(Report(vec![problem])),
         };
-        // Removed by a cut, or mistyped: reported already.
+        // It was cut off or mistyped, which is reported already.
         if self.losses.is_empty() {
             self.lose(problem, "A usual one stands in for it.".to_owned());
         }
@@ -286,7 +287,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Removes everything that the checks found; whether there was anything.
+    /// Removes everything fatal that the checks found; returns whether there was anything.
     fn take_out_found(&mut self, located: &Located, findings: &[Finding]) -> Result<bool, Report> {
         let fatal: Vec<&Finding> = findings.iter().filter(|finding| finding.severity.is_fatal()).collect();
         let locator = FieldLocator { path: self.path, written: Some(located), applied: &[], edited: None };
@@ -305,17 +306,18 @@ impl Reading<'_> {
         Ok(!fatal.is_empty())
     }
 
+    /// Overwrites a field; returns whether anything of it was left.
     fn blank(&mut self, located: &Located, field_path: &str) -> bool {
-        let Some(range) = takeable(located, field_path, &self.left) else { return false };
+        let Some(range) = removable_range(located, field_path, &self.left) else { return false };
         blank_range(&mut self.left, range);
         true
     }
 
-    /// Overwrites a field or an item of a list; if it is overwritten already, the value round it.
+    /// Overwrites a field or an item of a list; where nothing is left of it, the value around it.
     fn blank_for(&mut self, located: &Located, field_path: &str, loss: usize) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {
-            if let Some(range) = takeable(located, &path, &self.left) {
+            if let Some(range) = removable_range(located, &path, &self.left) {
                 blank_range(&mut self.left, range.clone());
                 self.blanked.push((range, loss));
                 return Ok(());
@@ -353,7 +355,7 @@ impl Reading<'_> {
 }
 
 /// The range of text to overwrite for a field, with its comma; `None` where nothing is left.
-fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
+fn removable_range(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
     let mut node = located.root();
     let mut range = None;
     for step in Step::split(field_path) {
@@ -382,7 +384,7 @@ fn takeable(located: &Located, field_path: &str, left: &str) -> Option<std::ops:
     is_left.then_some(range)
 }
 
-/// The name of an item of a list for messages: *The object*, *The key*.
+/// What a message calls a value: *The object* or *The key* for an item of a list, else the name of its field.
 fn described(field_path: &str) -> String {
     let last = field_path.rsplit('.').next().unwrap_or(field_path);
     match last.split_once('[') {

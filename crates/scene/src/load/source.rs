@@ -7,7 +7,7 @@ use crate::limits;
 use crate::locate::{Located, Refused, line_starts, place_in};
 use crate::problem::{Problem, Severity, TextPosition};
 
-/// Whether a file that the user names is there and is a regular one; devices, pipes and folders are not opened.
+/// Refuses a file that is missing or not regular (a device, a pipe, a folder), without opening it.
 pub(super) fn check_regular(path: &Path) -> Result<(), Problem> {
     let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
     if metadata.is_file() {
@@ -60,7 +60,7 @@ pub(super) fn scan(path: &Path, text: &str) -> Result<Located, Problem> {
     })
 }
 
-/// Scans a text that is not too long.
+/// As [`scan`], for a text that is not too long; the error has an offset in place of a file and a line.
 pub(super) fn scan_refusing(text: &str) -> Result<Located, Refused> {
     if let Some(offset) = text.find('\0') {
         let message = "there is a NUL character in the file".to_owned();

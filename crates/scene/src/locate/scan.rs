@@ -80,7 +80,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// What is in brackets, with both of them.
+    /// What brackets hold. The cursor stands on the opening one and is left behind the closing one.
     fn bracketed(&mut self, depth: usize) -> Result<Inside, Refused> {
         let opened_at = self.at;
         if depth >= limits::MAX_NESTING {
@@ -122,11 +122,12 @@ impl<'a> Scanner<'a> {
                 items.push(key);
             }
         }
-        // A mix of both is not valid RON, which the parser will report; the fields can be found by name.
+        // Values mixed with fields are not valid RON. The parser reports that; until then the fields can be found by
+        // name.
         Ok(if fields.is_empty() { Inside::Items(items) } else { Inside::Fields(fields) })
     }
 
-    /// Skips a number or a name; its length in bytes, 0 where there is none.
+    /// Skips a number or a name; returns its length in bytes, 0 where there is none.
     fn skip_word(&mut self) -> Result<u32, Refused> {
         let start = self.at;
         for &byte in self.rest() {
@@ -239,7 +240,7 @@ fn closing_of(opening: u8) -> u8 {
     }
 }
 
-/// The offset behind the closing quote, with `\` taking the next byte along.
+/// The offset behind the closing quote; a `\` escapes the byte after it.
 fn end_of_escaped(bytes: &[u8], body: usize, quote: u8) -> Option<usize> {
     let mut at = body;
     while let Some(&byte) = bytes.get(at) {

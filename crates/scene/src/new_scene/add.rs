@@ -13,7 +13,8 @@ use crate::limits;
 use crate::mesh_file::MeshFile;
 use crate::motion;
 
-/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); neighbours differ most.
+/// Colours of regions in overlays, distinguishable with colour blindness too (Krzywinski's twelve); neighbours differ
+/// most.
 pub const REGION_COLORS: [Color; 12] = [
     rgb(0x00, 0x8d, 0xf9),
     rgb(0xff, 0xc3, 0x3b),
@@ -36,15 +37,15 @@ const fn rgb(red: u8, green: u8, blue: u8) -> Color {
 /// A mesh with more groups (or materials) than this gets no regions from them: they hardly stand for things to paint.
 const MOST_REGIONS: usize = 64;
 
-/// Gap between a new object and the others, as a share of its width.
+/// Gap between a new object and the others, as a share of its width or depth, whichever is larger.
 const GAP: f64 = 0.15;
 
-/// Adds an object with this mesh, which the scene names `mesh_name`, and its regions ([`regions_of`]); returns its name, which is
-/// the file's, made unique.
+/// Adds an object with this mesh, which the scene names `mesh_name`, and its regions ([`regions_of`]); returns its
+/// name, which is the file's, made unique.
 ///
-/// The first object stays where its file puts it. A later one stands to the right of all others, on the height of their lowest
-/// point in the reference pose. `meshes` are those of the scene; objects whose mesh is not among them, and built-in meshes, are
-/// ignored.
+/// The first object stays where its file puts it. A later one stands to the right of all others, on the height of their
+/// lowest point in the reference pose. `meshes` are those of the scene; objects whose mesh is not among them, and
+/// built-in meshes, are ignored.
 pub fn add_mesh(
     scene: &mut Scene,
     mesh_name: &str,
@@ -74,9 +75,9 @@ pub fn add_mesh(
     name
 }
 
-/// A region for each group of an object's mesh; if it has only one, for each material; else one for the whole object. Their names
-/// are unique among each other, their colours the first of [`REGION_COLORS`]. Groups and materials that no triangle uses are left
-/// out; more than 64 of them make no regions.
+/// A region for each group of an object's mesh; if it has only one, for each material; else one for the whole object.
+/// Their names are unique among each other, their colours the first of [`REGION_COLORS`]. Groups and materials that no
+/// triangle uses are left out; more than 64 of them make no regions.
 pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
     let own = |selector: fn(String, String) -> Selector| {
         move |name: &str| (name.to_owned(), selector(object.name.clone(), name.to_owned()))
@@ -85,12 +86,12 @@ pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
         let used: HashSet<u32> = of_triangle.iter().copied().collect();
         (0..count).filter(|&index| used.contains(&(index as u32))).collect()
     };
-    let is_some = |count: usize| (2..=MOST_REGIONS).contains(&count);
+    let makes_regions = |count: usize| (2..=MOST_REGIONS).contains(&count);
     let groups = used(&mesh.mesh.group_of_triangle, mesh.groups.len());
     let materials = used(&mesh.mesh.material_of_triangle, mesh.materials.len());
-    let found: Vec<(String, Selector)> = if object.group.is_none() && is_some(groups.len()) {
+    let found: Vec<(String, Selector)> = if object.group.is_none() && makes_regions(groups.len()) {
         groups.iter().map(|&group| mesh.groups[group].as_str()).map(own(Selector::Group)).collect()
-    } else if object.group.is_none() && is_some(materials.len()) {
+    } else if object.group.is_none() && makes_regions(materials.len()) {
         let names = materials.iter().map(|&material| mesh.materials[material].name.as_str());
         names.map(own(Selector::Material)).collect()
     } else {
@@ -106,7 +107,7 @@ pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
     regions
 }
 
-/// A valid name for a region: on one line, not empty, not too long.
+/// A valid name for a region: on one line, not empty, and short enough for [`unique`] to add a number.
 fn plain(name: &str, else_name: &str) -> String {
     let name = name.replace(char::is_control, " ");
     let name = match name.trim() {

@@ -1,4 +1,5 @@
-//! The text that tobj reads of an OBJ file: plain lines unchanged, others rewritten, the rest left out.
+//! The text that tobj reads of an OBJ file: plain lines unchanged, odd lines of vertices and faces rewritten, and
+//! nothing else.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, Read};

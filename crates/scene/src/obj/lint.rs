@@ -187,8 +187,8 @@ impl<'a> Linter<'_, 'a> {
         }
     }
 
-    /// Whether the last line, which has no line end, was cut short: then it is left out, with a warning. A face that only
-    /// has fewer corners than the one before it may be whole: it is kept, with a warning.
+    /// Whether the last line, which has no line end, was cut short: then it is left out, with a warning. A face that
+    /// only has fewer corners than the one before it may be whole: it is kept, with a warning.
     fn drop_cut_line(&mut self, words: &[Word<'_>]) -> bool {
         let corners_before = self.checked.faces.last().map_or(0, |face| {
             let mut words = Vec::new();
@@ -312,7 +312,7 @@ impl<'a> Linter<'_, 'a> {
         self.checked.cleaned.write(words.iter().map(String::as_bytes));
     }
 
-    /// The group and the material of a face that stands here.
+    /// The numbers of the group and the material of a face whose line begins at `offset`, after all lines taken so far.
     fn numbers_of_next_face(&mut self, offset: usize) -> (u32, u32) {
         let group = match self.group_number {
             Some(group) => group,

@@ -32,7 +32,7 @@ pub(super) struct MaterialLibrary<'a> {
     warnings: Vec<Problem>,
     /// The MTL files that were read.
     libraries: BTreeSet<PathBuf>,
-    /// How many files were not found; those beyond [`MAX_REPORTED`] are only counted.
+    /// How many files were not found or could not be used; those beyond [`MAX_REPORTED`] are only counted.
     unfound: usize,
     described: HashMap<String, (Described, Arc<PathBuf>)>,
     /// By the MTL file and the name written there, so that each is read and reported once.

@@ -44,8 +44,8 @@ pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
     if is_convex { Cut { triangles: fan(), is_rough: false } } else { Ears::new(&points, tests_left).clip() }
 }
 
-/// Whether a polygon has four corners that all turn left by far more than rounding: four turns of less than half a
-/// turn each add up to exactly one.
+/// Whether a polygon has four corners that all turn left by far more than rounding. Then it winds once: four turns of
+/// less than 180 degrees each can only add up to 360.
 fn is_plain_quad(points: &[DVec2]) -> bool {
     let &[a, b, c, d] = points else { return false };
     let longest = [b - a, c - b, d - c, a - d].into_iter().map(DVec2::length_squared).fold(0.0, f64::max);

@@ -120,6 +120,7 @@ impl Piece {
         piece
     }
 
+    /// Leaves lines that are not plain to the linter.
     fn leave(&mut self, text: Range<usize>) {
         let before = self.counts;
         match self.rest.last_mut() {
@@ -159,6 +160,7 @@ impl Piece {
         }
     }
 
+    /// Counts a line of values and returns its end; `None`, with nothing counted, where they are not good.
     fn value(&mut self, kind: Kind, is_good: bool, end: usize) -> Option<usize> {
         self.counts.values[kind as usize] += u32::from(is_good);
         is_good.then_some(end)
@@ -259,7 +261,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pieces_hold_together_what_one_holds() {
+    fn pieces_together_hold_what_the_whole_text_holds() {
         let text = b"v 1 2 3\nv -.5 1e-3 7. \\\n\nv\\\r\n1 2 3\r\nvt 0 1 0\n# f 1 2 3 \\\nvn 0 0 2\n\nf 1 2/1 3/1/1\n\
             f -1 -2 -3\nf 1//1 2//1 3//1 2\ng name # of it\nf 1 2 1\nv 0 0 0";
         let whole = Piece::scan(text, 0..text.len());

@@ -110,11 +110,12 @@ impl<'a> Builder<'a> {
         whole
     }
 
-    /// Cuts a range of the faces; stops once all cores together have `spent` too many tests.
+    /// Cuts a range of the faces; stops once all cores together have `spent` too many tests. A range of all faces never
+    /// stops: it goes on without tests.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;
-        let is_alone = faces.len() == ends.len();
+        let is_all = faces.len() == ends.len();
         let mut start = faces.start.checked_sub(1).map_or(0, |before| ends[before]);
         for face in faces {
             if spent.load(Ordering::Relaxed) >= polygon::MAX_TESTS {
@@ -123,7 +124,7 @@ impl<'a> Builder<'a> {
             let before = self.tests_left;
             self.add(face as u32, &self.geometry.corners[start as usize..ends[face] as usize]);
             start = ends[face];
-            if !is_alone && self.tests_left < before {
+            if !is_all && self.tests_left < before {
                 spent.fetch_add(before - self.tests_left, Ordering::Relaxed);
             }
         }
@@ -170,8 +171,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The mesh, and for each triangle the number of the face that it was cut from. Corners that agree in all values are
-    /// one vertex; vertices are numbered in the order of their first use.
+    /// The mesh, and for each triangle the number of the face that it was cut from. Corners that agree in all values
+    /// are one vertex; vertices are numbered in the order of their first use.
     pub fn finish(&self) -> (TriangleMesh, Vec<u32>) {
         let Geometry { positions, uvs, normals, .. } = self.geometry;
         let made_normals = self.corner_normals();
@@ -228,7 +229,7 @@ impl<'a> Builder<'a> {
 
     /// A unit normal for each corner: the file's where all three corners of the triangle have one, else the mean of
     /// the faces round the corner's place that meet this one below the crease angle, weighted by their angles there
-    /// (Thürmer and Wüthrich 1998). Empty where every triangle has the file's.
+    /// (Thürmer and Wüthrich 1998). Empty where all triangles have the file's normals.
     fn corner_normals(&self) -> Vec<[Vec3; 3]> {
         if self.triangles.par_iter().with_min_len(SHARE).all(|triangle| self.file_normals(triangle).is_some())
         {
@@ -267,8 +268,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The triangles round each place. Vertices with equal positions are at one place, so that seams of the file's vertices do
-/// not show as creases.
+/// The triangles round each place. Vertices with equal positions are at one place, so that seams of the file's vertices
+/// do not show as creases.
 struct Around {
     place_of_vertex: Vec<u32>,
     /// Where the triangles of each place begin in `list`, and a last entry for its end.

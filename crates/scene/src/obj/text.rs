@@ -39,8 +39,8 @@ pub(super) fn finite(word: &[u8]) -> Option<f64> {
     std::str::from_utf8(word).ok()?.parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
-/// A file's bytes as text that the readers can walk, and whether it was UTF-16: that becomes UTF-8, a byte order mark is
-/// left out, and every line ends in a line feed.
+/// A file's bytes as text that the readers can walk, and whether it was UTF-16: that becomes UTF-8, a byte order mark
+/// is left out, and every line ends in a line feed.
 pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     let wide = |to_unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| to_unit([pair[0], pair[1]])).collect();
@@ -144,7 +144,8 @@ pub(super) fn name_of(words: &[Word<'_>]) -> String {
     words.iter().map(|word| word.text()).collect::<Vec<_>>().join(" ")
 }
 
-/// The problems of one text, with their places; the first 20 errors and the first 20 warnings are kept, the rest counted.
+/// The problems of one text, with their places; the first 20 errors and the first 20 warnings are kept, the rest
+/// counted.
 pub(super) struct Findings<'a> {
     path: &'a Path,
     text: &'a [u8],

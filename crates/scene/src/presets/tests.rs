@@ -154,7 +154,7 @@ fn every_row_of_the_table_of_stroke_numbers_is_sound() {
 }
 
 #[test]
-fn what_a_row_states_is_what_its_row_resolves() {
+fn a_stated_number_resolves_to_itself() {
     for row in STROKE_NUMBERS.iter().filter(|row| row.number.field != "scale") {
         let stated = (row.number.limits.end().min(90.0) * 0.5).max(0.5);
         let mut settings = StrokeSettings::default();

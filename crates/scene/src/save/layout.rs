@@ -102,7 +102,8 @@ fn write_broken(value: &Value, depth: usize, out: &mut String) {
     out.push(brackets[1]);
 }
 
-/// Writes a value on one line where it fits on the line that started at `line_start` and is not a list of several items.
+/// Writes a value on one line where it fits on the line that started at `line_start` and is not a list of several
+/// items.
 fn write_fitting(value: &Value, (line_start, depth): (usize, usize), out: &mut String) {
     let before = out.len();
     write_flat(value, out);

@@ -1,4 +1,5 @@
-//! A serde serializer that makes the values that `layout` writes as RON; the counterpart of the reader in `load::parse`.
+//! A serde serializer that makes the values that `layout` writes as RON; the counterpart of the reader in
+//! `load::parse`.
 
 use std::fmt::Error;
 
@@ -94,7 +95,7 @@ impl Serializer for ToValue {
         value.serialize(self)
     }
 
-    /// A variant round a struct takes over its fields: `SumiE(rule: Painter)`.
+    /// A variant that holds a struct is written with the struct's fields: `SumiE(rule: Painter)`.
     fn serialize_newtype_variant<T: Serialize + ?Sized>(
         self,
         _: &'static str,

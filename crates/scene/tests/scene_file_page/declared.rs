@@ -153,7 +153,7 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
     let mut is_usual = false;
     // Whether every field of the type may be left out.
     let mut has_defaults = false;
-    // What is open: the type, and perhaps a variant with fields; each with its indent.
+    // What is open: a type, and perhaps a variant of it that has fields; each as its index in `found` and its indent.
     let mut open: Vec<(usize, usize)> = Vec::new();
     for line in text.lines() {
         let indent = line.len() - line.trim_start().len();

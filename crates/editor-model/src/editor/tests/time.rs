@@ -19,7 +19,7 @@ fn animating(frame: f64) -> (Editor, String) {
     (editor, name)
 }
 
-/// Moves the apple by keys: G X 0.5 Enter.
+/// Moves the apple by typing G X .5 Enter.
 fn move_by_half(editor: &mut Editor) {
     let at = middle_of_the_apple(editor);
     event(editor, PointerKind::Move, at, HERE);

@@ -7,8 +7,8 @@ use crate::path::PathPoint;
 /// The most steps between two points.
 const MOST_STEPS: f64 = 64.0;
 
-/// Points at most `step` (model units) apart on a curve through all of `points`; `onto` projects a point with its normal onto the
-/// surface.
+/// Points at most `step` (model units) apart on a curve through all of `points`; `onto` projects a point with its
+/// normal onto the surface.
 pub(super) fn through(
     points: &[PathPoint],
     step: f64,

@@ -86,7 +86,7 @@ fn a_crash_of_the_desktops_dialog_opens_the_windows_own_sheet() {
 #[test]
 fn an_empty_answer_after_a_while_is_a_cancel() {
     let choose: Choose = |_, _| {
-        sleep(HAND * 2);
+        sleep(FASTEST_CANCEL * 2);
         None
     };
     let mut harness = page(Source::Desktop, choose, FileAsk::ImportMesh, Path::new("/"));

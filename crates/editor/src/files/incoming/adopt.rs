@@ -54,8 +54,8 @@ pub enum AdoptError {
 }
 
 /// Makes a mesh available to a scene. A mesh inside the scene's folder is named where it is. Any other is copied to
-/// `meshes/NAME/` in that folder, with the MTL files and pictures that it names and that are inside the mesh's own folder.
-/// No existing file is overwritten.
+/// `meshes/NAME/` in that folder, with the MTL files and pictures that it names and that are inside the mesh's own
+/// folder. No existing file is overwritten.
 ///
 /// # Errors
 /// [`AdoptError`], with the words to show.
@@ -74,7 +74,7 @@ pub fn adopt_mesh(mesh: &Path, scene_folder: &Path) -> Result<Adopted, AdoptErro
             files.entry(within.to_owned()).or_insert((file.clone(), limit));
         }
     }
-    bring(&files, &own_name, scene_folder, "meshes")
+    copy_into_scene(&files, &own_name, scene_folder, "meshes")
 }
 
 /// Makes a picture available to a scene, as [`adopt_mesh`] does; copies go to `brushes/NAME/`.
@@ -90,10 +90,11 @@ pub fn adopt_picture(picture: &Path, scene_folder: &Path) -> Result<Adopted, Ado
         source.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let own_name = PathBuf::from(format!("{}.{ending}", plain_stem(&source)));
     let files = BTreeMap::from([(own_name.clone(), (source, texture::MAX_FILE_BYTES))]);
-    bring(&files, &own_name, scene_folder, "brushes")
+    copy_into_scene(&files, &own_name, scene_folder, "brushes")
 }
 
-/// How a scene in `folder` names a file inside it; none if the file is elsewhere, or the scene could not find it by its name.
+/// How a scene in `folder` names a file inside it; none if the file is elsewhere, or the scene could not find it by
+/// its name.
 fn name_within(file: &Path, folder: &Path) -> Option<String> {
     let (file, folder) = (fs::canonicalize(file).ok()?, fs::canonicalize(folder).ok()?);
     let name = file.strip_prefix(&folder).ok()?.to_str()?.to_owned();
@@ -103,9 +104,9 @@ fn name_within(file: &Path, folder: &Path) -> Option<String> {
     (found == file).then_some(name)
 }
 
-/// Copies files to `scene_folder/subfolder/NAME`, where NAME comes from the file `own_name`. `files` maps the path in the new
-/// folder to the source and its size limit in bytes.
-fn bring(
+/// Copies files to `scene_folder/subfolder/NAME`, where NAME comes from the file `own_name`. `files` maps the path in
+/// the new folder to the source and its size limit in bytes.
+fn copy_into_scene(
     files: &BTreeMap<PathBuf, (PathBuf, u64)>,
     own_name: &Path,
     scene_folder: &Path,
@@ -126,19 +127,19 @@ fn bring(
         let _not_empty = fs::remove_dir(&subfolder_path);
     }
     let (place, copied) = copied.map_err(|error| match error {
-        Copying::Read(error) => AdoptError::Unread(error),
-        Copying::Write(error) => unwritable(error),
+        CopyFailure::Read(error) => AdoptError::Unread(error),
+        CopyFailure::Write(error) => unwritable(error),
     })?;
     let name = format!("{subfolder}/{place}/{}", own_name.display());
     Ok(Adopted { name, copied })
 }
 
-enum Copying {
+enum CopyFailure {
     Read(AssetError),
     Write(io::Error),
 }
 
-impl From<io::Error> for Copying {
+impl From<io::Error> for CopyFailure {
     fn from(error: io::Error) -> Self {
         Self::Write(error)
     }
@@ -149,11 +150,11 @@ fn copy_beside(
     files: &BTreeMap<PathBuf, (PathBuf, u64)>,
     subfolder: &Path,
     own_name: &Path,
-) -> Result<(String, Vec<PathBuf>), Copying> {
+) -> Result<(String, Vec<PathBuf>), CopyFailure> {
     let stem = plain_stem(own_name);
     let hidden = tempfile::Builder::new().prefix(".coming-").tempdir_in(subfolder)?;
     for (within, (file, limit)) in files {
-        let bytes = assets::read_regular_file(file, *limit).map_err(Copying::Read)?;
+        let bytes = assets::read_regular_file(file, *limit).map_err(CopyFailure::Read)?;
         let target = hidden.path().join(within);
         if let Some(parent) = target.parent() {
             fs::create_dir_all(parent)?;

@@ -14,8 +14,8 @@ use super::{Preferences, VERSION};
 const FILE: &str = "editor.ron";
 const MAX_BYTES: u64 = 1 << 20;
 
-/// The folder of the editor's preferences: `$IMPASTO_CONFIG_DIR`, else `impasto` in the user's config folder; none if the
-/// user has no home.
+/// The folder of the editor's preferences: `$IMPASTO_CONFIG_DIR`, else `impasto` in the user's config folder; none if
+/// the user has no home.
 pub fn config_folder() -> Option<PathBuf> {
     match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
         Some(folder) => Some(PathBuf::from(folder)),
@@ -23,8 +23,8 @@ pub fn config_folder() -> Option<PathBuf> {
     }
 }
 
-/// The folder of copies of unsaved work: `recovery` in `$IMPASTO_CONFIG_DIR`, else in `impasto` in the user's folder for
-/// programs' state (or data, if there is no such folder); none if the user has no home.
+/// The folder of copies of unsaved work: `recovery` in `$IMPASTO_CONFIG_DIR`, else in `impasto` in the user's folder
+/// for programs' state (or data, if there is no such folder); none if the user has no home.
 pub fn recovery_folder() -> Option<PathBuf> {
     let folder = match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
         Some(folder) => PathBuf::from(folder),
@@ -71,8 +71,8 @@ fn this_version() -> u32 {
     VERSION
 }
 
-/// Reads the preferences in a folder. Never fails: a file that cannot be used, or that a newer Impasto wrote, is renamed to
-/// `editor.ron.bad`, and the defaults are used.
+/// Reads the preferences in a folder. Never fails: a file that cannot be used, or that a newer Impasto wrote, is
+/// renamed to `editor.ron.bad`, and the defaults are used.
 pub fn load(folder: &Path) -> Loaded {
     let path = folder.join(FILE);
     let why = match read_regular_file(&path, MAX_BYTES) {
@@ -105,8 +105,8 @@ fn parse(bytes: &[u8]) -> Result<Preferences, String> {
     ron::from_str(text).map_err(|error| error.to_string())
 }
 
-/// Writes the preferences into a folder, which is created if it is missing. At any moment the file is the whole old one or
-/// the whole new one.
+/// Writes the preferences into a folder, which is created if it is missing. At any moment the file is the whole old
+/// one or the whole new one.
 ///
 /// # Errors
 /// [`PreferencesError`]; the old file is untouched.

@@ -69,7 +69,7 @@ fn a_file_that_cannot_be_used_is_kept_beside() {
 }
 
 #[test]
-fn numbers_that_a_hand_wrote_come_into_range() {
+fn hand_written_numbers_come_into_range() {
     let view = "Some((eye: (NaN, 0.0, 0.0), target: (0.0, 0.0, 0.0)))";
     let text = format!(
         "(scale: 90.0, window_size: (NaN, 3.0), autosave_minutes: 4000, last_seen: [(file: \"/a.ron\", view: {view})])"

@@ -36,7 +36,7 @@ impl<'a> EditedStrokes<'a> {
         })
     }
 
-    /// The settings that would be resolved with `own` in this place.
+    /// What the settings would resolve to if this region or the scene stated `own`.
     pub(super) fn resolve(&self, scene: &Scene, own: &StrokeSettings) -> ResolvedStrokes {
         match self.index {
             Some(_) => presets::resolve_with(scene, &scene.strokes, Some(own)),

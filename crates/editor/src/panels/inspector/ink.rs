@@ -3,7 +3,7 @@
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
 use impasto_scene::document::{
-    CanvasFollows, Color, InkDrawing, InkLight, InkRule, Number as Of, Style, SumiE,
+    CanvasFollows, Color, InkDrawing, InkLight, InkRule, Number as StyleNumber, Style, SumiE,
 };
 
 use super::Asker;
@@ -11,23 +11,23 @@ use super::number::Number;
 use super::parts::{reset, row, seen};
 use crate::widgets;
 
-/// The least distance between `silhouette_from` and `silhouette_to`, which must rise.
-const APART: f64 = 0.01;
+/// `silhouette_to` is larger than `silhouette_from` by at least this.
+const MIN_DIFFERENCE: f64 = 0.01;
 
 /// All settings; `shown` includes the change being previewed, `stored` does not.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     choices(ui, asker, [shown, stored]);
-    let ours = shown.rule == InkRule::Painter;
-    for number in SumiE::numbers().filter(|number| ours || is_of_source(number)) {
+    let is_painter = shown.rule == InkRule::Painter;
+    for number in SumiE::numbers().filter(|number| is_painter || has_effect_in_source(number)) {
         one_number(ui, asker, number, [shown, stored]);
     }
     for index in 0..4 {
         tone(ui, asker, index, [shown, stored]);
     }
-    type OfInk = fn(&mut SumiE) -> &mut Color;
-    let colours: [(&str, OfInk); 3] =
+    type ColorOf = fn(&mut SumiE) -> &mut Color;
+    let colours: [(&str, ColorOf); 3] =
         [("Paper", |ink| &mut ink.paper), ("Ink", |ink| &mut ink.ink), ("Seal", |ink| &mut ink.seal)];
-    for (name, of) in colours.into_iter().filter(|(name, _)| ours || *name == "Paper") {
+    for (name, of) in colours.into_iter().filter(|(name, _)| is_painter || *name == "Paper") {
         row(ui, name, |ui| {
             let own = |ink: &SumiE| *of(&mut ink.clone());
             let set = |color: Color| {
@@ -89,11 +89,11 @@ fn choices(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2])
 }
 
 /// Whether a number has an effect under `InkRule::Source`.
-fn is_of_source(number: &Of<SumiE>) -> bool {
+fn has_effect_in_source(number: &StyleNumber<SumiE>) -> bool {
     ["silhouette_from", "silhouette_to", "softness", "fibres"].contains(&number.field)
 }
 
-fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &Of<SumiE>, [shown, stored]: [&SumiE; 2]) {
+fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &StyleNumber<SumiE>, [shown, stored]: [&SumiE; 2]) {
     let (words, unit) = match of.field.strip_suffix("_px") {
         Some(words) => (words, "px"),
         None => (of.field, ""),
@@ -105,8 +105,8 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &Of<SumiE>, [shown, st
         _ => sentence(words),
     };
     let limits = match of.field {
-        "silhouette_from" => 0.0..=(stored.silhouette_to - APART).max(0.0),
-        "silhouette_to" => (stored.silhouette_from + APART).min(1.0)..=1.0,
+        "silhouette_from" => 0.0..=(stored.silhouette_to - MIN_DIFFERENCE).max(0.0),
+        "silhouette_to" => (stored.silhouette_from + MIN_DIFFERENCE).min(1.0)..=1.0,
         _ => of.limits.clone(),
     };
     let usual = (of.get)(&SumiE::default());

@@ -87,7 +87,7 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
     }
 }
 
-/// About the light from below where no ground colour is set: the light's own colour, dimmed.
+/// Roughly the light from below that a sky has while no ground colour is set: its own colour, dimmed.
 fn dim(Color(channels): Color) -> Color {
     Color(channels.map(|channel| channel * 0.4))
 }

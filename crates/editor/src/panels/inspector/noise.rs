@@ -22,7 +22,7 @@ struct Setting<T> {
 /// Gives access to the name of a part's picture.
 type NameOf<T> = fn(&mut T) -> &mut Option<String>;
 
-/// A choice of one part of the noise: its label, name and effect, its words, which of them is chosen, and how to set it.
+/// A choice of one part of the noise: its label, name and effect, its words, which is chosen, and how to set it.
 struct Choice<T> {
     label: &'static str,
     name: &'static str,

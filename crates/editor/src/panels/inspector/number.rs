@@ -1,4 +1,5 @@
-//! Number fields of the inspector. A drag is previewed and makes one entry of the history; so do steps in quick succession.
+//! Number fields of the inspector. A drag is previewed and makes one entry of the history; so do steps in quick
+//! succession.
 
 use std::ops::RangeInclusive;
 
@@ -64,8 +65,8 @@ impl<'a> Number<'a> {
 }
 
 impl Asker<'_, '_> {
-    /// Draws a number that is `shown` now and `stored` in the history, and asks for what the user does to it. `command` gets
-    /// the new value, or none for the reset icon.
+    /// Draws a number that is `shown` now and `stored` in the history, and asks for what the user does to it.
+    /// `command` gets the new value, or none for the reset icon.
     pub(super) fn number(
         &mut self,
         ui: &mut Ui,

@@ -210,8 +210,8 @@ pub(super) fn seen(Color(channels): Color) -> Color32 {
 }
 
 impl Asker<'_, '_> {
-    /// A square of colour with its picker. The colour is previewed while the pointer is down, and one entry of the history
-    /// once it is released.
+    /// A square of colour with its picker. The colour is previewed while the pointer is down, and one entry of the
+    /// history once it is released.
     pub(super) fn colour(
         &mut self,
         ui: &mut Ui,

@@ -113,7 +113,8 @@ pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Op
         asker.number(ui, &number, [frame, frame], |to| {
             Command::Time(Time::MoveKeys(vec![(of.clone(), frame)], to.unwrap_or(frame) - frame))
         });
-        // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves on release.
+        // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
+        // on release.
         asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
         if let Some(Ask::Do(Command::Time(Time::MoveKeys(_, by)))) = asker.asks.get(before) {
             let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };

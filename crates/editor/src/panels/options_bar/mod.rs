@@ -1,5 +1,5 @@
-//! The settings of the current tool. Those that have no room are in a menu at the bar's end, so that no word is ever cut and
-//! the bar is always one row.
+//! The settings of the current tool. Those that have no room are in a menu at the bar's end, so that no word is ever
+//! cut and the bar is always one row.
 
 mod settings;
 #[cfg(test)]
@@ -22,7 +22,7 @@ const DIVIDER: f32 = 9.0 + measure::GAP;
 /// The width of the button at the bar's end, with its space.
 const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 
-/// Translates words; tests put in longer ones.
+/// Translates words; tests use longer ones.
 type Translate = fn(&'static str) -> &'static str;
 
 /// Takes the top 40 points of `ui`.
@@ -47,7 +47,7 @@ fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Translate) -> Option<ToolOption
         ui.add_space(14.0);
         head(ui, tool, say);
         let mut right = whole.right() - MORE;
-        let mut behind = Vec::new();
+        let mut hidden = Vec::new();
         for (index, setting) in all.iter().enumerate() {
             let width = width(ui, setting, say);
             let fits = ui.cursor().left() + width + measure::GAP <= right;
@@ -59,15 +59,15 @@ fn bar(ui: &mut Ui, shown: &PanelInput<'_>, say: Translate) -> Option<ToolOption
                     let rect = egui::Rect::from_x_y_ranges(right..=right + width, whole.y_range());
                     within(ui, rect, row(), |ui| control(ui, setting, &mut options, say));
                 }
-                _ => behind.push(index),
+                _ => hidden.push(index),
             }
         }
         hint(ui, shown, tool, right, say);
         let rect = egui::Rect::from_x_y_ranges(whole.right() - MORE..=whole.right(), whole.y_range());
         within(ui, rect, row_from_right(), |ui| {
             ui.add_space(measure::GAP);
-            let behind: Vec<_> = behind.into_iter().map(|index| &all[index]).collect();
-            more(ui, &behind, &mut options, say);
+            let hidden: Vec<_> = hidden.into_iter().map(|index| &all[index]).collect();
+            more(ui, &hidden, &mut options, say);
         });
     });
     (options != shown.session.options).then_some(options)
@@ -179,16 +179,16 @@ fn hint(ui: &mut Ui, shown: &PanelInput<'_>, tool: Tool, right: f32, say: Transl
 }
 
 /// The button at the bar's end, with the menu that it opens.
-fn more(ui: &mut Ui, behind: &[&Setting], options: &mut ToolOptions, say: Translate) {
+fn more(ui: &mut Ui, hidden: &[&Setting], options: &mut ToolOptions, say: Translate) {
     let name = "More tool options";
     let response =
-        ui.add_enabled_ui(!behind.is_empty(), |ui| widgets::icon_button(ui, icons::MORE_OPTIONS, name)).inner;
+        ui.add_enabled_ui(!hidden.is_empty(), |ui| widgets::icon_button(ui, icons::MORE_OPTIONS, name)).inner;
     let response = response.on_disabled_hover_text("All settings of this tool are on the bar");
     Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         let label = |setting: &&Setting| text_width(ui, say(setting.label), type_face::small());
-        let labels = behind.iter().map(label).fold(0.0, f32::max);
+        let labels = hidden.iter().map(label).fold(0.0, f32::max);
         egui::Frame::new().inner_margin(measure::GAP).show(ui, |ui| {
-            for setting in behind {
+            for setting in hidden {
                 ui.horizontal(|ui| {
                     ui.spacing_mut().item_spacing.x = measure::GAP;
                     let left = ui.cursor().left();

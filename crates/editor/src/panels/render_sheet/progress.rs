@@ -7,7 +7,7 @@ use crate::icons;
 use crate::panels::file_name;
 use crate::theme::{Tokens, measure, type_face};
 
-const HIGH: f32 = 172.0;
+const HEIGHT: f32 = 172.0;
 const PICTURE: egui::Vec2 = egui::Vec2::new(240.0, 135.0);
 const BAR: f32 = 8.0;
 const LINE: f32 = 20.0;
@@ -15,9 +15,9 @@ const LINE: f32 = 20.0;
 /// The card under the settings.
 pub(super) fn card(ui: &mut Ui, progress: &RenderProgress, picture: Option<&TextureHandle>) {
     let tokens = Tokens::of(ui);
-    let (card, _) = ui.allocate_exact_size(vec2(ui.available_width(), HIGH), Sense::hover());
+    let (card, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     ui.painter().rect_filled(card, measure::GROUP_CORNER, tokens.alt);
-    let place = Rect::from_min_size(card.left_top() + vec2(14.0, (HIGH - PICTURE.y) / 2.0), PICTURE);
+    let place = Rect::from_min_size(card.left_top() + vec2(14.0, (HEIGHT - PICTURE.y) / 2.0), PICTURE);
     ui.painter().rect_filled(place, measure::CORNER, tokens.field);
     if let Some(picture) = picture {
         let size = picture.size_vec2();

@@ -1,4 +1,4 @@
-//! Where frames lie on a ruler, and what both rulers draw alike.
+//! The scale of a ruler, and what the strip's ruler and the lanes' ruler have in common.
 
 use egui::{Align2, Pos2, Rect, Response, Role, Shape, Ui, WidgetInfo, accesskit, pos2, vec2};
 use impasto_editor_model::timeline::TimelineEvent;
@@ -57,7 +57,7 @@ impl FrameScale {
     }
 }
 
-/// A press or a drag shows the frame under the pointer and pauses playback meanwhile; a screen reader may set the frame.
+/// A press or a drag shows the frame under the pointer and pauses playback meanwhile; screen readers can set it.
 pub(in crate::panels) fn scrub(
     ui: &Ui,
     response: &Response,
@@ -108,7 +108,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
     ui.painter().text(at, align, format!("{frame}"), type_face::ruler(), Tokens::of(ui).weak);
 }
 
-/// Marks at the frames that were dropped.
+/// Marks the frames that were dropped.
 pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &PanelInput<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {

@@ -1,4 +1,4 @@
-//! The pointer over the lanes: every press and release counts, however many come in one pass.
+//! The pointer over the lanes. Its events are handled one by one, so that none is lost when several come in one pass.
 
 use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
 use impasto_editor_model::command::ease_name;
@@ -20,7 +20,7 @@ pub(super) struct LaneLayout<'a> {
     pub(super) top: f32,
     /// Height of a lane.
     pub(super) lane: f32,
-    /// Where the frames lie.
+    /// Maps frames to the window.
     pub(super) across: FrameScale,
     /// The lanes.
     pub(super) lanes: &'a [Lane],
@@ -48,7 +48,7 @@ impl LaneLayout<'_> {
 #[derive(Clone, Debug, Default)]
 struct Memory {
     down: bool,
-    /// What the menu is open for: the keys, whether one was hit (or only the space after it), and the place.
+    /// What the menu is open for: the keys, whether one was hit (else only the space after it), and where it opens.
     menu: Option<(Vec<KeyAt>, bool, Pos2)>,
 }
 

@@ -25,7 +25,7 @@ pub(super) struct LaneRow {
     pub(super) rect: Rect,
     /// Where its name ends.
     pub(super) names: f32,
-    /// Where the frames lie.
+    /// Maps frames to the window.
     pub(super) across: FrameScale,
 }
 
@@ -102,7 +102,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     for pair in lane.keys.windows(2) {
         let [from, to] = [0, 1].map(|index| row.across.x(pair[index].frame));
         if to - from > 2.0 * KEY + 4.0 {
-            painter.line(way([from + KEY + 2.0, to - KEY - 2.0], middle, pair[0].ease), (1.3, tokens.out));
+            painter.line(curve([from + KEY + 2.0, to - KEY - 2.0], middle, pair[0].ease), (1.3, tokens.out));
         }
     }
     let hand = &shown.time.keys;
@@ -128,7 +128,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
             mark(&painter, to, key.ease, tokens.key);
             painter.add(Shape::closed_line(diamond(to, 10.0), Stroke::new(1.5, tokens.text)));
         }
-        node(ui, lane, key, at, &list, is_selected, asks);
+        key_node(ui, lane, key, at, &list, is_selected, asks);
     }
     for frame in replaced {
         let at = pos2(row.across.x(frame) + 14.0, middle);
@@ -141,7 +141,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
 }
 
 /// The accessibility node of a key; a click by a screen reader selects the key.
-fn node(
+fn key_node(
     ui: &mut Ui,
     lane: &Lane,
     key: &LaneKey,
@@ -175,7 +175,7 @@ fn mark(painter: &egui::Painter, at: Pos2, ease: Ease, colour: Color32) {
 }
 
 /// The curve from one key to the next, in the shape of the ease.
-fn way([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
+fn curve([from, to]: [f32; 2], middle: f32, ease: Ease) -> Vec<Pos2> {
     // A short curve is no steeper than a long one.
     let swing = SWING.min((to - from) / 12.0);
     let (low, high) = (middle + swing, middle - swing);

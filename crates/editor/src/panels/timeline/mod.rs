@@ -20,7 +20,7 @@ use lanes::LaneRow;
 /// Height of the row of buttons.
 const BAR: f32 = 40.0;
 
-/// Measures by the window's width: the whole height, a lane's height, the width of names.
+/// The timeline's height, a lane's height and the width of names, in a window of this width.
 fn measures(wide: f32) -> (f32, f32, f32) {
     if wide < 1600.0 { (224.0, 32.0, 168.0) } else { (256.0, 34.0, 200.0) }
 }

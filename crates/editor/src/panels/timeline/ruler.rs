@@ -19,7 +19,7 @@ pub(super) const HEIGHT: f32 = 28.0;
 /// The least distance between labels, in points.
 const LABELS: f32 = 90.0;
 
-/// Where the frames lie: the range and all keys fit.
+/// The scale at which the range and all keys fit into `rect`.
 pub(super) fn across(scene: &Scene, rect: Rect) -> FrameScale {
     let keys = keyed_frames(scene);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| frame as f64);

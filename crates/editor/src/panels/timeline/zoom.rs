@@ -14,8 +14,8 @@ struct VisibleFrames {
     shown: f64,
 }
 
-/// `Ctrl` and the wheel zoom about the pointer, `Shift` and the wheel move along, a double click on the ruler shows all frames.
-/// The visible part follows the playhead.
+/// `Ctrl` and the wheel zoom about the pointer, `Shift` and the wheel move along, a double click on the ruler shows
+/// all frames. The visible part follows the playhead.
 pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: FrameScale, frame: f64) -> FrameScale {
     let id = Id::unique("frames that are seen");
     let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();

@@ -15,7 +15,7 @@ enum DropTarget<'a> {
     Before(&'a Item),
     After(&'a Item),
     Onto(&'a Item),
-    /// Below all rows.
+    /// On no item's row: below all rows, or on the canvas.
     Off,
 }
 
@@ -75,7 +75,7 @@ fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Co
         let to = if from < to { to - 1 } else { to };
         (to != from).then(|| Command::Edit(Edit::Reorder(dragged.clone(), to)))
     };
-    let put = |object: &str, parent: Option<&str>| {
+    let set_parent = |object: &str, parent: Option<&str>| {
         let (object, parent) = (object.to_owned(), parent.map(str::to_owned));
         Command::Edit(Edit::SetParent { object, parent })
     };
@@ -90,7 +90,7 @@ fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Co
             None
         }
         (Item::Object(name), DropTarget::Onto(Item::Object(onto))) => {
-            (parent_of(name) != Some(onto)).then(|| put(name, Some(onto)))
+            (parent_of(name) != Some(onto)).then(|| set_parent(name, Some(onto)))
         }
         (
             Item::Object(name),
@@ -104,9 +104,9 @@ fn command_of(scene: &Scene, dragged: &Item, place: DropTarget<'_>) -> Option<Co
             }
             let text =
                 parent.map_or(format!("Take {name} off"), |parent| format!("Put {name} under {parent}"));
-            Some(Command::Several(text, std::iter::once(put(name, parent)).chain(moved).collect()))
+            Some(Command::Several(text, std::iter::once(set_parent(name, parent)).chain(moved).collect()))
         }
-        (Item::Object(name), DropTarget::Off) => parent_of(name).is_some().then(|| put(name, None)),
+        (Item::Object(name), DropTarget::Off) => parent_of(name).is_some().then(|| set_parent(name, None)),
         (Item::Region(_), DropTarget::Before(target @ Item::Region(_)))
         | (Item::Light(_), DropTarget::Before(target @ Item::Light(_))) => reorder(target, false),
         (

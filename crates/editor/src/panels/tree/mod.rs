@@ -23,14 +23,14 @@ pub fn tree(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     head(ui, shown, asks);
     let loaded = shown.document.shown();
     let active = shown.document.selection().active();
-    let moved = ColumnState::with(ui.ctx(), |state| {
-        let moved = state.active.as_ref() != active;
-        if moved {
+    let active_changed = ColumnState::with(ui.ctx(), |state| {
+        let active_changed = state.active.as_ref() != active;
+        if active_changed {
             state.active = active.cloned();
             let above = active.map(|item| rows::above(&loaded.scene, item)).unwrap_or_default();
             state.rows.extend(above.into_iter().map(|name| (name, true)));
         }
-        moved
+        active_changed
     });
     let state = ColumnState::with(ui.ctx(), |state| state.clone());
     let rows = rows::rows(shown.document, &state);
@@ -41,7 +41,7 @@ pub fn tree(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
                 Some((item, typed)) if row.item.as_ref() == Some(item) => {
                     rename_row(ui, row, typed.clone(), asks)
                 }
-                _ => show_row(ui, row, shown, moved, asks),
+                _ => show_row(ui, row, shown, active_changed, asks),
             };
             placed.push(rect);
         }
@@ -100,7 +100,7 @@ fn show_row(
     ui: &mut Ui,
     row: &TreeLine,
     shown: &PanelInput<'_>,
-    moved: bool,
+    active_changed: bool,
     asks: &mut Vec<Ask>,
 ) -> egui::Rect {
     let selection = shown.document.selection();
@@ -129,7 +129,7 @@ fn show_row(
     let can_hide = matches!(row.item, Some(Item::Object(_) | Item::Region(_)));
     let answer = if can_hide { drawn.show(ui) } else { drawn.show_bare(ui) };
     let rect = answer.response.rect;
-    if drawn.selected && moved {
+    if drawn.selected && active_changed {
         // With a row above and below, so that it is clear of the list's faded edges.
         ui.scroll_to_rect(rect.expand2(vec2(0.0, 1.5 * measure::TREE_ROW)), None);
     }
@@ -179,9 +179,9 @@ fn rename_row(ui: &mut Ui, row: &TreeLine, mut typed: String, asks: &mut Vec<Ask
     let name = format!("Rename {}", row.name);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, &name));
     if response.lost_focus() {
-        let dropped = ui.input(|input| input.key_pressed(egui::Key::Escape));
+        let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
         ColumnState::with(ui.ctx(), |state| state.renaming = None);
-        if let Some(item) = row.item.clone().filter(|_| !dropped && typed.trim() != row.name) {
+        if let Some(item) = row.item.clone().filter(|_| !cancelled && typed.trim() != row.name) {
             asks.push(Ask::Do(Command::Edit(Edit::Rename(item, typed))));
         }
         return rect;

@@ -19,7 +19,7 @@ pub(super) struct TreeLine {
     pub(super) item: Option<Item>,
     /// What it shows.
     pub(super) name: String,
-    /// *region*, *object*, *light*.
+    /// What kind of thing it is, as a screen reader says it: *region*, *object*, *light*.
     pub(super) kind: &'static str,
     /// What stands before the name.
     pub(super) mark: RowMark,
@@ -29,11 +29,11 @@ pub(super) struct TreeLine {
     pub(super) expanded: Option<bool>,
     /// Words at its right end.
     pub(super) note: String,
-    /// It has more than one key.
+    /// Whether it has more than one key.
     pub(super) keyed: bool,
-    /// Whether the eye is shut.
+    /// Whether it is hidden: its eye is shut.
     pub(super) hidden: bool,
-    /// Whether the lock is closed.
+    /// Whether it is locked.
     pub(super) locked: bool,
 }
 
@@ -80,8 +80,8 @@ pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<TreeLine> {
     let mut rows = vec![camera];
     let light = RowMark::Icon(icons::LIGHT);
     rows.extend(scene.lights.iter().map(|of| TreeLine::new(Item::Light(of.name.clone()), "light", light)));
-    let few = scene.objects.len() + scene.regions.len() + rows.len() <= ROWS_OPEN_AT_FIRST;
-    let listing = Listing { document, state, few, all: searched.is_some() };
+    let starts_open = scene.objects.len() + scene.regions.len() + rows.len() <= ROWS_OPEN_AT_FIRST;
+    let listing = Listing { document, state, starts_open, all_open: searched.is_some() };
     listing.objects_on(None, 0, &mut rows);
     rows.extend(
         scene
@@ -105,8 +105,10 @@ pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<TreeLine> {
 struct Listing<'a> {
     document: &'a Document,
     state: &'a ColumnState,
-    few: bool,
-    all: bool,
+    /// Whether objects start open, before the user has opened or folded them.
+    starts_open: bool,
+    /// Whether all objects are open, because the tree is searched.
+    all_open: bool,
 }
 
 impl Listing<'_> {
@@ -119,16 +121,16 @@ impl Listing<'_> {
             };
             let is_parent = regions().next().is_some()
                 || scene.objects.iter().any(|other| other.parent.as_deref() == Some(name));
-            let open = self.all || self.state.rows.get(name).copied().unwrap_or(self.few);
-            let wrong = self.document.lacks_mesh(&object.mesh);
+            let open = self.all_open || self.state.rows.get(name).copied().unwrap_or(self.starts_open);
+            let lacks_mesh = self.document.lacks_mesh(&object.mesh);
             rows.push(TreeLine {
                 depth,
                 expanded: is_parent.then_some(open),
-                note: if wrong { "mesh missing".to_owned() } else { String::new() },
+                note: if lacks_mesh { "mesh missing".to_owned() } else { String::new() },
                 keyed: object.keys.len() > 1,
                 hidden: object.hidden,
                 locked: object.locked,
-                ..TreeLine::new(Item::Object(name.to_owned()), "object", mark_of(wrong))
+                ..TreeLine::new(Item::Object(name.to_owned()), "object", mark_of(lacks_mesh))
             });
             if is_parent && open {
                 rows.extend(regions().map(|region| region_row(region, depth + 1)));
@@ -138,8 +140,8 @@ impl Listing<'_> {
     }
 }
 
-fn mark_of(wrong: bool) -> RowMark {
-    if wrong { RowMark::Wrong(icons::WARNING) } else { RowMark::Icon(icons::OBJECT) }
+fn mark_of(lacks_mesh: bool) -> RowMark {
+    if lacks_mesh { RowMark::Wrong(icons::WARNING) } else { RowMark::Icon(icons::OBJECT) }
 }
 
 fn region_row((index, region): (usize, &Region), depth: usize) -> TreeLine {

@@ -19,8 +19,8 @@ pub struct CombPreviewStroke {
 }
 
 impl CombPreviewStroke {
-    /// The angle that a comb would give it: a blend of its own with the comb's, which counts strength · (1 − (d/r)²)² (an even
-    /// comb: strength) at distance d from the dot, for a ring of radius r. None outside the ring.
+    /// The angle that a comb would give it: a blend of its own and the comb's. At distance d from the middle of a ring of
+    /// radius r, the comb's share is strength · (1 − (d/r)²)², or strength if it is even. None outside the ring.
     fn combed_rad(&self, comb: &Comb) -> Option<f32> {
         let near = 1.0 - (self.at_px - comb.at_px).length_squared() / (comb.radius_px * comb.radius_px);
         if near <= 0.0 {

@@ -13,8 +13,8 @@ const PIECES: i32 = 10;
 /// Lines are at least this far apart at the camera's target, points.
 const LEAST_GAP: f64 = 12.0;
 
-/// Draws a grid on the floor (Y = 0) around the camera's target, with the X and Z axes in their colours. The step is a power
-/// of ten world units, chosen so that lines are neither crowded nor far apart. Objects do not hide the grid.
+/// Draws a grid on the floor (Y = 0) around the camera's target, with the X and Z axes in their colours. The step is a
+/// power of ten world units, chosen so that lines are neither crowded nor far apart. Objects do not hide the grid.
 pub fn floor_grid(sheet: &Sheet<'_>) {
     let target = sheet.view.camera.target * DVec3::new(1.0, 0.0, 1.0);
     let px_per_unit = sheet.view.px_per_unit(sheet.view.camera.target).max(1e-9);

@@ -38,8 +38,8 @@ pub enum CurvePart {
 }
 
 impl GuideCurve {
-    /// The visible parts of a guide: where its surface faces the eye and nothing is in front. `line` and `handles` are pairs of
-    /// place and surface normal, world space.
+    /// The visible parts of a guide: where its surface faces the eye and nothing is in front. `line` and `handles` are
+    /// pairs of place and surface normal, world space.
     pub fn seen(line: &[[DVec3; 2]], handles: &[[DVec3; 2]], sight: &Sight<'_>) -> Self {
         let seen = |[at, normal]: &[DVec3; 2]| {
             sight.view.project(*at).filter(|at_px| at_px.is_finite() && sight.sees(*at, *normal))

@@ -12,7 +12,8 @@ use crate::theme::type_face;
 pub struct MissingMesh {
     /// Its object.
     pub name: String,
-    /// Its corners, world space: bits 0, 1 and 2 of an index choose the least or greatest X, Y and Z in the object's own axes.
+    /// Its corners, world space: bits 0, 1 and 2 of an index choose the least or greatest X, Y and Z in the object's
+    /// own axes.
     pub corners: [DVec3; 8],
 }
 
@@ -37,11 +38,11 @@ pub fn missing_mesh(sheet: &Sheet<'_>, missing: &MissingMesh) {
     let most = sheet.rect.max - size - vec2(4.0, 4.0);
     let least = sheet.rect.min + vec2(4.0, 4.0);
     let at = pos2((seen.right() + 6.0).min(most.x).max(least.x), (seen.top() - 4.0).min(most.y).max(least.y));
-    let ground = Rect::from_min_size(at, size);
+    let label = Rect::from_min_size(at, size);
     let edge = Stroke::new(1.0, OVER_PAINT.vermilion.gamma_multiply(0.5));
-    sheet.painter.rect(ground, 4.0, GROUND, edge, egui::StrokeKind::Inside);
+    sheet.painter.rect(label, 4.0, LABEL_FILL, edge, egui::StrokeKind::Inside);
     sheet.painter.galley(at + vec2(8.0, 4.0), galley, OVER_PAINT.vermilion);
 }
 
-/// The label's background: dark, so that the words can be read on any paint.
-const GROUND: Color32 = Color32::from_rgb(0x38, 0x1E, 0x1E);
+/// The label's fill: dark, so that the words can be read on any paint.
+const LABEL_FILL: Color32 = Color32::from_rgb(0x38, 0x1E, 0x1E);

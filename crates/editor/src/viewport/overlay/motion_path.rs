@@ -48,7 +48,8 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     }
 }
 
-/// Indices of the keys that show their number: first the ends, then in order the others, as long as no two numbers overlap.
+/// Indices of the keys that show their number: first the ends, then in order the others, as long as no two numbers
+/// overlap.
 fn numbered(places: &[Pos2]) -> Vec<usize> {
     let last = places.len().saturating_sub(1);
     let mut chosen: Vec<usize> = Vec::new();

@@ -8,7 +8,7 @@ use super::Sheet;
 use super::ink::{self, Ink};
 use crate::theme::type_face;
 
-/// How far a needle reaches behind the centre and before it, in radii of the ring: with a head, and without one.
+/// How far a needle with a head, or without one, reaches behind the centre and in front of it, in radii of the ring.
 const HEADED: [f32; 2] = [0.5, 1.5];
 const HEADLESS: [f32; 2] = [1.0, 1.0];
 

@@ -27,7 +27,8 @@ pub struct RegionTint {
 }
 
 impl RegionTint {
-    /// The visible parts of all regions. `names` are their names and colours; `region_of` gives the index of a face's region.
+    /// The visible parts of all regions. `names` are their names and colours; `region_of` gives the index of a face's
+    /// region.
     pub fn all(
         map: &SurfaceMap,
         names: &[(&str, Color32)],

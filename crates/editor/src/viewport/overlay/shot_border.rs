@@ -7,9 +7,9 @@ use super::ink;
 /// Opacity of the veil.
 const VEIL: f32 = 0.66;
 
-/// Draws the veil outside the shot and the border around it. `ground` is the viewport's background colour.
-pub fn shot_border(painter: &Painter, viewport: Rect, shot: Rect, ground: Color32) {
-    let veil = ground.gamma_multiply(VEIL);
+/// Draws the veil outside the shot and the border around it. `background` is the viewport's, without a picture.
+pub fn shot_border(painter: &Painter, viewport: Rect, shot: Rect, background: Color32) {
+    let veil = background.gamma_multiply(VEIL);
     let above = Rect::from_min_max(viewport.min, egui::pos2(viewport.max.x, shot.min.y));
     let below = Rect::from_min_max(egui::pos2(viewport.min.x, shot.max.y), viewport.max);
     let left = Rect::from_min_max(egui::pos2(viewport.min.x, shot.min.y), egui::pos2(shot.min.x, shot.max.y));

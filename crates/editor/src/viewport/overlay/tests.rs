@@ -66,7 +66,7 @@ fn direction_line(angle_deg: f32, ink: DirectionInk) -> DirectionMark {
 }
 
 #[test]
-fn a_hair_is_twelve_long_and_its_angle_counts_up_the_screen() {
+fn a_direction_line_is_twelve_long_and_its_angle_counts_up_the_screen() {
     let shapes = drawn(|sheet| direction_lines(sheet, &[direction_line(30.0, DirectionInk::Plain)]));
     let [[from, to]] = segments(&shapes, Color32::WHITE)[..] else { panic!("one white line: {shapes:?}") };
     assert_eq!(from + (to - from) * 0.5, pos2(148.0, 130.0));

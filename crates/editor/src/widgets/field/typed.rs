@@ -7,6 +7,7 @@ use crate::theme::{Tokens, type_face};
 use crate::widgets::draw;
 
 impl NumberField<'_> {
+    /// Shows the text field. Returns whether typing has ended, and whether `Esc` ended it.
     pub(super) fn type_in(
         &mut self,
         ui: &mut Ui,
@@ -73,8 +74,8 @@ impl NumberField<'_> {
         (done, cancelled)
     }
 
-    /// Resets the value on a double click, whose second click lands in the text field that the first one opened. Returns
-    /// whether it did.
+    /// Resets the value on a double click, whose second click lands in the text field that the first one opened.
+    /// Returns whether it did.
     pub(super) fn is_double_clicked(&mut self, ui: &Ui, id: egui::Id, frame: Rect) -> bool {
         let Some(default) = self.default else { return false };
         let is_here = ui.input(|input| {

@@ -19,7 +19,7 @@ type Outline = fn(Vec2) -> f32;
 
 const ICONS: [Outline; COUNT as usize] = [sun, bulb, dome];
 
-/// All icons of a level behind each other, finest level first; rows from the bottom.
+/// For each level, finest first, the texels of all icons one after the other; rows from the bottom.
 pub(super) fn levels() -> Vec<Vec<u8>> {
     let mut side = SIDE;
     let mut levels = Vec::new();
@@ -33,7 +33,7 @@ pub(super) fn levels() -> Vec<Vec<u8>> {
     levels
 }
 
-/// Soft over a texel of its level.
+/// One texel of an icon; edges are one texel of the level wide.
 fn texel(outline: Outline, [x, y]: [usize; 2], side: usize) -> [u8; 4] {
     let texel = 2.0 / side as f32;
     let at = (Vec2::new(x as f32, y as f32) + 0.5) * texel - 1.0;

@@ -1,4 +1,4 @@
-//! Woven linen, one tile that repeats: height and slopes.
+//! The canvas: a tile of woven linen that repeats, with height and slopes.
 
 use impasto_core::hash;
 use impasto_core::presence::smoothstep;
@@ -9,14 +9,15 @@ pub(super) const SIDE: u32 = 288;
 /// Distance from one thread to the next, pixels: 80 threads in a tile.
 const PITCH_PX: f32 = 3.6;
 
-/// How much threads differ in thickness, and how far they stray from a straight line, in pitches.
+/// How much threads differ in thickness; and how far they stray from a straight line, in threads' distances.
 const THREAD_JITTER: f32 = 0.18;
 const WANDER: f32 = 0.35;
 
 /// How often a thread strays and returns in one tile.
 const WANDER_CYCLES: u32 = 3;
 
-/// Height, and its slopes in x and in y (per texel, times 4), each centred on 128; four bytes a texel, bottom row first.
+/// Height, then its slopes in x and in y per texel, each halved and centred on 128; four bytes a texel, bottom row
+/// first.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
     let heights: Vec<f32> = (0..side * side).map(|index| height(index % side, index / side)).collect();
@@ -44,7 +45,7 @@ fn height(x: usize, y: usize) -> f32 {
         let across = 2.0 * (at - at.floor()) - 1.0;
         (1.0 - (across / thickness.clamp(0.6, 1.4)).powi(2)).max(0.0).sqrt()
     };
-    // Each thread goes over every other one.
+    // Each thread goes over one crossing thread and under the next.
     let over = 0.5
         + 0.5
             * (std::f32::consts::PI * (warp_at - 0.5)).sin()
@@ -53,7 +54,7 @@ fn height(x: usize, y: usize) -> f32 {
     warp.max(weft)
 }
 
-/// How far a thread strays here, in pitches; repeats with the tile.
+/// How far a thread strays here, in threads' distances; repeats with the tile.
 fn wander(which: u32, x: f32, y: f32) -> f32 {
     let scale = WANDER_CYCLES as f32 / SIDE as f32;
     let (u, v) = (x * scale, y * scale);

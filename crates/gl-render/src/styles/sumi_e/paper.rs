@@ -1,4 +1,4 @@
-//! The paper, one tile that repeats: clouds of pulp, fibres at random, and fine tooth.
+//! The paper: a tile that repeats, with clouds of pulp, random fibres, and fine grain (tooth).
 
 use impasto_core::hash;
 use impasto_core::presence::smoothstep;
@@ -22,13 +22,13 @@ pub(super) fn tile() -> Vec<u8> {
     };
     let [clouds, teeth]: [Vec<f32>; 2] =
         [0, 1].map(|which| (0..side * side).map(|at| noise(at)[which]).collect());
-    let [clouds, fibres, teeth] = [clouds, fibres(), teeth].map(level);
+    let [clouds, fibres, teeth] = [clouds, fibres(), teeth].map(centred);
     let byte = |value: f32| (128.0 + 127.0 * value.clamp(-1.0, 0.99)).round() as u8;
     (0..side * side).flat_map(|at| [byte(clouds[at]), byte(fibres[at]), byte(teeth[at]), 255]).collect()
 }
 
 /// The same values minus their mean.
-fn level(values: Vec<f32>) -> Vec<f32> {
+fn centred(values: Vec<f32>) -> Vec<f32> {
     let mean = values.iter().sum::<f32>() / values.len() as f32;
     values.into_iter().map(|value| value - mean).collect()
 }
@@ -76,7 +76,7 @@ fn fibres() -> Vec<f32> {
     values
 }
 
-/// Adds to the four texels around a point, by distance.
+/// Adds to the four texels around a point, more to the nearer ones.
 fn add_spot(values: &mut [f32], [x, y]: [f32; 2], strength: f32) {
     let side = SIDE as i32;
     let (left, below) = (x.floor(), y.floor());

@@ -1,4 +1,4 @@
-//! Strokes of ink: what each carries, then a billboard each, one layer after the other.
+//! Strokes of ink: finds the ink of each, then draws a billboard for each, one layer after the other.
 
 use glam::Vec3;
 use impasto_core::{brush, color};
@@ -13,7 +13,7 @@ use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
-/// The most strokes that are laid before the caller is asked again whether to stop.
+/// The caller is asked whether to stop after this many strokes.
 const PIECE: u32 = 4096;
 
 /// Draws the strokes of a frame.
@@ -27,7 +27,8 @@ impl InkStrokes {
         Ok(Self { gpu: gpu.clone(), buffers: StrokeBuffers::new(gpu)? })
     }
 
-    /// Lays all strokes of the frame; without strokes the target stays empty. `shares` says how much ink each body gets.
+    /// Lays all strokes of the frame; without strokes the target stays empty. `shares` says how much ink each body
+    /// gets.
     pub(super) fn draw(
         &mut self,
         input: &StyleInput<'_>,

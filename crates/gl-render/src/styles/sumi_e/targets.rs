@@ -1,4 +1,4 @@
-//! The targets of the passes.
+//! The targets of the passes, for either rule.
 
 use std::rc::Rc;
 

@@ -15,17 +15,17 @@ struct Open {
     byte: u8,
     /// Behind the bracket, or behind its last comma.
     item_start: usize,
-    /// Whether it holds `name: value`.
+    /// Whether it holds `name: value` pairs.
     has_fields: bool,
     /// Whether the item that is read now has its colon.
     has_colon: bool,
 }
 
-/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten. `None` where nothing comes before
-/// it.
+/// Ends a text before the offset `fault`, or earlier where a bracket must have been forgotten. `None` where nothing
+/// comes before it.
 pub(super) fn before(text: &str, fault: usize) -> Option<Cut> {
     let bytes = text.as_bytes();
-    // A bracket that is never closed is found at its opening; the text may be good to its end.
+    // A bracket that is never closed is reported at its opening; the text behind it may be good to the end.
     let is_unclosed = matches!(bytes.get(fault), Some(b'(' | b'[' | b'{'));
     let end = if is_unclosed { bytes.len() } else { fault };
     let mut open: Vec<Open> = Vec::new();
@@ -123,7 +123,7 @@ fn closing_of(opening: u8) -> u8 {
     }
 }
 
-/// Behind the closing quote of the text that starts here, with raw texts.
+/// The offset behind the closing quote of the text, perhaps a raw one, that opens at `quote`.
 fn behind_text(bytes: &[u8], quote: usize) -> Option<usize> {
     let hashes = bytes[..quote].iter().rev().take_while(|&&byte| byte == b'#').count();
     let is_raw = bytes[..quote - hashes].last() == Some(&b'r');
@@ -145,7 +145,7 @@ fn behind_text(bytes: &[u8], quote: usize) -> Option<usize> {
     None
 }
 
-/// Every object has one `mesh`.
+/// How many objects a text describes: each has one `mesh` field.
 fn objects_in(text: &str) -> usize {
     text.matches("mesh:").count()
 }

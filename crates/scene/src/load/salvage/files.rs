@@ -18,7 +18,7 @@ use crate::problem::{Problem, Severity};
 /// The most files among which a missing one is searched.
 const MOST_ENTRIES: usize = 4000;
 
-/// The depth of folders in which it is searched.
+/// How many folders deep it is searched for.
 const DEEPEST: usize = 4;
 
 type Read<T> = Result<(Arc<T>, Vec<Problem>), Problem>;
@@ -138,13 +138,14 @@ impl<'a> FileCache<'a> {
         as_scene_problem(problem, self.path, place)
     }
 
-    /// The one file of that name elsewhere in the scene's folder, or the one of nearly that name.
+    /// A fix that names the only file of that name in the scene's folder or below, or else the only one of nearly that
+    /// name.
     fn nearby_fix(&mut self, name: &str, fields: &[String], located: &Located) -> Option<Fix> {
         let plain = name.trim().replace('\\', "/");
         let wanted = Path::new(&plain).file_name()?.to_str()?.to_lowercase();
         let folder = folder_of(self.path).to_owned();
         let nearby = self.nearby.get_or_insert_with(|| files_below(&folder));
-        // It is there, so something else is wrong with it.
+        // If the file is where the scene says, something else is wrong with it.
         if wanted.len() > 128 || nearby.iter().any(|file| file == Path::new(&plain)) {
             return None;
         }

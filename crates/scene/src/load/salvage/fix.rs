@@ -33,7 +33,8 @@ pub fn mended(text: &str, fixes: &[&Fix]) -> String {
     mended
 }
 
-/// An unknown field by the name that is known there; none where none is near, or where that one is given already.
+/// A fix that renames an unknown field to the one known name near it; `None` where there is no such name, or several,
+/// or where a field of that name is given already.
 pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> Option<Fix> {
     let ron::Error::NoSuchStructField { expected, found, .. } = error else { return None };
     if found.len() > 64 {
@@ -51,7 +52,7 @@ pub(super) fn renamed(located: &Located, field: &Field, error: &ron::Error) -> O
     })
 }
 
-/// The fields among which one stands.
+/// All fields of the value that a field belongs to.
 fn holder_of<'a>(root: &'a Node, field: &Field) -> Option<&'a [Field]> {
     let holds = |node: &Node| (node.start..node.end).contains(&field.key.start);
     let mut node = root;
