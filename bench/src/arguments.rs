@@ -17,7 +17,7 @@ pub struct Arguments {
     pub json: bool,
     /// A file of results to compare with.
     pub against: Option<PathBuf>,
-    /// Whether to keep the results of this machine.
+    /// Whether to save the results of this machine.
     pub keep: bool,
     /// Whether to write the table into the docs.
     pub write_docs: bool,
@@ -28,10 +28,10 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Reads the words; `None` where they ask for help.
+    /// Reads the words of the command line; `None` if they ask for help.
     ///
     /// # Errors
-    /// At an unknown word.
+    /// If a word is unknown, or `--against` names no file.
     pub fn parse(words: &[String]) -> anyhow::Result<Option<Self>> {
         let mut arguments = Self { may_fetch: true, ..Self::default() };
         let mut words = words.iter();
@@ -55,7 +55,7 @@ impl Arguments {
         Ok(Some(arguments))
     }
 
-    /// The parts that are asked for, in their own order.
+    /// The parts that are asked for, in the order of [`PARTS`].
     pub fn parts(&self) -> impl Iterator<Item = &'static Part> {
         PARTS.iter().filter(|part| match self.named.as_slice() {
             [] => part.quick || !self.quick,

@@ -1,4 +1,5 @@
-//! The context of every part of the benchmark: inputs, peers, the pace, and the table that it adds rows to.
+//! What every part of the benchmark (see `parts.rs`) works with: the inputs, the peers (programs of others that do the
+//! same task), how long to time them, and the table that it adds rows to.
 
 use std::path::Path;
 
@@ -12,21 +13,21 @@ use crate::table::{Figure, Row, Table, Unit};
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// All inputs and all peers.
+    /// Inputs of all sizes, and many rounds.
     Full,
-    /// Under two minutes.
+    /// Smaller inputs, and fewer rounds: less than two minutes in all.
     Quick,
 }
 
-/// The context of a part.
+/// What a part of the benchmark works with.
 pub struct Bench {
     /// The inputs.
     pub inputs: Inputs,
-    /// Peers that are programs of their own.
+    /// Builds and starts the peers that run as processes of their own.
     pub peers: Peers,
     /// The rows measured so far.
     pub table: Table,
-    /// Costs against counts, to be plotted.
+    /// Curves of cost against the number of particles, to be plotted.
     pub curves: Vec<Curve>,
     mode: Mode,
 }
@@ -43,12 +44,13 @@ impl Bench {
         }
     }
 
-    /// Whether the whole benchmark should take less than two minutes.
+    /// Whether this is [`Mode::Quick`].
     pub fn quick(&self) -> bool {
         self.mode == Mode::Quick
     }
 
-    /// How long a race takes; `slow` tasks get only a round or a few.
+    /// How many rounds a race has, and how long it may take. In a race, Impasto and its peers do one task in turn (see
+    /// `race.rs`). A `slow` task gets two or three rounds at most.
     pub fn pace(&self, slow: bool) -> Pace {
         match (self.mode, slow) {
             (Mode::Quick, false) => Pace { rounds: 5, least_secs: 0.05, most_secs: 2.0 },
@@ -58,7 +60,7 @@ impl Bench {
         }
     }
 
-    /// Adds a row and reports it on stderr.
+    /// Adds a row to the table, and reports our figure on stderr.
     pub fn push(&mut self, row: Row) {
         let value = row
             .ours
@@ -68,7 +70,8 @@ impl Bench {
         self.table.rows.push(row);
     }
 
-    /// Whether this many bytes of memory are free; if not, adds a row that says that the largest input was left out.
+    /// Whether this many bytes of memory are free. If not, adds a row for the task `what` that says why its largest
+    /// input, 10,000,000 particles, was left out. If the free memory is unknown, it is taken to be enough.
     pub fn has_memory(&mut self, what: &str, bytes: u64) -> bool {
         let enough = machine::free_bytes().is_none_or(|free| free >= bytes);
         if !enough {

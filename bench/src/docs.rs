@@ -1,4 +1,4 @@
-//! Writes the table into a page of the docs, between two marks.
+//! Writes the table of results into a page of the docs, between the two comments that mark its place.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use crate::table::{Table, markdown};
 const BEGIN: &str = "<!-- bench:begin -->";
 const END: &str = "<!-- bench:end -->";
 
-/// Puts the table between the marks of a page.
+/// Puts the table between the two comments of a page.
 ///
 /// # Errors
-/// Where the page cannot be read or written, or has no marks.
+/// Where the page cannot be read or written, or has no such comments.
 pub fn write(page: &Path, table: &Table) -> anyhow::Result<()> {
     let text = std::fs::read_to_string(page).with_context(|| format!("{} cannot be read", page.display()))?;
     let written = replaced(&text, &markdown(table))

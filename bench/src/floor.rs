@@ -1,4 +1,5 @@
-//! The floor that memory sets: the time to read and write as many bytes as a task does, with almost no arithmetic.
+//! Measures the least time that memory allows a task (its floor): the time to read and write as many bytes as the task
+//! does, with almost no arithmetic.
 
 use rayon::prelude::*;
 
@@ -63,7 +64,7 @@ impl Streams {
     }
 }
 
-/// Memory bandwidth, bytes per second: the best of several passes of a triad (two streams in, one out) over 192 MB.
+/// Memory bandwidth, bytes per second: the best of several passes of a triad (two streams in, one out) over 192 MiB.
 pub fn triad_bytes_per_sec() -> f64 {
     let mut streams = Streams::new(16 << 20, 2, 1);
     let bytes = streams.bytes() as f64;

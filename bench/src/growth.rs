@@ -1,5 +1,6 @@
-//! Cost against the number of particles, from a thousand to ten million, step by step. Preparing and frames are those of the
-//! paper's largest scene without its wall. N counts the particles of its body layer; the other layers have some in addition.
+//! Measures how the cost of each step grows with the number of particles, from a thousand to ten million. The scene
+//! that is prepared and drawn is the paper's largest one without its wall. The number counts the particles of its body
+//! layer; the other layers have some in addition.
 
 use std::hint::black_box;
 use std::time::Instant;

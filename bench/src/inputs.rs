@@ -1,4 +1,5 @@
-//! The inputs: the source paper's three scenes, and any number of particles on the mesh of the largest one.
+//! The inputs of the benchmarks: the source paper's three scenes, and any number of particles on the mesh of the
+//! largest one.
 
 use std::borrow::Borrow;
 use std::collections::HashMap;
@@ -69,13 +70,13 @@ pub const PAPER_SCENES: [PaperScene; 3] = [
 /// Particles of the paper's largest scene.
 pub const LARGEST: usize = PAPER_SCENES[2].particles;
 
-/// Points of one body, in Impasto's order.
+/// The particles of one body as points, in the order in which Impasto keeps them.
 pub struct Cloud {
-    /// Name and number of points, for the table.
+    /// The body's name and the number of points, for the table of results.
     pub name: String,
     /// Positions, model space.
     pub positions: Vec<Vec3>,
-    /// As many unit normals.
+    /// A unit normal for each position.
     pub normals: Vec<Vec3>,
     /// Area of the surface, model units squared.
     pub area: f64,
@@ -89,7 +90,7 @@ impl Cloud {
         Self { name: format!("{name}, {}", shown_count(positions.len())), positions, normals, area }
     }
 
-    /// The radius that holds `others` of the points on a flat piece of the surface.
+    /// The radius of a flat piece of the surface that holds `others` points on average.
     pub fn radius_for(&self, others: f64) -> f32 {
         (others * self.area / (std::f64::consts::PI * self.positions.len() as f64)).sqrt() as f32
     }

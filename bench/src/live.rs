@@ -1,4 +1,5 @@
-//! What an editor waits for: preparing a painting again after an edit, and pictures of a moving view.
+//! Measures what the user of an editor waits for: a painting prepared again after an edit, and pictures of a moving
+//! view.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -27,7 +28,7 @@ fn shipped(name: &str) -> LoadedScene {
     load(&path, &LoadOptions::default()).expect("the shipped scene is good")
 }
 
-/// CPU seconds of this process, all threads.
+/// The CPU seconds that all threads of this process have used so far.
 fn cpu_secs() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let fields: Vec<f64> =
@@ -35,7 +36,8 @@ fn cpu_secs() -> f64 {
     fields.get(11).zip(fields.get(12)).map_or(0.0, |(user, system)| (user + system) / 100.0)
 }
 
-/// Prepares versions of a scene one after the other; adds a row with the times of all but the first.
+/// Prepares versions of a scene one after the other. Adds one row to the results, with the times of all versions but
+/// the first.
 fn edits_of(
     bench: &mut Bench,
     what: &str,
@@ -113,7 +115,7 @@ fn changed(
     })
 }
 
-/// The name of an edit, and the edit of version number n.
+/// An edit: its name, and a function that makes the edit in a scene. The number says how far the edit goes.
 type Edit = (&'static str, fn(&mut Scene, f64));
 
 /// Measures preparing after one edit of each kind.

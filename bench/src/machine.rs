@@ -1,4 +1,4 @@
-//! The machine that the table was measured on.
+//! Describes the machine that the table of times is measured on, for the table's head.
 
 use std::process::Command;
 
@@ -18,7 +18,7 @@ pub fn processor() -> String {
     name.unwrap_or_else(|| format!("an unnamed {}", std::env::consts::ARCH))
 }
 
-/// The widest vectors of the processor that Impasto uses.
+/// The widest vectors of this processor, among those that Impasto uses.
 fn vectors() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {

@@ -1,5 +1,5 @@
-//! Bytes per particle: what a painting takes during playback, and the peak while it is prepared. The scene's files, loaded before,
-//! do not count; the painting's own copies of their meshes do.
+//! Measures memory in bytes per particle: what a painting takes during playback, and the peak while it is prepared. The
+//! scene's files, which are loaded before, do not count; the painting's own copies of their meshes do.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub fn alone_with_particles(scene: &LoadedScene, object: usize, count: u64) -> A
 
 /// Measures all scenes.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
-    // First, so that what is made once for all paintings does not count.
+    // A painting is made first, so that what is made once for all paintings does not count.
     bench.inputs.painting("fish")?.at(0.0, &FrameOptions::new([1280, 720]));
     let scenes = if bench.quick() { &PAPER_SCENES[2..] } else { &PAPER_SCENES[..] };
     for scene in scenes {

@@ -1,4 +1,5 @@
-//! Points in Morton order, in which trees and gathers find their data in the cache. Peers get it too.
+//! Sorts points in Morton order, so that searches and gathers find their data in the cache. The peers get the same
+//! order.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -12,7 +13,7 @@ fn spread(bits: u32) -> u32 {
     (bits | (bits << 2)) & 0x0924_9249
 }
 
-/// Indices of the points along the curve.
+/// The indices of the points in Morton order.
 pub fn order(points: &[Vec3]) -> Vec<u32> {
     let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
     let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);

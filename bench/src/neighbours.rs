@@ -1,4 +1,5 @@
-//! Neighbour lists, at most 50 within a radius that holds about 64: ours beside trees of Rust crates, C++ and Python.
+//! Measures neighbour searches: ours beside trees of Rust crates, C++ and Python. Each particle gets a list of its
+//! nearest neighbours, at most 50 of them within a radius that holds about 64.
 
 mod answer;
 mod trees;
@@ -18,7 +19,8 @@ use crate::race::{Contender, race};
 use crate::table::{Goal, Row};
 use answer::Answer;
 
-/// How many others the radius holds on a flat piece of the surface: more than a list, so that the farthest must be left out.
+/// How many others the radius holds on a flat piece of the surface: more than a list has room for, so that the farthest
+/// must be left out.
 const WITHIN: f64 = 64.0;
 
 /// From this number of points on, only the fastest peers take part, for few rounds.
@@ -30,7 +32,7 @@ pub fn find(positions: &[Vec3], radius: f32) -> Neighbours {
     Neighbours::find(positions, &normals, radius)
 }
 
-/// Our search with the radius that this part uses.
+/// Our search with the radius that these benchmarks use.
 pub fn find_in(cloud: &Cloud) -> Neighbours {
     find(&cloud.positions, cloud.radius_for(WITHIN))
 }
@@ -126,7 +128,7 @@ fn one(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// kiddo's search with the same radius.
+/// kiddo's search with the radius that these benchmarks use.
 pub fn kiddo_in(cloud: &Cloud) -> trees::Lists {
     trees::kiddo(&cloud.positions, cloud.radius_for(WITHIN))
 }

@@ -1,5 +1,5 @@
-//! Table 9 of Hong and Park: spheres with and without the noise-displaced material, in the plain render at 1024 × 1024. Here the
-//! processor draws everything, so only the ratio can be compared.
+//! Repeats table 9 of Hong and Park: how long spheres take to draw with the noise-displaced material and without, in
+//! the plain render at 1024 × 1024. Here the processor draws everything, so only the ratio can be compared with theirs.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,7 +16,7 @@ use crate::table::{Figure, Row, Spread, Unit, one_line, shown};
 /// Side of the picture, pixels.
 const SIDE_PX: u32 = 1024;
 
-/// Frames measured after a warm-up, as in the source.
+/// Frames measured after a warm-up, as in the paper.
 const FRAMES: u32 = 5;
 
 /// `count` spheres in a square, all of them in the picture.
@@ -45,7 +45,7 @@ fn spheres(count: usize, noise: Option<&NoiseDisplace>) -> Painting {
     prepare(Arc::clone(&loaded)).expect("the meshes are there")
 }
 
-/// Seconds of computing each frame's data, and of drawing it.
+/// For each frame, the seconds to compute its data and the seconds to draw it.
 fn frame_secs(renderer: &mut Renderer, painting: &Painting) -> [Vec<f64>; 2] {
     let options = FrameOptions::new([SIDE_PX; 2]);
     let mut secs = [Vec::new(), Vec::new()];

@@ -1,4 +1,4 @@
-//! Table 2 of the source paper, measured again: its three scenes with as many particles, beside its own figures.
+//! Measures table 2 of the source paper again: its three scenes with as many particles, beside the paper's own figures.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -63,7 +63,7 @@ fn one(bench: &mut Bench, scene: &PaperScene, renderer: &mut Result<Renderer, St
     row.goals.extend(most_secs(scene).map(Goal::AtMost));
     bench.push(row);
 
-    // As in the paper, which has nothing round the model.
+    // The model alone, as in the paper, which has nothing round it.
     let model = alone_with_particles(&loaded, scene.object, scene.particles as u64);
     let total = prepare(Arc::clone(&model))?.particle_total();
     let contenders = vec![Contender::here("Impasto", "", || prepare(Arc::clone(&model)))];

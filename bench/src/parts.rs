@@ -1,8 +1,9 @@
-//! The parts of the benchmark, by name.
+//! The list of the benchmark's parts, by name.
 //!
-//! A part is a function that adds rows to [`Bench::table`]. It checks that all contenders give equal answers, and fails if they do
-//! not; hands them to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor last; and makes a
-//! [`crate::table::Row`] of the figures. To add one: a module with `pub fn run(&mut Bench)`, and a line here.
+//! A part is a function that adds rows to [`Bench::table`]. It fails if its contenders do not give equal answers. It
+//! hands them to [`crate::race::race`] as [`crate::race::Contender`]s, ours first and the floor (`floor.rs`) last, and
+//! makes a [`crate::table::Row`] of the figures. To add a part, write a module with `pub fn run(&mut Bench)` and add a
+//! line here.
 
 use crate::bench::Bench;
 use crate::{
@@ -16,7 +17,7 @@ pub struct Part {
     pub name: &'static str,
     /// What it measures.
     pub about: &'static str,
-    /// Whether it is in the quick run even if it is not named.
+    /// Whether the quick run includes it without its being named.
     pub quick: bool,
     /// Measures it.
     pub run: fn(&mut Bench) -> anyhow::Result<()>,

@@ -1,7 +1,9 @@
-//! Peers that are programs of their own: C++ built from `bench/peers/*.cpp`, Python from `bench/peers/*.py`.
+//! Builds and runs peers, the programs that Impasto is timed beside: C++ from `bench/peers/*.cpp`, Python from
+//! `bench/peers/*.py`. They talk with the benchmark so:
 //!
 //! ```text
-//! start: arguments name files of little-endian f32 and u32; the peer does its task once and writes its answer to a file
+//! start: arguments name files of little-endian f32 and u32
+//!        the peer does its task once and writes its answer to a file
 //!        peer ─▶ {"ready": true}, with the seconds of this first run if they are useful
 //! round: "go 3" ─▶ peer does the task three times ─▶ {"secs": 1.25}, the seconds of all three
 //! end:   the peer's input is closed
@@ -105,7 +107,7 @@ impl Peer {
         self.first_secs
     }
 
-    /// Runs the task `times` times; the seconds of all runs together.
+    /// Runs the task `times` times; returns the seconds of all runs together.
     ///
     /// # Errors
     /// When the peer has ended.
@@ -139,7 +141,7 @@ impl Peer {
         }
     }
 
-    /// The rounds of this peer, for a [`crate::race::Contender`].
+    /// This peer as a function that runs a round, for a [`crate::race::Contender`].
     pub fn rounds(mut self) -> impl FnMut(usize) -> anyhow::Result<f64> {
         move |times| self.go(times)
     }
@@ -147,7 +149,7 @@ impl Peer {
 
 impl Drop for Peer {
     fn drop(&mut self) {
-        // It ends when its input is closed; one that does not end within two seconds is killed.
+        // A peer ends when its input is closed. If it has not ended after two seconds, it is killed.
         drop(self.input.take());
         for _ in 0..40 {
             if matches!(self.child.try_wait(), Ok(Some(_)) | Err(_)) {

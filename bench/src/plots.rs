@@ -1,4 +1,4 @@
-//! Plots of cost against count, as SVG.
+//! Draws the plots of the benchmarks as SVG: cost per particle against the number of particles.
 
 use std::path::{Path, PathBuf};
 
@@ -39,7 +39,7 @@ pub struct Curve {
     pub name: &'static str,
     /// The plot that it is drawn in.
     pub plot: Plot,
-    /// Counts, rising, with seconds.
+    /// Pairs of count and seconds; counts rise.
     pub points: Vec<(f64, f64)>,
 }
 

@@ -1,4 +1,5 @@
-//! Times contenders for one task in turn: each round runs all of them, so that a slow moment of the machine slows all alike.
+//! Times several programs or functions, the contenders, on the same task. Each round runs all of them in turn, so that
+//! a slow moment of the machine slows all alike.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -27,7 +28,8 @@ impl<'a> Contender<'a> {
         })
     }
 
-    /// Something that measures its own time: `run` does the task this many times and returns the seconds of all runs together.
+    /// Something that measures its own time: `run` does the task as many times as it is told, and returns the seconds
+    /// of all runs together.
     pub fn timed(who: &str, note: &str, run: impl FnMut(usize) -> anyhow::Result<f64> + 'a) -> Self {
         Self { who: who.to_owned(), note: note.to_owned(), run: Ok(Box::new(run)) }
     }
@@ -37,7 +39,7 @@ impl<'a> Contender<'a> {
         Self { who: who.to_owned(), note: String::new(), run: Err(why.to_owned()) }
     }
 
-    /// One that may have failed to start.
+    /// One that may have failed to start; if it has, it counts as missing.
     pub fn started(
         who: &str,
         note: &str,
@@ -50,7 +52,7 @@ impl<'a> Contender<'a> {
     }
 }
 
-/// Least rounds of a contender that is slow, but not too slow for more than one.
+/// Even a slow contender gets this many rounds, unless it is so slow that it gets only one.
 const LEAST_ROUNDS: usize = 3;
 
 /// How long a race takes.
@@ -60,8 +62,8 @@ pub struct Pace {
     pub rounds: usize,
     /// Shortest measurement, seconds: quicker tasks are done several times in a row.
     pub least_secs: f64,
-    /// After three rounds, a contender that has taken this many seconds has no more. If its warm-up alone took as long, that is
-    /// its only round.
+    /// A contender that has taken this many seconds in three rounds or more gets no further round. If its warm-up
+    /// alone took as long, that is its only round.
     pub most_secs: f64,
 }
 
@@ -83,7 +85,7 @@ pub fn race(pace: &Pace, contenders: Vec<Contender<'_>>) -> anyhow::Result<Vec<F
         let (mut times, mut once) = (1, false);
         let (mut spent_secs, mut secs) = (0.0, Vec::new());
         if let Ok(run) = &mut contender.run {
-            // Twice: the first run also pays for memory, tables and just-in-time compilers.
+            // A quick contender warms up twice: the first run also pays for memory, tables and just-in-time compilers.
             spent_secs = run(1)?;
             let mut warm_secs = spent_secs;
             if warm_secs < pace.most_secs / 4.0 {

@@ -1,4 +1,5 @@
-//! Results as a text file, one per machine: the head of the table, then a line for each figure.
+//! Keeps results in a text file, one per machine, so that later runs can be compared with them. The file holds the head
+//! of the table, then a line for each figure.
 //!
 //! ```text
 //! # processor: …
@@ -11,7 +12,7 @@ use anyhow::{Context as _, bail};
 
 use crate::table::{Figure, Table, Unit, shown};
 
-/// Smaller changes from run to run are noise, whatever the spread within each run.
+/// Changes from run to run by less than this share are noise, whatever the spread within each run.
 const NOISE: f64 = 0.1;
 
 /// One figure of a row.
@@ -47,7 +48,8 @@ fn name_of(unit: Unit) -> &'static str {
 }
 
 impl Results {
-    /// The figures of a table that have a value: ours, the peers' and the floors.
+    /// The figures of a table that have a value: ours, those of the peers (others that do the same task), and the
+    /// floors (the least times that memory allows).
     pub fn of(table: &Table) -> Self {
         let mut entries = Vec::new();
         for row in &table.rows {
@@ -107,8 +109,8 @@ impl Results {
         self.head.iter().find(|(name, _)| name == "date").map_or("no date", |(_, value)| value)
     }
 
-    /// The changes of a later run, in words. Times on different machines cannot be compared; there, the others' times over ours
-    /// are.
+    /// Says which figures of a later run have changed. Times on two different machines cannot be compared; instead, the
+    /// ratios of times are: each peer's and each floor's time, divided by our time on the same machine.
     pub fn moved(&self, later: &Self) -> String {
         let same_machine = self.machine() == later.machine();
         let mut text = format!(
@@ -146,7 +148,7 @@ impl Results {
         text
     }
 
-    /// A peer's or a floor's time over ours; `None` for ours.
+    /// The ratio of another's time (a peer's or a floor's) to ours; `None` if the entry is ours.
     fn over_ours(&self, entry: &Entry) -> Option<Entry> {
         let ours =
             self.entries.iter().find(|other| other.what == entry.what && other.input == entry.input)?;

@@ -1,4 +1,5 @@
-//! Sampling the mesh of the paper's largest scene, by chance and as blue noise, with the spacing that each method reaches.
+//! Times how the mesh of the paper's largest scene is sampled, by chance and as blue noise, and measures the spacing
+//! that each method reaches.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -16,15 +17,15 @@ use crate::peers::{Peer, files};
 use crate::race::{Contender, race};
 use crate::table::{Figure, Goal, Row, Spread, Unit, shown_count};
 
-/// Spacings that differ by less count as equal: two seeds of one method differ by as much.
+/// Spacings that differ by less than this share count as equal: two seeds of one method differ by as much.
 const EQUAL_SPACING: f64 = 0.02;
 
-/// Particles by chance, uniform over the area.
+/// Particles placed by chance, uniformly over the area.
 pub fn by_chance(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     scattered(surface, count, seed)
 }
 
-/// Measures all counts.
+/// Measures both kinds of sampling, each at several counts of particles.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let mesh = bench.inputs.mesh()?;
     let counts: &[usize] = if bench.quick() { &[100_000] } else { &[LARGEST, 1_000_000] };
@@ -135,7 +136,7 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     contenders.push(Contender::started("trimesh even", "1 thread", even.map(|even| even.peer.rounds())));
     let figures = race(&bench.pace(false), contenders)?;
     let mut row = Row::of_race("sampling, blue noise", &input, figures, false);
-    // So slow that its first run is its only one.
+    // Open3D's Poisson sampling is so slow that it runs only once.
     let poisson = sampler(bench, "open3d_poisson", mesh, count);
     let (mut figure, reached) = match poisson {
         Ok(poisson) => {
@@ -178,8 +179,9 @@ fn blue(bench: &mut Bench, mesh: &TriangleMesh, count: usize) -> anyhow::Result<
     Ok(())
 }
 
-/// Distance to the nearest other point over the hexagonal spacing of as many points: the mean, and the value that one in a thousand
-/// is below. First among points on the same side of the surface (n·n' > 0), which strokes crowd; then among all.
+/// The distance of each point to the nearest other one, divided by the hexagonal spacing of as many points: the mean,
+/// and the value that one point in a thousand is below. The first two numbers count only points on the same side of
+/// the surface (n·n' > 0), since only their strokes crowd each other; the last two count all points.
 fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     let points = &sample.points;
     let hexagonal = hexagonal_spacing(area, points.len());
@@ -198,7 +200,7 @@ fn spacing(sample: &Sample, area: f64) -> [f64; 4] {
     [mean, closest, mean_of_all, closest_of_all]
 }
 
-/// Seconds of both methods at a count, for the plots.
+/// The seconds that sampling by chance and as blue noise take at a count, for the plots.
 pub fn secs(mesh: &TriangleMesh, count: usize) -> [f64; 2] {
     let surface = Surface::new(mesh, |_| true);
     let timed = |work: &dyn Fn() -> usize| {

@@ -1,4 +1,5 @@
-//! Rendering frames of the still life to files: `impasto render` as it is, beside a single thread (ours and the driver's).
+//! Measures rendering frames of the still life to files: `impasto render` as it is, beside the same command
+//! limited to one thread in all (the driver has none of its own then).
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -9,7 +10,7 @@ use anyhow::{Context as _, ensure};
 use crate::bench::Bench;
 use crate::table::{Figure, Goal, Row, Spread, Unit};
 
-/// Frames of the sequence.
+/// Frames of the sequence, in a full and in a quick benchmark.
 const FRAMES: usize = 120;
 const QUICK_FRAMES: usize = 16;
 
@@ -52,7 +53,7 @@ fn render_secs(
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// Checks that both wrote the same bytes.
+/// Checks that both runs wrote the same bytes.
 fn check_same(folders: [&Path; 2], frames: usize) -> anyhow::Result<()> {
     for frame in 0..frames {
         let [ours, alone] = folders.map(|folder| std::fs::read(folder.join(format!("frame_{frame:04}.png"))));
@@ -61,7 +62,7 @@ fn check_same(folders: [&Path; 2], frames: usize) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Measures both, one after the other.
+/// Measures both runs, one after the other.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let frames = if bench.quick() { QUICK_FRAMES } else { FRAMES };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -1,10 +1,11 @@
-//! Projection and turn of all particles of a body: ours from six baked numbers, beside direct sums over 48 neighbours as in the
-//! source paper.
+//! Measures how long it takes to project and turn all particles of a body: ours from six baked numbers, beside direct
+//! sums over 48 neighbours as in the source paper.
 //!
-//! Which answers must agree: the gathers (Rust, numpy, numba) all compute `arg Σ p̄ c`, p and c the neighbours' offsets in the
-//! reference and in this picture. Ours equals the same sum with each neighbour weighted by w = z_neighbour / z_stroke; it is
-//! checked against that sum, and the row states how much the weights change the angle. Umeyama's method first moves the origin
-//! to the mean of the neighbours; it is checked against that sum.
+//! Which answers must agree (p and c are a neighbour's offsets in the reference picture and in this one):
+//! - The gathers (Rust, numpy, numba) all compute `arg Σ p̄ c`.
+//! - Ours equals this sum with each neighbour weighted by w = z_neighbour / z_stroke, and is checked against the
+//!   weighted sum. The row states how much the weights change the angle.
+//! - Umeyama's method first moves the origin to the mean of the neighbours, and is checked against the sum from there.
 
 mod gather;
 mod scene;
@@ -30,7 +31,7 @@ pub const READ: usize = 12;
 /// Floats that it writes per particle: position (2), depth, angle, area.
 pub const WRITTEN: usize = 5;
 
-/// Measures all counts.
+/// Measures bodies of several numbers of particles.
 pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     let counts: &[usize] = if bench.quick() { &[LARGEST] } else { &[LARGEST, 1_000_000] };
     for &count in counts {
@@ -44,7 +45,7 @@ pub fn run(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Ours beside the floor alone: there are no neighbour lists for so many particles.
+/// Measures ours beside nothing but the floor that memory sets: there are no neighbour lists for so many particles.
 fn alone(bench: &mut Bench, cloud: &Rc<Cloud>) -> anyhow::Result<()> {
     let (reference, now) = scene::views(&mut bench.inputs)?;
     let baked = scene::facing(cloud, &reference);

@@ -1,6 +1,6 @@
-//! The stroke pass beside a bare instanced draw of the same strokes, with the same process, targets, blending, brush texture,
-//! instances and quads. The bare renderer has two shaders in place of ours: they draw a quad, and one brush sample times the
-//! stroke's colour.
+//! Times our stroke pass beside a bare instanced draw of the same strokes, in the same process and with the same
+//! targets, blending, brush texture, instances and quads. The bare draw has two simple shaders in place of ours: they
+//! place a quad and colour each pixel with one brush sample times the stroke's colour.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ const BARE: [(&str, &str); 2] = [
     ("rotating_strokes/paint.frag", include_str!("stroke_pass/bare.frag")),
 ];
 
-/// The pass that copies what wet paint is picked up from: part of our stroke pass, but not of a bare draw.
+/// The pass that copies the paint that strokes may pick up. It is part of our stroke pass, but not of a bare draw.
 const BELOW: &str = "below";
 
-/// Seconds of all rounds.
+/// What was measured: the seconds of each round, and the overdraw.
 struct StrokePass {
     /// Ours: all layers, and the copy of what lies below them.
     ours_secs: Vec<f64>,
@@ -57,7 +57,7 @@ fn measure([ours, bare]: [&mut Renderer; 2], frame: &Frame, rounds: usize) -> an
         pass.overdraw = [own.overdraw, other.overdraw];
         for PassTime { name, seconds } in own.passes {
             match pass.passes.iter_mut().find(|(known, _)| *known == name) {
-                // A pass that runs several times in a picture counts as their sum.
+                // The seconds of a pass that runs several times in a picture are added up.
                 Some((_, all)) if all.len() > pass.ours_secs.len() - 1 => {
                     if let Some(last) = all.last_mut() {
                         *last += seconds;

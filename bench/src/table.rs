@@ -1,4 +1,5 @@
-//! The table of results: rows with our figure, the peers', the floor, and the goals.
+//! The table of the benchmark's results. Each row has our figure, the figures of the peers, the floor that memory sets,
+//! and the goals for ours.
 
 mod shown;
 
@@ -78,12 +79,12 @@ impl Figure {
         Self { who: who.to_owned(), unit, value: Ok(value), note: String::new() }
     }
 
-    /// No number, because the contender is missing on this machine.
+    /// A figure without a number, because the contender is missing on this machine.
     pub fn missing(who: &str, unit: Unit, why: &str) -> Self {
         Self { who: who.to_owned(), unit, value: Err(why.to_owned()), note: String::new() }
     }
 
-    /// The same with a remark.
+    /// The same figure with a remark.
     pub fn noted(self, note: impl Into<String>) -> Self {
         Self { note: note.into(), ..self }
     }
@@ -97,7 +98,7 @@ impl Figure {
 /// A goal of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Goal {
-    /// Ours is at least `times` times faster than peers whose name begins with `than`.
+    /// Ours is at least `times` times faster than every peer whose name begins with `than`.
     Faster {
         /// Beginning of the peers' names.
         than: &'static str,
@@ -110,18 +111,18 @@ pub enum Goal {
     AtMost(f64),
 }
 
-/// One task on one input: ours, the others' and the floor.
+/// The figures of one task on one input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The task.
     pub what: String,
     /// What it was done on, and how large that is.
     pub input: String,
-    /// Ours.
+    /// Our figure.
     pub ours: Figure,
-    /// Others that do the same.
+    /// The figures of others that do the same.
     pub peers: Vec<Figure>,
-    /// The best that memory allows.
+    /// The time that memory alone takes: no method can be faster.
     pub floor: Option<Figure>,
     /// The goals.
     pub goals: Vec<Goal>,
@@ -153,13 +154,13 @@ impl Row {
         self
     }
 
-    /// A peer's figure over ours.
+    /// A peer's figure over ours; `None` if one is missing or the units differ.
     pub fn ratio(&self, peer: &Figure) -> Option<f64> {
         (peer.unit == self.ours.unit).then_some(())?;
         Some(peer.median()? / self.ours.median()?)
     }
 
-    /// Ours over the floor.
+    /// Our figure over the floor; `None` if one is missing.
     pub fn over_floor(&self) -> Option<f64> {
         Some(self.ours.median()? / self.floor.as_ref()?.median()?)
     }
@@ -192,7 +193,7 @@ pub struct Table {
     pub rows: Vec<Row>,
 }
 
-/// A number with its unit, three digits.
+/// A number with its unit, to three digits.
 pub fn shown(number: f64, unit: Unit) -> String {
     shown::number(number, unit)
 }

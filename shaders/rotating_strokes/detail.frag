@@ -4,13 +4,19 @@
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
 uniform sampler2D glint;
+uniform sampler2D normal;            // and gloss
 uniform float px_scale;              // output pixels per pixel of the scene's own size
+uniform mat4 view_from_world;
 uniform int block_px;                // side of a block
 
 out vec4 detail;                     // change of colour 0..1, outline 0..1, highlight 0..1, body id and share
 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
+// How fast the surface turns, radians per pixel of the scene's own size: a ball of 100 px radius turns by 0.01 in its middle.
+const vec2 TURN = vec2(0.012, 0.050);
+// The most detail that a turn alone makes.
+const float TURN_SHARE = 1.0;
 
 void main() {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
@@ -36,13 +42,26 @@ void main() {
         count += 1.0;
         vec3 here = oklab_from_linear(texelFetch(reference_color, at, 0).rgb);
         vec3 slopes[2] = vec3[2](vec3(0.0), vec3(0.0));
+        vec3 facing = texelFetch(normal, at, 0).xyz;
+        float turn = 0.0;
         for (int axis = 0; axis < 2; axis++) {
             ivec2 next = min(at + ivec2(1 - axis, axis) * reach_px, last);
+            // Over a distance that flat facets of the mesh do not show in; nothing on what is thinner than it.
+            ivec2 far = ivec2(1 - axis, axis) * (3 * reach_px);
+            ivec2 ends[2] = ivec2[2](max(at - far, ivec2(0)), min(at + far, last));
+            if (texelFetch(depth_and_id, ends[0], 0).y == front.y && texelFetch(depth_and_id, ends[1], 0).y == front.y) {
+                vec3 turned = texelFetch(normal, ends[1], 0).xyz - texelFetch(normal, ends[0], 0).xyz;
+                turn += length(turned) * (px_scale / float(6 * reach_px));
+            }
             if (texelFetch(depth_and_id, next, 0).y != front.y) continue;
             slopes[axis] = (oklab_from_linear(texelFetch(reference_color, next, 0).rgb) - here) * (px_scale / float(reach_px));
         }
         float change = sqrt(dot(slopes[0], slopes[0]) + dot(slopes[1], slopes[1]));
-        detail.r += clamp((change - CHANGE.x) / (CHANGE.y - CHANGE.x), 0.0, 1.0);
+        float of_color = clamp((change - CHANGE.x) / (CHANGE.y - CHANGE.x), 0.0, 1.0);
+        // Near the outline every surface turns fast in the picture: what counts is how fast it turns along itself.
+        turn *= clamp((mat3(view_from_world) * facing).z, 0.0, 1.0);
+        float of_form = TURN_SHARE * clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
+        detail.r += max(of_color, of_form);
         detail.b += min(texelFetch(glint, at, 0).r, 1.0);
         if (index == 4) continue;
         ivec2 outward = (ivec2(index & 1, index >> 1) * 2 - 1) * rim_px;

@@ -4,4 +4,5 @@ const int BODY = 1;
 const int FORM = 2;
 const int SCUMBLE = 3;
 const int ACCENTS = 4;
-const int LIGHTS = 5;
+const int CONTOUR = 5;
+const int LIGHTS = 6;

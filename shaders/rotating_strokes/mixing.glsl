@@ -4,9 +4,10 @@ uniform sampler2D palettes;      // a row each: pigments in Oklab, w 1 where the
 const uint ANY_COLOR = 255u;
 
 // Standard deviations from stroke to stroke, by layer: lightness, hue in degrees, chroma as a share.
-const vec3 JITTER[6] = vec3[6](
-    vec3(0.020, 7.0, 0.10), vec3(0.013, 3.5, 0.06), vec3(0.012, 3.0, 0.05),
-    vec3(0.020, 8.0, 0.06), vec3(0.010, 3.0, 0.05), vec3(0.008, 2.0, 0.04)
+const vec3 JITTER[7] = vec3[7](
+    vec3(0.020, 7.0, 0.10), vec3(0.007, 3.5, 0.06), vec3(0.005, 3.0, 0.05),
+    vec3(0.012, 8.0, 0.06), vec3(0.004, 3.0, 0.05), vec3(0.004, 3.0, 0.05),
+    vec3(0.005, 2.0, 0.04)
 );
 
 struct Mixing {
@@ -51,7 +52,9 @@ vec3 graded(vec3 lab, vec3 wide, int kind) {
     }
     if (kind == ACCENTS) lab = wide + (lab - wide) * 1.45;
     if (kind == LIGHTS) lab.x += 0.043;
-    float lightness = mix(lab.x, planes(lab.x), 0.42);
+    // A line is the darker tone of what it bounds.
+    if (kind == CONTOUR) lab = vec3(0.62 * lab.x, lab.yz * 1.1);
+    float lightness = mix(lab.x, planes(lab.x), 0.25);
     // Darks keep some colour and never turn black.
     float dark = 1.0 - smoothstep(0.16, 0.42, lightness);
     float chroma = 1.06 + 0.16 * dark;

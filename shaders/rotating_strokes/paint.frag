@@ -9,7 +9,7 @@ flat in vec3 half_mixed;
 flat in vec4 picked_up;
 flat in vec4 mark;
 flat in vec4 body;
-flat in vec2 own;
+flat in vec3 own;
 #ifdef SHAPED
 flat in vec4 form;
 flat in float leaning;
@@ -29,6 +29,7 @@ layout(location = 1) out vec4 height;
 const float FILL = 0.84;
 const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
+const float STEEPNESS = 4.0;
 
 vec2 surface_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
@@ -65,7 +66,8 @@ void main() {
     vec2 at = vec2(u, 0.5 + (quad_at.y - 0.5) * body.w);
     at.y -= mark.w * ((u - 0.5) * (u - 0.5) - 0.06) * 0.5 * FILL;
     vec3 texel = textureLod(brush_marks, vec3(at, mark.x), level).rgb;
-    float alpha = smoothstep(paint.a - mark.z, paint.a + mark.z, texel.r);
+    float past_end = max(abs(2.0 * u - 1.0) - own.z, 0.0);
+    float alpha = smoothstep(paint.a - mark.z, paint.a + mark.z, texel.r - STEEPNESS * past_end);
     if (alpha <= 0.0) discard;
     float tint = texel.b * 2.0 - 1.0;
     if (body.z < FREE) {

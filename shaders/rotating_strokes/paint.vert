@@ -10,7 +10,7 @@ layout(location = 3) in uvec2 bytes;         // paint, mixing
 layout(location = 4) in vec4 normal_and_bow; // world space, half widths
 layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue and of edges, skew
 layout(location = 6) in vec4 resolved;       // colour and how much is there
-layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness
+layout(location = 7) in vec4 fitted;         // centre in px where it lies on its body, lightness, turn added to the angle
 #ifdef SHAPED
 layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
@@ -29,13 +29,15 @@ flat out vec3 half_mixed;        // what the other paint in the brush adds
 flat out vec4 picked_up;         // colour from below and how much of it
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
-flat out vec2 own;               // depth and id of the body
+flat out vec3 own;               // depth and id of the body; how much of the stroke's length is there
 #ifdef SHAPED
 flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
 flat out float leaning;          // skew
 #endif
 
 const float MARGIN = 1.0 / 0.84;
+// How fast the mark of a fading stroke ends, as in the fragment shader.
+const float STEEPNESS = 4.0;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
@@ -85,12 +87,14 @@ void main() {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }
-    float opacity = float(bytes.x & 255u) * BYTE;
+    float opacity = float(bytes.x & 255u) * BYTE * min(16.0 * there * there, 1.0);
     float thickness = float((bytes.x >> 8) & 255u) / 50.0;
     float pickup = float((bytes.x >> 16) & 255u) * BYTE;
     float dryness = float(bytes.x >> 24) * BYTE;
-    // A drier brush leaves less of its mark. A stroke that fades is eroded down to its last hairs.
-    float share = 0.98 * (1.0 - dryness) * there;
+    // A drier brush leaves less of its mark, and so does one that fades.
+    float share = 0.98 * (1.0 - dryness) * mix(0.5, 1.0, there);
+    // A stroke that fades goes out from its ends, and below a quarter of its length as a whole.
+    float extent = max(there, 0.25);
     // An edge about a pixel wide, as a share of the mark.
     float soft = clamp(1.2 * (size.x + size.y) / (size.x * size.y), 0.02, 0.14);
     paint = vec4(resolved.rgb, mix(1.0 + soft, soft + 0.02, share));
@@ -101,7 +105,8 @@ void main() {
     half_mixed = linear_from_oklab(lab + vec3(0.055, 0.0, 0.014)) - resolved.rgb;
 #endif
 
-    vec2 along = vec2(cos(place.w), sin(place.w));
+    float angle = place.w + fitted.w;
+    vec2 along = vec2(cos(angle), sin(angle));
     vec2 center_px = fitted.xy;
 #ifdef DRAFT
     picked_up = vec4(0.0);
@@ -114,6 +119,9 @@ void main() {
     float level = max(log2(mark_rows / (1.05 * size.y * MARGIN)), 0.0);
     float flip = (marks.w & 65536u) == 0u ? 1.0 : -1.0;
     vec4 part = painted_part(paint.a - soft, level, normal_and_bow.w, flip);
+    // As in the fragment shader: past the ends the mark needs more paint to show.
+    float half_extent = 0.5 * extent + 0.5 / STEEPNESS;
+    part.xy = clamp(part.xy, 0.5 - half_extent, 0.5 + half_extent);
     if (part.x >= part.y || part.z >= part.w) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
@@ -139,6 +147,6 @@ void main() {
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, flip);
-    own = vec2(place.z, float(marks.y));
+    own = vec3(place.z, float(marks.y), extent);
     gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -17,7 +17,7 @@ layout(location = 5) in vec4 reach;          // overrun in px, slow noise of hue
 #include "rotating_strokes/mixing.glsl"
 
 out vec4 resolved;               // colour and how much is there
-out vec4 fitted;                 // centre in px where it lies on its body, lightness, unused
+out vec4 fitted;                 // centre in px where it lies on its body, lightness, turn added to its angle
 
 const float FREE = 1e6;
 const float MOST_FULL = 1.35;
@@ -29,14 +29,17 @@ const float LEAST = 0.004;
 #endif
 
 // Standard deviation of the Gaussian over which colours are averaged, in widths of the stroke.
-const float BLUR[6] = float[6](0.33, 0.20, 0.20, 0.22, 0.30, 0.25);
+const float BLUR[7] = float[7](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25);
+
+// A line is drawn for where its body ends within this many pixels of the scene's own size.
+const float OUTLINE_PX = 20.0;
 
 // How much of the centre is visible: taps around it, each compared with the depth of the stroke's own plane there.
 float seen(mat2 turn) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float unit = units_per_px(place.z);
     float slant = max(abs(n.z), 0.2);
-    float radius_px = clamp(0.28 * sqrt(size.x * size.y), 3.0, 14.0 * max(px_scale, 1.0));
+    float radius_px = clamp(0.28 * sqrt(size.x * size.y), max(3.0, 7.0 * px_scale), 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
 #ifdef DRAFT
@@ -106,6 +109,52 @@ float wanted(vec3 detail) {
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
+// Where the body ends nearby: the direction of its end, the share of the surroundings that lies past it, and the share that
+// something stands in front of, which is no end of the body; 0..1.
+vec4 outline_near(vec2 own) {
+    float bias = 0.02 * own.x;
+    vec4 sum = vec4(0.0);
+    for (int index = 0; index < 24; index++) {
+        float angle = 0.78539816 * (float(index & 7) + 0.5 * float((index >> 3) & 1));
+        vec2 offset = vec2(cos(angle), sin(angle));
+        vec2 at = place.xy + offset * (OUTLINE_PX * px_scale * (0.4 + 0.3 * float(index >> 3))) - 0.5;
+        vec2 part = fract(at);
+        float past = 0.0;
+        float hidden = 0.0;
+        for (int corner = 0; corner < 4; corner++) {
+            ivec2 step = ivec2(corner & 1, corner >> 1);
+            vec2 near = mix(1.0 - part, part, vec2(step));
+            vec2 there = surface_at(floor(at) + vec2(step) + 0.5);
+            float farther = there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x);
+            past += there.y == own.y ? 0.0 : near.x * near.y * farther;
+            hidden += near.x * near.y * smoothstep(bias, 3.0 * bias, there.y == 0.0 ? 0.0 : own.x - there.x);
+        }
+        sum += vec4(vec3(offset, 1.0) * past, hidden);
+    }
+    return sum / 24.0;
+}
+
+// How much a line is wanted, lost and found: by its place, by slow noise, and less in the light.
+float line_wanted(vec4 outline, float lightness) {
+    float at_end = smoothstep(0.02, 0.46, outline.z) * (1.0 - smoothstep(0.55, 0.95, outline.z));
+    float found = smoothstep(-0.9, 0.5, reach.z);
+    float in_view = 1.0 - smoothstep(0.1, 0.5, outline.w);
+    return 0.85 * in_view * at_end * found * mix(1.0, 0.30, smoothstep(0.30, 0.95, lightness));
+}
+
+// From the stroke's centre to the end of its body: along a straight end the share that lies past it tells how far away it is.
+vec2 to_end_px(vec4 outline) {
+    if (dot(outline.xy, outline.xy) < 1e-8) return vec2(0.0);
+    return normalize(outline.xy) * (OUTLINE_PX * px_scale * (1.0 - 2.0 * outline.z) - 0.4 * size.y);
+}
+
+// The turn that lays a stroke along the end of its body, the shorter way round.
+float turn_along(vec4 outline) {
+    if (dot(outline.xy, outline.xy) < 1e-8) return 0.0;
+    float turn = atan(outline.y, outline.x) + 1.57079633 - place.w;
+    return turn - 3.14159265 * round(turn / 3.14159265);
+}
+
 // Shift along the stroke that puts as much of it as possible on its body. Its size stays.
 float shift(mat2 turn, vec2 own) {
     if (reach.x >= FREE) return 0.0;
@@ -126,9 +175,20 @@ void main() {
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     // Most candidates are absent; they are left early.
     bool small = kind == FORM || kind == ACCENTS || kind == LIGHTS;
+    vec4 outline = vec4(0.0);
+    float turned = 0.0;
+    vec2 moved = vec2(0.0);
     float there = presence(size.w + (kind == BODY ? log(MOST_FULL) : 0.0));
     if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
-    if (there > LEAST) there *= seen(turn);
+    if (kind == CONTOUR && there > LEAST) {
+        if (detail_at(place.xy, own.y).g < 0.01) return;
+        outline = outline_near(own);
+        if (outline.z <= 0.03) return;
+        turned = turn_along(outline);
+        moved = to_end_px(outline);
+        turn = mat2(cos(turned), sin(turned), -sin(turned), cos(turned)) * turn;
+    }
+    if (there > LEAST && kind != CONTOUR) there *= seen(turn);
     if (there <= LEAST) return;
 
     float across_px = max(BLUR[kind] * size.y, 1.4 * min(px_scale, 1.0));
@@ -139,10 +199,11 @@ void main() {
     if (kind == BODY) {
         there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
     }
+    if (kind == CONTOUR) there = without_last(there * line_wanted(outline, lab.x));
     // A fixed colour: the picture shows a measure, not the scene.
     if ((marks.z >> 24) == 128u) {
         resolved = vec4(albedo_of(marks.z), there);
-        fitted = vec4(place.xy + turn[0] * shift(turn, own), lab.x, 0.0);
+        fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);
         return;
     }
     vec3 wide = kind == ACCENTS ? wide_mean(place.xy, own.y, lab) : lab;
@@ -151,5 +212,5 @@ void main() {
     there = max(there - LEAST, 0.0) / (1.0 - LEAST);
 #endif
     resolved = vec4(linear_from_oklab(lab), there);
-    fitted = vec4(place.xy + turn[0] * shift(turn, own), lab.x, 0.0);
+    fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);
 }

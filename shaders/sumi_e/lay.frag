@@ -1,5 +1,5 @@
-// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. Values are display values:
-// ink is subtracted from the paper, as in the source's mix.
+// Ink on the paper: the blurred wash, the strokes over it, and the effect of the paper on both. Values are display
+// values: ink is subtracted from the paper, as in the source's mix.
 #include "sumi_e/paper.glsl"
 uniform sampler2D soft;          // silhouette, interior, seal red, body
 uniform sampler2D wide;          // the same, blurred far
@@ -41,7 +41,7 @@ vec3 wash_at(vec2 at, vec3 here, vec3 slow) {
     dark *= 1.0 - wetness.z * 0.75 * smoothstep(0.02, 0.16, tooth) * smoothstep(0.9, 0.3, run.r);
     red = clamp(run.b / max(run.a, 1e-3), 0.0, 1.0);
     dark = mix(dark, max(dark, 0.44 * run.b + 0.5 * run.g), red);
-    // It is weaker under strokes; the seal is stamped, so it is not.
+    // The wash is weaker under strokes, but not the red of a seal, which is stamped.
     dark *= mix(amounts.x, 1.0, red * red) * amounts.z;
     return clamp(dark, 0.0, MOST_INK) * (1.0 - mix(ink, seal, red));
 }

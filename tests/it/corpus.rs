@@ -14,9 +14,9 @@ use impasto_tests::corpus::{self, Outcome};
 const MEMORY_KIB: u32 = 1 << 20;
 const SECONDS: u32 = 120;
 
-/// What `impasto check` says of a file.
+/// What `impasto check` prints about a file.
 struct Checked {
-    /// Its problems, a line each.
+    /// The lines about the file's problems.
     said: String,
     is_good: bool,
 }
@@ -58,7 +58,8 @@ fn check(files: &[PathBuf]) -> Vec<Checked> {
     checked
 }
 
-/// Rows of a CSV file with a header, as (header, value) look-ups; quoted fields may hold commas and doubled quotes.
+/// The rows of a CSV file with a header line. Each row is a function from the name of a column to its value. Quoted
+/// fields may hold commas and doubled quotes.
 fn rows(path: &Path) -> Vec<impl Fn(&str) -> String + use<>> {
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut lines = text.lines().map(fields);

@@ -1,4 +1,5 @@
-//! Tests of what regions cover, and of what hidden regions and objects leave out of a picture.
+//! Tests that a region covers the surface that it states, and that hidden regions and objects are left out of a picture
+//! while the rest stays the same.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +25,7 @@ fn on_a_sheet(on: Selector) -> Vec<(Vec3, bool)> {
     scene.regions = vec![Region { direction: Direction::Angle(20.0), ..Region::new("on", on) }];
     let mut loaded = LoadedScene::clone(&shapes::loaded(scene, [shapes::sheet(20)]));
     let mut file = MeshFile::clone(loaded.meshes.values().next().unwrap());
-    // Its left half is a group of its own.
+    // The left half of the sheet is a group of its own.
     file.groups.push("left".to_owned());
     for triangle in 0..file.mesh.triangles.len() {
         let [a, b, c] = file.mesh.corners(triangle);

@@ -69,7 +69,8 @@ fn painted(scene: Scene, mesh: TriangleMesh) -> Painting {
     prepare(shapes::loaded(scene, [mesh])).unwrap()
 }
 
-/// Views of a point at `height`, 0, 30 and 60 degrees off the reference, sideways and from above.
+/// Views of a point at `height` from the reference, from both sides and from above. Each comes with the angle by which
+/// it is off the reference, degrees.
 fn off_the_reference(height: f64) -> Vec<(f64, CameraPose)> {
     let eye = |yaw: f64, pitch: f64| {
         let (yaw, pitch) = (yaw.to_radians(), pitch.to_radians());
@@ -100,7 +101,7 @@ fn what_is_combed_is_what_is_seen() {
                     .values()
                     .filter(|seen| {
                         let from = seen.at_px - ends[0];
-                        // Without those on the far wall of the dimple.
+                        // Strokes on the far wall of the dimple are left out.
                         seen.facing > 0.35
                             && from.perp_dot(along).abs() < 1.0
                             && (4.0..48.0).contains(&from.dot(along))
@@ -313,9 +314,9 @@ fn toward_a_point_runs_there() {
     assert!(strokes.len() >= 500 && worst < 0.05, "{worst}");
 }
 
-/// Looks at each stroke whose surface faces away from the reference: the angle between it and its ten nearest
-/// neighbours, median and 95th percentile in degrees, and the number of such strokes. (`impasto measure` calls this
-/// M6.)
+/// Compares each stroke whose surface faces away from the reference with its ten nearest neighbours. Returns the median
+/// and the 95th percentile of the angles between them, degrees, and the number of such strokes. (`impasto measure`
+/// calls this M6.)
 fn coherence(painting: &Painting, now: &CameraPose, reference: DVec3) -> (f64, f64, usize) {
     let strokes = seen_by(painting, now);
     let particles = painting.particles(0);

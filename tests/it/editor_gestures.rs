@@ -83,7 +83,7 @@ impl Setup {
         [&view.camera, &shot].map(|camera| ObjectView::new(camera, self.poses[0]))
     }
 
-    /// Place in pixels and angle, Y up, of each stroke that faces a view.
+    /// Of each stroke of the body layer that faces the camera: its place in pixels (Y down) and its angle (Y up).
     fn strokes(&self, camera: &CameraPose) -> Vec<(DVec2, f64)> {
         let frame = self.painting.seen_by(camera, 0.0, &FrameOptions::new(SIZE_PX));
         let run = frame.layers.iter().find(|run| run.kind == LayerKind::Body).expect("a body layer");
@@ -113,7 +113,8 @@ fn lines_apart(a: f64, b: f64) -> f64 {
     off.min(PI - off).to_degrees()
 }
 
-/// The angle between the drag's tangent and each stroke within `reach_px` of it, degrees; its ends are left out.
+/// The angle between the drag's tangent and each stroke within `reach_px` of the drag, degrees. Strokes at the ends of
+/// the drag are left out.
 fn errors(strokes: &[(DVec2, f64)], drag: impl Fn(f64) -> DVec2, reach_px: f64) -> Vec<f64> {
     let steps = 400;
     let way: Vec<DVec2> = (0..=steps).map(|step| drag(f64::from(step) / f64::from(steps))).collect();
@@ -130,7 +131,7 @@ fn errors(strokes: &[(DVec2, f64)], drag: impl Fn(f64) -> DVec2, reach_px: f64) 
         .collect()
 }
 
-/// The shot, and free views off it, sideways and from above.
+/// The shot's view, and free views that are turned from it, sideways and upwards.
 fn views(shot: &CameraPose, about: DVec3) -> Vec<(&'static str, View)> {
     let turned = |drag_px: [f64; 2]| {
         let mut free = FreeView::new(shot.clone());
@@ -161,7 +162,7 @@ fn what_is_dragged_is_what_is_seen_in_any_view() {
         let centre =
             bare.picker.bounds_in_world([0], &bare.poses).map(|[low, high]| (low + high) * 0.5).unwrap();
         let shot = motion::camera_at(bare.painting.scene(), 0.0);
-        // The apple in every view, the sphere in every other.
+        // The apple is seen in every view, the sphere in every second one.
         for (index, (name, view)) in views(&shot, centre).into_iter().enumerate().step_by(every) {
             let middle = view.project(centre).unwrap() + DVec2::new(6.0, 9.0);
             let angles_deg = if index / every % 2 == 0 { [-77.0f64, 7.0] } else { [30.0, 137.0] };

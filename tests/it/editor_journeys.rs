@@ -1,4 +1,4 @@
-//! Whole tasks in the editor's real window, from start to end, with a picture of each step.
+//! Tests of whole tasks in the editor's real window, from start to end, with a picture of each step.
 
 use std::path::Path;
 use std::process::Command;
@@ -191,7 +191,8 @@ fn a_broken_scene_is_mended() {
     editor.keys(&["Escape"]);
     editor.wait_until_gone("Show the problem");
 
-    // The window asks about typed text before it closes; Ctrl Enter reads the text.
+    // Text that was typed into the panel of problems: the window asks about it before it closes. Ctrl Enter parses it
+    // into the document.
     let text_place = editor.control("Problems").at([0.8, 0.5]);
     screen.click(text_place);
     editor.keys(&["ctrl+End"]);

@@ -1,5 +1,5 @@
 //! Tests of playing in the editor: frames come in order, dropped ones are counted, and each has the strokes that
-//! `impasto render` draws. A simulated clock tests the timing, in the editor model's `playback`.
+//! `impasto render` draws. The timing is tested elsewhere, with a simulated clock: in the editor model's `playback`.
 
 use std::sync::Arc;
 

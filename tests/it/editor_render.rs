@@ -1,4 +1,5 @@
-//! Tests that the editor renders what `impasto render` renders, byte for byte, and that the command it offers does the same.
+//! Tests that the editor renders what `impasto render` renders, byte for byte, and that the command that the editor
+//! offers renders the same.
 
 use std::collections::BTreeMap;
 use std::path::Path;

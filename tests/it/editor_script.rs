@@ -1,5 +1,5 @@
-//! Builds the still life from its meshes with a script of commands; the command line checks the saved file and gives the
-//! same strokes.
+//! Tests that the editor's commands alone can build the shipped still life from its meshes, and that the saved file has
+//! the same strokes when the command line loads it.
 
 use std::path::Path;
 use std::process::Command as Process;
@@ -76,8 +76,8 @@ fn build_object(document: &mut Document, wanted: &Object) {
 fn build(document: &mut Document, wanted: &Scene) {
     run(document, Command::Scene(SceneEdit::SetSeed(wanted.seed)));
     run(document, Command::Scene(SceneEdit::SetBackground(wanted.background)));
-    // Another range first, as `run` takes no command that changes nothing and a new scene may already have the wanted
-    // range.
+    // A new scene may already have the wanted range, and `run` fails on a command that changes nothing: another range
+    // is set first.
     run(document, Command::Time(Time::SetRange(0, 1)));
     run(document, Command::Time(Time::SetRange(wanted.timeline.first, wanted.timeline.last)));
     let lights = document.scene().lights.iter().map(|light| Item::Light(light.name.clone())).collect();
@@ -156,7 +156,7 @@ fn a_script_builds_the_still_life_from_its_meshes() {
     document.save_as(&file).unwrap();
     assert!(!document.is_edited() && document.undo_text() == Some("Draw guide"));
 
-    // The file as the command line reads it has the same strokes, bit for bit.
+    // Loaded as the command line loads it, the file has the same strokes, bit for bit.
     let loaded = load(&file, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
     assert_eq!(loaded.scene, *document.scene());
     let options = FrameOptions::new([480, 270]);

@@ -1,4 +1,5 @@
-//! Tests of the editor's real window, on an Xvfb and with mouse and keys from xdotool; the command line judges what it saves.
+//! Tests of the editor's real window. It opens on an Xvfb, xdotool moves the mouse and presses keys, and the files that
+//! the editor saves are read and painted to check them.
 
 use std::path::Path;
 use std::process::Command;
@@ -46,8 +47,8 @@ fn guides(folder: &Path) -> Vec<Guide> {
     std::mem::take(&mut region.guides)
 }
 
-/// A place in the window as a place in the rendered picture: pixels from its lower left corner, Y up. The shot is as wide as
-/// the viewport, and in its middle.
+/// A place in the window as a place in the rendered picture: pixels from the picture's lower left corner, Y up. The
+/// shot is as wide as the viewport, and in its middle.
 fn in_picture(at: [i32; 2], viewport: &ControlRect, size: (u32, u32)) -> DVec2 {
     let plain = |[x, y]: [i32; 2]| DVec2::new(f64::from(x), f64::from(y));
     let size = DVec2::new(f64::from(size.0), f64::from(size.1));
@@ -137,7 +138,8 @@ fn a_drag_over_the_apple_is_in_the_saved_file_as_it_was_drawn() {
     let [from, to] = [from, to].map(|at| in_picture(at, &viewport, size));
     let way = to - from;
     let dragged_deg = way.to_angle().to_degrees();
-    // For each stroke: its place along the drag (0 to 1), its distance from it in pixels, and its angle to it in degrees.
+    // For each stroke: its place along the drag (0 to 1), its distance from the drag in pixels, and its angle to the
+    // drag in degrees.
     let seen: Vec<(f64, f64, f64)> = strokes(folder.path(), "combed.ron")
         .into_iter()
         .map(|(at, angle_deg)| {

@@ -1,5 +1,5 @@
-//! Compares small pictures of each technique's shipped scenes, through both drivers, with stored pictures that a person found
-//! good. `IMPASTO_BLESS=1` rewrites them: look at each.
+//! Tests that shipped scenes look as they did: compares small pictures of each technique, through both drivers, with
+//! stored pictures that a person found good. `IMPASTO_BLESS=1` rewrites the stored ones: look at each.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use impasto_tests::scenes;
 
 const SIZE_PX: [u32; 2] = [192, 108];
 
-/// The technique, the scene that shows it, the frame.
+/// The technique, the scene that shows it, and the frame.
 const SHOWN: &[(&str, &str, f64)] = &[
     ("sumi_e", "sumi_e_apple", 0.0),
     ("sumi_e", "sumi_e_bamboo", 0.0),
@@ -24,8 +24,8 @@ const SHOWN: &[(&str, &str, f64)] = &[
     ("light_billboards", "roll", 7.0),
 ];
 
-/// How many pixels may be wrong. Rounding can swap the order of strokes and change single pixels; the limit is too small to
-/// hide a wrong stroke.
+/// How many pixels may be wrong. Rounding can swap the order of strokes and change single pixels; the limit is too
+/// small to hide a wrong stroke.
 const MOST_WRONG_PIXELS: usize = 20;
 /// A pixel is wrong when one of its channels is off by more than this, of 255.
 const MOST_OFF: u8 = 16;

@@ -56,7 +56,8 @@ fn smooth(strength: f64, radius: f64) -> Guide {
     Guide { mode: GuideMode::Smooth, strength, radius, ..gesture([0.0, -0.8], [0.0, 0.8]) }
 }
 
-/// The mean angle between strokes within 6 pixels of each other, degrees, of those strokes for which `counts` holds.
+/// The mean angle, in degrees, between two strokes that lie within 6 pixels of each other. Only strokes for which
+/// `counts` holds are compared.
 fn mean_step(strokes: &BTreeMap<u32, Seen>, period_rad: f64, counts: impl Fn(&Seen) -> bool) -> f64 {
     let under: Vec<&Seen> = strokes.values().filter(|seen| counts(seen)).collect();
     let mut steps = Vec::new();
@@ -176,7 +177,7 @@ fn points_turn_strokes_from_the_gestures_own_line() {
                 .collect();
             let worst = errors.iter().copied().fold(0.0, f64::max);
             println!("{yaw_deg}, {turns_deg:?}, flatness {flatness}: {worst:.3} over {}", errors.len());
-            // Where the turn changes along the guide, a stroke's place in the picture gives its turn only roughly.
+            // Where the turn changes along the guide, `share` is only roughly the stroke's place along the guide.
             let most = if turns_deg[0] == turns_deg[1] { 0.5 } else { 3.0 };
             assert!(errors.len() >= 5 && worst <= most, "{yaw_deg} {turns_deg:?}: {worst}");
         }
@@ -224,7 +225,8 @@ fn a_region_turns_all_its_directions_as_seen_in_the_reference() {
             let off = |(particle, seen): (&u32, &Seen)| {
                 apart(after[particle].angle_rad, seen.angle_rad + turn_deg.to_radians(), 2.0 * PI)
             };
-            // The turn is exact where the reference faces the surface; near the outline a blend of views is turned.
+            // The turn is exact where the reference sees the surface from the front. Near the outline, the stated
+            // direction is blended with that of another view.
             let faced = before.iter().filter(|(_, seen)| seen.facing > 0.5).map(off);
             let worst = faced.fold(0.0, f64::max);
             println!("{direction:?} turned by {turn_deg}: {worst:.4} off");

@@ -8,7 +8,7 @@ use impasto_scene::problem::Severity;
 
 use crate::hostile_scenes::{load_in_folder, scene_text};
 
-/// Fields of the scene from line 2 on, a part of the expected message, and whether there is a picture.
+/// The case's name, the scene's fields from line 2 on, a part of the expected message, and whether there is a picture.
 const CASES: [(&str, &str, &str, bool); 24] = [
     (
         "contradicting regions",

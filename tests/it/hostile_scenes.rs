@@ -33,7 +33,7 @@ struct Case {
     /// The fields of the scene; camera and objects are added where they are left out.
     fields: &'static str,
     expected: Outcome,
-    /// What the report must say, the place included; empty where there is nothing to say.
+    /// Text that the report must contain, in most cases with line and column; empty where there is no report.
     says: &'static str,
 }
 
@@ -41,7 +41,7 @@ const fn case(name: &'static str, fields: &'static str, expected: Outcome, says:
     Case { name, fields, expected, says }
 }
 
-/// Fields stand on line 2 of the file, from column 1.
+/// The cases. Their fields stand on line 2 of the file, from column 1.
 const CASES: [Case; 35] = [
     case(
         "particles_u64max",
@@ -126,7 +126,7 @@ const CASES: [Case; 35] = [
         "scene.ron:2:68: error: two keys stand at frame 1",
     ),
     case("keys_one", r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0)])]"#, Good, ""),
-    // Rotations are three angles; four numbers are an error, zero or not.
+    // A rotation is three angles, so four numbers are an error, whether they are zero or not.
     case(
         "quat_zero",
         r#"objects: [(name: "a", mesh: "cube.obj", keys: [(frame: 0, rotation_deg: (0, 0, 0, 0))])]"#,
@@ -372,7 +372,8 @@ fn a_bare_mesh_is_a_scene() {
     assert!(report.to_string().starts_with("--set size=(0, 0): error: "), "{report}");
 }
 
-/// Opens as the window does: a file that cannot be read is refused with a reason, one read in part is not saved over.
+/// Opens files as the window does. A file that cannot be read is refused with a reason; one that was read only in part
+/// is never saved over.
 #[test]
 fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
     let folder = tempfile::tempdir().unwrap();
@@ -399,8 +400,8 @@ fn the_small_corpus_opens_in_the_editor_or_is_refused_and_stays_what_it_is() {
     assert!(refused > 5 && losses > 3, "{refused} refused, {losses} opened with losses");
 }
 
-/// With the large corpus (`IMPASTO_CORPUS`): every hostile RON file is refused with a place, and the table above has every
-/// case of its list.
+/// Runs with the large corpus (`IMPASTO_CORPUS`): every hostile RON file of it is refused with a line and column, and
+/// every scene that it lists is in `CASES` or `CASES_ELSEWHERE`.
 #[test]
 fn the_corpus_of_hostile_scenes_is_covered() {
     let Some(corpus) = corpus::shared("the_corpus_of_hostile_scenes_is_covered") else { return };

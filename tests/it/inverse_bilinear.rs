@@ -1,4 +1,5 @@
-//! Tests of inverse bilinear interpolation: the maths against the source's formula, and tapered and bent strokes as drawn.
+//! Tests of inverse bilinear interpolation: the maths against the source's formula, and tapered and bent strokes as
+//! they are drawn.
 
 use glam::{DMat3, DVec2};
 use impasto_core::hash;
@@ -116,7 +117,7 @@ fn a_triangle_is_a_quad_whichever_corner_it_has_twice() {
     let [a, b, c] = [DVec2::new(1.0, 2.0), DVec2::new(40.0, 7.0), DVec2::new(9.0, 33.0)];
     for corners in [[a, a, b, c], [a, b, a, c], [a, b, c, b], [a, b, c, c]] {
         for index in 0..1000 {
-            // Not at the tip itself, which a whole side shares.
+            // Not at the doubled corner itself: a whole side of the unit square maps to that point.
             let at = DVec2::new(chance(index, 0), chance(index, 1)) * 0.9 + 0.05;
             let found = inverse_bilinear(bilinear(at, corners), corners);
             assert!(is_near(found, at, 1e-9), "{corners:?}: {found} for {at}");
@@ -130,7 +131,7 @@ fn inside_a_concave_quad_every_point_has_its_place() {
         let [p0, p1, p2, _] = convex(index, Kind::General);
         let (s, t) = (0.05 + 0.4 * chance(index, 10), 0.05 + 0.4 * chance(index, 11));
         let corners = [p0, p1, p2, p0 + (p1 - p0) * s + (p2 - p0) * t];
-        // In the triangle p₀ p₁ p₃, which is inside.
+        // A point of the triangle p₀ p₁ p₃, which lies inside the quad.
         let (x, y) = (chance(index, 8), chance(index, 9));
         let (x, y) = if x + y > 1.0 { (1.0 - x, 1.0 - y) } else { (x, y) };
         let point = p0 + (corners[1] - p0) * x + (corners[3] - p0) * y;
@@ -213,7 +214,8 @@ fn two_triangles_have_a_seam_where_sides_are_not_parallel_and_a_quad_has_none() 
 #[test]
 fn the_projective_map_has_no_seam_either_but_spreads_its_edges_unevenly() {
     assert!(jump_over_the_diagonal(projective, MOVED) < 1e-3);
-    // A quarter along the bottom edge: a neighbour below does not share this quad's upper corners.
+    // A quarter along the bottom edge. A neighbouring quad below has other far corners, so both give this place the
+    // same u only if u depends on the two corners of the edge alone.
     let quarter = MOVED[0].lerp(MOVED[1], 0.25);
     assert!((projective(quarter, MOVED).x - 0.25).abs() > 0.05, "{}", projective(quarter, MOVED));
     assert!((inverse_bilinear(quarter, MOVED).x - 0.25).abs() < 1e-12);

@@ -165,7 +165,7 @@ fn a_ring_is_a_whole_thin_line_round_its_middle() {
     renderer.set_billboards(&[ring]);
     let picture = renderer.render(&frame).unwrap();
     let middle = shown_at(&frame, center);
-    // The radius at which the ring's line lies, all the way round.
+    // How much the ring changes the picture at a place.
     let changed = |at: [f32; 2]| {
         let index = (at[1] as usize * SIZE_PX[0] as usize + at[0] as usize) * 4;
         (0..3).map(|c| u32::from(picture.rgba8[index + c].abs_diff(bare.rgba8[index + c]))).sum::<u32>()

@@ -1,5 +1,5 @@
-//! Tests of noise-displaced materials. What the source claims is judged by its own shader, rewritten line by line in
-//! `seed`; other tests cover what goes beyond the source.
+//! Tests of noise-displaced materials. What the technique's source (a paper) claims is compared with the paper's own
+//! shader, rewritten line by line in `seed`; other tests cover what goes beyond the paper.
 
 mod material;
 mod normals;

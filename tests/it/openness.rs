@@ -1,5 +1,5 @@
-//! Tests how far the plain render's openness pass looks. Its radius is 5.5 % of the picture's height, and its taps
-//! reach a straight wall from up to 0.83 radii away.
+//! Tests how far the plain render's openness pass looks. Its radius is 5.5 % of the picture's height. A
+//! straight wall is seen by its taps from up to 0.83 radii away.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::Driver;
@@ -13,8 +13,8 @@ const SIDE_PX: u32 = 360;
 const HEIGHT: f64 = 2.0;
 const RADIUS: f64 = 0.055 * HEIGHT;
 
-/// The light, 0..255, along the middle of a canyon's floor, lit from all around. Its walls are `half_width` radii away on
-/// either side and 0.45 radii high.
+/// The light, 0..255, along the middle of a canyon's floor, lit from all around. Its walls are `half_width` radii away
+/// on either side and 0.45 radii high.
 fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     let names = ["floor", "left", "right"];
     let mut scene = shapes::scene(names.map(|name| shapes::object(name, 100)).into());

@@ -1,4 +1,5 @@
-//! Tests of the paint: layers that can be turned down to nothing, difficult brushes and colours, the same picture at any size.
+//! Tests of the paint: each layer can be turned down to nothing, difficult brushes and colours work, and a painting
+//! looks the same at any size.
 
 use std::path::Path;
 
@@ -199,7 +200,7 @@ fn extreme_settings_still_give_a_picture() {
         ("huge strokes", |scene| {
             (scene.strokes.length_px, scene.strokes.width_px) = (Some(4096.0), Some(4096.0));
         }),
-        // The scene is small, as the count of such strokes goes with its pixels.
+        // The picture is small, because the number of such strokes grows with its number of pixels.
         ("hair-thin strokes", |scene| {
             (scene.strokes.width_px, scene.size) = (Some(0.001), (160, 90));
         }),

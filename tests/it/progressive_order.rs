@@ -1,13 +1,14 @@
-//! Tests of the particle order: its first particles, however many, are blue noise; more particles begin with the same
-//! ones.
+//! Tests of the order of particles: the first particles, however many of them, are blue noise, and a longer list begins
+//! with the particles of a shorter one.
 
 use glam::Vec3;
 use impasto_core::TriangleMesh;
 use impasto_core::sampling::{Particle, Surface, hexagonal_spacing, progressive};
 use impasto_tests::shapes::{cube, sheet, sphere};
 
-/// Mean and 1st percentile of the distance to the nearest neighbour on the same side, as a share of the hexagonal lattice's
-/// spacing. Brute force over a few hundred particles, so that it shares nothing with the sampler.
+/// Mean and 1st percentile of a particle's distance to its nearest neighbour on the same side, as shares of the spacing
+/// of a hexagonal lattice. It compares a few hundred particles with all others, so that it shares no code with the
+/// sampler.
 fn spacing(particles: &[Particle], area: f64) -> (f64, f64) {
     let stride = (particles.len() / 700).max(1);
     let mut nearest: Vec<f64> = (0..particles.len())

@@ -1,5 +1,5 @@
-//! Tests how far a reference decides the directions of a surface that it sees at a slant: wholly from a cosine of 0.5 on, not
-//! at all below 0.2, and blended between (docs/techniques/rotating_strokes.md).
+//! Tests how far a reference decides the directions of a surface that it sees at a slant: wholly if the cosine between
+//! view and normal is 0.5 or more, not at all below 0.2, and in part between (docs/techniques/rotating_strokes.md).
 
 use glam::{DMat2, DMat3, DVec2, DVec3};
 use impasto_painting::frame::LayerKind;
@@ -19,8 +19,8 @@ fn sheet_axes(facing: f64) -> DMat3 {
     DMat3::from_rotation_y(facing.acos())
 }
 
-/// The angle in the later view of a stroke that is stated in the reference, when the reference decides `share` of it and a
-/// camera straight in front of the sheet the rest.
+/// The expected angle of a stroke in the later view. The reference, in which the stroke's direction is stated, decides
+/// `share` of it; a camera straight in front of the sheet decides the rest.
 fn expected_deg(facing: f64, share: f64) -> f64 {
     let axes = sheet_axes(facing);
     let gaze = -LATER_EYE.normalize();
@@ -61,7 +61,8 @@ fn found_deg(facing: f64) -> f64 {
     angles.iter().sum::<f64>() / angles.len() as f64
 }
 
-/// The share of the direction that the reference decides, if it decides it wholly from the cosine `wholly_from` on.
+/// The share of a direction that the reference decides, if it decides nothing below a cosine of 0.2 and all of it from
+/// the cosine `wholly_from` on.
 fn share(facing: f64, wholly_from: f64) -> f64 {
     let t = ((facing - 0.2) / (wholly_from - 0.2)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

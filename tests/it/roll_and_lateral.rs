@@ -37,7 +37,8 @@ fn with_solver(mut scene: Scene, solver: Solver) -> Scene {
 
 const ROLLS_DEG: [f64; 7] = [1.0, 7.0, 30.0, 77.0, 137.0, 180.0, 359.0];
 
-/// A sphere off the middle, seen a little from above, by a camera that has rolled by these degrees at frames 1, 2, 3 and so on.
+/// A sphere off the middle, seen a little from above, by a camera that has rolled by these degrees at frames 1, 2, 3
+/// and so on.
 fn rolling_scene(size: (u32, u32), rolls_deg: &[f64]) -> Scene {
     let mut scene = shapes::scene(vec![shapes::object("sphere", 20_000)]);
     scene.size = size;
@@ -84,7 +85,8 @@ fn a_camera_roll_turns_every_stroke_back() {
     }
 }
 
-/// A sheet tilted by about 40° about an oblique axis, and a camera that moves by `shift`; with the sheet's pose.
+/// A scene with a sheet tilted by about 40° about an oblique axis, and a camera that moves by `shift`. Also returns the
+/// sheet's pose.
 fn lateral_scene(lens: Lens, shift: [f64; 3]) -> (Scene, DAffine3) {
     let mut scene = shapes::scene(vec![shapes::object("sheet", 6000)]);
     scene.camera.lens = lens;
@@ -129,7 +131,7 @@ fn a_lateral_move_turns_strokes_by_the_planes_own_homography() {
         let painting = prepare(shapes::loaded(scene, [shapes::sheet(8)])).unwrap();
         let before = painting.at(0.0, &options([640, 360]));
         let after = angles(&painting.at(1.0, &options([640, 360])));
-        // To camera space with Z forward (x right, y up, z depth): z is negated, of the normal and of points alike.
+        // Turns a point or a normal into camera space with Z forward (x right, y up): negates its z.
         let flip = |v: DVec3| DVec3::new(v.x, v.y, -v.z);
         let normal = flip(pose.matrix3 * DVec3::Z);
         let distance = normal.dot(flip(DVec3::new(0.0, 0.0, -4.0)));

@@ -19,8 +19,8 @@ fn unlit(color: [f32; 3]) -> Option<MaterialOverride> {
     Some(MaterialOverride { color: Some(Color(color)), unlit: true, ..Default::default() })
 }
 
-/// A frame with these strokes and nothing else, on a black ground. Body 1 is left of the middle, body 2 right of it, in these
-/// `colors`, flat and unlit, far behind every stroke.
+/// A frame with these strokes and nothing else, on a black background. The strokes lie on two bodies far behind them,
+/// body 1 left of the middle and body 2 right of it, flat and unlit in these `colors`.
 fn lone_strokes(size_px: [u32; 2], strokes: Vec<Stroke>, colors: [[f32; 3]; 2]) -> Frame {
     let halves = [("left", -50.0, colors[0]), ("right", 50.0, colors[1])].map(|(name, x, color)| {
         let mut half = shapes::object(name, 1);
@@ -118,36 +118,44 @@ fn later_strokes_lie_over_earlier_ones() {
 }
 
 #[test]
-fn presence_erodes_a_stroke_without_a_step() {
+fn a_stroke_goes_out_from_its_ends_and_below_a_quarter_as_a_whole() {
     let mut renderer = renderer(Driver::Egl);
-    let mut area = |presence: f32| {
-        let mut one = stroke([90.0, 50.0], 30.0);
+    // The paint of a level stroke by column, and its brightest pixel.
+    let mut columns = |presence: f32| {
+        let mut one = stroke([100.0, 50.0], 0.0);
         one.facing_fade = presence;
         let picture = renderer.render(&lone_strokes([200, 100], vec![one], WHITE)).unwrap();
         let values = Grey::of(&picture).values;
-        // What fades is the area of a mark, not the opacity of its paint.
-        (
-            values.iter().filter(|&&value| value > 127.0).count() as f64,
-            values.iter().fold(0.0f64, |a, &b| a.max(b)),
-        )
+        let column = |x: usize| values.iter().skip(x).step_by(200).sum::<f64>();
+        let brightest = values.iter().fold(0.0f64, |a, &b| a.max(b));
+        ((0..200).map(column).collect::<Vec<f64>>(), brightest)
     };
-    let (whole, _) = area(1.0);
-    let mut before = 0.0;
-    for step in 0..=50 {
-        let (now, brightest) = area(step as f32 / 50.0);
-        assert!(now >= before - 1.0, "presence {step}/50: area falls from {before} to {now}");
+    let total = |columns: &[f64]| columns.iter().sum::<f64>();
+    let (empty, _) = columns(0.0);
+    let (whole, _) = columns(1.0);
+    let all = total(&whole) - total(&empty);
+    let mut before = total(&empty);
+    for step in 1..=50 {
+        let presence = step as f32 / 50.0;
+        let (now, brightest) = columns(presence);
+        let paint = total(&now);
+        assert!(paint >= before - 0.004 * all, "presence {presence}: paint falls from {before} to {paint}");
         assert!(
-            now - before <= 0.1 * whole,
-            "presence {step}/50: area jumps from {before} to {now} of {whole}"
+            paint - before <= 0.1 * all,
+            "presence {presence}: paint jumps from {before} to {paint} of {all}"
         );
-        if step >= 10 {
-            assert!(brightest > 200.0, "presence {step}/50: the paint itself has gone thin ({brightest})");
+        if presence > 0.5 {
+            assert!(brightest > 200.0, "presence {presence}: the paint itself has gone thin ({brightest})");
         }
-        before = now;
+        before = paint;
     }
-    assert_eq!(area(0.0).0, 0.0);
-    let half = area(0.5).0 / whole;
-    assert!((0.3..0.7).contains(&half), "half a presence leaves {half} of the area");
+    // It is shorter, and in one piece.
+    let painted =
+        |columns: &[f64]| -> Vec<usize> { (0..200).filter(|&x| columns[x] - empty[x] > 300.0).collect() };
+    let half = painted(&columns(0.4).0);
+    let share = half.len() as f64 / painted(&whole).len() as f64;
+    assert!((0.3..0.85).contains(&share), "{share} of its length");
+    assert!(half.windows(2).all(|pair| pair[1] == pair[0] + 1), "islands at {half:?}");
 }
 
 /// Two bodies of one flat colour each, side by side and over each other.
@@ -234,7 +242,7 @@ fn hidden_strokes_are_absent_and_open_ones_whole() {
         if !(14.0..626.0).contains(&x) || !(14.0..346.0).contains(&y) {
             continue;
         }
-        // From pixels alone: the bodies within reach of the occlusion taps.
+        // What the pixels show: the bodies within reach of the occlusion taps.
         let around: Vec<u32> = (-14..=14)
             .flat_map(|dy| (-14..=14).map(move |dx| (dx, dy)))
             .map(|(dx, dy)| {
@@ -256,7 +264,7 @@ fn hidden_strokes_are_absent_and_open_ones_whole() {
 }
 
 fn sphere_scene(size: (u32, u32)) -> Scene {
-    // As many particles as the picture needs.
+    // Without a stated number, there are as many particles as the picture needs.
     let mut scene = shapes::scene(vec![impasto_scene::document::Object {
         particles: None,
         ..shapes::object("sphere", 0)
@@ -311,8 +319,9 @@ fn the_surface_is_covered() {
     }
 }
 
-/// Side of the pictures with a rolled camera, in pixels, and the middle of one.
+/// Side of the pictures with a rolled camera, in pixels.
 const SIDE: usize = 512;
+/// The middle of such a picture, in pixels.
 const HALF: f64 = (SIDE as f64 - 1.0) * 0.5;
 
 /// A ball whose camera has rolled at frame 1; the light stands in the world, so the picture should turn as a whole.

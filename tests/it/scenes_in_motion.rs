@@ -28,7 +28,7 @@ fn view(yaw_deg: f64) -> ScreenMap {
 #[test]
 fn facets_of_the_coarse_apple_do_not_show_in_the_angle() {
     let mesh = shapes::apple_skin();
-    // The two triangles on either side of every edge, by position.
+    // For each edge, known by the positions of its ends: its two vertices in each of the triangles that it belongs to.
     let key = |vertex: u32| mesh.positions[vertex as usize].to_array().map(f32::to_bits);
     type EdgeSides = HashMap<[[u32; 3]; 2], Vec<[u32; 2]>>;
     let mut edges = EdgeSides::new();

@@ -15,8 +15,8 @@ const RIGHT_PX: f32 = 440.0;
 const BOTTOM_PX: f32 = 60.0;
 const TOP_PX: f32 = 300.0;
 
-/// The shift of a level stroke whose centre is `inside_px` inside an upright border. An end may lie past the border by a fifth
-/// of the length; a half that reaches farther shifts the stroke by half the excess.
+/// The shift of a level stroke whose centre is `inside_px` inside an upright border. An end may lie past the border by
+/// a fifth of the length; an end that lies farther out shifts the stroke by half the excess.
 fn expected_px(inside_px: f32, length_px: f32) -> f32 {
     let half_px = 0.5 * length_px;
     let on_body = (inside_px / half_px).min(1.0);
@@ -40,7 +40,7 @@ fn errors(frame: &Frame, renderer: &mut Renderer) -> Errors {
     for (stroke, drawn) in of_body {
         let [x, y] = stroke.center_px;
         let from_end = (y - BOTTOM_PX).min(TOP_PX - y);
-        // Level strokes that show, away from the corners.
+        // Only level strokes are compared that show and are not at a corner.
         if drawn.alpha <= 0.0 || stroke.angle_rad.abs() > 1e-3 || from_end < stroke.width_px {
             continue;
         }

@@ -1,5 +1,5 @@
-//! Tests of ink on paper: the source's five passes against a version on the CPU that shares no code with them, then
-//! what our own rule adds.
+//! Tests of ink on paper. First the source's five passes are compared with a version on the CPU that shares no code
+//! with them, then what our own rule adds is tested.
 
 use glam::{DVec3, Vec3};
 use impasto_core::TriangleMesh;
@@ -50,7 +50,8 @@ fn red(picture: &Picture, x: usize, y: usize) -> i32 {
     i32::from(picture.rgba8[(y * picture.size_px[0] as usize + x) * 4])
 }
 
-/// The source's rule, written from its listing alone. Values are bytes, as in its targets; rows from the top.
+/// The source's rule on the CPU, written from the source's listing alone. Values are bytes, as in its render targets;
+/// the top row is first.
 struct Twin {
     width: i64,
     height: i64,
@@ -106,7 +107,7 @@ impl Twin {
             .collect()
     }
 
-    /// Direct3D 9 samples a screen pixel at the corner that its texel shares with those above and to the left.
+    /// Direct3D 9 samples at the upper left corner of a pixel's texel, so it gets the mean of the four texels there.
     fn at_corner(&self, picture: &[u8], x: i64, y: i64, wraps: bool) -> f64 {
         let texel = |x: i64, y: i64| {
             let (x, y) = if wraps {
@@ -119,7 +120,7 @@ impl Twin {
         0.25 * (texel(x, y) + texel(x - 1, y) + texel(x, y - 1) + texel(x - 1, y - 1))
     }
 
-    /// The finished picture; `paper` is what it lies on, one channel of it.
+    /// One channel of the finished picture; `paper` gives the same channel of the paper at a pixel.
     fn picture(&self, paper: impl Fn(usize) -> f64) -> Vec<i32> {
         let (silhouette, interior) = (self.low_pass(&self.silhouette), self.low_pass(&self.interior));
         (0..self.width * self.height)
@@ -135,7 +136,7 @@ impl Twin {
     }
 }
 
-/// A texel of the ramp: four plateaus, smooth steps at the quarters.
+/// A texel of the ramp from light to tone: four plateaus, with smooth steps between them at the quarters.
 fn shade(diffuse: f64, ink: &SumiE) -> u8 {
     let mut tone = ink.tones[0];
     for step in 1..4 {
@@ -147,7 +148,8 @@ fn shade(diffuse: f64, ink: &SumiE) -> u8 {
 }
 
 impl Seen<'_> {
-    /// The normal at a place of the picture in the eye's space: interpolated between corners, and not made unit again.
+    /// The normal, in the eye's space, of the surface that shows at a place of the picture. It is interpolated between
+    /// the normals of the corners, and not made unit length again.
     fn normal(&self, (x, y): (f64, f64), [width, height]: [f64; 2]) -> DVec3 {
         let [right, up, forward] = self.axes;
         let across = (2.0 * x - width) / height * self.tan_half;
@@ -164,7 +166,8 @@ impl Seen<'_> {
             let v = to_eye.dot(across) / determinant;
             let w = ray.dot(to_eye.cross(ab)) / determinant;
             let distance = ac.dot(to_eye.cross(ab)) / determinant;
-            // The driver's rounding may cover a pixel that just misses every triangle; it takes the one it misses least.
+            // The driver's rounding may cover a pixel whose ray just misses every triangle. Such a pixel takes the
+            // triangle that its ray misses least.
             let outside = (-v).max(-w).max(v + w - 1.0).max(0.0);
             let outside = if outside < 1e-9 { 0.0 } else { outside };
             if distance > 0.0 && (outside, distance) < (best.0, best.1) {
@@ -269,8 +272,8 @@ fn the_low_pass_has_nine_taps_two_apart() {
     scene.size = (SIZE_PX[0], SIZE_PX[1]);
     let frame = painting(scene, [cube]).at(0.0, &FrameOptions::new(SIZE_PX));
     let picture = renderer.render(&frame).unwrap();
-    // Nine dots of 1/9; four pixels of the mix read each with a weight of a quarter, so each gets darker by 28/4 of
-    // 255.
+    // The low pass makes nine dots of 1/9 of black, which is 28 of 255. Four pixels of the picture sample each dot,
+    // with a weight of a quarter, so each of these pixels gets darker by 7 of 255.
     for y in 0..180 {
         for x in 0..320 {
             let inside = (158..164).contains(&x) && (87..93).contains(&y);
@@ -293,7 +296,7 @@ fn the_highlight_stays_with_the_eye_or_with_the_scene() {
         let sum: u64 = a.rgba8.iter().zip(&b.rgba8).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
         sum as f64 / a.rgba8.len() as f64
     };
-    // The turned ball is a slightly different polyhedron, so a little differs.
+    // From another side, the ball is a slightly different polyhedron, so the pictures differ a little.
     assert!(difference(&source()) < 0.5);
     assert!(difference(&SumiE { light: InkLight::Eye, ..wash() }) < 0.5);
     assert!(difference(&wash()) > 4.0);
@@ -416,7 +419,7 @@ fn paper_that_follows_the_camera_moves_with_what_it_looks_at() {
         let painting = painting(scene, [shapes::sphere(8, 4)]);
         renderer.render(&painting.at(1.0, &FrameOptions::new(SIZE_PX))).unwrap()
     };
-    // 32 pixels to the right.
+    // The camera slides to the right by 32 pixels.
     let x = 32.0 * 2.25 / 180.0;
     let (still, moved) = (after_slide(CanvasFollows::Camera, 0.0), after_slide(CanvasFollows::Camera, x));
     let off = |shift: usize| -> f64 {

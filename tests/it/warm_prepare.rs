@@ -20,7 +20,7 @@ fn start() -> Arc<LoadedScene> {
     scene.style = Style::default();
     scene.strokes = Default::default();
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(26.0), Some(9.0));
-    // Counts follow from the view, also that of the body layer.
+    // All particle counts follow from the view, that of the body layer too.
     scene.objects.iter_mut().for_each(|object| object.particles = None);
     scene.size = (480, 320);
     scene.timeline.last = 10;

@@ -1,11 +1,12 @@
-//! The built `impasto` command, as a user runs it.
+//! Finds the built `impasto` command, so that tests can run it as a user does.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// The binary beside the running tests. `cargo test --workspace` has already built it. A run of fewer packages builds it now,
-/// with the workspace's features, so that it is never out of date and nothing is compiled twice.
+/// The path of the command's binary, in the same target folder as the running tests. It is built first, with the
+/// features of the whole workspace: after `cargo test --workspace` nothing is left to build, and in a run of fewer
+/// packages it is brought up to date.
 ///
 /// # Panics
 /// When it cannot be built.

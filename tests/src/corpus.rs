@@ -29,7 +29,7 @@ pub struct Case {
     pub expected: Outcome,
 }
 
-/// The folder of the large corpus; without one `None`, with a line on stderr that names the test.
+/// The folder of the large corpus. Without one, returns `None` and writes to stderr that `test` is skipped in part.
 pub fn shared(test: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("IMPASTO_CORPUS").map(PathBuf::from);
     if folder.is_none() {
@@ -158,7 +158,7 @@ fn pictures() -> Vec<Made> {
     ]
 }
 
-/// A PNG of this size; without pixels only its header.
+/// A PNG of this size; only its header if `with_pixels` is false.
 fn png(size_px: [u32; 2], with_pixels: bool) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size_px[0], size_px[1]);

@@ -1,4 +1,4 @@
-//! Drawing frames in tests, and reading what was drawn.
+//! Draws frames for tests, and measures what was drawn.
 
 use impasto_gl_render::context::{Driver, OpenOptions, open};
 use impasto_gl_render::{Picture, Renderer, ShaderTexts};
@@ -8,7 +8,7 @@ use crate::command::root;
 /// A renderer that panics when the driver reports an error.
 ///
 /// # Panics
-/// When the driver is missing; `cargo xtask test` installs both.
+/// When the driver is missing. `cargo xtask test` installs EGL and, where the system still offers it, OSMesa.
 pub fn renderer(driver: Driver) -> Renderer {
     let context = open(driver, &OpenOptions { debug: true }).unwrap_or_else(|error| panic!("{error}"));
     Renderer::new(context).unwrap_or_else(|error| panic!("{error}"))
@@ -50,8 +50,8 @@ impl Grey {
         self.values[y * self.size_px[0] + x]
     }
 
-    /// Second moment of the gradient at a pixel as a complex number at twice the gradient's angle (Y up):
-    /// `(Jxx − Jyy) + 2i Jxy`, by Scharr's derivative.
+    /// Second moment of the gradient at a pixel, `(Jxx − Jyy) + 2i Jxy`, by Scharr's derivative. As a complex number it
+    /// has twice the gradient's angle (Y up).
     pub fn double_angle(&self, x: usize, y: usize) -> (f64, f64) {
         let d = |dx: i32, dy: i32| self.at((x as i32 + dx) as usize, (y as i32 + dy) as usize);
         let gx = 3.0 * (d(1, -1) - d(-1, -1)) + 10.0 * (d(1, 0) - d(-1, 0)) + 3.0 * (d(1, 1) - d(-1, 1));
@@ -59,7 +59,8 @@ impl Grey {
         (gx * gx - gy * gy, 2.0 * gx * gy)
     }
 
-    /// The structure tensor of every pixel of a mask: second moments averaged over a Gaussian of this many pixels.
+    /// The structure tensor at every pixel of the picture: second moments, blurred by a Gaussian of this many pixels.
+    /// Pixels outside the mask count as zero before the blur.
     pub fn tensor_field(&self, mask: &[bool], sigma_px: f64) -> Vec<(f64, f64)> {
         let width = self.size_px[0];
         let moments = mask.iter().enumerate().map(|(index, &known)| {

@@ -216,8 +216,8 @@ impl ControlRect {
     }
 }
 
-/// `impasto edit` with its window on a [`Screen`], at its upper left corner, with the keyboard's focus. Dropping it ends it;
-/// a test that fails leaves a picture of the screen.
+/// `impasto edit` with its window on a [`Screen`], at the screen's upper left corner, with the keyboard's focus.
+/// Dropping this ends the editor; a test that fails leaves a picture of the screen.
 pub struct EditorWindow<'a> {
     /// The screen that it is on.
     pub screen: &'a Screen,
@@ -229,8 +229,8 @@ pub struct EditorWindow<'a> {
 }
 
 impl<'a> EditorWindow<'a> {
-    /// Opens a file of a folder and waits until it is painted. Preferences and the editor's other files of its user go into
-    /// the folder too. Names of saved pictures begin with `name`.
+    /// Opens a file of a folder and waits until it is painted. The folder is also the user's home, and takes the
+    /// editor's preferences. Names of saved pictures begin with `name`.
     ///
     /// # Panics
     /// When the window does not come.
@@ -313,7 +313,7 @@ impl<'a> EditorWindow<'a> {
     /// Waits for a finished picture of a later version than `version`, and returns its version.
     ///
     /// # Panics
-    /// When it never does.
+    /// When none comes.
     pub fn rest_after(&mut self, version: u64) -> u64 {
         wait_for(&format!("a picture later than of version {version}"), || {
             self.assert_runs();
@@ -365,7 +365,7 @@ impl<'a> EditorWindow<'a> {
     /// Waits until no control has this name.
     ///
     /// # Panics
-    /// When one still has it in the end.
+    /// When a control keeps the name.
     pub fn wait_until_gone(&mut self, name: &str) {
         wait_for(&format!("the end of the control {name:?}"), || {
             self.assert_runs();

@@ -128,8 +128,8 @@ pub fn camera_key(frame: f64, eye: [f64; 3], target: [f64; 3]) -> CameraKey {
     CameraKey { frame, eye, target, roll_deg: 0.0, fov_y_deg: None, ease: Ease::Linear }
 }
 
-/// A scene over these objects, seen from (0, 0, 4) with a 35° lens, strokes at 20° without jitter, in the colours of the
-/// plain render.
+/// A scene of these objects, seen from (0, 0, 4) with a 35° lens. Its strokes lie at 20° without jitter, in the
+/// colours of the plain render.
 pub fn scene(objects: Vec<Object>) -> Scene {
     Scene {
         version: Scene::VERSION,
@@ -164,8 +164,8 @@ pub fn scene(objects: Vec<Object>) -> Scene {
     }
 }
 
-/// Layer settings that leave out all but the body layer, for tests that look at no other. Each layer has particles of its own,
-/// and layers of small strokes have many.
+/// Layer settings that leave out all but the body layer, for tests that look at no other. This saves time: each layer
+/// has particles of its own, and layers of small strokes have many.
 pub fn body_layer_alone() -> Vec<LayerSettings> {
     let others = LayerKind::ALL.into_iter().filter(|kind| *kind != LayerKind::Body);
     let absent = |kind: LayerKind| LayerSettings {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::steps::{cargo, run as run_program};
 
-/// Builds and runs the benchmarks; `passed_on` goes to them.
+/// Builds the benchmarks and runs them with the arguments `passed_on`.
 pub fn run(root: &Path, passed_on: &[String]) -> anyhow::Result<()> {
     let mut arguments = vec!["run", "--release", "--locked", "--manifest-path", "bench/Cargo.toml", "--"];
     arguments.extend(passed_on.iter().map(String::as_str));

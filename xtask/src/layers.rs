@@ -19,8 +19,8 @@ use circles::circles;
 use graph::Graph;
 use table::Rules;
 
-/// Fails, naming every offending path, unless the workspace at `root` keeps to the tables of its ARCHITECTURE.md and has no
-/// circles between files.
+/// Fails, naming every offending path, unless the workspace at `root` keeps to the tables of its ARCHITECTURE.md and
+/// has no circles between files.
 pub fn run(root: &Path) -> anyhow::Result<()> {
     let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let version = output(root, &rustc, &["-vV"])?;
@@ -45,7 +45,8 @@ pub fn run(root: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Every arrow (a crate that uses another) that the rules do not allow, as a sentence with its path.
+/// Every use of one crate by another that the rules do not allow, and every row of the layers table that is missing or
+/// too many, each as a sentence.
 fn findings(graph: &Graph, rules: &Rules) -> Vec<String> {
     let mut findings = Vec::new();
     for name in graph.ours() {

@@ -1,5 +1,5 @@
-//! `cargo xtask measure`: measures the shipped scenes and writes the table of docs/techniques/rotating_strokes.md anew. With
-//! names, only those scenes; the others keep what was last measured of them (in `out/measure`).
+//! `cargo xtask measure`: measures the shipped scenes and writes the table of docs/techniques/rotating_strokes.md anew.
+//! With names, only those scenes are measured; the others keep what was last measured of them (in `out/measure`).
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -14,7 +14,7 @@ const PAGE: &str = "docs/techniques/rotating_strokes.md";
 const BEGIN: &str = "<!-- measured:begin -->";
 const END: &str = "<!-- measured:end -->";
 
-/// A column of the table: what it shows of a metric of Impasto, and of a baseline beside it.
+/// A column of the table: what it shows of one metric, for Impasto and, in brackets behind it, for a baseline.
 struct Column {
     head: &'static str,
     /// The id of the metric in the report of `impasto measure`.
@@ -23,7 +23,7 @@ struct Column {
     baseline: Option<Cell>,
 }
 
-/// The first reading whose name begins with `begins`, and which of its figures is shown.
+/// Shows a figure, such as `max`, of the first reading whose name begins with `begins`.
 struct Cell {
     begins: &'static str,
     figure: &'static str,

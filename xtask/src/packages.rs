@@ -1,5 +1,5 @@
-//! System packages: looks for the libraries and programs themselves, and installs what is missing with apt-get where
-//! that exists.
+//! Makes sure that the system has what rendering and the tests need: looks for the libraries and programs themselves,
+//! and installs the packages of those that are missing with apt-get, where that exists.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::steps::run;
 pub enum Install {
     /// Install it, saying so first.
     Yes,
-    /// Print the command that would, and stop.
+    /// Print the command that would install it, and stop.
     PrintOnly,
 }
 
@@ -50,7 +50,7 @@ const MESA: Need = library(
 );
 
 const OSMESA: Need = Need {
-    // Mesa 25.1 dropped it.
+    // Mesa 25.1 dropped OSMesa.
     retired: true,
     ..library("the OSMesa library", "libosmesa6", &["libOSMesa.so.8", "libOSMesa.so.6"])
 };
@@ -144,9 +144,9 @@ fn is_known(need: &Need) -> bool {
     known
 }
 
-/// Runs apt-get, saying so first, without questions.
+/// Runs apt-get so that it asks nothing; prints the command first.
 fn apt_get(root: &Path, prefix: &[&'static str], arguments: &[&str]) -> anyhow::Result<()> {
-    // `env` so that the setting survives sudo.
+    // The setting goes through `env`, because sudo would drop it.
     let mut words = prefix.to_vec();
     words.extend(["env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]);
     words.extend(arguments);
@@ -171,7 +171,8 @@ fn program(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
 }
 
-/// Whether one of the need's files lies in one of the folders of libraries or in its `dri` folder; of a program, in `PATH`.
+/// Whether the library or program is there: a program in a folder of `PATH`, a library in one of `folders` or in its
+/// `dri` folder.
 fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
     if need.place == Place::Programs {
         return need.files.iter().any(|name| program(name).is_some());
@@ -185,7 +186,7 @@ fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
     })
 }
 
-/// The folders that the dynamic loader looks in: the cache's, the environment's, and the usual ones.
+/// The folders that the dynamic loader looks in: those of its cache, those of `LD_LIBRARY_PATH`, and the usual ones.
 fn library_folders() -> Vec<PathBuf> {
     let mut folders: Vec<PathBuf> = Vec::new();
     for ldconfig in ["ldconfig", "/sbin/ldconfig", "/usr/sbin/ldconfig"] {

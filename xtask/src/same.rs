@@ -1,7 +1,8 @@
 //! `cargo xtask same`: checks that pictures and strokes are still, byte for byte, those of the last `same --keep`.
 //!
-//! The first, middle and last frame of every shipped scene, and the good models of the corpus where `IMPASTO_CORPUS` names
-//! one, are drawn through EGL and OSMesa and listed as strokes. Checksums of the files are kept, not the files.
+//! It draws the first, middle and last frame of every shipped scene through EGL and OSMesa, and lists their strokes.
+//! Where `IMPASTO_CORPUS` names a corpus, it does the same with the corpus's good models. Checksums of the files are
+//! kept, not the files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

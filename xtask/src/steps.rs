@@ -1,4 +1,4 @@
-//! Running other programs, step by step, each with its seconds.
+//! Runs other programs for the commands of xtask, step by step, and prints how long each step took.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -42,7 +42,7 @@ pub fn output(root: &Path, program: &str, arguments: &[&str]) -> anyhow::Result<
     String::from_utf8(output.stdout).with_context(|| format!("`{program}` did not print UTF-8"))
 }
 
-/// The cargo that runs us.
+/// The path of the cargo that runs this program.
 pub fn cargo() -> String {
     std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
 }

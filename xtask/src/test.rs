@@ -15,8 +15,8 @@ use times::Times;
 /// How many of the slowest tests are named.
 const SLOWEST: usize = 10;
 
-/// Installs what is missing, then runs every test of the workspace; `passed_on` goes to `cargo test`. Names the slowest tests
-/// after a run of all of them.
+/// Installs what is missing, then runs every test of the workspace; `passed_on` goes to `cargo test`. Names the slowest
+/// tests after a run of all of them.
 pub fn run(root: &Path, install: Install, passed_on: &[String]) -> anyhow::Result<()> {
     packages::ensure(root, packages::FOR_TESTS, install)?;
     let mut command = Command::new(cargo());

@@ -1,4 +1,4 @@
-//! The apple: the source paper's first model, 550 polygons.
+//! The mesh `apple`: as the first model of the source paper, an apple of 550 polygons.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// Half of an apple cut from the stem cavity to the calyx: distance from the axis, height.
+/// The outline of half an apple, from the stem cavity to the calyx: distances from the axis, and heights.
 const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.640],
     [0.045, 0.655],
@@ -67,7 +67,7 @@ fn skin_point(radius: f64, height: f64, angle: f64) -> DVec3 {
     let low = (1.0 - smoothstep(0.02, 0.42, height)) * smoothstep(0.04, 0.16, radius);
     let lobes = 1.0 + 0.045 * five * low;
     let foot = -0.014 * five * bump(0.20, 0.17, radius) * (1.0 - smoothstep(0.1, 0.3, height));
-    // One shoulder higher than the other, one cheek fuller.
+    // One shoulder is higher than the other, and one cheek is fuller.
     let cheek = 1.0 + 0.022 * (angle - 0.7).cos() + 0.020 * (2.0 * angle + 1.1).cos();
     let shoulder = 0.030 * radius * 2.0 * (angle + 2.2).cos() * smoothstep(0.35, 0.85, height);
     let spread = radius * lobes * cheek;
@@ -142,7 +142,7 @@ fn leaf(mesh: &mut PolyMesh) {
             let half_width =
                 0.012 + 0.105 * (std::f64::consts::PI * t.powf(0.82)).sin().max(0.0) * (1.0 - 0.18 * t);
             let half_width = if row == ALONG { 0.006 } else { half_width };
-            // It rises, bends over and curls; the halves fold up from the midrib and their rim waves.
+            // The leaf rises and bends over. Its halves fold up from the midrib, and their rims wave.
             let reach = 0.46 * (t - 0.10 * t * t);
             let rise = 0.26 * t - 0.30 * t * t;
             let fold = 0.34 * half_width * s.abs().powf(1.3) + 0.010 * (9.0 * t + 2.0 * s).sin() * s.abs();

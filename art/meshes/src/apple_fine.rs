@@ -8,7 +8,8 @@ use super::apple::stem_frame;
 use super::curve::{Profile, bump, hash, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// Half of an apple cut from the stem cavity to the calyx: distance from the axis, height.
+/// The outline of half an apple, from the stem cavity to the calyx. Each point is its distance from the axis and its
+/// height.
 const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.640],
     [0.045, 0.660],
@@ -29,7 +30,7 @@ const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.100],
 ];
 
-/// The skin's colours, from yellow to crimson: so many that no two neighbours show a border.
+/// The skin's materials, from yellow to crimson. Neighbours differ so little that no border shows between them.
 const SKIN: [&str; 28] = [
     "skin_01", "skin_02", "skin_03", "skin_04", "skin_05", "skin_06", "skin_07", "skin_08", "skin_09",
     "skin_10", "skin_11", "skin_12", "skin_13", "skin_14", "skin_15", "skin_16", "skin_17", "skin_18",
@@ -123,8 +124,8 @@ fn skin_point(radius: f64, height: f64, angle: f64) -> DVec3 {
     DVec3::new(spread * angle.cos() + lean, height + foot + shoulder, -spread * angle.sin() - 0.4 * lean)
 }
 
-/// Streaks from the stem to the calyx: yellow in the cavity and about the calyx, orange on one cheek, crimson on the
-/// other. `round` is a share of a turn, `down` a share of the way from the stem.
+/// The skin's material at a place: yellow in the cavity and about the calyx, orange on one cheek, crimson on the other,
+/// with streaks. `round` is a share of a turn, `down` a share of the way from the stem to the calyx.
 fn blush(round: f64, down: f64) -> &'static str {
     let broad = noise(round + 0.010 * (5.0 * down).sin(), 0.7 * down, 11, 3);
     let cheek = -(TAU * (round - 0.58)).cos();
@@ -134,8 +135,8 @@ fn blush(round: f64, down: f64) -> &'static str {
     SKIN[redness.round().clamp(0.0, (SKIN.len() - 1) as f64) as usize]
 }
 
-/// What the streaks add to the redness: long threads, each as broad as a few faces in its middle and tapering to both
-/// of its ends, some redder than the skin under them, some yellower.
+/// What the streaks add to the redness. They are long threads, some redder than the skin under them, some yellower.
+/// Each is a few faces broad in its middle, and tapers to both ends.
 fn streaks(round: f64, down: f64) -> f64 {
     const COUNT: u32 = 46;
     (0..COUNT)
@@ -147,7 +148,7 @@ fn streaks(round: f64, down: f64) -> f64 {
             let taper = (1.0 - along * along).max(0.0);
             let place = (f64::from(index) + 0.7 * random(3)) / f64::from(COUNT)
                 + 0.006 * (4.0 * down + random(4)).sin();
-            // The shorter way round.
+            // Measured the shorter way round.
             let off = (round - place + 0.5).rem_euclid(1.0) - 0.5;
             let half_width = (0.017 + 0.006 * random(5)) * taper.sqrt() + 1e-4;
             let strength = 4.2 * random(6) + 0.8;

@@ -1,4 +1,4 @@
-//! Bamboo: two stalks of hollow sections, thin twigs, leaves that hang in threes and fives.
+//! Makes the mesh of the bamboo: two stalks of sections, thin twigs, and leaves that hang in threes to fives.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,8 @@ const TWIGS: Look = Look { group: "twigs", material: "twig" };
 const LEAVES: Look = Look { group: "leaves", material: "leaf" };
 const PALE_LEAVES: Look = Look { group: "pale leaves", material: "pale leaf" };
 
-/// A twig: which stalk it is on, how far up, its end from there, and the directions in which its leaves hang.
+/// A twig: whether it is on the paler stalk, how far along the stalk it begins, where it ends from there in X and Y,
+/// and the angles at which its leaves hang.
 struct Twig {
     is_pale: bool,
     along: f64,

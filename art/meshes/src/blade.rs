@@ -1,4 +1,4 @@
-//! Blades: flat, pointed, bending bodies, as leaves and fins are.
+//! Builds blades: flat, pointed, bent bodies, such as leaves and fins.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ pub struct Blade<'a> {
     pub half_thickness: f64,
     /// The place along its length where it is widest, 0..1.
     pub widest: f64,
-    /// How full it is: 1 gives a lens, less a spindle.
+    /// How full its outline is: 1 gives the outline of a lens, smaller numbers that of a spindle.
     pub fullness: f64,
 }
 
@@ -39,7 +39,7 @@ pub fn blade(mesh: &mut PolyMesh, [rows, segments]: [usize; 2], blade: &Blade<'_
     mesh.lathe([rows, segments], point, |_, _| look);
 }
 
-/// A place along a curve through points, 0..1, and the direction there.
+/// The place at `along`, 0..1, on the curve through the points of `path`, and the direction of the curve there.
 pub fn place(path: &[DVec3], along: f64) -> (DVec3, DVec3) {
     let last = path.len() - 1;
     let at = along.clamp(0.0, 1.0) * last as f64;

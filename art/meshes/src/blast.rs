@@ -1,4 +1,4 @@
-//! A blast: billows of fire, billows of smoke that roll out round them, and what flies off.
+//! Makes the meshes of an explosion: billows of fire, billows of smoke round them, and splinters that fly off.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use super::curve::hash;
 use super::poly_mesh::{Look, Pigment, PolyMesh};
 use super::surface_net::{Grid, tighten, weave};
 
-/// A round lump of a billow.
+/// A ball; many of them, melted together, make a billow of fire or smoke.
 #[derive(Clone, Copy)]
 struct Lobe {
     middle: DVec3,
@@ -81,7 +81,7 @@ pub fn blast_sparks() -> PolyMesh {
     mesh
 }
 
-/// One of many directions that are spread evenly over a ball.
+/// The direction with this index, of `count` directions that are spread evenly over a ball.
 fn golden(index: u32, count: u32) -> DVec3 {
     let y = 1.0 - 2.0 * (f64::from(index) + 0.5) / f64::from(count);
     let angle = f64::from(index) * 2.399_963_229_7;
@@ -89,7 +89,7 @@ fn golden(index: u32, count: u32) -> DVec3 {
     DVec3::new(out * angle.cos(), y, out * angle.sin())
 }
 
-/// Lobes melted together, cut off at the ground.
+/// A mesh of lobes that are melted together and cut off at the ground.
 fn billow(name: &'static str, about: &'static str, palette: &'static [Pigment], lobes: &[Lobe]) -> PolyMesh {
     const MELT: f64 = 0.018;
     let mut mesh = PolyMesh::new(name, about, palette);

@@ -1,4 +1,4 @@
-//! Blocks with straight edges: the cube, the source paper's third model (boxes, cones, balls), and the log.
+//! Makes the meshes of the cube, of the source paper's third model (boxes, cones and balls), and of the log.
 
 use std::f64::consts::{PI, TAU};
 
@@ -185,7 +185,7 @@ fn ball(mesh: &mut PolyMesh, ([rows, segments], radius): ([usize; 2], f64), cent
     );
 }
 
-/// A log that stands on its cut: ridged bark along Y, growth rings on both ends.
+/// A log that stands on a cut end: ridged bark along Y, growth rings on both ends.
 pub fn log() -> PolyMesh {
     const SEGMENTS: usize = 48;
     const RINGS: usize = 8;
@@ -242,8 +242,8 @@ pub fn log() -> PolyMesh {
     mesh
 }
 
-/// How far out (0 the middle, 1 the bark) and how high a row of the log lies, from the middle of the upper end to the
-/// middle of the lower one.
+/// How far out (0 the middle, 1 the bark) and how high a row of the log lies. Rows go from the middle of the upper end
+/// over the bark to the middle of the lower end.
 fn log_section(row: usize, [rings, bark]: [usize; 2], height: f64) -> (f64, f64) {
     if row <= rings {
         (row as f64 / rings as f64, height)

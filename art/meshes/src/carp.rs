@@ -20,7 +20,7 @@ const WIDTH: [[f64; 2]; 8] = [
     [1.0, 0.022],
 ];
 
-/// The middle line: the carp turns as it swims.
+/// The middle line from the snout to the tail's root. It is bent, because the carp turns as it swims.
 const SPINE: [DVec3; 5] = [
     DVec3::new(-0.52, 0.0, 0.10),
     DVec3::new(-0.26, 0.0, -0.05),

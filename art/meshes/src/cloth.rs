@@ -1,4 +1,4 @@
-//! The cloth of the still life: linen that lies on a table and hangs over its front edge in round folds.
+//! Makes the mesh of the still life's cloth: linen that lies on a table and hangs over its front edge in round folds.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,7 +11,7 @@ const COLUMNS: usize = 160;
 const ROWS: usize = 80;
 /// How many of the rows hang; the others lie on the table.
 const HANGING: usize = 38;
-/// How far above the table, and before its edge, the flat cloth lies.
+/// How far above the table, and in front of its edge, the flat cloth lies.
 const CLEARANCE: f64 = 0.008;
 /// The radius of the cloth's bend round the table's edge.
 const BEND: f64 = 0.03;
@@ -20,7 +20,8 @@ const TURN: f64 = 0.016;
 
 /// A fold: round where the cloth hangs, and a ridge on the table that gets lower towards the back.
 struct Fold {
-    /// Where its crest is, as a share of the cloth's width: at the hem, at the table's edge, and at its end.
+    /// Where its crest is, as a share of the cloth's width: at the hem, at the table's edge, and where the fold ends on
+    /// the table.
     crest: [f64; 3],
     /// Half its width at the table's edge.
     width: f64,
@@ -28,7 +29,7 @@ struct Fold {
     height: f64,
     /// How far it runs back onto the table.
     reach: f64,
-    /// How far it leans over, and so which side is steep: positive to the right.
+    /// How far it leans over to the right, or to the left if negative; the side that it leans to is the steeper one.
     lean: f64,
 }
 
@@ -36,7 +37,7 @@ const fn fold(crest: [f64; 3], [width, height]: [f64; 2], reach: f64, lean: f64)
     Fold { crest, width, height, reach, lean }
 }
 
-/// From the cloth's left edge to its right one; they start under the fruit and fan out.
+/// From the cloth's left edge to its right one. They begin under the fruit and spread towards the hem.
 const FOLDS: [Fold; 7] = [
     fold([0.010, 0.030, 0.07], [0.052, 0.026], 0.12, -0.4),
     fold([0.105, 0.130, 0.19], [0.070, 0.074], 0.26, 0.7),
@@ -69,7 +70,7 @@ pub fn cloth() -> PolyMesh {
                 _ if patch > 0.3 => "worn",
                 _ => "linen",
             };
-            // Where it goes round the table's edge it still counts as lying.
+            // Where the cloth goes round the table's edge, it still counts as lying on the table.
             Look { group: if row + 2 < HANGING { "fall" } else { "top" }, material }
         },
     );
@@ -83,7 +84,7 @@ fn along(row: usize, across: f64, back: f64) -> f64 {
         -drop * (1.0 - row as f64 / HANGING as f64)
     } else {
         let share = (row - HANGING) as f64 / (ROWS - HANGING) as f64;
-        // The edge at the back is slack.
+        // The cloth's back edge is slightly wavy.
         let wave = 0.004 * noise(across * 0.5, 0.0, 6, 9);
         share * (back + wave)
     }
@@ -117,9 +118,10 @@ fn over_edge(along: f64) -> (DVec2, DVec2) {
     (centre + out * BEND - DVec2::Y * below, out)
 }
 
-/// Folds the left corner at the back over onto the cloth: the new place, and how far above the cloth that is.
+/// Folds the back left corner over onto the cloth. Returns where the point then lies on the flat cloth, and how far
+/// above it.
 fn turned(flat: DVec2) -> (DVec2, f64) {
-    // In true lengths, from the left edge.
+    // In units of length, from the left edge.
     let point = DVec2::new(flat.x * 0.9, flat.y);
     let (from, to) = (DVec2::new(0.0, 0.20), DVec2::new(0.25, 0.56));
     let line = (to - from).normalize();
@@ -152,7 +154,7 @@ fn folded(place: DVec2) -> (f64, f64) {
         let [hem, edge, end] = fold.crest;
         let crest = edge + (hem - edge) * hanging + (end - edge) * lying + wander;
         let width = fold.width * (1.0 + 0.25 * hanging - 0.45 * lying);
-        // The side that it falls to is the steep one.
+        // The side that the fold leans to is the steeper one.
         let off = (place.x - crest) / width;
         let off = off
             * if off * fold.lean > 0.0 { 1.0 + 0.22 * fold.lean.abs() } else { 1.0 - 0.25 * fold.lean.abs() };
@@ -162,7 +164,7 @@ fn folded(place: DVec2) -> (f64, f64) {
         height += stands;
         sideways += 0.22 * fold.lean * stands * profile;
     }
-    // Between the folds it is never quite flat, but under the fruit it is.
+    // Between the folds the cloth is never quite flat, except under the fruit.
     let slack =
         0.007 * (0.5 + 0.5 * noise(place.x * 0.5, place.y * 6.0, 14, 3)) * smoothstep(0.27, 0.12, place.y);
     (height + slack, sideways)

@@ -1,4 +1,4 @@
-//! The landscape's cottage: limewashed walls under a sagging tiled roof, a lean-to, a chimney.
+//! Makes the mesh of the landscape's cottage: limewashed walls under a sagging tiled roof, a lean-to, a chimney.
 
 use glam::{DMat3, DVec3};
 
@@ -121,7 +121,7 @@ fn roof(mesh: &mut PolyMesh, [length, depth, eaves, ridge]: [f64; 4], middle: f6
 fn fittings(mesh: &mut PolyMesh) {
     let front = DEPTH / 2.0;
     let left = -LENGTH / 2.0;
-    // Group, material, centre, half size.
+    // Each block has a group, a material, a centre and half a size.
     let parts = [
         ("door", "door", [0.20, 0.28, front], [0.125, 0.28, 0.025]),
         ("door", "beam", [0.20, 0.58, front], [0.17, 0.03, 0.035]),

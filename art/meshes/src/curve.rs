@@ -26,8 +26,9 @@ impl Profile {
         Self { samples }
     }
 
-    /// `count + 1` points along the curve, both ends among them. `bend_share` of the steps (0..=1) go where the curve
-    /// bends, the rest are spread evenly along its length: so no facet turns much more than another.
+    /// `count + 1` points along the curve, both ends among them. A share of the steps, `bend_share` (0..=1), goes
+    /// where the curve bends, so that no facet turns much more than another. The rest are spread evenly along its
+    /// length.
     pub fn spread(&self, count: usize, bend_share: f64) -> Vec<DVec2> {
         let mut lengths = vec![0.0];
         let mut bends = vec![0.0];

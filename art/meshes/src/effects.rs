@@ -83,7 +83,7 @@ fn wrap(mesh: &mut PolyMesh, [rows, segments]: [usize; 2]) {
         for segment in 0..segments {
             let at = |right: usize, down: usize| {
                 let down = row + down;
-                // A pole lies in the middle of its face.
+                // At a pole, U is that of the middle of the face.
                 let pole = down == 0 || down == rows;
                 let right = if pole { 0.5 } else { right as f64 };
                 DVec2::new((segment as f64 + right) / segments as f64, 1.0 - down as f64 / rows as f64)

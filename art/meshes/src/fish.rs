@@ -144,14 +144,14 @@ fn body(mesh: &mut PolyMesh, shape: &Shape) {
 
 const FIN: Look = Look { group: "fins", material: "fin" };
 
-/// The tail, the long fin on the back, the one under the belly: they stand in the plane z = 0.
+/// The fins that stand in the plane z = 0: the tail, the long fin on the back, and the one under the belly.
 fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
     const TAIL: [usize; 2] = [20, 12];
     mesh.blade(
         TAIL,
         |column, row| {
             let (t, s) = (column as f64 / TAIL[0] as f64, row as f64 / TAIL[1] as f64 * 2.0 - 1.0);
-            // Two lobes, the notch between them.
+            // The tail has two lobes with a notch between them.
             let reach = 0.17 + 0.15 * s.abs().powf(1.4);
             let spread = 0.042 + 0.20 * t.powf(0.9) * (1.0 + 0.10 * s.max(0.0));
             let curl = 0.018 * (PI * t).sin() * (2.0 * s).sin();

@@ -24,7 +24,7 @@ const PALETTE: [Pigment; 16] = [
     ("far_4", "#97b3dd"),
 ];
 
-/// A range of hills: its foot stands at z = `foot`, its ridge `deep` behind that.
+/// A range of hills. Its foot stands at z = `foot`, its ridge at z = `foot` − `deep`.
 struct Range {
     group: &'static str,
     /// Where its four colours begin in the palette.
@@ -125,7 +125,8 @@ fn add_range(mesh: &mut PolyMesh, range: &Range) {
             let across = column as f64 / COLUMNS as f64;
             let up = row as f64 / ROWS as f64;
             let inner = 4.0 * up * (1.0 - up);
-            // Rows and columns slant and sway, so the borders of fields and woods do.
+            // Rows and columns slant and sway, so that the borders of fields and woods, which follow them, are not
+            // straight.
             let slant = 0.03 * inner * (9.0 * across + 3.0 * up + f64::from(range.seed)).sin();
             let sway = 0.055 * inner * noise(across, 2.0 * up, 9, range.seed + 9);
             let x = first + (last - first) * (across + slant).clamp(0.0, 1.0);

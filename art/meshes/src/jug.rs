@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// From the middle of the foot, up the outside, over the rim and down the inside: distance from the axis, height.
+/// The outline of half the jug, from the middle of the foot, up the outside, over the rim and down the inside. Each
+/// point is its distance from the axis and its height.
 const OUTLINE: [[f64; 2]; 26] = [
     [0.0, 0.010],
     [0.15, 0.010],
@@ -65,7 +66,7 @@ fn body(mesh: &mut PolyMesh) {
     let (border, lowest) = (below(GLAZE), ROWS - 4);
     let outline_at = |row: usize, segment: usize| {
         let angle = TAU * segment as f64 / SEGMENTS as f64;
-        // Where the glaze ends here; rows near it move with it.
+        // The height at which the glaze ends at this angle. Rows near its end move with it.
         let wanted = GLAZE + glaze_run(angle);
         let found = (rim * FINE..=ROWS * FINE).find(|&fine| outline[fine].y < wanted).unwrap_or(ROWS * FINE);
         let shift = found as f64 - (border * FINE) as f64;

@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// Half of a lemon, from the blossom end's nipple to the stalk: distance from the axis, place along it.
+/// The outline of half a lemon, from the nipple at the blossom end to the stalk. Each point is its distance from the
+/// axis and its place along the axis.
 const LEMON: [[f64; 2]; 13] = [
     [0.0, 0.500],
     [0.034, 0.492],
@@ -64,7 +65,7 @@ pub fn lemon() -> PolyMesh {
     mesh
 }
 
-/// Half of a pear, from the stem to the eye: distance from the axis, height.
+/// The outline of half a pear, from the stem to the eye. Each point is its distance from the axis and its height.
 const PEAR: [[f64; 2]; 16] = [
     [0.0, 0.900],
     [0.030, 0.905],

@@ -1,4 +1,4 @@
-//! The orange: nearly a ball, with a dimple and the scar of its stalk.
+//! The mesh `orange`: nearly a ball, with a dimple and the scar of its stalk.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// Half of an orange, from the stalk to the blossom end: distance from the axis, height.
+/// The outline of half an orange, from the stalk to the blossom end: distances from the axis, and heights.
 const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.872],
     [0.022, 0.870],
@@ -28,7 +28,7 @@ const OUTLINE: [[f64; 2]; 17] = [
     [0.0, 0.006],
 ];
 
-/// The skin's colours, from the pale shoulder to the ripe foot: so close that no two neighbours show a border.
+/// The skin's colours, from the pale shoulder to the ripe foot. Each is so close to the next that no border shows.
 const SKIN: [&str; 12] = [
     "skin_01", "skin_02", "skin_03", "skin_04", "skin_05", "skin_06", "skin_07", "skin_08", "skin_09",
     "skin_10", "skin_11", "skin_12",
@@ -77,7 +77,7 @@ pub fn orange() -> PolyMesh {
         |row, segment| {
             let (radius, height) = (outline[row].x, outline[row].y);
             let round = segment as f64 / SEGMENTS as f64;
-            // Paler about the stalk, riper below, and clouded.
+            // The skin is paler round the stalk, riper below, and clouded.
             let clouds = 1.6 * noise(round, height * 2.2, 5, 23) + 0.8 * noise(round, height * 5.0, 11, 29);
             let ripeness = 5.5 + 8.0 * (0.5 - height) + clouds;
             let stalk = height > 0.7 && radius < 0.043;

@@ -1,4 +1,4 @@
-//! Polygon meshes while they are being made: surfaces woven from rows of points, written out as OBJ and MTL.
+//! Builds polygon meshes from rows of points, and writes them as OBJ and MTL files.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -39,7 +39,7 @@ pub struct Shine {
     pub sharpness: f64,
 }
 
-/// A mesh of polygons, in units of about one object's size, Y up.
+/// A mesh of polygons, Y up. One unit is about the size of an object.
 #[derive(Clone, Debug)]
 pub struct PolyMesh {
     /// File name without its ending.
@@ -54,10 +54,10 @@ pub struct PolyMesh {
     pub positions: Vec<DVec3>,
     /// The polygons, in the order in which they were made.
     pub faces: Vec<Face>,
-    /// Texture coordinates of each face's corners; none for a mesh without them.
+    /// Texture coordinates of each face's corners; empty for a mesh without them.
     pub uvs: Vec<Vec<DVec2>>,
-    /// Whether the file gives one normal per point, so that no edge shows. Otherwise its reader decides where creases
-    /// are.
+    /// Whether the file gives one normal per point, so that no edge shows. If not, the program that reads the file
+    /// decides where creases are.
     pub has_normals: bool,
 }
 
@@ -81,11 +81,11 @@ impl PolyMesh {
         self.shines.extend(materials.iter().map(|&material| Shine { material, strength, sharpness }));
     }
 
-    /// Weaves a closed skin round an axis out of `rows` bands of `segments` faces each, from one pole to the other.
+    /// Adds a closed surface round an axis: `rows` bands of `segments` faces each, from one pole to the other.
     ///
-    /// `point(row, segment)` is asked for rows 0 to `rows`; segments turn counter-clockwise seen from the first
-    /// pole. The first and the last row are single points, for which segment 0 is asked. `look(row, segment)` names
-    /// the face between `row` and `row + 1`.
+    /// `point(row, segment)` is called for rows 0 to `rows`; segments turn counter-clockwise seen from the first pole.
+    /// The first and the last row are single points: for them it is called with segment 0 only. `look(row, segment)`
+    /// gives group and material of the face between `row` and `row + 1`.
     pub fn lathe(
         &mut self,
         [rows, segments]: [usize; 2],
@@ -118,8 +118,8 @@ impl PolyMesh {
         }
     }
 
-    /// Weaves an open sheet of `columns` by `rows` faces. Seen from outside, columns run to the right and rows
-    /// run up. `point` is asked for both ends of each.
+    /// Adds an open sheet of `columns` by `rows` faces. Seen from outside, columns run to the right and rows run up.
+    /// `point(column, row)` is called for columns 0 to `columns` and rows 0 to `rows`, both included.
     pub fn sheet(
         &mut self,
         [columns, rows]: [usize; 2],
@@ -140,8 +140,8 @@ impl PolyMesh {
         }
     }
 
-    /// Weaves a thin closed body, like a leaf or a fin: a front sheet and a back sheet of `columns` by `rows` faces
-    /// each, which share their rim. `point` gives the front and the back point; on the rim the two are averaged.
+    /// Adds a thin closed body, like a leaf or a fin: a front sheet and a back sheet of `columns` by `rows` faces each,
+    /// which share their rim. `point` gives the front and the back point; on the rim the two are averaged.
     pub fn blade(
         &mut self,
         [columns, rows]: [usize; 2],
@@ -190,7 +190,8 @@ impl PolyMesh {
         }
     }
 
-    /// Rounds every coordinate to thousandths: enough for what is far from the viewer, and the file is shorter.
+    /// Rounds every coordinate to thousandths, which keeps the file short and is enough for what is far from the
+    /// viewer.
     pub fn round_to_thousandths(&mut self) {
         self.round_to(1e3);
     }
@@ -260,7 +261,7 @@ impl PolyMesh {
         Ok(text)
     }
 
-    /// A unit normal per point: the mean of those of the faces round it, weighted by their areas.
+    /// A unit normal per point: the mean of the normals of the faces round it, weighted by their areas.
     fn normals(&self) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for face in &self.faces {

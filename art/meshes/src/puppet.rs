@@ -25,7 +25,7 @@ const PALETTE: &[Pigment] = &[
     ("nose", "#6d2f2f"),
 ];
 
-/// What the two shapes do not share.
+/// What differs between the two shapes.
 struct Shape {
     /// Half of the body from the crown down: distance from the axis, height.
     outline: &'static [[f64; 2]],
@@ -132,7 +132,8 @@ fn ball(mesh: &mut PolyMesh, centre: DVec3, half: DVec3, look: Look) {
     );
 }
 
-/// The outward direction of a place of the grid if the puppet were a ball. Its features are laid out by directions.
+/// The outward direction that a place of the grid would have if the puppet were a ball. Such directions say where its
+/// features are.
 fn direction(row: f64, segment: f64) -> DVec3 {
     let (polar, angle) = (PI * row / ROWS as f64, TAU * segment / SEGMENTS as f64);
     DVec3::new(polar.sin() * angle.cos(), polar.cos(), -polar.sin() * angle.sin())
@@ -161,7 +162,7 @@ fn bent(point: DVec3, bend_rad: f64, height: f64) -> DVec3 {
     DVec3::new(arc_radius - reach * cosine, reach * sine, point.z)
 }
 
-/// The face between a row and the next; it depends on the grid alone, so both shapes get the same.
+/// The look of the face between a row and the next. It depends on the grid alone, so both shapes get the same looks.
 fn look(row: usize, segment: usize) -> Look {
     let at = direction(row as f64 + 0.5, segment as f64 + 0.5);
     let away = |down_deg: f64, aside_deg: f64| {

@@ -34,7 +34,8 @@ pub fn table() -> PolyMesh {
         let overhang = 0.03 * hash([index as u32, 0, 77]);
         let tilt = 0.002 * hash([index as u32, 1, 77]);
         let section = rounded_section(half, 0.016, CELLS_PER_BOARD);
-        // Seen along −X the section turns counter-clockwise, so the first pole is the end at +X.
+        // `lathe` takes segments that turn counter-clockwise as seen from the first pole. The section does so as seen
+        // from +X, so the first pole is the end at +X.
         mesh.lathe(
             [COLUMNS + 2, section.len()],
             |row, side| {
@@ -50,7 +51,7 @@ pub fn table() -> PolyMesh {
     mesh
 }
 
-/// A rectangle with cut corners, counter-clockwise, its long sides in `cells` steps.
+/// The outline of a rectangle with rounded corners, counter-clockwise, its long sides in `cells` steps.
 fn rounded_section(half: DVec2, corner: f64, cells: usize) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (side, sign) in [(1.0, -1.0), (-1.0, 1.0)] {

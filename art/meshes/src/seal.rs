@@ -1,11 +1,11 @@
-//! A seal: the red print of a carved stone, a sheet with the carving left out.
+//! Makes the mesh of a seal, the red print of a carved stone: a sheet with holes where the stone is carved.
 
 use glam::DVec3;
 
 use super::curve::hash;
 use super::poly_mesh::{Face, Look, PolyMesh};
 
-/// The print from the top row down: a brush in an eye, in a frame. Red is `#`.
+/// The print from the top row down; `#` is red. It shows a brush in an eye, in a frame.
 const CARVING: [&str; 16] = [
     "################",
     "################",

@@ -45,7 +45,7 @@ const PALETTE: [Pigment; 35] = [
 
 const BANDS: usize = 26;
 
-/// Tones of the clouds, after the sky's in the palette: from the belly to the crest.
+/// How many tones the clouds have, from the belly to the crest. In the palette they follow the sky's.
 const TONES: usize = 9;
 
 /// How far back the sheet stands in its middle.
@@ -59,7 +59,7 @@ struct Cloud {
     size: [f64; 2],
     /// How far it stands in front of the sky.
     before: f64,
-    /// How many rounds its outline has.
+    /// How many billows its outline has.
     billows: u32,
     seed: u32,
 }
@@ -99,7 +99,7 @@ fn sheet(mesh: &mut PolyMesh) {
             let across = column as f64 / COLUMNS as f64 * 2.0 - 1.0;
             let up = row as f64 / BANDS as f64;
             let inner = (4.0 * up * (1.0 - up)).min(1.0);
-            // Bands bow over the light on the left, and sway.
+            // The bands arch over the light on the left, and are wavy.
             let bow = 0.9 * (1.0 - (across + 0.45) * (across + 0.45)) - 0.4;
             let sway = 0.35 * noise(0.5 * across + 0.5, 2.2 * up, 9, 71);
             hollow(17.0 * across, 1.8 + 9.6 * up.powf(1.1) + (bow + sway) * inner, 0.0)
@@ -111,7 +111,7 @@ fn sheet(mesh: &mut PolyMesh) {
 fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
     let ([foot_x, foot_y], [half, height]) = (cloud.foot, cloud.size);
     let columns = 24 + (12.0 * half) as usize;
-    // A second row of rounds, in front of those of the outline.
+    // The billows of a second row, in front of those of the outline.
     let front = Cloud { seed: cloud.seed + 1, billows: cloud.billows + 2, ..*cloud };
     mesh.sheet(
         [columns, TONES],
@@ -121,7 +121,7 @@ fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
             let rim = (1.0 - across * across).max(0.0).sqrt();
             let under =
                 0.05 * height * noise(0.5 * across + 0.5, 0.0, 7, cloud.seed + 1) - 0.10 * height * rim;
-            // Borders between tones are rounded too: farther down they follow the row in front.
+            // Borders between tones billow too: farther down they follow the row in front.
             let crest = billow(across, cloud);
             let inner = 0.25 * crest + 0.75 * crest.min(billow(across - 0.05, &front));
             let top = (height * (inner + (crest - inner) * up * up)).max(under + 0.012);
@@ -133,7 +133,7 @@ fn cloud(mesh: &mut PolyMesh, cloud: &Cloud) {
     );
 }
 
-/// The upper outline of a cloud at `across` (−1..=1), as a share of its height: the hull of overlapping rounds.
+/// The upper outline of a cloud at `across` (−1..=1), as a share of its height: the highest of overlapping billows.
 fn billow(across: f64, cloud: &Cloud) -> f64 {
     let rounds = (0..cloud.billows).map(|index| {
         let chance = |number: u32| hash([cloud.seed, index, number]);
@@ -146,6 +146,6 @@ fn billow(across: f64, cloud: &Cloud) -> f64 {
         let dome = (1.0 - off * off).max(0.0).sqrt();
         (lift - 0.22) * smoothstep(0.0, 0.30, dome) + 0.24 * dome
     });
-    // Both ends run out to nothing.
+    // The height falls to 0 at both ends of the cloud.
     rounds.fold(0.0, f64::max) * smoothstep(1.0, 0.86, across.abs()).sqrt()
 }

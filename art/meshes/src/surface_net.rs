@@ -1,5 +1,5 @@
-//! A closed skin of quads round a body that is given as a distance field: naive surface nets (Gibson, "Constrained
-//! Elastic Surface Nets", 1998), then evened out and pulled onto the body.
+//! Makes a mesh of a body that is given as a distance field: a closed skin of quads by naive surface nets (Gibson,
+//! "Constrained Elastic Surface Nets", 1998), then evened out and pulled onto the body.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,5 @@
-//! Trees of the landscape: a spreading oak, a poplar and a bush, whose leaves are small star-shaped sprays.
+//! Makes the meshes of the landscape's trees: a spreading oak, a poplar and a bush. Their leaves are small star-shaped
+//! sprays.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,7 +8,7 @@ use glam::DVec3;
 use super::curve::{bump, hash, noise};
 use super::poly_mesh::{Look, Pigment, PolyMesh};
 
-/// Leaves from the lit crown to the shade under it, then bark.
+/// The colours of leaves, from the lit crown to the shade under it, then those of bark.
 const PALETTE: [Pigment; 7] = [
     ("sunlit", "#a9a94b"),
     ("light", "#8c9b43"),
@@ -21,7 +22,7 @@ const PALETTE: [Pigment; 7] = [
 /// A limb: its axis is the quadratic curve through the first and the last point, pulled towards the middle one.
 struct Limb {
     path: [[f64; 3]; 3],
-    /// At the foot and at the tip.
+    /// Its radius at the foot and at the tip.
     radius: [f64; 2],
     /// How much wider the foot flares, as a share of its radius.
     flare: f64,
@@ -42,7 +43,7 @@ struct Clump {
 /// One spray: a small ragged star of leaves.
 struct Spray {
     centre: DVec3,
-    /// Where its top looks.
+    /// The direction in which its top faces.
     axis: DVec3,
     /// Half its size along the axis, and across.
     half: [f64; 2],
@@ -63,7 +64,7 @@ pub fn tree() -> PolyMesh {
     for (path, radius, flare) in limbs {
         add_limb(&mut mesh, &Limb { path, radius, flare });
     }
-    // Centre, half size, how light.
+    // Each clump has a centre, half a size, and a lightness.
     let clumps = [
         ([-0.12, 3.52, -0.05], [0.56, 0.42, 0.54], 0.16),
         ([0.42, 3.24, 0.10], [0.54, 0.42, 0.52], 0.08),
@@ -188,7 +189,7 @@ fn add_limb(mesh: &mut PolyMesh, limb: &Limb) {
     );
 }
 
-/// Adds clumps that make a crown: of their sprays only those which show.
+/// Adds the clumps of a crown. Sprays that lie inside a clump would not show and are left out.
 fn add_crown(mesh: &mut PolyMesh, clumps: &[Clump]) {
     for clump in clumps {
         add_core(mesh, clump, [8, 10]);
@@ -244,7 +245,7 @@ fn add_core(mesh: &mut PolyMesh, clump: &Clump, [rows, segments]: [usize; 2]) {
     );
 }
 
-/// A shallow star of leaves, the middle green below.
+/// Adds a shallow star of leaves. Its lower side is of a middle green.
 fn add_spray(mesh: &mut PolyMesh, spray: &Spray) {
     const SIDES: usize = 8;
     let aside = if spray.axis.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };

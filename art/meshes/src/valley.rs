@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::curve::{Profile, bump, noise, smoothstep};
 use super::poly_mesh::{Look, Pigment, PolyMesh};
 
-/// From the viewer (z = 8) to the hills: distance along −Z, X of the river's middle.
+/// The river's middle, from the viewer to the hills: −z, and the river's x there.
 const RIVER: [[f64; 2]; 11] = [
     [-8.0, -2.6],
     [-6.0, -1.9],
@@ -20,7 +20,7 @@ const RIVER: [[f64; 2]; 11] = [
     [10.0, 2.2],
 ];
 
-/// The same for the path, which ends at the cottage's door.
+/// The path's middle, in the same form: −z, and the path's x there. The path ends at the cottage's door.
 const PATH: [[f64; 2]; 8] = [
     [-8.0, 0.9],
     [-6.0, 1.1],
@@ -32,10 +32,10 @@ const PATH: [[f64; 2]; 8] = [
     [10.0, 5.5],
 ];
 
-/// Where the path ends.
+/// −z where the path ends.
 const PATH_END: f64 = 1.55;
 
-/// The nearest and the farthest z.
+/// Z of the ground's edge at the viewer, and of its edge at the hills.
 const NEAR: f64 = 7.8;
 const FAR: f64 = -9.6;
 
@@ -69,7 +69,7 @@ impl Plan {
         Self { river: Profile::through(&RIVER), path: Profile::through(&PATH) }
     }
 
-    /// X of the left and the right shore at a depth; they are farther apart where the river runs at a slant.
+    /// X of the left and the right shore at a z. The shores are farther apart where the river runs at a slant.
     fn shores(&self, z: f64) -> [f64; 2] {
         let slope = (self.river.height_at(-z + 0.1) - self.river.height_at(-z - 0.1)) / 0.2;
         let width = 0.36 + 0.030 * (z + 2.0).max(0.0) + 0.08 * (1.3 * z).sin();
@@ -78,7 +78,7 @@ impl Plan {
         [middle - half, middle + half]
     }
 
-    /// X of the path's left and right edge; the path tapers to nothing behind the door.
+    /// X of the path's left and right edge at a z. The path tapers to almost nothing behind the door.
     fn path_edges(&self, z: f64) -> [f64; 2] {
         let half =
             0.02 + (0.15 + 0.010 * (z + 2.0).max(0.0)) * smoothstep(PATH_END + 0.1, PATH_END - 0.3, -z);
@@ -100,7 +100,8 @@ impl Plan {
     }
 }
 
-/// Columns between two neighbouring seams: land, bank, bed, bank, land, edge of the path, path, edge of the path, land.
+/// How many columns lie between one seam and the next. The spans between seams are: land, bank, bed, bank, land, edge
+/// of the path, path, edge of the path, land.
 const SPANS: [usize; 9] = [16, 2, 5, 2, 9, 1, 3, 1, 16];
 
 /// The meadow: banks, river bed and path follow its columns, so that their borders are smooth. Open.
@@ -116,7 +117,7 @@ pub fn valley() -> PolyMesh {
             let (span, share) = span_at(column);
             let z = row_z(row, ROWS, column as f64 / columns as f64);
             let seams = seams(&plan, z);
-            // Outer spans grow coarser outwards.
+            // In the two outer spans, columns grow wider outwards.
             let share = match span {
                 0 => 1.0 - (1.0 - share).powf(1.5),
                 8 => share.powf(1.5),
@@ -135,7 +136,7 @@ pub fn valley() -> PolyMesh {
     mesh
 }
 
-/// Depth of a row; rows sway, so that borders along them do.
+/// Z of a row at a share of the width. Rows sway, so that the borders of colours, which follow rows, are not straight.
 fn row_z(row: usize, rows: usize, across: f64) -> f64 {
     let far = row as f64 / rows as f64;
     let sway = (0.55 * (9.0 * across + 5.0 * far).sin() + 0.3 * (23.0 * across + 2.0).sin())
@@ -155,7 +156,7 @@ fn span_at(column: usize) -> (usize, f64) {
     (SPANS.len() - 1, 1.0)
 }
 
-/// X of the ten seams at a depth.
+/// X of the ten seams at a z.
 fn seams(plan: &Plan, z: f64) -> [f64; 10] {
     let [left, right] = plan.shores(z);
     let [from, to] = plan.path_edges(z);
@@ -199,8 +200,8 @@ const WATER: [Pigment; 5] = [
     ("water_dark", "#4d6450"),
 ];
 
-/// The water at y = 0, in streaks along the river: dark under the left bank, which the trees stand on, light to the
-/// right. Open, to be shown unlit.
+/// The water at y = 0, in streaks along the river. They are dark under the left bank, where the trees stand, and light
+/// at the right bank. The mesh is open, and to be shown unlit.
 pub fn water() -> PolyMesh {
     const COLUMNS: usize = 14;
     const ROWS: usize = 90;

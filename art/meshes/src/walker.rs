@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::curve::{Profile, noise, smoothstep};
 use super::poly_mesh::{Look, PolyMesh};
 
-/// Half of the body from the crown of the hat down: distance from the axis, height.
+/// The outline of the body from the crown of the hat down. Each point: its distance from the axis, its height.
 const OUTLINE: [[f64; 2]; 19] = [
     [0.0, 1.640],
     [0.060, 1.635],

@@ -1,4 +1,5 @@
-//! Compares the answers of neighbour searches: equal sets except for ties, and equal sums of distances.
+//! Checks that the neighbour searches that are timed give the same answer: equal sets except for ties, and equal sums
+//! of distances.
 
 use std::path::Path;
 
@@ -10,7 +11,8 @@ use impasto_core::neighbours::MAX_NEIGHBOURS;
 use super::trees::Lists;
 use crate::peers::files;
 
-/// Searches may differ for this many of a million particles, where rounding decides who is within the radius or the fiftieth.
+/// Searches may differ for this many of a million particles, where rounding decides which particle is within the
+/// radius, or which is the fiftieth.
 const TIES_PER_MILLION: usize = 50;
 
 /// How many particles are checked by brute force.

@@ -1,4 +1,5 @@
-//! Trees of other crates, queried in the way that is fastest for each: all within the radius, then a selection.
+//! The neighbour searches of other crates, to compare ours with. Each is used in its fastest way: it finds all points
+//! within the radius, and the nearest of them are selected.
 
 use glam::Vec3;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
@@ -23,8 +24,8 @@ pub struct Lists {
     pub indices: Vec<u32>,
 }
 
-/// Makes the lists of all particles. `within` gives the particles within the radius of a point with their squared distances,
-/// including the query itself.
+/// Makes the lists of all particles. `within` gives all particles within the radius of a particle's place, the particle
+/// itself included, with their squared distances.
 fn ask(positions: &[Vec3], within: impl Fn([f32; 3], &mut Vec<(f32, u32)>) + Sync) -> Lists {
     let order = morton::order(positions);
     let parts: Vec<(Vec<u32>, Vec<u32>)> = order

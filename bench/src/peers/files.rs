@@ -1,4 +1,5 @@
-//! Arrays as files: little-endian numbers of four bytes, without a header.
+//! Writes and reads the files through which the benchmarks and their peers exchange arrays: little-endian numbers of
+//! four bytes, without a header.
 
 use std::path::Path;
 

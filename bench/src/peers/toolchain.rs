@@ -1,4 +1,5 @@
-//! Installs and finds what peers need: a C++ compiler with two header libraries, and Python with five packages.
+//! Installs and finds what the peers, the programs that we are compared with, need: a C++ compiler with two header
+//! libraries, and Python with five packages.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -68,8 +69,8 @@ pub fn build_cpp(sources: &Path, name: &str) -> anyhow::Result<PathBuf> {
     Ok(program)
 }
 
-/// The Python interpreter of an environment with the pinned packages, `out/bench/venv`; made again when the list of packages
-/// changes.
+/// Makes a Python environment with the pinned packages in `out/bench/venv`, unless it is there with these packages
+/// already. Returns its interpreter.
 pub fn make_python(root: &Path, may_fetch: bool) -> anyhow::Result<PathBuf> {
     let list = root.join("bench/peers/requirements.txt");
     let wanted = std::fs::read_to_string(&list)?;

@@ -1,4 +1,5 @@
-//! The source paper's sum (eq. 1–2), written directly: all particles are projected, then each gathers its neighbours.
+//! The plain solve that ours is compared with: the source paper's sum (eq. 1–2), written directly. All particles are
+//! projected, then each gathers its neighbours.
 
 use rayon::prelude::*;
 
@@ -7,7 +8,7 @@ use super::scene::{K, SolveScene};
 /// Particles that one thread handles at a time.
 const CHUNK: usize = 4096;
 
-/// This frame's pixels and angles.
+/// The places of all particles in this frame's picture, and the angles of their strokes.
 pub struct Gathered {
     now_px: Vec<[f32; 2]>,
     /// Counter-clockwise, radians.

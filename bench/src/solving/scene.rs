@@ -1,4 +1,5 @@
-//! A body in two views: the input of every contender, and the sums that the answers are checked against.
+//! A body in two views: the input of all who race at solving for angles, and the sums that their answers are checked
+//! against.
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +32,8 @@ pub struct SolveScene {
     pub positions: Vec<Vec3>,
     /// Positions in the reference picture, pixels.
     pub reference_px: Vec<[f32; 2]>,
-    /// [`K`] neighbours of each particle; the particle itself where it has fewer, which adds nothing to any sum.
+    /// [`K`] neighbours of each particle. If it has fewer, the rest of its list names the particle itself, which adds
+    /// nothing to any sum.
     pub lists: Vec<u32>,
     /// The input of our solve.
     pub baked: BakedParticles,
@@ -54,7 +56,7 @@ pub fn views(inputs: &mut Inputs) -> anyhow::Result<(ScreenMap, ScreenMap)> {
     view(scene.timeline.first).zip(view(scene.timeline.last)).context("the scene has a perspective lens")
 }
 
-/// Particles with the lift of a camera that looks straight at each: it needs no neighbours.
+/// Particles, each with the lift of a camera that looks straight at it. That lift needs no neighbours.
 pub fn facing(cloud: &Cloud, reference: &ScreenMap) -> BakedParticles {
     let mut baked = BakedParticles::default();
     for (position, normal) in cloud.positions.iter().zip(&cloud.normals) {
@@ -124,8 +126,8 @@ impl SolveScene {
         [self.now.row_x, self.now.row_y, self.now.row_w].map(|row| row.as_vec4().to_array())
     }
 
-    /// The angle of each particle as a function of its neighbours: their offsets p and c in the reference and in this picture, and
-    /// their weights w.
+    /// The angle of each particle, as `angle` computes it from the particle's neighbours. It gets their offsets p in
+    /// the reference, their offsets c in this picture, and their weights w.
     fn angles(&self, angle: impl Fn(usize, &[(DVec2, DVec2, f64)]) -> f64 + Sync) -> Vec<f32> {
         let one = |particle: usize| {
             let position = |index: usize| self.positions[index].as_dvec3();
@@ -147,7 +149,7 @@ impl SolveScene {
         self.angles(|_, pairs| turn_of(pairs.iter().map(|&(p, c, weight)| (p, c * weight))))
     }
 
-    /// The sum with p and c taken from their means over the neighbours.
+    /// The sum with p and c measured from their means over the neighbours.
     pub fn centred(&self) -> Vec<f32> {
         self.angles(|_, pairs| {
             let count = pairs.len() as f64;
@@ -157,10 +159,11 @@ impl SolveScene {
         })
     }
 
-    /// Checks for some particles that the gather equals the paper's formula with matrices in double precision.
+    /// Checks for a sample of particles that the gather's angles equal those of the paper's formula with matrices, in
+    /// double precision.
     pub fn check_by_matrices(&self, angles_rad: &[f32]) -> anyhow::Result<()> {
         let clip = |map: &ScreenMap| ClipView {
-            // Rows in pixels from the centre, for a picture of 2 × 2 pixels.
+            // The rows give pixels from the centre, which in a picture of 2 × 2 pixels are clip coordinates.
             clip_from_model: DMat4::from_cols(map.row_x, map.row_y, map.row_depth, map.row_w).transpose(),
             size_px: DVec2::splat(2.0),
         };

@@ -14,7 +14,8 @@ use crate::failure::Failure;
 /// Free pixels round each mark.
 const GAP_PX: usize = 12;
 
-/// The marks of a row: which variant, and how dry it is: paint thinner than this (0..1) is left out.
+/// The marks of a row: for each its variant, and its dryness. Paint that is thinner than the dryness (0..1) is left
+/// out.
 const COLUMNS: [(usize, f32); 6] = [(0, 0.02), (1, 0.02), (2, 0.02), (3, 0.25), (4, 0.50), (5, 0.75)];
 
 /// Linear colours of the sheet and of the paint, and what half-mixed paint adds where the tint is 1.

@@ -1,4 +1,4 @@
-//! `impasto edit`: the editor's window.
+//! Runs `impasto edit`, which opens the editor's window.
 
 use impasto_editor::files::dialogs::Source;
 use impasto_editor::files::preferences::DriverChoice;

@@ -37,7 +37,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// This file could not be written.
+    /// The failure that a file could not be written.
     pub(crate) fn of_file(path: &Path, error: impl Display) -> Self {
         Self::Other(format!("{}: {error}", path.display()))
     }

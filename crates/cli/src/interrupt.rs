@@ -1,4 +1,4 @@
-//! Ctrl-C, and the other signals that ask a command to end.
+//! Ends a command on Ctrl-C, and on the other signals that ask it to end, without leaving half-written files.
 
 use std::io;
 use std::sync::Arc;

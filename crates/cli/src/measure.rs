@@ -8,12 +8,12 @@ use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_measure::{MeasureError, MeasureOptions, MeasureReport, Progress, measure, plot, turntable};
 use impasto_scene::whole_file;
 
-use crate::args::{MeasureArguments, SceneArguments};
+use crate::args::{MeasureArguments, PlacingArguments, SceneArguments};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::session;
 
-/// The exit code where a metric misses its bound.
+/// The exit code where a metric misses its target.
 const MISSED: u8 = 1;
 
 pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
@@ -24,6 +24,7 @@ pub(crate) fn run(arguments: &MeasureArguments) -> Result<(), Failure> {
     let mut all_hold = true;
     for (index, path) in arguments.scenes.iter().enumerate() {
         let scene = SceneArguments {
+            placing: PlacingArguments::default(),
             scene: path.clone(),
             asset_dirs: arguments.asset_dirs.clone(),
             set: arguments.set.clone(),

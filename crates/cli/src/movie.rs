@@ -1,4 +1,4 @@
-//! Movies: raw frames piped to ffmpeg, where that is installed.
+//! Writes movies: pipes raw frames to ffmpeg, where that is installed.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -11,9 +11,9 @@ use crate::failure::Failure;
 #[cfg(test)]
 mod tests;
 
-/// Converts sRGB pixels to BT.709 in the limited range of television, which players assume, and says so in the file:
-/// ffmpeg's default is BT.601 without saying so, and players then show other colours. H.264 and others need even sides:
-/// the padding is transparent in files with transparency, else black.
+/// Converts sRGB pixels to BT.709 in the limited range of television, and states that in the file. Players assume it;
+/// by default ffmpeg writes BT.601 and states nothing, and players show wrong colours. H.264 and others need even
+/// sides, so the picture is padded: transparent in files with transparency, else black.
 const FILTERS: &str = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,\
     scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,\
     setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";

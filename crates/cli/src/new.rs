@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_scene::load::{LoadOptions, load};
-use impasto_scene::save;
+use impasto_scene::{built_in_mesh, save};
 
 use crate::args::NewArguments;
 use crate::failure::Failure;
@@ -16,7 +16,12 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
             arguments.output.display()
         )));
     }
-    let loaded = load(&arguments.model, &LoadOptions::default())?;
+    if arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron")) {
+        let words = format!("{} is a scene already; name a model (.obj)", arguments.model.display());
+        return Err(Failure::Refused(words));
+    }
+    let placing = arguments.placing.of(&arguments.model)?;
+    let loaded = load(&arguments.model, &LoadOptions { placing, ..LoadOptions::default() })?;
     for warning in &loaded.warnings {
         eprintln!("{warning}");
     }
@@ -24,8 +29,8 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     let folder = ready_folder(&arguments.output)?;
     let mut scene = loaded.scene;
     let mesh = path_from(&folder, &arguments.model)?;
-    // The first object is the model; the second, the backdrop, needs no file.
-    if let Some(object) = scene.objects.first_mut() {
+    // The backdrop needs no file.
+    for object in scene.objects.iter_mut().filter(|object| !object.mesh.starts_with(built_in_mesh::PREFIX)) {
         object.mesh.clone_from(&mesh);
     }
     save::write(&arguments.output, &scene)?;

@@ -29,8 +29,11 @@ pub(crate) fn read_scene(arguments: &SceneArguments, quiet: bool) -> Result<Load
             ))),
         })
         .collect();
-    let options =
-        LoadOptions { folders: AssetFolders { extra: arguments.asset_dirs.clone() }, overrides: overrides? };
+    let options = LoadOptions {
+        folders: AssetFolders { extra: arguments.asset_dirs.clone() },
+        overrides: overrides?,
+        placing: arguments.placing.of(&arguments.scene)?,
+    };
     let loaded = load(&arguments.scene, &options)?;
     if !quiet {
         let mut printed = std::collections::BTreeSet::new();

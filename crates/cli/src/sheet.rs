@@ -6,7 +6,7 @@ use impasto_gl_render::Picture;
 const SMALL_PX: u32 = 240;
 const GAP_PX: u32 = 6;
 
-/// The most frames on one sheet; with more, every second, third, … is taken.
+/// The most frames on one sheet. Of more frames, only every second, third, … is shown.
 const MAX_COPIES: u64 = 144;
 
 /// A sheet that is being filled.

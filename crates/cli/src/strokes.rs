@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 
+use impasto_core::angle::wrap_pi;
 use impasto_core::color::srgb_from_linear;
 use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_gl_render::ResolvedStroke;
@@ -112,7 +113,7 @@ fn row<'a>(
         x_px: resolved.center_px[0],
         y_px: resolved.center_px[1],
         depth: stroke.depth,
-        angle_deg: f64::from(stroke.angle_rad).to_degrees(),
+        angle_deg: wrap_pi(f64::from(stroke.angle_rad + resolved.turned_rad)).to_degrees(),
         length_px: stroke.length_px,
         width_px: stroke.width_px,
         alpha: resolved.alpha,

@@ -1,4 +1,5 @@
-//! Whether a window could be opened here: looks for a display and for library files, and loads nothing.
+//! Finds out for `impasto doctor` whether a window could be opened here: looks for a display and for library files, and
+//! loads nothing.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ const X11: &[(&str, &str)] = &[
     ("libEGL.so.1", "libegl1"),
 ];
 
-/// The same on Wayland.
+/// Libraries for a window on Wayland, each with its Debian package.
 const WAYLAND: &[(&str, &str)] = &[
     ("libwayland-client.so.0", "libwayland-client0"),
     ("libwayland-egl.so.1", "libwayland-egl1"),
@@ -24,7 +25,7 @@ const WAYLAND: &[(&str, &str)] = &[
 pub(crate) struct Found {
     /// The display that a window would be on, such as `X11 :0`, if any.
     pub(crate) display: Option<String>,
-    /// The packages that a window there would need and that are missing; without a display, those for X11.
+    /// The missing packages that a window on that display needs; without a display, those for X11.
     pub(crate) packages: Vec<&'static str>,
 }
 

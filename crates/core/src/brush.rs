@@ -2,10 +2,12 @@
 //!
 //! A mark is three fields over a rectangle. `u` runs along the stroke, from its loaded start, `v` across it:
 //!
-//! * **paint**: not a mask, but a height that is cut off at a threshold. A low threshold gives a wet stroke, a higher
-//!   one a dry stroke, the highest a few hairs. Values are equalised: a threshold of `1 − s` leaves the share `s`.
-//! * **height** of the paint's body: furrows, paint pushed aside along the edges, a ridge where the brush lifts.
-//! * **tint**: streaks where another colour is half mixed in, more or less than the middle value.
+//! * **paint**: where there is paint. It shows where this value is above a threshold: a low threshold gives a wet
+//!   stroke, a higher one a dry stroke, the highest a few hairs. Values are equalised: a threshold of `1 − s` leaves
+//!   the share `s`.
+//! * **height**: how thick the paint lies: furrows, paint pushed aside along the edges, a ridge where the brush lifts.
+//! * **tint**: streaks where another colour is half mixed in. The middle value changes nothing; values above and below
+//!   it change the colour in opposite ways.
 
 mod lattice;
 mod marks;

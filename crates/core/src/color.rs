@@ -1,11 +1,11 @@
-//! The sRGB transfer function (IEC 61966-2-1), one channel at a time, and Oklab.
+//! Converts colours: between sRGB and linear, one channel at a time (IEC 61966-2-1), and from linear to Oklab.
 
-/// sRGB encoded to linear.
+/// From sRGB to linear.
 pub fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Linear to sRGB encoded; the input is clamped to 0..=1.
+/// From linear to sRGB; the input is clamped to 0..=1.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }

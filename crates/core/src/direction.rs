@@ -1,8 +1,8 @@
 //! Directions on a surface, as tangents in model space: stated ones, guides, and the field that joins them.
 //!
-//! A direction at a point is a complex number in the tangent plane: its angle α in [`tangent_axes`] of the normal, raised to
-//! the power n of the field's [`Symmetry`] (`e^{iα}` for arrows, `e^{2iα}` for lines), so that the two ends of a line are one
-//! number and means make sense.
+//! A direction at a point is stored as the complex number `e^{inα}`. α is its angle in the [`tangent_axes`] of the
+//! normal, and n comes from the field's [`Symmetry`]: 1 for arrows, 2 for lines. With n = 2 both ends of a line give
+//! the same number, so that lines can be averaged.
 
 use glam::{DVec2, DVec3};
 
@@ -40,8 +40,8 @@ impl Symmetry {
         }
     }
 
-    /// The unit tangent of a complex number in these axes; of a line's two ends, the one within a quarter turn of the first
-    /// axis. Zero for zero.
+    /// The unit tangent of a complex number in these axes; zero for zero. Of the two ends of a line it gives the one
+    /// within a quarter turn of the first axis.
     pub fn decode(self, z: DVec2, [right, above]: [DVec3; 2]) -> DVec3 {
         if z.length_squared() < 1e-24 {
             return DVec3::ZERO;
@@ -56,7 +56,8 @@ impl Symmetry {
     }
 }
 
-/// Two unit tangents that make a right-handed frame with a unit normal (Duff et al. 2017); a function of the normal alone.
+/// Two unit tangents that make a right-handed frame with a unit normal (Duff et al. 2017). They depend on the normal
+/// alone.
 pub fn tangent_axes(normal: DVec3) -> [DVec3; 2] {
     let sign = 1f64.copysign(normal.z);
     let a = -1.0 / (sign + normal.z);
@@ -66,15 +67,15 @@ pub fn tangent_axes(normal: DVec3) -> [DVec3; 2] {
     [right, above]
 }
 
-/// The angle that parallel transport from one normal to another (the least rotation that takes one to the other) adds to a
-/// tangent's angle: α there = α here + this.
+/// What parallel transport adds to a tangent's angle in its [`tangent_axes`]: the angle at `to` is the angle at `from`
+/// plus this. Parallel transport is the least rotation that takes one normal to the other.
 pub fn transport_rad(from: DVec3, to: DVec3) -> f64 {
     let [right_from, _] = tangent_axes(from);
     let [right_to, above_to] = tangent_axes(to);
     let axis = from.cross(to);
     let cos = from.dot(to);
-    // Rodrigues' formula for an axis of length sin, where (1 − cos) / sin² = 1 / (1 + cos). Between opposite normals no
-    // rotation is the least, and the tangent stays.
+    // Rodrigues' formula for an axis of length sin, where (1 − cos) / sin² = 1 / (1 + cos). Opposite normals have no
+    // least rotation: there the tangent stays.
     let carried = if cos > -1.0 + 1e-9 {
         right_from * cos + axis.cross(right_from) + axis * (axis.dot(right_from) / (1.0 + cos))
     } else {
@@ -83,8 +84,8 @@ pub fn transport_rad(from: DVec3, to: DVec3) -> f64 {
     carried.dot(above_to).atan2(carried.dot(right_to))
 }
 
-/// The direction from a point on the surface towards the point `target`, along the surface; unit, or zero where the target lies
-/// straight above or below.
+/// The direction from a point on the surface towards the point `target`, along the surface. Unit, or zero where
+/// `target` lies on the line of the normal.
 pub fn towards_point(target: DVec3, position: DVec3, normal: DVec3) -> DVec3 {
     along_surface((target - position).normalize_or_zero(), normal)
 }
@@ -101,9 +102,9 @@ fn angle_between(symmetry: Symmetry, a: DVec3, b: DVec3) -> f64 {
 
 /// The direction round an axis, along the surface; unit, or zero where it is undefined.
 ///
-/// `axis × n` follows bent and off-centre parts. It vanishes where the surface faces along the axis (the cap of a log):
-/// there, the direction goes round the part's centre. `from_center` is the point minus that centre, `size` the size of
-/// the part.
+/// It is mostly `axis × normal`, which suits bent and off-centre parts too. Where the surface faces along the axis
+/// (the cap of a log) that vanishes, and the direction goes round the part's centre instead. `from_center` is the
+/// point minus that centre, `size` the size of the part.
 pub fn around(axis: DVec3, normal: DVec3, from_center: DVec3, size: f64) -> DVec3 {
     let axis = axis.normalize_or_zero();
     let round_part = axis.cross(normal);

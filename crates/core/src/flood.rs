@@ -11,16 +11,17 @@ use crate::shells;
 /// A face that faces opposite to the seed's normal counts as this many times farther away than it is.
 const TURNED_AWAY: f64 = 4.0;
 
-/// An edge is looked at only once where both its ends have more triangles than this; otherwise a fan of n triangles
-/// would take n² steps.
+/// Where both ends of an edge have more triangles than this, the edge is looked at only once. Otherwise n triangles
+/// round such an edge would take n² steps.
 const CROWDED: usize = 64;
 
-/// For each triangle, whether it is reached from a seed over edges whose two triangles face less than `sharp_rad` apart.
+/// For each triangle, whether it is reached from a seed over edges at which the two triangles' normals differ by less
+/// than `sharp_rad`.
 ///
-/// The seed is a point with a normal, model space: the flood begins at the nearest triangle; among triangles about
-/// equally near, at one that faces the same way. Edges are compared by position, so split vertices do not stop it. The
-/// triangles of one polygon count as one face, and a triangle without area takes the normal of the face that it was
-/// reached from.
+/// The seed is a point with a normal, in model space. The flood begins at the triangle nearest to it; among triangles
+/// about equally near, at one that faces the same way. Edges are compared by position, so split vertices do not stop
+/// the flood. The triangles of one polygon count as one face, and a triangle without area takes the normal of the face
+/// that it was reached from.
 pub fn flooded(mesh: &TriangleMesh, at: DVec3, normal: DVec3, sharp_rad: f64) -> Vec<bool> {
     let mut is_reached = vec![false; mesh.triangles.len()];
     let Some(first) = nearest_triangle(mesh, at, normal.normalize_or_zero()) else { return is_reached };

@@ -25,7 +25,8 @@ pub fn unit(hash: u32) -> f32 {
     (hash >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// A number of mean 0 and standard deviation 1 from a hash: the sum of four uniform ones, so it never exceeds 3.5.
+/// A number of mean 0 and standard deviation 1 from a hash. It is made from the sum of four uniform numbers, so it lies
+/// within ±3.5.
 #[inline]
 pub fn normal(hash: u32) -> f32 {
     let sum: f32 = (0..4).map(|index| unit(combine(hash, index))).sum();

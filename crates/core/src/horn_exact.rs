@@ -1,5 +1,5 @@
 //! The source paper's own solve, in full: every neighbour is projected through the 4×4 matrix, in this frame and in the
-//! reference (source paper, eq. 1–2). It is the oracle for the lifts and a part of the `paper` preset, so it shares no
+//! reference (source paper, eq. 1–2). The `paper` preset uses it, and tests judge the lifts by it, so it shares no
 //! function with `screen_map`, `lift` or `solve`.
 
 use glam::{DMat4, DVec2, DVec3};
@@ -21,8 +21,9 @@ impl ClipView {
     }
 }
 
-/// The angle by which a stroke turns from the reference to this frame, radians: `arg Σ p̄ c` over its neighbours; 0 when
-/// there are none or the sum is not finite.
+/// The angle by which a stroke turns from the reference to this frame, radians: `arg Σ p̄ c` over its neighbours. As
+/// complex numbers, p and c are a neighbour's offset from the stroke in the reference picture and in this frame. 0 when
+/// there are no neighbours or the sum is not finite.
 pub fn turn_rad(
     center: DVec3,
     neighbours: impl Iterator<Item = DVec3>,

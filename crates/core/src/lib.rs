@@ -1,4 +1,5 @@
-//! The maths of Impasto, from particles on a mesh to strokes in a view. No files, no GL, no clock, and no randomness of its own.
+//! The maths of Impasto, from particles on a mesh to strokes in a view. It uses no files, no GL, no clock, and no
+//! randomness that is not seeded.
 //!
 //! ```text
 //! mesh ─▶ shells ─▶ sampling ─▶ particles (progressive blue-noise order)
@@ -14,6 +15,7 @@ pub mod brush;
 pub mod color;
 pub mod direction;
 pub mod flood;
+pub mod form_size;
 pub mod hash;
 pub mod horn_exact;
 pub mod inverse_bilinear;

@@ -1,9 +1,9 @@
 //! The reference lift: what is baked per particle so that a frame needs no neighbours and no other frame.
 //!
 //! A lift is a 3×2 matrix N (model units per reference pixel). With J the Jacobian of the current view, `A = J N` is
-//! the local screen map from the reference picture to the current one, and the stroke turns by its polar angle
-//! `φ(A) = atan2(A₂₁ − A₁₂, A₁₁ + A₂₂)` (Horn's similarity, source paper eq. 1–2, for neighbours spread evenly all
-//! round). With the stroke's base angle θ₀ included, `N' = N R(θ₀)`, the stroke's own angle is `φ(J N')`.
+//! the local screen map from the reference picture to the current one. The stroke turns by the polar angle of A,
+//! `φ(A) = atan2(A₂₁ − A₁₂, A₁₁ + A₂₂)`. (This is Horn's similarity, source paper eq. 1–2, for neighbours spread evenly
+//! all round.) `N' = N R(θ₀)` includes the stroke's base angle θ₀, so `φ(J N')` is the stroke's own angle.
 
 use glam::{DVec2, DVec3};
 
@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 pub struct Lift {
     /// The step on the surface that is one pixel along x in the reference picture; of N', one pixel along the stroke.
     pub along: DVec3,
-    /// Likewise for y; of N', across the stroke, to its left.
+    /// The step that is one pixel along y; of N', one pixel across the stroke, to its left.
     pub across: DVec3,
 }
 
@@ -26,7 +26,7 @@ pub struct PixelMap2 {
 }
 
 impl Lift {
-    /// The tangent solver: `B (J B)⁻¹` for the tangent plane of this normal, B any basis of it. `None` where the
+    /// The tangent solver: `B (J B)⁻¹`, where B is any basis of the plane that has this normal. `None` where the
     /// reference sees the surface edge-on, from behind (`n·(j_x × j_y) ≤ 0`), or not at all.
     pub fn tangent(reference_jacobian: [DVec3; 2], normal: DVec3) -> Option<Self> {
         let [jx, jy] = reference_jacobian;
@@ -36,13 +36,12 @@ impl Lift {
         (area > 0.0 && lift.along.is_finite() && lift.across.is_finite()).then_some(lift)
     }
 
-    /// The virtual reference: a camera that looks straight at the surface. Its up is `up` projected on the tangent
-    /// plane; then it is rolled by `roll_rad`. It sees `px_per_unit` pixels per model unit.
+    /// The lift of a virtual reference: a camera that looks straight at the surface. Its up is `up` projected on the
+    /// tangent plane; then it is rolled by `roll_rad`. It sees `px_per_unit` pixels per model unit.
     pub fn facing_view(normal: DVec3, up: DVec3, roll_rad: f64, px_per_unit: f64) -> Self {
         let [right, above] = turntable_axes(normal, up);
         let (sin, cos) = roll_rad.sin_cos();
         let scale = 1.0 / px_per_unit;
-        // The camera's own axes turn by +roll, as a rolled camera's do.
         Self { along: (right * cos + above * sin) * scale, across: (above * cos - right * sin) * scale }
     }
 
@@ -101,8 +100,8 @@ impl PixelMap2 {
         turn.y.atan2(turn.x)
     }
 
-    /// The angle of a stroke of this flatness F, radians: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`; 1 is the paper's similarity,
-    /// 0 follows the surface.
+    /// The angle of a stroke of this flatness F, radians: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. With F = 1 the stroke
+    /// turns by the paper's similarity, with 0 it follows the surface.
     pub fn shown_rad(self, flatness: f64) -> f64 {
         if flatness >= 1.0 {
             return self.angle_rad();
@@ -111,8 +110,8 @@ impl PixelMap2 {
         (self.turn().normalize_or_zero() * flatness + wrapped * (1.0 - flatness)).to_angle()
     }
 
-    /// κ, the trust, in 0..=1: how much of the map is rotation and uniform scaling; at least 1/√2 for any map that does not
-    /// mirror, 0 for a zero map.
+    /// κ, the trust, in 0..=1: how much of the map is rotation and uniform scaling. It is at least 1/√2 for any map
+    /// that does not mirror, and 0 for a zero map.
     #[inline]
     pub fn kappa(self) -> f64 {
         let size = self.x.length_squared() + self.y.length_squared();

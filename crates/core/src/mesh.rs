@@ -39,7 +39,8 @@ impl TriangleMesh {
         Some(used.fold((first, first), |(low, high), position| (low.min(position), high.max(position))))
     }
 
-    /// The number of the last polygon that has triangles, plus one; polygons were numbered before they were cut.
+    /// The number of the last polygon that has triangles, plus one. Polygons before it count even if they have no
+    /// triangles, because all were numbered before they were cut.
     pub fn polygon_count(&self) -> usize {
         self.polygon_of_triangle.last().map_or(0, |&last| last as usize + 1)
     }

@@ -1,9 +1,9 @@
-//! The nearest point of a triangle.
+//! Finds the point of a triangle that is nearest to another point.
 
 use glam::DVec3;
 
-/// The point of a triangle that is nearest to `at` (Ericson, Real-Time Collision Detection, 5.1.5); a triangle without area is
-/// treated as its edges.
+/// The point of a triangle that is nearest to `at` (Ericson, Real-Time Collision Detection, 5.1.5). A triangle without
+/// area is treated as its edges.
 pub fn nearest_point(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);

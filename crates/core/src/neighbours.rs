@@ -1,5 +1,5 @@
-//! Lists of the nearest points within a radius, on the same side of the surface: for `horn`, `horn-exact` and the
-//! direction field.
+//! Finds, for points of a surface, the nearest others within a radius on the same side of the surface. The stroke turns
+//! `horn` and `horn-exact` need these lists, and so does the direction field.
 
 mod cells;
 mod crowd;
@@ -10,7 +10,7 @@ use crowd::{Crowd, PackNear, Query};
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// The source paper's longest list.
+/// How many neighbours a list holds at most, as in the source paper.
 pub const MAX_NEIGHBOURS: usize = 50;
 
 /// Points of a surface with their unit normals, in model space.
@@ -18,7 +18,7 @@ pub const MAX_NEIGHBOURS: usize = 50;
 pub struct Points<'a> {
     /// Positions.
     pub positions: &'a [Vec3],
-    /// As many unit normals.
+    /// The unit normal at each position.
     pub normals: &'a [Vec3],
 }
 
@@ -29,7 +29,7 @@ pub struct Neighbours {
     slots: Vec<u32>,
     /// Length of each list, by slot.
     lengths: Vec<u8>,
-    /// Room for each list: the indices of slot `s` begin at `s * most`.
+    /// How many indices are reserved for each list: those of slot `s` begin at `s * most`.
     most: usize,
     indices: Vec<u32>,
 }
@@ -43,12 +43,13 @@ impl Neighbours {
         self.slots.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no lists.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The neighbours of one particle, nearest first; equal distances by index. Never itself.
+    /// The neighbours of one particle, nearest first; those at equal distances by index. The particle itself is never
+    /// among them.
     #[inline]
     pub fn of(&self, particle: usize) -> &[u32] {
         let slot = self.slots[particle] as usize;
@@ -56,18 +57,20 @@ impl Neighbours {
     }
 
     /// Finds, for each particle, the [`MAX_NEIGHBOURS`] nearest others of the same body within `radius` (model units,
-    /// inclusive) whose normals lie in the same half space (n·n' > 0). The lists are exact, and the same on every machine.
+    /// inclusive) whose normals lie in the same half space (n·n' > 0). The lists are exact, and the same on every
+    /// machine.
     pub fn find(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Self {
         Self::found(Points { positions, normals }, None, radius, MAX_NEIGHBOURS, wide::run)
     }
 
-    /// Finds, for each of `queries`, the `most` (at most [`MAX_NEIGHBOURS`]) nearest of `points` within `radius` on the same
-    /// side of the surface.
+    /// Finds, for each of `queries`, the `most` (at most [`MAX_NEIGHBOURS`]) nearest of `points` within `radius` on the
+    /// same side of the surface.
     pub fn find_among(queries: Points<'_>, points: Points<'_>, radius: f32, most: usize) -> Self {
         Self::found(queries, Some(points), radius, most.min(MAX_NEIGHBOURS), wide::run)
     }
 
-    /// Finds lists with a build of the search, portable or vector code. `None` for `points` stands for the queries.
+    /// Finds lists with `run`, one of the builds of the search (portable or vector code). Where `points` is `None`, the
+    /// neighbours are searched among the queries themselves.
     fn found(
         queries: Points<'_>,
         points: Option<Points<'_>>,

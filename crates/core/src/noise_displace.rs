@@ -1,8 +1,11 @@
-//! Moves vertices by a noise texture (Hong and Park 2021); has the built-in noise textures.
+//! Moves vertices by a noise texture (Hong and Park 2021), and holds the built-in noise textures.
 //!
 //! ```text
 //! position ─▶ lookup: S·v·NV + (t, t) ─▶ tile: N, repeated ─▶ v + (saturate(N) − ½)·NS
 //! ```
+//!
+//! v is the vertex, S its pose (where the noise stands still in the world), NV the textures per unit, t how far the
+//! noise has travelled, N the noise, and NS the scale of the displacement.
 
 mod built_in;
 mod tile;
@@ -73,8 +76,9 @@ impl Lookup {
     }
 }
 
-/// How far the noise has travelled, in lengths of the texture: along X by Unity's `_Time.x`. With a period it travels round a
-/// circle at the same speed, at first along X, and is back after that many seconds, to the bit.
+/// How far the noise has travelled, in lengths of the texture. Without a period it travels along X by Unity's
+/// `_Time.x`. With a period it travels round a circle at the same speed, at first along X, and is back after the
+/// period, to the bit.
 pub fn travelled(seconds: f64, period_secs: Option<f64>) -> DVec2 {
     let Some(period_secs) = period_secs else { return DVec2::new(seconds / SECONDS_PER_TILE, 0.0) };
     let radius = period_secs / SECONDS_PER_TILE / std::f64::consts::TAU;
@@ -82,7 +86,8 @@ pub fn travelled(seconds: f64, period_secs: Option<f64>) -> DVec2 {
     DVec2::new(sin, 1.0 - cos) * radius
 }
 
-/// The shift of the vertices' lookup: `(t, t)`; with a period, the circle of [`travelled`] turned and scaled likewise.
+/// The shift of the vertices' lookup. Without a period it is `(t, t)`: what [`travelled`] gives, turned by 45 degrees
+/// and scaled by √2. A circle is turned and scaled in the same way.
 pub fn vertex_shift(travelled: DVec2) -> DVec2 {
     DVec2::new(travelled.x - travelled.y, travelled.x + travelled.y)
 }
@@ -98,8 +103,8 @@ impl VertexNoise {
             }
     }
 
-    /// The unit normal of the moved surface: `cof(F) n`, F the derivative of [`VertexNoise::displaced`] over two texels. With
-    /// [`Along::Normal`], the curvature that the surface has at rest is neglected.
+    /// The unit normal of the moved surface: `cof(F) n`, where F is the derivative of [`VertexNoise::displaced`], taken
+    /// over two texels. With [`Along::Normal`], the curvature that the surface has at rest is neglected.
     pub fn displaced_normal(&self, position: DVec3, normal: DVec3, lookup: &Lookup) -> DVec3 {
         let normal = normal.normalize_or_zero();
         let at = lookup.at(position);
@@ -114,7 +119,7 @@ impl VertexNoise {
             Along::Channels => (along_u, along_v),
             Along::Normal => (normal * along_u.x, normal * along_v.x),
         };
-        // F = 1 + ∂d/∂u ⊗ ∇u + ∂d/∂v ⊗ ∇v.
+        // F = 1 + ∂d/∂u ⊗ ∇u + ∂d/∂v ⊗ ∇v, where d is the displacement.
         let column = |axis: usize| DVec3::AXES[axis] + along_u * u[axis] + along_v * v[axis];
         let moved = DMat3::from_cols(column(0), column(1), column(2));
         let cofactor = DMat3::from_cols(
@@ -195,7 +200,8 @@ mod tests {
         };
         let tile = Arc::new(Tile::new([SIDE; 2], (0..SIDE * SIDE).map(texel).collect()));
         let noise = VertexNoise { tile, scale: 1.5, along: Along::Channels, moves_normals: true };
-        // Turned, so that all three axes of the model lie along the texture; in its middle, away from its border.
+        // Turned, so that a step along any axis of the model is a step in the texture; and shifted to the texture's
+        // middle.
         let turned = DAffine3::from_rotation_x(0.7) * DAffine3::from_rotation_y(-0.5);
         let lookup = Lookup::new([0.3, 0.4], Some(turned), DVec2::splat(0.5));
         let moved = |at: DVec3| noise.displaced(at, DVec3::Z, &lookup);

@@ -54,7 +54,7 @@ pub fn parts(mesh: &TriangleMesh) -> (Vec<Part>, Vec<u32>) {
     (parts, of_triangle)
 }
 
-/// The part of each triangle, counted from 0 in the order in which parts begin.
+/// The number of the part of each triangle. Parts are counted from 0 in the order of their first triangles.
 fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
     let shells = shells::numbers(mesh);
     let count = shells.iter().max().map_or(0, |&last| last as usize + 1);

@@ -1,16 +1,17 @@
 //! Presence: how far a stroke is there, 0..=1, so that density follows the view without a stroke ever popping.
 
-/// Presence by supply, 0..=1: `(S(m + x/1.4) − 0.1)/0.9`, at least 0, with S = smoothstep. The lowest tenth of S, where
-/// a stroke would be a few hairs spread wide, is never painted. m makes the presence one half at x = 0.
+/// Presence by supply, 0..=1. `supply_ln` is x = ln(D/u): D is the strokes wanted per pixel divided by the particles
+/// per pixel (it may exceed 1), u the particle's rank in (0, 1).
 ///
-/// `supply_ln` is x = ln(D/u): D is the strokes wanted per pixel divided by the particles per pixel (it may exceed 1),
-/// u the particle's rank in (0, 1).
+/// With S = smoothstep it is `(S(m + x/1.4) − 0.1)/0.9`, at least 0. The lowest tenth of S, where a stroke would be a
+/// few hairs spread wide, is never painted. m makes the presence one half at x = 0.
 #[inline]
 pub fn of_supply(supply_ln: f32) -> f32 {
     ((smoothstep(MIDDLE + supply_ln * (1.0 / FADE)) - LEAST) * (1.0 / (1.0 - LEAST))).max(0.0)
 }
 
-/// Presence as the surface turns away: S(facing/0.2), facing the cosine between the surface normal and the direction to the eye.
+/// Presence as the surface turns away: S(facing/0.2). `facing` is the cosine between the surface normal and the
+/// direction to the eye.
 #[inline]
 pub fn of_facing(facing: f32) -> f32 {
     smoothstep(facing * 5.0)
@@ -23,10 +24,10 @@ const FADE: f32 = 1.4;
 /// The value of S below which a stroke is left out.
 const LEAST: f32 = 0.1;
 
-/// Where S is 0.55, half-way between `LEAST` and 1.
+/// m: S(m) is 0.55, half-way between `LEAST` and 1.
 const MIDDLE: f32 = 0.533_382_94;
 
-/// At or below this supply the presence is 0: S(0.195_8) is 0.1.
+/// At or below this `supply_ln` the presence is 0: m + x/1.4 is then at most 0.195_8, and S(0.195_8) is 0.1.
 pub const ABSENT_LN: f32 = -0.472_616;
 
 /// 3t² − 2t³ on 0..=1, clamped outside.
@@ -56,7 +57,7 @@ mod tests {
 
     #[test]
     fn the_sum_of_presences_is_the_number_of_strokes_wanted() {
-        // E[presence] over u in (0, 1) is D while D is small: strokes shown = strokes wanted.
+        // While D is small, the mean presence over all ranks is D: as many strokes show as are wanted.
         for wanted in [0.02f32, 0.1, 0.3] {
             let count = 100_000;
             let sum: f64 = (0..count)

@@ -1,4 +1,4 @@
-//! Particles on a surface: progressive blue noise, or the source paper's equal counts per polygon.
+//! Spreads particles over a surface, as progressive blue noise or with the source paper's equal counts per polygon.
 
 mod block;
 mod candidates;
@@ -85,7 +85,7 @@ impl<'mesh> Surface<'mesh> {
         Self::with_sides(mesh, &sides(mesh), keep)
     }
 
-    /// As [`Surface::new`], with the sides that [`crate::shells::sides`] finds.
+    /// As [`Surface::new`], for callers that have the result of [`crate::shells::sides`] already.
     pub fn with_sides(mesh: &'mesh TriangleMesh, sides: &[Side], keep: impl Fn(usize) -> bool) -> Self {
         let mut surface = Self { mesh, faces: Vec::new(), area_up_to: Vec::new() };
         let mut sum = 0.0;
@@ -118,7 +118,7 @@ impl<'mesh> Surface<'mesh> {
         self.area_up_to.last().copied().unwrap_or(0.0)
     }
 
-    /// The visible sides: triangle, whether it is its back, and area in model units squared.
+    /// For each visible side, its triangle, whether it is the triangle's back, and its area in model units squared.
     pub fn faces(&self) -> impl Iterator<Item = (u32, bool, f64)> + '_ {
         self.faces.iter().enumerate().map(|(index, face)| {
             let before = if index == 0 { 0.0 } else { self.area_up_to[index - 1] };
@@ -126,7 +126,7 @@ impl<'mesh> Surface<'mesh> {
         })
     }
 
-    /// Position of a point of a face: as [`Surface::particle`] gives it, at a third of the cost.
+    /// Position of a point of a face. It is the one that [`Surface::particle`] gives, at a third of the cost.
     #[inline]
     fn position(&self, face: usize, [v, w]: [f32; 2]) -> Vec3 {
         let [a, b, c] = self.mesh.corners(self.faces[face].triangle as usize);

@@ -1,11 +1,11 @@
-//! From a point of model space to pixels, and the Jacobian of that map.
+//! The map from points of model space to pixels of the picture, and its Jacobian.
 
 use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 
 /// Projects points of one body into one picture: pixels, origin in the picture's centre, Y up.
 ///
-/// With homogeneous `p = (x, y, z, 1)`: `x_px = (row_x·p)/(row_w·p)`, likewise y. A perspective lens has
-/// `row_w = depth`, an orthographic one `row_w = (0, 0, 0, 1)`; everything else is the same for both.
+/// With homogeneous `p = (x, y, z, 1)`: `x_px = (row_x·p)/(row_w·p)` and `y_px = (row_y·p)/(row_w·p)`. A perspective
+/// lens has `row_w = row_depth`, an orthographic one `row_w = (0, 0, 0, 1)`; everything else is the same for both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenMap {
     /// Numerator of the x coordinate.

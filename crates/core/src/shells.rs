@@ -51,11 +51,12 @@ pub fn numbers(mesh: &TriangleMesh) -> Vec<u32> {
         .collect()
 }
 
-/// The shells, and for each root whether its shell has a border.
+/// The shells, and for each triangle that is the root of its shell, whether the shell has a border.
 fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
     let point_of_vertex = weld(&mesh.positions);
     let mut shells = Shells::new(mesh.triangles.len());
-    // For each edge: a triangle on it, and how often triangles run along it upwards in point numbers less downwards.
+    // For each edge: a triangle on it, and how many triangles run along it from the lower to the higher point number,
+    // less how many run the other way.
     let mut edges: HashMap<(u32, u32), (u32, i32)> = HashMap::with_capacity(mesh.triangles.len() * 2);
     for (triangle, vertices) in mesh.triangles.iter().enumerate() {
         let points = vertices.map(|vertex| point_of_vertex[vertex as usize]);
@@ -81,7 +82,7 @@ fn find(mesh: &TriangleMesh) -> (Shells, Vec<bool>) {
 
 /// Gives vertices at the same position the same number, counted from 0 in the order in which positions begin.
 pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
-    // A hash table of first vertices, at most half full, with linear probing.
+    // A hash table of the first vertex at each position, at most half full, with linear probing.
     const FREE: u32 = u32::MAX;
     let mask = (2 * positions.len()).next_power_of_two() - 1;
     let mut first_at = vec![FREE; mask + 1];

@@ -55,13 +55,13 @@ impl BakedChunk<'_> {
 /// The particles of [`BakedParticles`] in one view, one array per component, in the same order.
 #[derive(Clone, Debug, Default)]
 pub struct SolvedParticles {
-    /// Pixels from the picture's centre.
+    /// Pixels from the picture's centre to the right.
     pub x_px: Vec<f32>,
-    /// Pixels from the picture's centre, Y up.
+    /// Pixels from the picture's centre upwards.
     pub y_px: Vec<f32>,
-    /// Along the gaze, world units.
+    /// Distance along the gaze, world units.
     pub depth: Vec<f32>,
-    /// Counter-clockwise from +X, radians in (−π, π].
+    /// Angle of the stroke, counter-clockwise from +X, radians in (−π, π].
     pub angle_rad: Vec<f32>,
     /// Projected area in px² per unit of surface; positive where it faces the eye.
     pub area_px: Vec<f32>,
@@ -152,8 +152,8 @@ fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| f64::from(arrays[axis][particle])))
 }
 
-/// Projects every particle and turns its stroke: `θ = φ(J N')`, or with flatness F < 1
-/// `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
+/// Projects every particle and turns its stroke. The angle is φ, that of the rotation nearest to A = J N', or with
+/// flatness F < 1 `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
 pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {
     let count = particles.len();
     for array in
@@ -204,7 +204,8 @@ struct Output<'a> {
     area_px: &'a mut [f32],
 }
 
-/// One task: the particles from `first` on, as many as the output holds. `WRAPPED`: their flatness is not 1 everywhere.
+/// One task: the particles from `first` on, as many as the output holds. With `WRAPPED`, their flatness is read;
+/// without, it is 1.
 struct Chunk<'a, const WRAPPED: bool> {
     particles: &'a BakedParticles,
     first: usize,

@@ -1,7 +1,8 @@
-//! Runs a loop as compiled for the widest vectors that the processor has. The `unsafe` code that this takes is all
-//! here; only `neighbours::wide`, which names an instruction itself, has its own.
+//! Runs a loop in the version that is compiled for the widest vectors of this processor. All `unsafe` code for that is
+//! here, except in `neighbours::wide`, which uses one instruction by name.
 //!
-//! Every build rounds alike (the compiler fuses no multiplication with an addition), so the bits do not depend on the machine.
+//! All versions round alike, since the compiler fuses no multiplication with an addition: results are the same on every
+//! machine, to the bit.
 
 /// A loop over plain arrays. `run` and all functions that it calls are marked `#[inline(always)]`: what is not inlined is compiled
 /// for the oldest processor.
@@ -13,7 +14,7 @@ pub(crate) trait Wide {
     fn run(self) -> Self::Output;
 }
 
-/// Runs the loop in the widest build.
+/// Runs the loop in the widest version that the processor can run.
 #[inline]
 #[expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 pub(crate) fn widest<W: Wide>(work: W) -> W::Output {

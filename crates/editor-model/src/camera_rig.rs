@@ -16,7 +16,7 @@ const ORBIT_RAD_PER_PX: f64 = 0.5 * std::f64::consts::PI / 300.0;
 const ZOOM_PER_STEP: f64 = 0.85;
 /// The gaze stays this far from straight up and down, where a look-at camera has no up direction.
 const POLE_GAP_RAD: f64 = 0.0087;
-/// Views from above and below are off the axis by this, radians.
+/// Views from above and below are off the axis by this, radians, so that the camera still has an up direction.
 const AXIS_GAP_RAD: f64 = 1e-3;
 /// Framing leaves this share of the picture free.
 const FRAME_MARGIN: f64 = 0.1;
@@ -162,7 +162,7 @@ impl FreeView {
         self.pose.roll_rad = 0.0;
     }
 
-    /// Perspective into parallel rays and back; what is at the target keeps its size.
+    /// Switches between perspective and parallel rays. What is at the target keeps its size.
     pub fn toggle_orthographic(&mut self) {
         let slope = |fov_y_deg: f64| (0.5 * fov_y_deg.to_radians()).tan();
         match self.pose.lens {

@@ -35,14 +35,14 @@ pub enum Command {
     Time(Time),
     /// Size, style and backdrop.
     Scene(SceneEdit),
-    /// Several as one entry with one text; if one is refused, all are.
+    /// Several commands as one entry of the history, with one text; if one is refused, all are.
     Several(String, Vec<Command>),
 }
 
 /// The result of an edit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Done {
-    /// The text of the history.
+    /// The text that the history shows.
     pub(crate) text: String,
     /// The new selection; `None` keeps the old one.
     pub(crate) selection: Option<Selection>,
@@ -67,7 +67,7 @@ impl Done {
 }
 
 impl Command {
-    /// Changes a copy of the scene in `before`, whose files some commands read.
+    /// Changes `scene`, a copy of the scene in `before`. Some commands also use the files of `before`.
     pub(crate) fn edit(&self, scene: &mut Scene, before: &LoadedScene) -> Result<Done, Refusal> {
         match self {
             Self::Edit(command) => command.edit(scene),
@@ -117,7 +117,7 @@ pub(crate) fn unlocked_region<'a>(scene: &'a mut Scene, name: &str) -> Result<&'
     if region.locked { Err(Refusal::new(format!("{name} is locked"))) } else { Ok(region) }
 }
 
-/// *apple*, or *3 objects*.
+/// The name if there is one, else how many there are: *apple*, or *3 objects*.
 pub(crate) fn counted(names: &[impl AsRef<str>], what: &str) -> String {
     match names {
         [name] => name.as_ref().to_owned(),

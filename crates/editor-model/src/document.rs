@@ -255,7 +255,7 @@ impl Document {
         self.apply(&Command::Arrange(Arrange::Import { mesh: mesh.to_owned(), file }))
     }
 
-    /// Undoes the last entry; none if there is none.
+    /// Undoes the last entry of the history; `None` if there is no entry to undo.
     pub fn undo(&mut self) -> Option<Step> {
         self.preview = None;
         let entry = self.history.undo()?.clone();
@@ -267,7 +267,7 @@ impl Document {
         self.go_to(scene, entry.selections[0].clone(), entry.text)
     }
 
-    /// Redoes the last entry that was undone; none if there is none.
+    /// Redoes the entry that was undone last; `None` if there is no entry to redo.
     pub fn redo(&mut self) -> Option<Step> {
         self.preview = None;
         let entry = self.history.redo()?.clone();
@@ -279,8 +279,8 @@ impl Document {
         self.go_to(scene, entry.selections[1].clone(), entry.text)
     }
 
-    /// Goes to a scene of the history. It was valid once, so it can only fail because files are missing now: then it
-    /// comes back without them.
+    /// Goes to a scene of the history. The scene was valid once, so only its files can be at fault now: then it comes
+    /// back without them, and the step's note says what is wrong.
     fn go_to(&mut self, scene: Scene, selection: Selection, text: String) -> Option<Step> {
         self.revision += 1;
         let loaded = self.with_files(scene.clone());
@@ -344,7 +344,7 @@ impl Document {
         folder.unwrap_or(Path::new("."))
     }
 
-    /// Makes paths relative to another folder, if the scene has no file and names none. Returns whether it did.
+    /// Makes paths relative to another folder, if the scene has no file and names no files. Returns whether it did.
     pub fn live_in(&mut self, folder: &Path) -> bool {
         let is_free = self.file.is_none() && self.files_named().next().is_none();
         if is_free {

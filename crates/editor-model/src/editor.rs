@@ -44,7 +44,7 @@ pub use pointer::{PointerEvent, PointerKind};
 /// A request that only the window can fulfil.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
-    /// A new, empty scene; asks about unsaved work first.
+    /// Opens a new, empty scene; asks about unsaved work first.
     New,
     /// Asks for a scene or a mesh to open.
     Open,
@@ -60,21 +60,21 @@ pub enum Request {
     Quit,
     /// Asks for a mesh to add.
     Import,
-    /// The command search.
+    /// Shows the command search.
     Palette,
-    /// The sheet of all keys.
+    /// Shows the list of all keys.
     Shortcuts,
-    /// Types a new name for what is selected.
+    /// Lets the user type a new name for what is selected.
     Rename,
-    /// The menu of things to add.
+    /// Shows the menu of things to add.
     Add,
     /// Shows or folds the right column.
     ToggleColumn,
     /// Shows only the viewport, or everything.
     MaximiseViewport,
-    /// The next area of the window takes the keys.
+    /// Gives the keyboard to the next area of the window.
     NextArea,
-    /// The sheet of what is rendered.
+    /// Shows the dialog in which one sets what is rendered.
     Render,
     /// Reads the scene from the text that is edited in the panel of problems.
     ReadSource,
@@ -96,7 +96,7 @@ pub struct Said {
 /// An action that a message offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Offer {
-    /// Takes the last entry back.
+    /// Undoes the last entry of the history.
     Undo,
     /// Restores the pose that was left without a key.
     PoseAgain,
@@ -109,7 +109,7 @@ struct TransformDrag {
     objects: Vec<String>,
     /// The light that is transformed, if it is a light.
     light: Option<String>,
-    /// Begun by a press: ends with its release.
+    /// Whether a press began it; then the release ends it.
     held: bool,
 }
 
@@ -119,17 +119,17 @@ enum Busy {
     /// Nothing.
     #[default]
     Idle,
-    /// It moves the view with respect to this point: orbit, pan or zoom.
+    /// A drag moves the view: orbits about this point, or pans or zooms with respect to it.
     Navigating(Navigation, DVec3),
-    /// It moves the shot's camera by the shot camera tool.
+    /// A drag with the shot camera tool moves the shot's camera, now at this pose.
     Shot(CameraPose),
-    /// It moves the view, and with it the shot's camera at this frame.
+    /// A drag moves the view, and with it the shot's camera at this frame. The pose is the camera's.
     ShotView(Navigation, DVec3, CameraPose),
     /// A tool of Paint has the pointer.
     Painting,
     /// The button is down on an object; after a few pixels this becomes a drag.
     Pressed(DVec2),
-    /// It moves, turns or scales objects.
+    /// Objects or a light are moved, turned or scaled.
     Transforming(Box<TransformDrag>),
 }
 
@@ -152,14 +152,14 @@ pub struct Editor {
     pointer_px: Option<DVec2>,
     held: Modifiers,
     at_secs: f64,
-    /// When the pointer last did something; the clock goes on without it.
+    /// When the pointer last did something. `at_secs` goes on while it rests.
     moved_secs: f64,
     /// Whether the tool was informed that the pointer rests.
     has_rested: bool,
     said: Vec<Said>,
     requests: Vec<Request>,
     version: u64,
-    /// The number of losses of the document that was last reported.
+    /// How many losses the document had when messages were last taken: see [`Document::loss_count`].
     losses: usize,
 }
 
@@ -263,7 +263,7 @@ impl Editor {
         &self.output
     }
 
-    /// Index of the object that is selected last.
+    /// Index of the object that was selected last.
     pub fn active_object(&self) -> Option<usize> {
         let Some(Item::Object(name)) = self.document.selection().active() else { return None };
         self.document.shown().scene.objects.iter().position(|object| object.name == *name)
@@ -293,7 +293,7 @@ impl Editor {
         std::mem::take(&mut self.requests)
     }
 
-    /// Applies a command and adds its messages; whether it was done.
+    /// Applies a command and adds its messages. Returns whether it was done.
     pub fn run(&mut self, command: &Command) -> bool {
         if let Some(posed) = self.take_loose(command) {
             return self.keep(&posed);
@@ -301,7 +301,8 @@ impl Editor {
         self.pose_loosely(command).unwrap_or_else(|| self.keep(command))
     }
 
-    /// Gives the shot camera another pose: a key of this frame in Animate, else all keys move along.
+    /// Gives the shot camera another pose. In Animate this keys the camera at this frame; in other modes all its keys
+    /// move along.
     fn place_shot(&mut self, pose: CameraPose) -> bool {
         let frame = self.session.frame;
         self.run(&match self.session.mode {
@@ -310,7 +311,7 @@ impl Editor {
         })
     }
 
-    /// As [`Editor::run`], but a pose always becomes an entry of the history, never a loose pose.
+    /// As [`Editor::run`], but a pose always becomes an entry of the history, never a loose pose (one without a key).
     fn keep(&mut self, command: &Command) -> bool {
         let result = self.document.apply(command);
         self.edited();
@@ -338,7 +339,7 @@ impl Editor {
         self.told(result)
     }
 
-    /// Moves the document to another folder, if it names no files; see [`Document::live_in`].
+    /// Moves the document to another folder, if it has no file and names none; see [`Document::live_in`].
     pub fn live_in(&mut self, folder: &std::path::Path) -> bool {
         self.document.live_in(folder)
     }
@@ -366,7 +367,7 @@ impl Editor {
         }
     }
 
-    /// Shows the document as it is.
+    /// Ends a preview: shows the document as it is, with its loose poses.
     pub fn end_preview(&mut self) {
         self.show_loose();
         self.version += 1;
@@ -378,7 +379,7 @@ impl Editor {
         self.document.select(selection);
     }
 
-    /// Adds the messages of a command's result; whether anything changed.
+    /// Adds the messages of a command's result. Returns whether anything changed.
     fn told(&mut self, result: Result<Step, Refusal>) -> bool {
         match result {
             Ok(step) => {
@@ -408,7 +409,7 @@ impl Editor {
         }
     }
 
-    /// Handles a key; false if it has no meaning here. `typing`: whether a text field has the focus.
+    /// Handles a key. Returns false if it has no meaning here. `typing` says whether a text field has the focus.
     pub fn key(&mut self, key: Key, held: Modifiers, typing: bool, view: &View) -> bool {
         self.held = held;
         let scope = match (&self.busy, self.session.mode) {

@@ -27,7 +27,7 @@ const RING_PIECES: usize = 64;
 /// One handle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handle {
-    /// The constraint of dragging it.
+    /// What a drag of it is constrained to.
     pub constraint: Constraint,
     /// What it does.
     pub operation: Operation,
@@ -49,12 +49,13 @@ pub enum HandleShape {
         /// X, Y or Z, beyond the tip.
         letter: char,
     },
-    /// A filled square of a plane.
+    /// A filled square that stands for a plane.
     Square {
         /// Its corners in order.
         corners_px: [DVec2; 4],
     },
-    /// A closed line; of an axis, only the half that faces the eye is given, from end to end.
+    /// A line that turns when dragged: about an axis, the half of a ring that faces the eye, from end to end; about the
+    /// gaze, a whole ring.
     Ring {
         /// Points of the line.
         points_px: Vec<DVec2>,
@@ -99,7 +100,8 @@ impl Gizmo {
         &self.handles
     }
 
-    /// The handle under the pointer: the nearest within reach, small ones before large ones.
+    /// The handle under the pointer, if any. The dot goes before squares, squares before arms, arms before rings; of
+    /// several of one kind, the nearest is taken.
     pub fn hit(&self, at_px: DVec2) -> Option<&Handle> {
         let rank = |handle: &Handle| match handle.shape {
             HandleShape::Centre { .. } => 0,
@@ -146,7 +148,7 @@ pub(crate) fn off_px(at_px: DVec2, from_px: DVec2, to_px: DVec2) -> f64 {
 struct Placement<'a> {
     /// The axes of the handles in the world, unit columns.
     axes: DMat3,
-    /// World units of a pixel at the origin.
+    /// Size of a pixel at `origin`, in world units.
     unit: f64,
     origin: DVec3,
     centre_px: DVec2,
@@ -154,8 +156,8 @@ struct Placement<'a> {
 }
 
 impl Placement<'_> {
-    /// Where a point, given in arm lengths along the axes, shows. Without perspective, so that handles keep their shape
-    /// everywhere in the picture.
+    /// Where the point at `arms` (arm lengths along the axes) shows. There is no perspective, so that handles keep
+    /// their shape everywhere in the picture.
     fn px(&self, arms: DVec3) -> DVec2 {
         let [right, up, _] = self.view.axes();
         let at = self.axes * arms * ARM_PX;
@@ -224,7 +226,8 @@ impl Placement<'_> {
         let [right, up, gaze] = self.view.axes();
         for axis in Axis::ALL {
             let normal = self.axes * axis.unit();
-            // A ring shows as an ellipse. Its half that faces the eye runs from one end of the long axis to the other.
+            // A ring shows as an ellipse. The half that faces the eye runs from one end of the ellipse's long axis to
+            // the other.
             let side = normal.cross(gaze).try_normalize();
             let (side, toward, turn) = match side {
                 Some(side) => (side, side.cross(normal), std::f64::consts::PI),

@@ -34,7 +34,8 @@ pub(crate) struct History {
     next_serial: u64,
     /// The serial of the last entry that was dropped to save memory.
     forgotten: u64,
-    /// The serial of the last entry when the file was saved; 0 before all entries; none if no entry matches the file.
+    /// The serial of the last done entry when the file was saved, or 0 if there was no entry then. None if the file was
+    /// never saved in a state of this history.
     saved: Option<u64>,
 }
 
@@ -127,7 +128,7 @@ impl History {
         self.saved = Some(self.here());
     }
 
-    /// How many steps of undo or redo lead back to the saved state; all done ones if it is out of reach.
+    /// How many steps of undo or redo lead back to the saved state. If none can, the number of done steps.
     pub(crate) fn since_saved(&self) -> usize {
         let Some(saved) = self.saved else { return self.done.len() };
         if saved == self.forgotten {

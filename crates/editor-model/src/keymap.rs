@@ -12,15 +12,15 @@ use table::{BINDINGS, DIGITS_AS_NUMPAD};
 /// An action that has a key, or could have one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
-    /// An empty scene.
+    /// Begins an empty scene.
     NewScene,
-    /// A scene or a mesh file.
+    /// Opens a scene or a mesh file.
     OpenScene,
     /// Writes the scene to its file.
     Save,
-    /// Asks for a file first.
+    /// Asks for a file and saves there; it becomes the document's file.
     SaveAs,
-    /// Asks for another file, and stays with its own.
+    /// Asks for a file and saves there; the document keeps its own file.
     SaveCopy,
     /// Reads the scene's file again.
     Revert,
@@ -28,61 +28,61 @@ pub enum Action {
     Quit,
     /// Adds a mesh to the scene.
     ImportMesh,
-    /// The sheet that renders frames.
+    /// Opens the sheet that renders frames.
     Render,
-    /// Takes the last entry back.
+    /// Takes the last entry of the history back.
     Undo,
-    /// Puts it back.
+    /// Does again what was taken back last.
     Redo,
     /// Searches all commands.
     Palette,
     /// Lists all keys.
     Shortcuts,
-    /// Reads the source pane again.
+    /// Reads the scene from the text that was edited in the panel of problems.
     ReadSource,
     /// The next area of the window takes the keys.
     NextArea,
-    /// Mode.
+    /// Switches to this mode.
     Arrange,
-    /// Mode.
+    /// Switches to this mode.
     Paint,
-    /// Mode.
+    /// Switches to this mode.
     Animate,
-    /// Paint, or the mode before it.
+    /// Switches to Paint, or from it back to the mode before.
     TogglePaint,
-    /// Modes in turn.
+    /// Switches to the next mode.
     NextMode,
-    /// Tool of Arrange and Animate.
+    /// Takes this tool of Arrange and Animate.
     Select,
-    /// G.
+    /// Moves what is selected.
     Move,
-    /// R.
+    /// Turns what is selected.
     Turn,
-    /// S.
+    /// Scales what is selected.
     Scale,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     Comb,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     GuideCurve,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     Fill,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     TurnDirection,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     Smooth,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     Erase,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     Region,
-    /// Tool of Paint.
+    /// Takes this tool of Paint.
     Pick,
     /// The radius follows the pointer until a press.
     SizeRadius,
     /// The strength follows the pointer until a press.
     SizeStrength,
-    /// A smaller brush.
+    /// Makes the brush smaller.
     SmallerRadius,
-    /// A larger brush.
+    /// Makes the brush larger.
     LargerRadius,
     /// Turns the direction under the cursor round.
     FlipUnderCursor,
@@ -92,59 +92,59 @@ pub enum Action {
     SelectNone,
     /// Deletes what is selected.
     Delete,
-    /// Doubles what is selected.
+    /// Adds a copy of what is selected.
     Duplicate,
-    /// Types a new name.
+    /// Lets the user type a new name for what is selected.
     Rename,
-    /// Adds a thing.
+    /// Opens the menu of things to add.
     Add,
-    /// Hides or shows.
+    /// Hides what is selected, or shows it again.
     Hide,
     /// Shows everything.
     ShowAll,
-    /// Locks or unlocks.
+    /// Locks what is selected, or unlocks it.
     Lock,
-    /// Shows the selected large.
+    /// Moves the view so that what is selected fills it.
     FrameSelected,
-    /// Shows all.
+    /// Moves the view so that all objects fill it.
     FrameAll,
-    /// From +Z.
+    /// Looks from +Z.
     ViewFront,
-    /// From +X.
+    /// Looks from +X.
     ViewRight,
-    /// From +Y.
+    /// Looks from +Y.
     ViewTop,
-    /// Parallel rays, or not.
+    /// Switches between a parallel view and a perspective one.
     ToggleOrthographic,
     /// Looks through the shot camera.
     LookThrough,
-    /// The shot camera takes this view.
+    /// Gives this view to the shot camera.
     CameraFromView,
     /// Compares with the reference.
     Compare,
-    /// Direction lines: off, plain, by region.
+    /// Switches the direction lines: off, plain, by region.
     CycleDirections,
-    /// The trust overlay.
+    /// Shows or hides the trust overlay.
     ToggleTrust,
-    /// The right column.
+    /// Shows or hides the right column.
     ToggleColumn,
-    /// Only the viewport.
+    /// Shows only the viewport, or everything again.
     MaximiseViewport,
     /// Keys the pose.
     SetKey,
     /// Plays or stops.
     Play,
-    /// One frame back.
+    /// Goes one frame back.
     StepBack,
-    /// One frame on.
+    /// Goes one frame on.
     StepOn,
-    /// To the key before.
+    /// Goes to the key before this frame.
     PreviousKey,
-    /// To the next key.
+    /// Goes to the key after this frame.
     NextKey,
-    /// To the first frame.
+    /// Goes to the first frame.
     FirstFrame,
-    /// To the last frame.
+    /// Goes to the last frame.
     LastFrame,
     /// Moves the selected keys one frame back.
     NudgeKeysBack,
@@ -156,9 +156,9 @@ pub enum Action {
     HoldPlane(Axis),
     /// Ends a modal tool and keeps what it did.
     Confirm,
-    /// As if never begun.
+    /// Ends a modal tool and undoes what it did.
     Cancel,
-    /// Takes back the last character or point.
+    /// Removes the last typed character, or the last point of a curve.
     TakeBack,
 }
 
@@ -191,13 +191,13 @@ pub enum Key {
     Delete,
     /// Home.
     Home,
-    /// Arrow.
+    /// Arrow to the left.
     Left,
-    /// Arrow.
+    /// Arrow to the right.
     Right,
-    /// Arrow.
+    /// Arrow upwards.
     Up,
-    /// Arrow.
+    /// Arrow downwards.
     Down,
 }
 
@@ -212,7 +212,7 @@ pub struct Modifiers {
     pub alt: bool,
 }
 
-/// A key with what is held.
+/// A key with the modifiers that are held with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Chord {
     /// The key.
@@ -261,11 +261,11 @@ pub enum Scope {
     Typing,
     /// A lane of the timeline is focused and a key in it selected.
     Lane,
-    /// Mode.
+    /// In this mode, and none of the above.
     Arrange,
-    /// Mode.
+    /// In this mode, and none of the above.
     Paint,
-    /// Mode.
+    /// In this mode, and none of the above.
     Animate,
 }
 
@@ -320,7 +320,7 @@ impl Keymap {
         chords.first().map(Chord::text)
     }
 
-    /// Every binding as a list of keys shows it, in the order of the menus.
+    /// Every binding that has keys, for a list of keys, in the order of the menus.
     pub fn listed(&self) -> impl Iterator<Item = Listed> {
         self.bindings().filter(|(_, chords)| !chords.is_empty()).map(|(binding, chords)| {
             let keys: Vec<String> = chords.iter().map(Chord::text).collect();
@@ -375,7 +375,7 @@ impl Keymap {
 pub struct Listed {
     /// What the keys do.
     pub action: Action,
-    /// The first scope in which they do it; none for everywhere.
+    /// The first scope in which they do it; `None` for everywhere.
     pub scope: Option<Scope>,
     /// The keys: *Ctrl Z, Z*.
     pub keys: String,
@@ -384,11 +384,11 @@ pub struct Listed {
 /// A button of the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Button {
-    /// The first.
+    /// The main button.
     Left,
     /// The wheel's own button.
     Middle,
-    /// The second.
+    /// The other button.
     Right,
     /// Turns of the wheel.
     Wheel,
@@ -397,11 +397,11 @@ pub enum Button {
 /// What a drag does to the view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Navigation {
-    /// Round a point.
+    /// Moves the camera round a point.
     Orbit,
-    /// Sideways.
+    /// Moves the camera sideways.
     Pan,
-    /// Nearer and farther.
+    /// Moves the camera nearer or farther.
     Zoom,
 }
 

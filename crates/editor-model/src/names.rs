@@ -4,7 +4,7 @@ use impasto_scene::document::{Scene, Selector};
 
 use crate::refusal::Refusal;
 
-/// A name that none of `taken` has: `apple`, `apple 2`, `apple 3`.
+/// The wanted name if it is not in `taken`, else the first numbered one that is not: `apple 2`, `apple 3`.
 pub(crate) fn unique<'a>(wanted: &str, taken: impl Iterator<Item = &'a str> + Clone) -> String {
     let is_free = |name: &str| taken.clone().all(|other| other != name);
     if is_free(wanted) {

@@ -63,7 +63,7 @@ pub enum Faces {
 pub struct PathPoint {
     /// Where it shows in the view that it was drawn in, pixels.
     pub at_px: DVec2,
-    /// Where, in the object's own space.
+    /// Where it lies, in the object's own space.
     pub position: DVec3,
     /// Normal of the surface there, unit.
     pub normal: DVec3,
@@ -81,7 +81,7 @@ pub struct SurfacePath {
     curve: PointerCurve,
     /// The end of the string, which draws.
     tip: DVec2,
-    /// Where the tip was looked up last.
+    /// Where the tip was when the surface under it was looked up last.
     sampled_px: DVec2,
     /// Whether there was no surface to draw on at the last look-up.
     lifted: bool,
@@ -91,7 +91,7 @@ pub struct SurfacePath {
 /// How the guides of a path are written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GuideStyle {
-    /// What it does with the strokes that it reaches.
+    /// What the guides do with the strokes that they reach.
     pub mode: GuideMode,
     /// Name of the object, where the region covers more than one.
     pub object: Option<String>,
@@ -198,14 +198,14 @@ impl SurfacePath {
         stamps
     }
 
-    /// The pieces as guides, each as few points as keep it within half a pixel. `seen` is the view that it was drawn
-    /// in, `reference` the one that the region's directions refer to.
+    /// The pieces as guides, each with as few points as keep it within half a pixel. `seen` is the view that the path
+    /// was drawn in, `reference` the view that the region's directions refer to.
     pub fn guides(&self, style: &GuideStyle, seen: &ObjectView, reference: &ObjectView) -> Vec<Guide> {
         self.guides_turned(style, [seen, reference], &|_, _| 0.0)
     }
 
-    /// The same, with strokes turned from the gesture's line: `turn_deg` is asked at each point, with the angle at
-    /// which the line shows there (radians, counter-clockwise).
+    /// As [`Self::guides`], but strokes are turned from the gesture's line. `turn_deg` gives the turn at a point; its
+    /// second argument is the angle at which the line shows there (radians, counter-clockwise).
     pub fn guides_turned(
         &self,
         style: &GuideStyle,
@@ -242,7 +242,7 @@ impl SurfacePath {
         guides
     }
 
-    /// Draws from the tip on to where the pointer was released: the string had kept it behind.
+    /// Draws on from the tip, which the string kept behind, to where the pointer was released.
     fn finish_at(&mut self, hand: DVec2, pick: &mut dyn FnMut(DVec2) -> Option<Hit>) {
         let from = self.tip;
         let count = (from.distance(hand) / STEP_PX).ceil().clamp(1.0, 65_536.0) as u32;
@@ -289,8 +289,8 @@ impl SurfacePath {
         takes_part.then(|| PathPoint::new(at_px, &hit))
     }
 
-    /// Whether the surface is connected between two steps, and does not jump, as from a fold to what is behind it.
-    /// Bisects the step: on a connected surface the distance shrinks, across a gap it stays.
+    /// Whether the surface is connected between two steps; it is not where it jumps from a fold to what lies behind.
+    /// Bisects the step: on a connected surface the distance between its ends shrinks, across a gap it does not.
     fn is_connected(
         &self,
         mut from: PathPoint,
@@ -313,8 +313,8 @@ impl SurfacePath {
     }
 }
 
-/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through its
-/// neighbours.
+/// The angle at which a line shows at one of its points, counter-clockwise: the tangent of the arc through the point
+/// and its two neighbours.
 fn line_rad(points: &[PathPoint], index: usize) -> f64 {
     let piece = |from: usize| points[from + 1].at_px - points[from].at_px;
     let last = points.len() - 2;

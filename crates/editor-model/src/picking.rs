@@ -37,9 +37,10 @@ pub struct Hit {
     pub barycentric: [f64; 3],
     /// Where, in the object's own space.
     pub position_in_model: DVec3,
-    /// Smooth normal of the painted side, unit; a sheet is painted on both sides, and this is the one that was met.
+    /// Smooth normal of the painted side, unit. Of a sheet, which is painted on both sides, that of the side that was
+    /// met.
     pub normal_in_model: DVec3,
-    /// Normal of the flat triangle, unit, of the same side.
+    /// Normal of the flat triangle on the same side, unit.
     pub face_normal_in_model: DVec3,
     /// Where, in world space.
     pub position_in_world: DVec3,
@@ -47,7 +48,7 @@ pub struct Hit {
     pub distance: f64,
     /// Whether the painted side was met: false inside a closed surface.
     pub front: bool,
-    /// Whether that side is the triangle's back: it winds the other way.
+    /// Whether the painted side is the triangle's back, seen from which its corners wind the other way.
     pub flipped: bool,
 }
 
@@ -66,7 +67,7 @@ impl Picker {
             .enumerate()
             .map(|(index, (surface, shape))| {
                 let shape = shape.clone().into();
-                // The same index first; an added or removed object shifts the others.
+                // The same index is tried first. Then all are, because an added or removed object shifts the others.
                 let all = kept.get(index).into_iter().chain(&kept).chain(&offered);
                 let known = all.into_iter().find(|tree| tree.is_of(surface, &shape));
                 known.map_or_else(
@@ -113,8 +114,9 @@ impl Picker {
         nearest
     }
 
-    /// The point of an object's surface nearest to a point of its own space, within `max_distance` (model units) and
-    /// with a painted side that faces as `facing` does; of a sheet, that side.
+    /// The point of an object's surface that is nearest to `position_in_model`, at most `max_distance` (model units)
+    /// from it. Only points whose painted side faces as `facing` does count. A sheet has two painted sides: the one
+    /// that faces so is taken.
     pub fn closest_on_surface(
         &self,
         object: usize,

@@ -1,5 +1,5 @@
-//! Playback: which frame is to be shown now, and which were never shown. The clock is handed in, as seconds of any
-//! clock.
+//! Plays the shot in the editor: says which frame is to be shown now, and which frames were dropped. The time is handed
+//! in, as seconds of any clock.
 //!
 //! ```text
 //! play ─▶ tick(now) ─▶ frame asked for ─▶ a picture ─▶ shown(frame, now) ─▶ dropped, lead
@@ -19,7 +19,7 @@ const SLEPT_SECS: f64 = 5.0;
 const MOST_LEAD_SECS: f64 = 0.4;
 /// The share of a picture's lateness that is added to the lead.
 const LEAD_GAIN: f64 = 0.2;
-/// How much the newest interval counts in the mean time between pictures.
+/// The weight of the newest interval in the mean time between pictures.
 const RATE_GAIN: f64 = 0.2;
 /// Tolerance against rounding of times, in frames.
 const ROUNDING: f64 = 1e-6;
@@ -68,7 +68,7 @@ struct Playing {
     ticked_secs: f64,
     asked: i64,
     shown: i64,
-    /// When the next frame is due, where every one is shown.
+    /// With [`Pacing::EveryFrame`], when the shown frame was due; the next is due one frame later.
     due_secs: f64,
     shown_secs: f64,
     /// Mean seconds between pictures.
@@ -105,7 +105,7 @@ impl Playing {
         (!self.course.looped).then_some(self.course.last - self.start_frame)
     }
 
-    /// Index of a picture of this frame: the latest one with this frame number that was asked for.
+    /// The latest index that was asked for and that shows this frame.
     fn index_of(&self, frame: i64) -> i64 {
         let behind = self.frame_of(self.asked) - frame;
         let behind = if self.course.looped { behind.rem_euclid(self.course.count()) } else { behind };
@@ -161,7 +161,7 @@ impl Playback {
         self.playing.is_some()
     }
 
-    /// The frame that should be drawn next; `None` once it has stopped.
+    /// The frame that should be drawn next; `None` once playback has stopped.
     pub fn tick(&mut self, course: Course, now_secs: f64) -> Option<f64> {
         let lead_secs = self.lead_secs;
         let playing = self.playing.as_mut()?;
@@ -196,7 +196,8 @@ impl Playback {
         self.playing.as_ref().map(|playing| playing.frame_of(playing.asked) as f64)
     }
 
-    /// A picture of this frame is shown. Returns whether playing goes on to it: it was asked for, and not shown before.
+    /// Call this when a picture of this frame is shown. Returns whether playing goes on to it: it was asked for, and is
+    /// later than what was shown.
     pub fn shown(&mut self, frame: f64, now_secs: f64) -> bool {
         let Some(playing) = &mut self.playing else { return false };
         let (Course { fps, pacing, .. }, index) = (playing.course, playing.index_of(frame.round() as i64));
@@ -234,7 +235,7 @@ impl Playback {
         self.missed.iter().copied()
     }
 
-    /// Pictures a second, once there are some.
+    /// Pictures a second; `None` before the first picture.
     pub fn rate(&self) -> Option<f64> {
         let interval = self.playing.as_ref()?.interval_secs?;
         (interval > 0.0).then(|| 1.0 / interval)

@@ -1,4 +1,4 @@
-//! Copies of unsaved work, in a folder of the user's: written during work, offered again after a crash.
+//! Copies of unsaved work, in a folder of the user's: written during work, and offered to the user after a crash.
 //!
 //! ```text
 //! Document ─▶ Work ─▶ Keeper (a thread) ─▶ Recovery::keep ─▶ NAME.ron   whole or not at all, never over a scene
@@ -44,7 +44,7 @@ pub struct Recovery {
     _lock: File,
 }
 
-/// A copy that no living session holds. While it is held, no other session is offered it.
+/// A copy that no living session holds. While this exists, no other session is offered the copy.
 #[derive(Debug)]
 pub struct Offer {
     /// The copy.
@@ -55,7 +55,7 @@ pub struct Offer {
 }
 
 impl Recovery {
-    /// A place for one session; `name` must be its own, as a process id with the time of its start.
+    /// Makes the place for one session. `name` must be unique, such as a process id with the time of its start.
     ///
     /// # Errors
     /// What the system said: the folder cannot be made or written.
@@ -68,10 +68,10 @@ impl Recovery {
         Ok(Self { folder: folder.to_owned(), name: name.to_owned(), _lock: lock })
     }
 
-    /// Writes the copy of this session; at any moment it is the one before or this one, whole.
+    /// Writes the copy of this session. Its file is never half written: it is replaced as a whole.
     ///
     /// # Errors
-    /// What the system said; the copy before is untouched.
+    /// What the system said; the previous copy is untouched.
     pub fn keep(&self, work: &Work) -> io::Result<()> {
         let mut file = WholeFile::create_private(&self.file())?;
         file.write_all(work.to_text().as_bytes())?;
@@ -89,7 +89,7 @@ impl Recovery {
         }
     }
 
-    /// Goes on with a copy that was offered: it is this session's from now on.
+    /// Makes an offered copy this session's own, so that work goes on with it.
     ///
     /// # Errors
     /// What the system said; the copy then stays what it was.
@@ -97,12 +97,12 @@ impl Recovery {
         fs::rename(&offer.file, self.file())?;
         // A lock without a copy means nothing; if it cannot be removed, the next call of `offers` does it.
         let _ = fs::remove_file(&offer.lock_file);
-        // The renaming is on the disk only when its folder is.
+        // The rename is safe on the disk only after its folder was written there.
         if cfg!(unix) { File::open(&self.folder)?.sync_all() } else { Ok(()) }
     }
 
-    /// The copies that ended sessions left behind, the newest first. Deletes their other files, and all copies but the
-    /// newest [`MAX_COPIES`].
+    /// The copies that ended sessions left behind, the newest first. Deletes all but the newest [`MAX_COPIES`] of them,
+    /// and other files of ended sessions.
     pub fn offers(folder: &Path) -> Vec<Offer> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
         let files: Vec<PathBuf> =
@@ -160,7 +160,7 @@ impl Offer {
     }
 }
 
-/// The lock of a session that has ended; `None` if it lives.
+/// The lock of a session that has ended; `None` if the session is still running.
 fn lock_of(lock_file: &Path) -> Option<File> {
     let lock = File::options().create(true).truncate(false).write(true).open(lock_file).ok()?;
     match lock.try_lock() {

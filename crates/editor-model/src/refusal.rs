@@ -8,7 +8,8 @@ use impasto_scene::problem::Report;
 pub struct Refusal(pub String);
 
 impl Refusal {
-    /// The first thing that is wrong with a document or a file.
+    /// The refusal of a document or a file, in the words of its first fatal problem; of its first problem if none is
+    /// fatal.
     pub fn of(report: &Report) -> Self {
         let first = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
         Self(first.map_or_else(String::new, |problem| format!("{}; {}", problem.message, problem.mend)))

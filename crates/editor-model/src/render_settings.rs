@@ -36,7 +36,7 @@ pub enum Which {
     All,
     /// The frame that is shown.
     This,
-    /// Those of the list.
+    /// Those of [`RenderSettings::list`].
     Listed,
 }
 
@@ -120,7 +120,7 @@ pub struct RenderPlan {
 }
 
 impl RenderSettings {
-    /// The whole shot as the scene has it.
+    /// Settings for the whole shot at the scene's size.
     pub fn of(scene: &Scene) -> Self {
         Self {
             which: Which::All,
@@ -167,7 +167,7 @@ impl RenderSettings {
 }
 
 impl RenderPlan {
-    /// The same, where files that are there stay.
+    /// The same plan, but files that are there already stay.
     pub fn keeping(self) -> Self {
         Self { existing: Existing::Keep, ..self }
     }
@@ -206,11 +206,11 @@ impl RenderPlan {
     /// Makes the folder; checks that files can be written there, and that none is a file that the scene is read from.
     ///
     /// # Errors
-    /// [`PlaceError`].
+    /// When files cannot be written there, or one would replace a file that the scene is read from.
     pub fn ready(&self) -> Result<(), PlaceError> {
         ready_folder(&self.output)?;
         let inputs = self.loaded.inputs();
-        // Only a picture can be both read and written.
+        // Frames are PNG files, so only a picture that the scene reads can be one of them.
         let ours: HashSet<PathBuf> = self.frames.iter().map(|frame| self.path(frame)).collect();
         let is_ours = |input: &&PathBuf| {
             let input = std::path::absolute(input).unwrap_or_else(|_| (*input).clone());
@@ -235,12 +235,12 @@ fn whole_range(scene: &Scene) -> String {
     }
 }
 
-/// *120 frames*.
+/// A count in words: *1 frame*, *120 frames*.
 pub fn counted_frames(count: u64) -> String {
     if count == 1 { "1 frame".to_owned() } else { format!("{count} frames") }
 }
 
-/// A size as a percentage of the scene's.
+/// The scene's size, scaled to `percent`.
 pub fn scaled(scene: &Scene, percent: u32) -> [u32; 2] {
     [scene.size.0, scene.size.1].map(|side| side.saturating_mul(percent).div_ceil(100).max(1))
 }

@@ -1,4 +1,4 @@
-//! The selection: things of the document, by name.
+//! The selection: which things of the document are selected, by their names.
 
 use impasto_scene::document::Scene;
 
@@ -13,12 +13,12 @@ pub enum Item {
     Object(String),
     /// A region, by name.
     Region(String),
-    /// A guide: its region's name and its place in it.
+    /// A guide: the name of its region, and its index among that region's guides.
     Guide(String, usize),
 }
 
 impl Item {
-    /// Its name.
+    /// Its name; for a guide, the name of its region.
     pub fn name(&self) -> &str {
         match self {
             Self::Camera => "shot",

@@ -7,12 +7,12 @@ use crate::playback::Pacing;
 /// The mode: what a drag with the left button does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// It moves things with their whole motion.
+    /// A drag moves things together with all their keys.
     #[default]
     Arrange,
-    /// It paints directions.
+    /// A drag paints directions.
     Paint,
-    /// It keys the pose at this frame.
+    /// A drag changes the pose at this frame.
     Animate,
 }
 
@@ -27,23 +27,23 @@ pub enum Tool {
     Turn,
     /// Arrange, Animate: the gizmo's boxes.
     Scale,
-    /// Arrange: a light where one clicks.
+    /// Arrange: adds a light where one clicks.
     AddLight,
-    /// Arrange: the shot camera.
+    /// Arrange: orbits the shot camera.
     ShotCamera,
     /// Paint: strokes follow the drag.
     Comb,
-    /// Paint: a curve by its points.
+    /// Paint: draws a guide as a curve through points.
     GuideCurve,
-    /// Paint: one direction for a whole region.
+    /// Paint: states one direction for a whole region.
     Fill,
     /// Paint: turns or flips a region's directions.
     TurnDirection,
     /// Paint: smooths the directions under the drag, or smears them.
     Smooth,
-    /// Paint: back to the region's base direction.
+    /// Paint: cuts guides away, so that strokes follow the region's base direction again.
     Erase,
-    /// Paint: which faces belong to a region.
+    /// Paint: chooses which faces belong to a region.
     Region,
     /// Paint: takes the direction under the cursor.
     Pick,
@@ -101,7 +101,7 @@ pub enum Axes {
 /// The direction that a fill states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FillKind {
-    /// As a painter would begin.
+    /// Chosen from the shape of the surface, as `Auto` in a scene file.
     #[default]
     Automatic,
     /// Along the least bend of the surface.
@@ -122,7 +122,7 @@ pub enum RegionBy {
     /// Dabs of a brush.
     #[default]
     Brush,
-    /// Faces that bend less than an angle from where one clicks.
+    /// Faces that are reached from the clicked one without crossing an edge that bends more than an angle.
     Flood,
     /// A group of the mesh file.
     Group,
@@ -133,12 +133,12 @@ pub enum RegionBy {
 /// What the region tool does with the faces that it chose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RegionDoes {
-    /// Makes a region of it.
+    /// Makes a region of them.
     New,
-    /// Adds it to the selected region.
+    /// Adds them to the selected region.
     #[default]
     Add,
-    /// Takes it away from the selected region.
+    /// Takes them away from the selected region.
     TakeAway,
 }
 
@@ -149,15 +149,15 @@ pub struct ToolOptions {
     pub radius_px: f64,
     /// How far strokes follow, 0..=1.
     pub strength: f64,
-    /// Strokes run against the drag.
+    /// Whether strokes run against the drag.
     pub against: bool,
-    /// Full strength up to the radius.
+    /// Whether the strength is full up to the radius; else it falls off.
     pub even: bool,
     /// How much the drag is steadied, 0..=1.
     pub steady: f64,
-    /// Mirrored across the object's own axes.
+    /// For each of the object's own axes, whether what is painted is mirrored along it.
     pub mirror: [bool; 3],
-    /// Only what faces the eye.
+    /// Whether only surfaces that face the eye are painted.
     pub front_only: bool,
     /// Whether Smooth smears instead.
     pub smear: bool,
@@ -165,21 +165,21 @@ pub struct ToolOptions {
     pub fill: FillKind,
     /// The angle of a constant fill, degrees.
     pub fill_angle_deg: f64,
-    /// Whether Turn flips; else it turns by a drag.
+    /// Whether Turn direction flips directions; else it turns them by a drag.
     pub flip: bool,
-    /// How the region tool chooses.
+    /// How the region tool chooses faces.
     pub region_by: RegionBy,
-    /// What it does with it.
+    /// What the region tool does with the chosen faces.
     pub region_does: RegionDoes,
     /// The bend at which a flood stops, degrees.
     pub flood_deg: f64,
-    /// Axes of gizmo and typed moves.
+    /// The axes that the gizmo and typed moves follow.
     pub axes: Axes,
-    /// Moves snap to tenths of a unit, turns to 5 degrees.
+    /// Whether moves snap to tenths of a unit, and turns to 5 degrees.
     pub snap: bool,
     /// What kind of light Add light adds.
     pub light: LightKind,
-    /// Strokes inside the ring are shown as a comb would lay them, before the press.
+    /// Whether strokes inside the ring are shown as a comb would lay them, before the press.
     pub foresee: bool,
 }
 
@@ -200,21 +200,21 @@ pub struct Session {
     pub shading: Shading,
     /// What is drawn over it.
     pub overlays: Overlays,
-    /// Reference and now, side by side.
+    /// Whether the reference and this frame are shown side by side.
     pub compare: bool,
     /// The frame that is shown.
     pub frame: f64,
     /// The frame to come back to when Paint is left.
     pub frame_before_paint: Option<f64>,
-    /// Playing begins again at the end of the range.
+    /// Whether playing begins again at the end of the range.
     pub looped: bool,
     /// Whether playing follows the clock or shows every frame.
     pub pacing: Pacing,
-    /// In Animate a pose is keyed as it is made.
+    /// Whether a pose made in Animate is keyed at once.
     pub auto_key: bool,
-    /// In Animate, moving the view through the shot camera moves the camera.
+    /// Whether, in Animate, moving the view through the shot camera moves the camera.
     pub lock_to_view: bool,
-    /// Lanes of keys: in Animate, and in the other modes.
+    /// Whether the lanes of keys are open: in Animate, and in the other modes.
     pub lanes: [bool; 2],
 }
 
@@ -276,12 +276,12 @@ impl Session {
         self.lanes[usize::from(self.mode != Mode::Animate)]
     }
 
-    /// Opens the lanes of keys, or folds them to a strip; Animate remembers its own.
+    /// Opens the lanes of keys, or folds them to a strip. This is remembered for Animate apart from the other modes.
     pub fn show_lanes(&mut self, shown: bool) {
         self.lanes[usize::from(self.mode != Mode::Animate)] = shown;
     }
 
-    /// Takes a tool up; one of another mode changes the mode's tool, not the mode.
+    /// Takes a tool up. A tool of another mode is taken up in that mode; the mode stays.
     pub fn set_tool(&mut self, tool: Tool) {
         if tool.is_for_paint() {
             self.paint_tool = tool;
@@ -290,7 +290,8 @@ impl Session {
         }
     }
 
-    /// Changes the mode. Paint moves to the reference's frame; leaving it brings the frame back.
+    /// Changes the mode. Entering Paint goes to the reference's frame. Leaving it goes back to the frame before, unless
+    /// another frame was chosen in Paint.
     pub fn set_mode(&mut self, mode: Mode, reference_frame: f64) {
         if mode == self.mode {
             return;

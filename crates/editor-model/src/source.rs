@@ -1,4 +1,5 @@
-//! The text of a scene that could not be read completely, with a list of what was lost.
+//! Keeps the text of a scene that could not be read completely, with a list of what was lost, so that the user can
+//! repair it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -36,8 +37,8 @@ impl Source {
         })
     }
 
-    /// The scene with the boxes added to its meshes, so that an edited scene that names such a mesh can still use its
-    /// box.
+    /// The scene with the boxes added to its meshes, so that an edited scene which names an unusable mesh still gets
+    /// its box.
     pub(crate) fn held(&self, loaded: &LoadedScene) -> LoadedScene {
         let mut held = loaded.clone();
         for (name, stand_in) in &self.stand_ins {

@@ -1,5 +1,5 @@
-//! Stamps of files, to see whether a file is still the one that was read: compares size and time, then a hash of the
-//! bytes.
+//! Stamps of files, which show whether a file has changed since it was read: first its size and time are compared, then
+//! a hash of its bytes.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -25,7 +25,7 @@ impl Stamp {
         Some(Self { bytes: metadata.len(), modified: metadata.modified().ok(), hash })
     }
 
-    /// Whether a file has another size or time. Does not read it.
+    /// Whether a file has another size or time than before. Does not read it.
     pub fn looks_other(before: Option<&Self>, path: &Path) -> bool {
         let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
         match (before, metadata) {

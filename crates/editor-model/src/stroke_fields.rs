@@ -22,7 +22,8 @@ pub fn field_values(scene: &Scene, region: Option<usize>) -> Vec<FieldValue> {
     let unstated = without_numbers(own);
     // Lengths are shown without `scale`, which is shown as a number of its own.
     let of_scene = StrokeSettings { scale: None, ..scene.strokes.clone() };
-    // What a number is when it is not stated does not depend on the other numbers, so one call finds all of them.
+    // The value of a number that is not stated does not depend on the other numbers. So one call with no number stated
+    // finds this value for all of them.
     let usual = match region {
         Some(_) => presets::resolve_with(scene, &of_scene, Some(&unstated)),
         None => presets::resolve_with(scene, &unstated, None),

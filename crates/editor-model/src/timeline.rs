@@ -35,12 +35,12 @@ pub struct TimeHand {
     pub playback: Playback,
     /// Selected keys, and what is done to them.
     pub keys: KeysHand,
-    /// While scrubbing, whether playing goes on afterwards.
+    /// Whether playback goes on after the scrubbing; `None` when nobody scrubs.
     pub(crate) scrubbing: Option<bool>,
     pub(crate) loose: Option<LoosePoses>,
-    /// The loose poses that were dropped last, until something else is done.
+    /// The loose poses that were dropped last. They can be restored until something else is done.
     pub(crate) put_back: Option<LoosePoses>,
-    /// The frame that playing showed last; any other was set by the user.
+    /// The frame that playback showed last. If another frame shows, the user has set it.
     pub(crate) played: Option<f64>,
 }
 
@@ -50,12 +50,12 @@ pub(crate) struct LoosePoses {
     pub(crate) frame: f64,
     /// For each posed thing, its name and the command that keys it.
     pub(crate) poses: Vec<(String, Command)>,
-    /// The scene with them.
+    /// The scene with these poses.
     pub(crate) loaded: Arc<LoadedScene>,
 }
 
 impl LoosePoses {
-    /// The command that keys them all.
+    /// The command that keys all these poses.
     pub(crate) fn command(&self) -> Command {
         match &self.poses[..] {
             [(_, command)] => command.clone(),
@@ -66,7 +66,7 @@ impl LoosePoses {
         }
     }
 
-    /// *apple*, *2 objects*.
+    /// What is posed, in words: *apple*, or *2 objects*.
     pub(crate) fn names(&self) -> String {
         match &self.poses[..] {
             [(name, _)] => name.clone(),

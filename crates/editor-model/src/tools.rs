@@ -45,7 +45,7 @@ pub struct Surroundings<'a> {
     pub view: &'a View,
     /// The objects' `world_from_model` at the frame that is shown.
     pub poses: &'a [DAffine3],
-    /// Their surfaces.
+    /// The objects' surfaces.
     pub picker: &'a Picker,
     /// Settings of the tools.
     pub options: &'a ToolOptions,
@@ -60,7 +60,7 @@ pub trait Painted {
     /// Index of the region at a hit, if there is one.
     fn region_at(&self, hit: &Hit) -> Option<usize>;
 
-    /// How strokes show there now.
+    /// How strokes show at a hit now.
     fn shown_at(&self, hit: &Hit) -> Option<PaintedDirection>;
 }
 
@@ -171,7 +171,7 @@ impl<'a> Surroundings<'a> {
         at_px.is_finite().then(|| self.picker.pick(&self.view.ray(at_px), self.poses, visible))?
     }
 
-    /// Whether a hit may be painted on.
+    /// What a press at a hit would paint on, or why nothing may be painted there.
     pub(crate) fn paintable(&self, hit: Option<&Hit>) -> Result<Paintable, Refusal> {
         let hit = hit.ok_or_else(|| Refusal::new(NOTHING_HERE))?;
         let object = self.object(hit.object).ok_or_else(|| Refusal::new(NOTHING_HERE))?;
@@ -194,7 +194,7 @@ impl<'a> Surroundings<'a> {
         Ok(Paintable { object: hit.object, region: Some(index), target, name, object_name })
     }
 
-    /// The view, and the reference of a region, as an object sees them.
+    /// The current view and the view of a region's reference, both relative to an object.
     pub(crate) fn views(&self, object: usize, region: Option<usize>) -> [ObjectView; 2] {
         let (camera, pose) = self.reference(object, region);
         [ObjectView::new(&self.view.camera, self.pose(object)), ObjectView::new(&camera, pose)]
@@ -213,7 +213,7 @@ impl<'a> Surroundings<'a> {
         self.poses.get(object).copied().unwrap_or(DAffine3::IDENTITY)
     }
 
-    /// A point of an object's own space in the world.
+    /// Takes a point of an object's own space into the world.
     pub(crate) fn world(&self, object: usize, position: DVec3) -> DVec3 {
         self.pose(object).transform_point3(position)
     }

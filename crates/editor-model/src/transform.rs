@@ -17,22 +17,22 @@ use typed::Typed;
 /// The kind of a transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// G.
+    /// Moves (key G).
     Move,
-    /// R.
+    /// Turns (key R).
     Turn,
-    /// S.
+    /// Scales (key S).
     Scale,
 }
 
 /// One axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
-    /// Red.
+    /// Drawn in red.
     X,
-    /// Green.
+    /// Drawn in green.
     Y,
-    /// Blue.
+    /// Drawn in blue.
     Z,
 }
 
@@ -51,27 +51,27 @@ pub enum Constraint {
 /// The result of a transform, with axes and factors in [`Transforming::space`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformDelta {
-    /// By this much, world units, along the axes of its space.
+    /// A movement along the axes of its space, world units.
     Move(DVec3),
-    /// About an axis of its space (unit), counter-clockwise as seen from where it points to.
+    /// A turn about an axis of its space, counter-clockwise as seen from the tip of the axis.
     Turn {
         /// Unit.
         axis: DVec3,
         /// Radians.
         angle_rad: f64,
     },
-    /// By these factors along the axes of its space.
+    /// A scaling by these factors along the axes of its space.
     Scale(DVec3),
 }
 
 /// An event from pointer or keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformEvent {
-    /// The pointer moved; what it snaps to.
+    /// The pointer moved.
     Move {
-        /// Where, pixels.
+        /// Where it is now, pixels.
         at_px: DVec2,
-        /// Ctrl: steps of 0.1, or of 5°.
+        /// In steps while Ctrl is held.
         snap: Snap,
     },
     /// X, Y or Z.
@@ -80,30 +80,30 @@ pub enum TransformEvent {
     Plane(Axis),
     /// A digit, `.`, or `-`.
     Typed(char),
-    /// Takes back the last character.
+    /// Removes the last typed character.
     Backspace,
-    /// Enter or a press; of a gizmo, its release.
+    /// Keeps the result: Enter, a press or, if a handle of the gizmo is dragged, its release.
     Keep,
-    /// Esc or a right press; or the window lost its focus.
+    /// Esc, a right press, or the loss of the window's focus cancels it.
     Back,
 }
 
 /// Whether values go in steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Snap {
-    /// As they come.
+    /// Any value.
     #[default]
     Free,
-    /// 0.1, or 5°.
+    /// Multiples of 0.1, or of 5°.
     Steps,
 }
 
 /// The result of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TransformStep {
-    /// Goes on; this is what it would do.
+    /// The transform goes on; this is its result so far.
     Preview(TransformDelta),
-    /// Done; to be applied as one undo entry. `None` if it changes nothing.
+    /// The transform has ended; its result is to be applied as one undo entry. `None` if it changes nothing.
     Kept(Option<TransformDelta>),
     /// Cancelled.
     Back,
@@ -154,7 +154,7 @@ pub struct TransformStart {
 }
 
 impl Transforming {
-    /// Begins by a key.
+    /// A transform that begins with a key.
     pub fn new(operation: Operation, start: TransformStart) -> Self {
         Self {
             name: start.name,
@@ -172,7 +172,7 @@ impl Transforming {
         }
     }
 
-    /// Begins by a press on a handle of the gizmo.
+    /// A transform that begins with a press on a handle of the gizmo.
     pub fn held(operation: Operation, constraint: Constraint, start: TransformStart) -> Self {
         Self { constraint, ..Self::new(operation, start) }
     }
@@ -292,8 +292,8 @@ impl Transforming {
         }
     }
 
-    /// Sets a constraint. The same axis a second time means the object's own axis (or the world's, if the object's came
-    /// first), a third time none.
+    /// Sets a constraint. If the same axis comes a second time, it means the object's own axis (or the world's axis, if
+    /// the object's was first). If it comes a third time, there is no constraint.
     fn hold(&mut self, constraint: Constraint) {
         let other = if self.first_space == Axes::Local { Axes::World } else { Axes::Local };
         if self.constraint != constraint {
@@ -309,7 +309,7 @@ impl Transforming {
         if let Some(pivot_px) = self.view.project(self.pivot()) {
             let (from, to) = (self.at_px - pivot_px, at_px - pivot_px);
             if from.length() > LEAST_ARM_PX && to.length() > LEAST_ARM_PX {
-                // Pixels have Y down: counter-clockwise is negative.
+                // Y goes down in pixels, so `angle_to` is negative for counter-clockwise turns.
                 self.gone_round_rad -= from.angle_to(to);
             }
         }
@@ -320,7 +320,7 @@ impl Transforming {
         self.world_from_model.translation
     }
 
-    /// Along the axes of its space, world units.
+    /// The movement so far along the axes of its space, world units.
     fn moved(&self) -> DVec3 {
         let axes = self.world_from_space();
         if let Some(value) = self.typed.value() {
@@ -361,7 +361,8 @@ impl Transforming {
         if self.snap == Snap::Steps { (by / STEP).round() * STEP } else { by }
     }
 
-    /// Position along an axis through the pivot, world units, of the point that shows nearest to a pixel.
+    /// Of an axis through the pivot, the point that shows nearest to a pixel: its distance from the pivot along the
+    /// axis.
     fn along_axis(&self, at_px: DVec2, along: DVec3) -> f64 {
         let [jx, jy] = self.view.map(DAffine3::IDENTITY).jacobian(self.pivot());
         let shown = DVec2::new(jx.dot(along), -jy.dot(along));
@@ -379,7 +380,7 @@ impl Transforming {
         (cosine * between.dot(ray.direction) - between.dot(along)) / (1.0 - cosine * cosine)
     }
 
-    /// The axis in its space that it turns about, unit.
+    /// The axis of a turn, in its space, unit.
     fn turn_axis(&self) -> DVec3 {
         match self.constraint {
             Constraint::Axis(axis) | Constraint::Plane(axis) => axis.unit(),
@@ -394,7 +395,7 @@ impl Transforming {
             Lens::Perspective { .. } => self.view.camera.eye - self.pivot(),
             Lens::Orthographic { .. } => -self.view.axes()[2],
         };
-        // Looked at from behind, an axis turns the other way.
+        // Turns about an axis that points away from the eye show the other way round.
         let away = (self.world_from_space() * self.turn_axis()).dot(towards_eye) < 0.0;
         let angle_rad = if away { -self.gone_round_rad } else { self.gone_round_rad };
         if self.snap == Snap::Steps {
@@ -422,8 +423,8 @@ impl TransformDelta {
         }
     }
 
-    /// The map of world space, turned and scaled about a pivot; `world_from_space` are the axes of the delta. Poses
-    /// cannot hold non-uniform factors, see `Arrange::Stretch`.
+    /// Where each point of the world goes, with turns and scalings about a pivot. The columns of `world_from_space` are
+    /// the axes of the delta. Poses cannot hold non-uniform factors: `Arrange::Stretch` is for those.
     pub fn world_from_world(&self, pivot: DVec3, world_from_space: DMat3) -> DAffine3 {
         let about_pivot = |linear: DMat3| DAffine3::from_mat3_translation(linear, pivot - linear * pivot);
         match *self {

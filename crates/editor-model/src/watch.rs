@@ -17,16 +17,16 @@ pub struct Watch {
 
 #[derive(Debug)]
 struct Watched {
-    /// Of the version that was read.
+    /// Size and time of the version that was read.
     known: SizeAndTime,
-    /// Of the last poll, if different: the file may still be being written.
+    /// Size and time at the last poll, if different: the file may still be being written.
     seen: Option<SizeAndTime>,
 }
 
 /// What changed on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum News {
-    /// Meshes or pictures of the scene.
+    /// Meshes or pictures that the scene uses.
     Files,
     /// The scene file itself, changed by another program.
     Scene,
@@ -93,7 +93,7 @@ mod tests {
         fs::write(&mesh, format!("{QUAD}# more and more\n")).expect("written");
         assert_eq!(watch.look(&document), None);
         assert_eq!([watch.look(&document), watch.look(&document)], [Some(News::Files), None]);
-        // Its own saving is not reported.
+        // What the document itself saves is not reported.
         document.apply(&Command::Scene(SceneEdit::SetSeed(5))).expect("done");
         document.save().expect("saved");
         assert_eq!([watch.look(&document), watch.look(&document)], [None, None]);

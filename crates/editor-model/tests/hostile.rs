@@ -1,6 +1,7 @@
-//! Opens the hostile files of the folder `IMPASTO_CORPUS`, one after the other, in a process with little memory and
-//! time. Each must give a document or an error message, and the file must stay as it was. Without the corpus it opens
-//! shipped scenes with changed bytes; `tests/it/hostile_scenes.rs` opens a small corpus.
+//! Tests that the editor survives hostile files. Those of the folder `IMPASTO_CORPUS` are opened one after the other,
+//! in a process with little memory and time: each must give a document or an error message, and the file must stay as
+//! it was. Another test, which needs no corpus, opens a shipped scene with changed bytes. `tests/it/hostile_scenes.rs`
+//! opens a small corpus.
 
 #![cfg(unix)]
 
@@ -112,7 +113,7 @@ fn hostile_files_open_or_are_refused_and_stay_what_they_are() {
     }
 }
 
-/// Shipped scenes with some bytes changed, pseudo-randomly but always in the same way.
+/// Reads copies of a shipped scene with some bytes changed, pseudo-randomly but always in the same way.
 #[test]
 fn scenes_with_bytes_changed_open_or_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");

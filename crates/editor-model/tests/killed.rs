@@ -1,5 +1,6 @@
-//! Kills a process that paints, writes recovery copies and saves, at random moments and a hundred times: no copy that
-//! was reported as written is lost, and the scene file is always whole.
+//! Tests that no work is lost when the editor is killed. A process that edits, writes recovery copies and saves is
+//! killed a hundred times, at random moments: no copy that was reported as written is lost, and the scene file is
+//! always whole.
 
 #![cfg(unix)]
 
@@ -17,7 +18,7 @@ const FOLDER: &str = "IMPASTO_TEST_KILLED_IN";
 const SCENE: &str = "(version: 1, camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))]), \
     objects: [(name: \"wall\", mesh: \"impasto:backdrop\")])";
 
-/// Paints until it is killed. The scene's seed counts the edits. Prints a line after each copy and each save.
+/// Edits the scene until it is killed. The scene's seed counts the edits. Prints a line after each copy and each save.
 #[test]
 #[ignore = "runs until it is killed; the test below starts it"]
 fn painter() {
@@ -59,7 +60,7 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
-        // It paints some strokes, then goes on for a random time.
+        // Waits until it has made some edits, then lets it go on for a random time.
         let mut left = random % 8 + 1;
         while left > 0 {
             let line = lines.next().expect("it paints on").expect("text");
@@ -101,8 +102,8 @@ fn nothing_written_is_lost_when_killed_at_any_moment() {
         offered > 20 && seen > 100,
         "{offered} offers, {seen} edits: it was killed too soon to show anything"
     );
-    // After another look no file of the sessions is left; a save that was cut off may leave its part file beside the
-    // scene.
+    // Now nothing is offered, and looking for offers must have emptied the recovery folder. A save that was cut off
+    // may leave its part file beside the scene.
     assert!(Recovery::offers(&place).is_empty());
     let left = std::fs::read_dir(&place).expect("there").count();
     assert_eq!(left, 0, "litter in the recovery folder");

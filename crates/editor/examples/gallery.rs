@@ -1,5 +1,7 @@
-//! Every control in a window of its own: `cargo run -p impasto-editor --example gallery -- [light] [busy]`.
-//! `busy` draws without a pause and says how long a frame takes.
+//! Opens a window with every control of the editor, to look at and try:
+//! `cargo run -p impasto-editor --example gallery -- [light] [busy]`.
+//!
+//! `busy` draws without a pause and prints how long a frame takes.
 
 #[path = "../tests/page/mod.rs"]
 mod page;

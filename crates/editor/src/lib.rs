@@ -1,4 +1,4 @@
-//! The editor's window: egui panels and the viewport over `editor-model`.
+//! The editor's window: egui panels and the viewport. What they show and change lies in the crate `editor-model`.
 
 mod app;
 pub mod files;

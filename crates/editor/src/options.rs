@@ -16,6 +16,7 @@ pub struct EditOptions {
     pub dialogs: Source,
     /// A folder of shaders that replace the program's own.
     pub shaders: Option<PathBuf>,
-    /// Called with what the window shows, each time that its exact pictures are done, and with where its controls are.
+    /// Called with a report for tests and scripts: what the window shows whenever its exact pictures are done, the
+    /// frames that are played, and where the controls are.
     pub tell: Option<fn(&str)>,
 }

@@ -53,7 +53,8 @@ struct Board {
 }
 
 impl Rendering {
-    /// Starts the thread. `shaders` replace the program's own. `wake` is called on it whenever there is something new.
+    /// Starts the thread. `shaders` replace the program's own. The thread calls `wake` whenever there is something
+    /// new.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -113,7 +114,7 @@ impl Rendering {
         self.shared.board().picture.take()
     }
 
-    /// Ends it soon; frames under way are given up.
+    /// Makes the rendering end soon; frames under way are given up.
     pub fn stop(&self) {
         self.shared.stop.store(true, Ordering::Release);
     }

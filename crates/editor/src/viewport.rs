@@ -112,7 +112,8 @@ pub struct ViewportEvents {
     pub hovered: bool,
 }
 
-/// Shows the viewport. `layout` says where its pictures lie; the caller makes it, because it needs it for the marks.
+/// Shows the viewport. `layout` says where its pictures lie. The caller makes the layout, because what is drawn over
+/// the pictures depends on it too.
 pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> ViewportEvents {
     let tokens = Tokens::of(ui);
     let area = layout.area();
@@ -150,7 +151,7 @@ pub fn viewport(ui: &mut Ui, layout: &Layout, input: &ViewportInput<'_>) -> View
     let mut pointer = ui.data_mut(|data| data.get_temp::<pointer::Pointer>(id)).unwrap_or_default();
     let layer = response.layer_id;
     let ctx = ui.ctx().clone();
-    // Chips and sheets are in layers of their own.
+    // Chips and dialogs lie in egui layers of their own: there the pointer is not over the picture.
     let over = |at| first.viewport().contains(at) && ctx.layer_id_at(at).is_none_or(|found| found == layer);
     events.pointer = pointer.events(ui, first, over);
     events.hovered = pointer.is_inside();

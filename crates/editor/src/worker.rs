@@ -1,4 +1,5 @@
-//! The thread that prepares and draws. The window hands it what to show and polls for results; it never waits.
+//! The thread that prepares scenes and draws pictures, so that the window never waits: the window hands it what to show
+//! and polls for results.
 //!
 //! ```text
 //! Worker::show(Job) ─▶ mailbox (one job, the latest) ─▶ prepare ─▶ draft ─▶ rest ─▶ exact ─▶ tray ─▶ Worker::poll
@@ -62,17 +63,17 @@ pub struct ViewJob {
 }
 
 impl ViewJob {
-    /// Whether both look the same, whether or not they are moving.
+    /// Whether both views look the same; `moving` does not count.
     pub fn looks_like(&self, other: &Self) -> bool {
         *self == Self { moving: self.moving, ..other.clone() }
     }
 
-    /// Whether both look the same, except for the icons of lights over them.
+    /// Whether both views look the same but for the icons of lights; `moving` does not count.
     pub(crate) fn differs_in_lights_alone(&self, other: &Self) -> bool {
         *self == Self { moving: self.moving, lights: self.lights.clone(), ..other.clone() }
     }
 
-    /// The icons of lights, sized for a picture of fewer pixels.
+    /// The icons of lights, sized for a draft of `size_px` pixels.
     pub(crate) fn lights_in(&self, size_px: [u32; 2]) -> Vec<LightBillboard> {
         let share = size_px[1] as f32 / self.size_px[1].max(1) as f32;
         let sized = |light: &LightBillboard| match light.size {
@@ -89,7 +90,7 @@ impl ViewJob {
 pub enum Report {
     /// OpenGL is open, with this driver.
     Opened(ContextReport),
-    /// A scene is prepared: its painting and picker, for direction marks and picking, and its serial.
+    /// A scene is prepared: its painting and picker, and its serial.
     Prepared(Box<(Painting, Picker)>, u64),
     /// A picture.
     Picture(Picture),
@@ -150,12 +151,13 @@ impl Worker {
     }
 
     /// Draws everything with these shaders from the next job on. If one of them is broken, that is reported and the
-    /// ones before stay in use.
+    /// previous shaders stay in use.
     pub fn replace_shaders(&self, texts: ShaderTexts) {
         self.mailbox.put_shaders(texts);
     }
 
-    /// Gives up preparing the last job: its scene is not shown, and the pictures before stay until another job comes.
+    /// Gives up preparing the last job: its scene is not shown, and the pictures shown so far stay until another job
+    /// comes.
     pub fn stop_preparing(&self) {
         self.mailbox.stop_preparing();
     }

@@ -3,7 +3,7 @@
 /// The most frames that one command renders.
 const MAX_FRAMES: u64 = 1_000_000;
 
-/// Frame numbers in the order in which they were listed; kept as ranges, so a long list takes no memory.
+/// Frame numbers in the order in which they were listed. They are kept as ranges, so a long list takes little memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameList {
     ranges: Vec<Range>,
@@ -22,8 +22,8 @@ impl FrameList {
         Self { ranges: vec![Range { first, last, step: 1 }] }
     }
 
-    /// Reads `a`, `a-b`, `a..b`, each with `xN` or `:N` for every Nth frame, separated by commas. Numbers may be
-    /// negative; `b` may be less than `a`, which counts down.
+    /// Reads parts that are separated by commas. Each is `a`, `a-b` or `a..b`; `xN` or `:N` behind it takes every Nth
+    /// frame. Numbers may be negative. If `b` is less than `a`, frames count down.
     ///
     /// # Errors
     /// A message that says how a list is written, or that it is too long.
@@ -41,7 +41,7 @@ impl FrameList {
         Ok(list)
     }
 
-    /// How many there are.
+    /// How many frames there are.
     pub fn count(&self) -> u64 {
         self.ranges.iter().map(|range| range.count()).sum()
     }

@@ -1,5 +1,5 @@
-//! Rendered frames as files: lists of frames, their file names, and PNG. The command line and the editor write the same bytes
-//! because both write them here.
+//! Rendered frames as files: lists of frames, their file names, and PNG. The command line and the editor write the same
+//! bytes because both write them here.
 
 mod frame_list;
 mod pattern;

@@ -12,8 +12,9 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Reads `####` (as many digits as there are `#`), `%04d` or `$F4` in the file's name; folders are taken as they are. A name
-    /// without a place for the number serves as it is for a single frame, and gets `_####` before its ending for several.
+    /// Finds `####` (as many digits as there are `#`), `%04d` or `$F4` in the file's name; folders are taken as they
+    /// are. A name without such a place is used as it is for a single frame; for several, it gets `_####` before its
+    /// ending.
     pub fn parse(text: &str, frames: u64) -> Self {
         let name_at = text.rfind(['/', '\\']).map_or(0, |at| at + 1);
         let name = &text[name_at..];
@@ -47,13 +48,14 @@ impl Pattern {
     }
 }
 
-/// Where the last run of `#` begins and ends, and how many digits it asks for; the next two functions likewise.
+/// Where the last run of `#` begins and ends, and how many digits it asks for.
 fn hashes(text: &str) -> Option<(usize, usize, usize)> {
     let start = text.rfind('#').map(|last| text[..=last].trim_end_matches('#').len())?;
     let digits = text[start..].len() - text[start..].trim_start_matches('#').len();
     Some((start, start + digits, digits))
 }
 
+/// Where a number like `%04d` begins and ends, and how many digits it asks for.
 fn percent(text: &str) -> Option<(usize, usize, usize)> {
     let start = text.find('%')?;
     let length = text[start + 1..].find('d')?;
@@ -62,6 +64,7 @@ fn percent(text: &str) -> Option<(usize, usize, usize)> {
     Some((start, start + length + 2, usize::clamp(digits, 1, 18)))
 }
 
+/// Where a number like `$F4` begins and ends, and how many digits it asks for.
 fn dollar(text: &str) -> Option<(usize, usize, usize)> {
     let start = text.find("$F")?;
     let number: String = text[start + 2..].chars().take_while(char::is_ascii_digit).collect();

@@ -13,12 +13,12 @@ pub enum PlaceError {
         /// What the system said.
         error: std::io::Error,
     },
-    /// The command reads this file.
+    /// The command reads this file, so it must not write there.
     #[error("{} is read by this command and would be written over", .0.display())]
     Input(PathBuf),
 }
 
-/// Makes the folder of an output file, and checks that a file can be written there.
+/// Makes the folder of an output file, checks that a file can be written there, and returns the folder.
 ///
 /// # Errors
 /// [`PlaceError::NotWritable`].
@@ -31,7 +31,7 @@ pub fn ready_folder(path: &Path) -> Result<PathBuf, PlaceError> {
     if std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return Ok(folder);
     }
-    // This trial file has no name, so nothing of it is ever left.
+    // Tries to write a file. It has no name, so that nothing of it is ever left.
     match std::fs::create_dir_all(&folder).and_then(|()| tempfile::tempfile_in(&folder)) {
         Ok(_) => Ok(folder),
         Err(error) => Err(PlaceError::NotWritable { folder, error }),

@@ -31,13 +31,14 @@ pub(crate) fn is_displaced(body: &FrameBody) -> bool {
     body.noise.as_ref().is_some_and(|noise| noise.noise.vertex.is_some())
 }
 
-/// The rows of a lookup, which say where in the noise a point looks.
+/// The two rows of the matrix that turns a position into coordinates in the noise texture.
 pub(crate) fn lookup_rows(lookup: &Lookup) -> [Vec4; 2] {
     lookup.rows.map(|row| row.as_vec4())
 }
 
 impl BodyProgram {
-    /// A program whose vertex shader includes `shared/body.glsl`; `source` names only the other uniforms.
+    /// A program whose vertex shader includes `shared/body.glsl`. `source` names only the uniforms that are not in that
+    /// file.
     pub(crate) fn new(
         gpu: &Gpu,
         files: &'static [&'static [ShaderFile]],

@@ -30,7 +30,7 @@ void main() {
 /// The corners of a quad, and a point: the inputs of one vertex.
 type Question = [Vec2; 5];
 
-/// What the driver finds.
+/// What the shader finds on this driver.
 fn found_by(driver: Driver, questions: &[Question]) -> Vec<[f32; 2]> {
     let context = open(driver, &OpenOptions { debug: true }).unwrap_or_else(|error| panic!("{error}"));
     let gpu = context.gpu();
@@ -55,7 +55,7 @@ fn found_by(driver: Driver, questions: &[Question]) -> Vec<[f32; 2]> {
     };
     let array = VertexArray::new(gpu, &[attribute(0, 4), attribute(1, 4), attribute(2, 2)], None)
         .expect("there is room");
-    // Without a window there is no framebuffer until one is made.
+    // Without a window there is nothing to draw on until a framebuffer is made.
     let target =
         Rc::new(Texture::target(gpu, Format::Rgba8, [1, 1], Filter::Nearest).expect("there is room"));
     let target = Framebuffer::new(gpu, &[&target], None).expect("it is complete");

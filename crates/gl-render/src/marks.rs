@@ -16,7 +16,8 @@ use bounds::Texel;
 pub(crate) struct Marks {
     brushes: Arc<Brushes>,
     pub(crate) texture: Texture,
-    /// A row for each mark: the box around all texels with more than a given amount of paint.
+    /// A row for each mark. It has a texel for each amount of paint: the box around all texels of the mark with more
+    /// paint than that.
     pub(crate) bounds: Texture,
 }
 

@@ -167,7 +167,7 @@ impl MeshCache {
             .map(|index| Vertex {
                 position: mesh.positions[index].to_array(),
                 normal: mesh.normals[index].to_array(),
-                // Without texture coordinates, noise is laid along X and Y; nothing else reads these.
+                // A mesh without texture coordinates gets X and Y instead. In such a mesh only noise reads them.
                 uv: mesh.uvs.get(index).copied().unwrap_or(mesh.positions[index].truncate()).to_array(),
                 target_position: target_positions[index].to_array(),
                 target_normal: target_normals[index].to_array(),

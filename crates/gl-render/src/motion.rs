@@ -47,8 +47,8 @@ impl MotionPass {
         self.program.ready_all()
     }
 
-    /// Draws the bodies of `now`. Both frames have their bodies in the same order; a body that `then` lacks counts as
-    /// not moved.
+    /// Draws the bodies of `now`, and finds where they are in `then`. Both frames have their bodies in the same order.
+    /// A body that `then` lacks counts as not moved.
     pub(crate) fn draw(
         &mut self,
         reference: &mut ReferencePass,

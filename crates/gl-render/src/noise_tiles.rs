@@ -19,7 +19,7 @@ impl NoiseTiles {
         Self { gpu: gpu.clone(), tiles: Vec::new() }
     }
 
-    /// Uploads the tiles of a frame's visible bodies that are not there yet.
+    /// Uploads those tiles of a frame's visible bodies that are not on the GPU yet.
     pub(crate) fn prepare(&mut self, frame: &Frame) -> Result<(), GlError> {
         let noises = frame.bodies.iter().filter(|body| !body.hidden).filter_map(|body| body.noise.as_ref());
         for noise in noises {

@@ -1,4 +1,4 @@
-//! The palettes of a frame as a texture.
+//! Puts the palettes of a frame into a texture, from which the stroke shaders read their pigments.
 
 use impasto_painting::Frame;
 

@@ -36,6 +36,8 @@ pub struct ResolvedStroke {
     pub alpha: f32,
     /// Centre in pixels, origin at the lower left, moved along the stroke so that it lies on its body.
     pub center_px: [f32; 2],
+    /// What was added to its angle so that a line lies along the end of its body, radians.
+    pub turned_rad: f32,
 }
 
 /// What a picture cost to draw.
@@ -356,10 +358,11 @@ impl Renderer {
         let resolved = self.last_renderer().map_or_else(Vec::new, |style| style.read_resolved());
         resolved
             .into_iter()
-            .map(|[r, g, b, alpha, x, y, ..]| ResolvedStroke {
+            .map(|[r, g, b, alpha, x, y, _, turned_rad]| ResolvedStroke {
                 color_linear: [r, g, b],
                 alpha,
                 center_px: [x, y],
+                turned_rad,
             })
             .collect()
     }

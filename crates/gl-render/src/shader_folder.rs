@@ -16,9 +16,9 @@ type FileStamp = Option<(u64, Option<SystemTime>)>;
 #[derive(Debug)]
 pub struct ShaderFolder {
     path: PathBuf,
-    /// The files when they were last read.
+    /// Size and time of the files when they were last read.
     read: Vec<FileStamp>,
-    /// The files at the last check, if they differed from `read`. They may still be being written.
+    /// Size and time of the files at the last check, if they differed from `read`: some may still be half written.
     changing: Option<Vec<FileStamp>>,
 }
 
@@ -46,8 +46,9 @@ impl ShaderFolder {
         &self.path
     }
 
-    /// Checks the files once. Reads them again if they have changed since they were last read, but not since the last
-    /// check, when they may have been half written. The program's own text replaces a file that is gone.
+    /// Checks the files once. Reads them again if they differ from those that were last read, but only when two checks
+    /// in a row find them the same: a file that still changes may be half written. The program's own text replaces a
+    /// file that is gone.
     ///
     /// # Errors
     /// A message: a file cannot be read.

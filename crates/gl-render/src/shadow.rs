@@ -1,4 +1,4 @@
-//! The shadow map: depth as the first sun sees the scene.
+//! Draws the shadow map: the depth of the scene as the first sun sees it.
 
 use std::rc::Rc;
 use std::sync::{Arc, Weak};
@@ -111,7 +111,7 @@ impl ShadowMap {
     }
 }
 
-/// The parallel view of a sphere from the direction of the sun; the whole sphere is in clip space.
+/// The parallel projection in which a sun sees a sphere. The whole sphere lies in clip space.
 pub(crate) fn shadow_from_world(center: Vec3, radius: f32, to_light: Vec3) -> Mat4 {
     let up = if to_light.y.abs() < 0.9 { Vec3::Y } else { Vec3::Z };
     let right = up.cross(to_light).normalize_or(Vec3::X);

@@ -1,5 +1,6 @@
-//! The strokes of a frame on the GPU, for any style: their records, what the style's resolve pass found for each, and
-//! their brush marks.
+//! The strokes of a frame on the GPU, for any style: their records, their brush marks, and the results of the style's
+//! resolve pass. That pass runs on the GPU before strokes are drawn; it finds the colour of each stroke, and its
+//! presence (how much of it is there).
 
 use std::mem::offset_of;
 
@@ -9,7 +10,8 @@ use impasto_painting::frame::{LayerRun, Stroke};
 use crate::gl::{Attribute, Bound, Buffer, BufferUse, GlError, Gpu, Records, VertexArray, Vertices};
 use crate::marks::Marks;
 
-/// Bytes that a style's resolve pass stores for a stroke: colour and presence, then four floats of the style's own.
+/// Bytes that the resolve pass stores for a stroke: colour and presence as four floats, then four floats whose meaning
+/// depends on the style.
 const RESOLVED_BYTES: usize = 32;
 
 /// The strokes of one frame.

@@ -1,4 +1,4 @@
-//! The trait that every style's renderer implements, and what it draws from.
+//! The trait that every style's renderer implements, and the input that such a renderer draws from.
 
 use impasto_painting::Frame;
 
@@ -9,14 +9,14 @@ use crate::noise_tiles::NoiseTiles;
 use crate::reference_targets::ReferenceTargets;
 use crate::watch::Watch;
 
-/// What a style starts from.
+/// What a style draws a frame from.
 pub(crate) struct StyleInput<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) reference: &'a ReferenceTargets,
     pub(crate) lights: &'a LightSetup,
     /// The bodies of the frame, in its order.
     pub(crate) bodies: &'a [DrawnBody<'a>],
-    /// Their noise.
+    /// The textures of the bodies' noise.
     pub(crate) tiles: &'a NoiseTiles,
 }
 
@@ -35,8 +35,8 @@ pub(crate) trait StyleRenderer {
         Ok(())
     }
 
-    /// What the resolve pass found for each stroke of the last frame, eight floats each: colour and alpha, then its
-    /// place. Empty for styles without strokes.
+    /// What the resolve pass found for each stroke of the last frame, eight floats each: colour and alpha, its centre
+    /// in pixels, and two more. Empty for styles without strokes.
     fn read_resolved(&self) -> Vec<[f32; 8]> {
         Vec::new()
     }

@@ -1,4 +1,4 @@
-//! What happens after each pass: it is timed, and the caller may stop the drawing.
+//! Watches the drawing of a picture: after each pass, takes its time and asks the caller whether to stop.
 
 use crate::gl::{Gpu, Halt};
 
@@ -19,7 +19,7 @@ impl<'a> Watch<'a> {
         self.stop.is_some()
     }
 
-    /// Call this after a pass.
+    /// To be called after each pass, with its name.
     ///
     /// # Errors
     /// [`Halt::GivenUp`] when the caller stops.

@@ -29,7 +29,7 @@ pub fn zoomed(camera: &CameraPose, factor: f64) -> CameraPose {
     CameraPose { lens, ..camera.clone() }
 }
 
-/// The camera with eye and target moved together to the right and up, in shares of the distance between them.
+/// The camera with its eye and its target moved together. `right` and `up` are shares of the distance between the two.
 pub fn moved_sideways(camera: &CameraPose, [right, up]: [f64; 2]) -> CameraPose {
     let offset = camera.target - camera.eye;
     let to_right = offset.cross(DVec3::Y).normalize_or(DVec3::X);

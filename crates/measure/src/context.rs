@@ -46,7 +46,7 @@ pub struct MeasureContext<'a> {
     drawn: HashMap<(SceneVersion, RotationKey, u64), Rc<DrawnFrame>>,
 }
 
-/// [`Rotation`] as part of a key.
+/// A [`Rotation`] as a number, for the keys of cached frames.
 type RotationKey = u8;
 
 fn rotation_key(rotation: Rotation) -> RotationKey {
@@ -107,12 +107,12 @@ impl<'a> MeasureContext<'a> {
         motion::referred_to(&self.loaded.scene, &self.loaded.scene.reference).0
     }
 
-    /// Options for frames of this size.
+    /// Options for frames of the size that is measured.
     pub fn frame_options(&self, rotation: Rotation) -> FrameOptions {
         FrameOptions { rotation, ..FrameOptions::new(self.size_px) }
     }
 
-    /// Pairs of neighbouring frames, evenly over the shot; none if the shot has only one frame.
+    /// Pairs of neighbouring frames, spread evenly over the shot; none if the shot has only one frame.
     pub fn pairs(&self) -> Vec<[f64; 2]> {
         let timeline = &self.loaded.scene.timeline;
         let starts = timeline.last.saturating_sub(timeline.first).max(0);
@@ -192,7 +192,7 @@ impl<'a> MeasureContext<'a> {
         Ok(self.renderer.render(frame)?)
     }
 
-    /// Where the surface points in the pixels of one frame are in another.
+    /// For each pixel of the frame `now`, where its surface point is in the frame `then`.
     ///
     /// # Errors
     /// When drawing fails.

@@ -12,12 +12,12 @@ pub struct Holes {
 }
 
 impl Holes {
-    /// Counts them by the alpha of the paint and the body ids of the picture (0 where no body is).
+    /// Counts the holes where bodies are, from each pixel's alpha of paint and its body id (0 where no body is).
     pub fn of(alpha: &[f32], body_ids: &[u32]) -> Self {
         Self::by_body(alpha, body_ids).into_values().fold(Self::default(), Self::and)
     }
 
-    /// The same for each body, by its id.
+    /// The holes of each body, by its id.
     pub fn by_body(alpha: &[f32], body_ids: &[u32]) -> BTreeMap<u32, Self> {
         let mut found: BTreeMap<u32, Self> = BTreeMap::new();
         for (alpha, &id) in alpha.iter().zip(body_ids).filter(|(_, id)| **id > 0) {
@@ -28,7 +28,7 @@ impl Holes {
         found
     }
 
-    /// The sum with those of another picture.
+    /// The sum of these counts and those of another picture.
     pub fn and(self, other: Self) -> Self {
         Self { holes: self.holes + other.holes, pixels: self.pixels + other.pixels }
     }
@@ -49,7 +49,7 @@ pub struct Bodies<'a> {
 }
 
 impl Bodies<'_> {
-    /// Whether all pixels within this many columns and rows belong to the same body.
+    /// Whether all pixels within `reach_px` columns and rows of a pixel show the same body as that pixel.
     pub fn is_inside(&self, index: usize, reach_px: usize) -> bool {
         let [width, height] = self.size_px;
         let (x, y) = (index % width, index / width);
@@ -65,9 +65,9 @@ impl Bodies<'_> {
 /// How far paint may run over the border of its body, pixels.
 const BORDER_PX: usize = 2;
 
-/// Of the painted pixels of bodies, away from the bodies' borders: how many have a colour that is nearer to another
-/// body's than to their own, and how many there are. `paint` is premultiplied; `colors[id - 1]` is a body's own
-/// colour.
+/// Looks at the painted pixels of bodies, away from the bodies' borders. Returns how many of them have a colour nearer
+/// to another body's than to their own body's, and how many there are in all. `paint` is premultiplied;
+/// `colors[id - 1]` is the colour of the body `id`.
 pub fn bleed(bodies: &Bodies<'_>, paint: &[[f32; 4]], colors: &[[f32; 3]]) -> (usize, usize) {
     let (mut bled, mut pixels) = (0, 0);
     for (index, &[r, g, b, alpha]) in paint.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! M14, density: are there as many strokes as wanted, evenly spread?
+//! Metric M14, density: are there as many strokes as wanted, evenly spread?
 
 use impasto_core::sampling::hexagonal_spacing;
 
@@ -9,12 +9,12 @@ pub struct PlacedStroke {
     pub center_px: [f64; 2],
     /// Its presence, 0..=1.
     pub alpha: f64,
-    /// Pixels of the picture per stroke wanted.
+    /// Pixels of the picture for each wanted stroke.
     pub wanted_area_px: f64,
 }
 
-/// Σ α · (pixels per stroke wanted), divided by the number of pixels that the strokes lie on: 1 where there are as
-/// many strokes as wanted.
+/// Σ α · (pixels for each wanted stroke), divided by the number of pixels that the strokes lie on. It is 1 where there
+/// are as many strokes as wanted.
 pub fn shown_over_wanted(strokes: &[PlacedStroke], pixels: usize) -> f64 {
     strokes.iter().map(|stroke| stroke.alpha * stroke.wanted_area_px).sum::<f64>() / pixels.max(1) as f64
 }

@@ -1,4 +1,4 @@
-//! M10, angular jitter: do strokes tremble?
+//! Measures whether strokes tremble: M10, angular jitter.
 
 use impasto_core::angle::wrap_pi;
 
@@ -22,7 +22,7 @@ pub struct Jitter {
 const FLOOR_DEG: f64 = 2e-3;
 
 impl Jitter {
-    /// From triples of angles in neighbouring frames, each with the triple expected.
+    /// From triples of angles drawn in three neighbouring frames, each with the triple of angles expected there.
     pub fn of(triples: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Self {
         let (mut drawn, mut analytic, mut count) = (0.0, 0.0, 0usize);
         for (found, expected) in triples {
@@ -34,8 +34,8 @@ impl Jitter {
         Self { drawn_deg: mean(drawn), analytic_deg: mean(analytic), triples: count }
     }
 
-    /// How much more the strokes accelerate than expected, as a share of the expected acceleration, which counts
-    /// as at least what rounding gives.
+    /// How much more the strokes accelerate than expected, as a share of the expected acceleration. The latter is taken
+    /// as at least what rounding alone gives.
     pub fn excess(&self) -> f64 {
         let expected = self.analytic_deg.max(FLOOR_DEG);
         (self.drawn_deg - expected).max(0.0) / expected

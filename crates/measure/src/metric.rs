@@ -1,4 +1,4 @@
-//! The names of the metrics.
+//! The metrics of `impasto measure`, M1 to M14: their names and titles.
 
 use std::fmt;
 use std::str::FromStr;

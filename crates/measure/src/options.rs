@@ -1,4 +1,4 @@
-//! What to measure, and how finely.
+//! The options of a measurement, its progress, and why it may fail.
 
 use impasto_gl_render::context::Driver;
 

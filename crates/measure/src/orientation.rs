@@ -1,4 +1,4 @@
-//! Finds the direction of streaks in a picture, by structure tensors.
+//! Finds the direction of streaks in a picture by structure tensors, to measure whether strokes turned as they should.
 
 use crate::plane::Plane;
 use crate::turning::place_before;
@@ -13,7 +13,7 @@ pub struct Tensors {
 }
 
 impl Tensors {
-    /// The tensors of every pixel (0 along the border): Scharr's derivative, averaged over a Gaussian of this
+    /// The tensors of every pixel, from Scharr's derivative (0 along the border), averaged over a Gaussian of this
     /// deviation.
     pub fn of(plane: &Plane, sigma_px: f64) -> Self {
         let [width, height] = plane.size_px;
@@ -32,9 +32,9 @@ impl Tensors {
     }
 }
 
-/// By how much the streaks of `turned` are off, on average, if they should be those of `straight` turned
-/// counter-clockwise by `angle_rad`: `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, radians in (−π/2, π/2]. Also returns how many
-/// pixels of the mask count.
+/// How far the streaks of `turned` are off on average. They should be the streaks of `straight`, turned
+/// counter-clockwise by `angle_rad`. The error is `½ arg Σ conj(T₀ e^{2iφ}) T_φ`, radians in (−π/2, π/2]. Also returns
+/// over how many pixels of the mask it was taken.
 pub fn error_rad(straight: &Tensors, turned: &Tensors, angle_rad: f64, mask: &[bool]) -> (f64, usize) {
     let size_px = turned.real.size_px;
     let (sin, cos) = (2.0 * angle_rad).sin_cos();

@@ -1,4 +1,4 @@
-//! Pictures of one channel, top row first: bilinear sampling, blurs and high passes.
+//! Pictures of one channel, in which the measures sample, blur and look for fine detail. The top row comes first.
 
 use impasto_gl_render::Picture;
 use rayon::prelude::*;
@@ -118,7 +118,7 @@ pub(crate) struct Taps {
 impl Taps {
     /// The pixels round a point; `None` where one of them is off the picture.
     pub(crate) fn new([width, height]: [usize; 2], x: f64, y: f64) -> Option<Self> {
-        // A point that rounding alone has carried over the border lies on it.
+        // A point that lies beyond the border only by rounding is moved onto the border.
         let snapped = |at: f64, side: usize| {
             let last = side as f64 - 1.0;
             if at > -1e-6 && at < last + 1e-6 { at.clamp(0.0, last) } else { at }
@@ -145,7 +145,7 @@ impl Taps {
         self.indices.iter().zip(self.weights).map(|(&index, weight)| value(index) * weight).sum()
     }
 
-    /// Whether this holds for all pixels with a weight.
+    /// Whether `holds` is true for every one of the pixels that has a weight.
     pub(crate) fn all(&self, holds: impl Fn(usize) -> bool) -> bool {
         self.indices.iter().zip(self.weights).all(|(&index, weight)| weight <= 0.0 || holds(index))
     }

@@ -1,4 +1,4 @@
-//! Line charts of values over the frames of a shot, as SVG.
+//! Draws line charts of measured values over the frames of a shot, as SVG.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! M4, popping: do strokes appear or vanish suddenly?
+//! Measures whether strokes appear or vanish suddenly: M4, popping.
 
 use crate::strokes::{MeasuredStroke, StrokeKey, StrokesByKey};
 
@@ -8,7 +8,7 @@ const STEP: f64 = 0.2;
 /// A stroke that moves by less than this, in pixels, stands still.
 const STILL_PX: f64 = 1e-3;
 
-/// Size of a stroke's quad over the stroke's length and width: the quad has room for ragged ends.
+/// How many times as long and wide as the stroke its quad is: the quad has room for ragged ends.
 const QUAD: f64 = 1.0 / impasto_core::brush::FILL as f64;
 
 /// What popped from one frame to the next.
@@ -36,7 +36,7 @@ pub fn popping(before: &StrokesByKey, after: &StrokesByKey, size_px: [u32; 2]) -
         after.iter().filter(|(key, _)| !before.contains_key(*key)).map(|(key, now)| (key, None, Some(now)));
     let others = before.iter().map(|(key, then)| (key, Some(then), after.get(key)));
     for (key, then, now) in others.chain(only_after) {
-        // A stroke that is in one frame only is at most this far away in the other.
+        // A stroke that is missing from one frame would be at most this far from its place in the other.
         let margin_px = if then.is_some() && now.is_some() { 0.0 } else { carried_px };
         if [then, now].into_iter().flatten().any(|stroke| touches_border(stroke, margin_px, size_px)) {
             continue;
@@ -70,7 +70,7 @@ fn touches_border(stroke: &MeasuredStroke, margin_px: f64, size_px: [u32; 2]) ->
     })
 }
 
-/// The farthest that any stroke of both frames has moved.
+/// The largest distance that a stroke has moved, of all strokes that are in both frames.
 fn displacement_px(before: &StrokesByKey, after: &StrokesByKey) -> f64 {
     let moved = before.iter().filter_map(|(key, then)| {
         let now = after.get(key)?;

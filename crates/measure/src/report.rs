@@ -44,7 +44,7 @@ pub struct Row {
     pub baselines: Vec<Reading>,
     /// What the values should be.
     pub target: String,
-    /// Whether they are.
+    /// Whether the values meet the target.
     pub verdict: Verdict,
     /// How much was measured.
     pub counts: Counts,
@@ -169,7 +169,7 @@ impl Verdict {
         if holds { Self::Holds } else { Self::Misses }
     }
 
-    /// The same with at least [`LEAST_STROKES`] pixels.
+    /// `Holds` or `Misses`; `TooFew` where fewer than [`LEAST_STROKES`] pixels were measured.
     pub fn of_pixels(holds: bool, counts: Counts) -> Self {
         if counts.pixels < LEAST_STROKES {
             return Self::TooFew(format!("{} pixels; {LEAST_STROKES} are needed", counts.pixels));
@@ -193,7 +193,7 @@ impl Verdict {
 }
 
 impl Row {
-    /// A row without values that holds.
+    /// A row that has no values yet; its verdict is `Holds`.
     pub fn new(id: Metric, taken_on: impl Into<String>, target: impl Into<String>) -> Self {
         Self {
             id,

@@ -12,13 +12,13 @@ use impasto_scene::motion;
 use crate::strokes::{StrokesByKey, of_layer};
 use crate::truth::{BodyView, SurfacePoint, TrueView};
 
-/// A stroke counts as visible if its surface faces the eye by more than this cosine and it was drawn with more than
-/// this alpha.
+/// A stroke counts as visible if the cosine between its surface's normal and the direction to the eye is larger than
+/// `FACED`, and the alpha that it was drawn with is larger than `DRAWN`.
 const FACED: f64 = 0.2;
 const DRAWN: f64 = 0.1;
 
-/// The cosine between the normals of neighbours is larger than this (37 degrees): strokes across a crease, round a
-/// limb or on the other side of a sheet do not count.
+/// Strokes are neighbours only if the cosine between their normals is larger than this (37 degrees). Strokes across a
+/// crease, round a limb or on the other side of a sheet are none.
 const SAME_SIDE: f64 = 0.8;
 
 /// How many neighbours a stroke is compared with.
@@ -88,7 +88,7 @@ struct Visible {
     was_unseen: bool,
 }
 
-/// The differences of each stroke that was unseen to its nearest neighbours on the surface.
+/// The differences between each stroke that the reference view did not see and its nearest neighbours on the surface.
 fn differences(body_id: u32, group: &[Visible], singular: &[Singularity]) -> Vec<Difference> {
     let mut found = Vec::new();
     for (index, stroke) in group.iter().enumerate().filter(|(_, stroke)| stroke.was_unseen) {

@@ -16,8 +16,8 @@ pub struct QuarterDifference {
     pub pixels: usize,
 }
 
-/// M1 for quarter turns: compares the square picture of a rolled camera with the straight one turned back by as many
-/// quarters, within a mask of the rolled one.
+/// M1 for quarter turns: compares the square picture of a rolled camera with that of the straight camera turned back by
+/// as many quarters, within a mask of the rolled picture.
 pub fn quarter_difference(
     straight: &Picture,
     rolled: &Picture,
@@ -42,7 +42,8 @@ pub fn quarter_difference(
     found
 }
 
-/// M2: |wrap(θ(φ) − θ(0) + φ)| of the strokes that are in both frames, degrees.
+/// M2: |wrap(θ(φ) − θ(0) + φ)| of the strokes that are in both frames, degrees, where θ(φ) is a stroke's angle under a
+/// camera that is rolled by φ.
 pub fn roll_errors_deg(straight: &StrokesByKey, rolled: &StrokesByKey, roll_deg: f64) -> Vec<f64> {
     let errors = straight.iter().filter_map(|(key, before)| {
         let now = rolled.get(key)?;

@@ -1,4 +1,4 @@
-//! A scene of a flat sheet that carries another scene's strokes, to measure density under tilt.
+//! Makes a scene of a flat sheet that carries another scene's strokes, to measure their density when it is tilted.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,9 +21,9 @@ const SHEET: &str = "#![enable(implicit_some)]
     objects: [(name: \"sheet\", mesh: \"sheet\")],
 )";
 
-/// A scene of a sheet, 2 by 2 units, that fills a square picture. It carries the body layer of region `region` of
-/// another scene (`None`: of what is in no region), all strokes of one size. Returns `None` if the sheet's own text
-/// cannot be read.
+/// A scene of a sheet, 2 by 2 units, that fills a square picture. It carries the body layer of a region of another
+/// scene, with all strokes of one size; if `region` is `None`, the layer of what is in no region. Returns `None` if the
+/// sheet's own text cannot be read.
 pub fn sheet(loaded: &LoadedScene, region: Option<usize>, side_px: u32) -> Option<LoadedScene> {
     let mut version = loaded.clone();
     let body = presets::resolve(&loaded.scene, region).body().clone();

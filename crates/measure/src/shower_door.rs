@@ -55,7 +55,8 @@ pub fn shower_door(pair: &Pair<'_>) -> ShowerDoor {
     ShowerDoor { same_pixels, same_points, pixels }
 }
 
-/// How far the turns of strokes lag behind the analytic turns: L = mean e^{2i(θ − θ₀ − φ)}.
+/// How far the turns of strokes lag behind the analytic turns: L = mean e^{2i(θ − θ₀ − φ)}. A stroke's angle goes from
+/// θ₀ to θ where the analytic turn is φ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lag {
     /// |arg L|, degrees.

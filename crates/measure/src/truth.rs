@@ -1,5 +1,6 @@
-//! The oracle for turns: finds the local screen map by finite differences. Its camera matrix is written out here, so
-//! that it shares no function with the code that paints.
+//! Finds how strokes should turn, to measure the painted strokes against: computes the local map between two pictures
+//! by finite differences. Its camera matrix is written out here, so that it shares no function with the code that
+//! paints.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, DVec4, Vec3};
 use impasto_core::sampling::Particle;
@@ -10,11 +11,11 @@ use impasto_scene::motion::CameraPose;
 /// A camera with the size of its picture.
 #[derive(Clone, Debug)]
 pub struct TrueView {
-    /// Rows x, y and w of clip_from_world; depth is not needed.
+    /// Rows x, y and w of the matrix clip_from_world; row z is not needed.
     rows: [DVec4; 3],
     half_px: DVec2,
     eye: DVec3,
-    /// The gaze; `None` for a perspective lens.
+    /// The gaze of an orthographic lens; `None` for a perspective lens.
     parallel: Option<DVec3>,
 }
 
@@ -61,7 +62,8 @@ impl TrueView {
         normal.dot(towards_eye)
     }
 
-    /// Pixels per unit along two tangents, columns of a 2×2 matrix: central differences.
+    /// How many pixels a point moves per unit along each of two tangents, by central differences: the columns of a 2×2
+    /// matrix.
     fn columns(&self, at: DVec3, tangents: [DVec3; 2], step: f64) -> [DVec2; 2] {
         tangents
             .map(|tangent| (self.pixel(at + tangent * step) - self.pixel(at - tangent * step)) / (2.0 * step))
@@ -84,7 +86,8 @@ pub struct PointMotion {
     pub before: SurfacePoint,
     /// The point in the current pose.
     pub after: SurfacePoint,
-    /// F, the deformation gradient: it carries directions; the identity on a surface that keeps its shape.
+    /// F, the deformation gradient: it carries directions from the reference pose to the current one. It is the
+    /// identity on a surface that keeps its shape.
     pub carry: DMat3,
 }
 
@@ -94,8 +97,8 @@ impl PointMotion {
         Self { before: point, after: point, carry: DMat3::IDENTITY }
     }
 
-    /// A particle of a surface that is morphed by these shares in the reference pose and in the current one. F follows
-    /// from its triangle's edges and its normal.
+    /// The motion of a particle on a morphing surface. `shares` say how far the surface is morphed in the reference
+    /// pose and in the current one. F follows from the edges of the particle's triangle and its normal.
     pub fn of(surface: &BodySurface, particle: &Particle, shares: [f64; 2]) -> Self {
         let mesh = &surface.mesh;
         let corners = mesh.triangles[particle.triangle as usize].map(|vertex| vertex as usize);
@@ -150,7 +153,7 @@ impl BodyView<'_> {
         if self.view.is_in_front(at) { self.view.facing(at, normal) } else { 0.0 }
     }
 
-    /// J B: the tangents in pixels.
+    /// J B: the tangents B as they show in the picture, pixels per unit.
     fn tangents_px(&self, point: SurfacePoint, tangents: [DVec3; 2]) -> [DVec2; 2] {
         let (at, _) = self.in_world(point);
         let tangents = tangents.map(|tangent| self.world_from_model.transform_vector3(tangent));
@@ -159,10 +162,10 @@ impl BodyView<'_> {
     }
 }
 
-/// The local screen map between two views at a point of a surface.
+/// The local map between the pictures of two views, at a point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenTurn {
-    /// φ(A): the turn of the best similarity, radians.
+    /// φ(A), the rotation of the similarity nearest to A, radians.
     pub polar_rad: f64,
     /// A, by columns.
     pub map: [DVec2; 2],
@@ -179,18 +182,18 @@ impl ScreenTurn {
         let [c, d] =
             now.tangents_px(point_motion.after, tangents.map(|tangent| point_motion.carry * tangent));
         let determinant = a.x * b.y - b.x * a.y;
-        // A [a b] = [c d].
+        // Solves A [a b] = [c d] for A.
         let map = [(c * b.y - d * a.y) / determinant, (d * a.x - c * b.x) / determinant];
         let polar_rad = (map[0].y - map[1].x).atan2(map[0].x + map[1].y);
         (polar_rad.is_finite() && determinant.abs() > 1e-12).then_some(Self { polar_rad, map })
     }
 
-    /// Whether nothing has moved.
+    /// Whether A is the identity: nothing has moved in the picture.
     pub fn is_still(&self) -> bool {
         (self.map[0] - DVec2::X).length() + (self.map[1] - DVec2::Y).length() < 1e-9
     }
 
-    /// The angle to which a line on the surface at this angle has turned: arg(A d).
+    /// The angle at which a line on the surface shows now, if it shows at `angle_rad` in the reference: arg(A d).
     pub fn material_rad(&self, angle_rad: f64) -> f64 {
         let (sin, cos) = angle_rad.sin_cos();
         let line = self.map[0] * cos + self.map[1] * sin;

@@ -32,7 +32,7 @@ pub fn place_before(size_px: [usize; 2], angle_rad: f64, [x, y]: [usize; 2]) -> 
     [middle[0] + dx * cos + dy * sin, middle[1] - (dy * cos - dx * sin)]
 }
 
-/// A picture turned counter-clockwise about its middle; 0 where it does not reach.
+/// A picture turned counter-clockwise about its middle; 0 where the turned picture does not reach.
 pub fn turned(plane: &Plane, angle_rad: f64) -> Plane {
     Plane::of(plane.size_px, |x, y| {
         let [from_x, from_y] = place_before(plane.size_px, angle_rad, [x, y]);

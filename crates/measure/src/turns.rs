@@ -1,4 +1,5 @@
-//! Turns of strokes between the reference picture and another, beside the analytic turns. M3, M7 and M10 use them.
+//! Compares how strokes have turned since the reference picture with the exact turns of their surface. M3, M7 and M10
+//! use this.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +10,8 @@ use impasto_scene::motion::{self, CameraPose};
 use crate::strokes::{StrokeKey, StrokesByKey, degrees_apart, of_layer, strokes_by_key};
 use crate::truth::{BodyView, PointMotion, ScreenTurn, TrueView};
 
-/// Strokes are left out if the reference sees their surface by a smaller cosine: their lift comes from the reference
-/// only in part.
+/// Strokes are left out if, in the reference view, the cosine between their surface's normal and the direction to the
+/// eye is smaller: their lift comes from the reference only in part.
 const FACED: f64 = 0.5;
 
 /// The turn of one stroke, drawn and expected.
@@ -35,7 +36,8 @@ impl Turn {
         self.base_rad + self.truth.polar_rad
     }
 
-    /// The difference between its angle and that of a line on the surface that had its base angle, degrees.
+    /// The difference between the stroke's angle now and that of a line painted on the surface, degrees. In the
+    /// reference picture, the line had the stroke's angle.
     pub fn material_error_deg(&self) -> f64 {
         degrees_apart(self.angle_rad, self.truth.material_rad(self.base_rad))
     }

@@ -1,4 +1,4 @@
-//! Altered versions of a scene: baselines to compare with, and scenes without what would hide the thing measured.
+//! Makes altered versions of a scene: some to compare with, others without what would disturb a measurement.
 
 use glam::DVec3;
 use impasto_scene::document::{
@@ -11,7 +11,8 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene. *Board* is a smooth canvas: texture that stands still on the picture by design is left out.
+/// A version of a scene. *On a board* means on a smooth canvas: the texture of other canvases stands still on the
+/// picture by design, which would disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
     /// The scene as it is.
@@ -36,7 +37,7 @@ pub enum SceneVersion {
     NoChance(TurnSolver),
     /// `NoChance` with the source paper's strokes.
     NoChancePaper,
-    /// On a board and unlit: light that stands still is not brushwork.
+    /// On a board and unlit, because light that stands still on the picture is not brushwork.
     Unlit,
     /// Each object in one flat colour, and nothing that mixes colours.
     Flat,

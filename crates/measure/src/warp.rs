@@ -8,8 +8,8 @@ use crate::plane::{Plane, Taps};
 const DEPTH_SHARE: f32 = 0.01;
 
 /// For each pixel of the first picture, where its surface point shows in the second, in columns and rows. `None` where
-/// no body is, or where the point is off the second picture or hidden in it. It is not hidden if the four pixels round
-/// it show the same body and their mean depth agrees with its own.
+/// no body is, or where the point is off the second picture or hidden in it. A point is visible in the second picture
+/// if the four pixels round it show its body, and their mean depth agrees with the point's.
 pub fn correspondences(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Option<[f64; 2]>> {
     let size_px = motion.size_px.map(|side| side as usize);
     let place = |index: usize| {
@@ -27,16 +27,17 @@ pub fn correspondences(motion: &MotionPixels, then: &ReferencePixels) -> Vec<Opt
     (0..motion.body_id.len()).map(place).collect()
 }
 
-/// How much a picture differs from the one before, carried along with the motion.
+/// How much a picture differs from another one that is carried along with the motion between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Warp {
-    /// Mean squared difference at the same surface points, squares of levels of 255.
+    /// Mean squared difference at the same surface points; a difference of 255 is that of black and white.
     pub error: f64,
     /// How many pixels the mean is taken over.
     pub pixels: usize,
 }
 
-/// Warp error: W = Σ M ‖I_then(x + v) − I_now(x)‖² / Σ M over the pixels whose point is seen in both pictures.
+/// Warp error: W = Σ M ‖I_then(x + v) − I_now(x)‖² / Σ M. x + v is the place in `then` of the surface point at pixel x;
+/// M is 1 where that point is visible in both pictures, and 0 elsewhere.
 pub fn warp_error(now: &Plane, then: &Plane, correspondences: &[Option<[f64; 2]>]) -> Warp {
     let (mut sum, mut pixels) = (0.0, 0);
     for (value, place) in now.values.iter().zip(correspondences) {

@@ -16,7 +16,7 @@ use crate::regions::RegionRule;
 use crate::stated::DirectionRules;
 use crate::traits::{TraitInputs, Traits};
 
-/// The inputs of the lifts that pictures still need after baking.
+/// Those inputs of the lifts that are still needed after baking, when pictures are made.
 #[derive(Clone)]
 pub(crate) struct LiftSources {
     pub(crate) traits: Arc<Traits>,
@@ -37,7 +37,7 @@ pub(crate) struct BakeInputs {
     pub(crate) solver: Solver,
     /// The rules that particles of the body may have.
     pub(crate) used: Arc<Vec<u16>>,
-    /// Where directions are not all stated outright: what combs them.
+    /// What combs the directions; none if they are all stated outright.
     pub(crate) combed: Option<Combed>,
 }
 
@@ -85,8 +85,8 @@ impl PartialEq for BakeInputs {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BakedBody {
     pub(crate) baked: BakedParticles,
-    /// θ₀ with jitter in the reference picture, radians, to which `horn-exact` adds its turn. Empty with the solver `Tangent`,
-    /// where N' alone tells the angle.
+    /// The base angles with jitter in the reference picture, radians; `horn-exact` adds its turn to them. Empty with
+    /// the solver `Tangent`, where the lift N' alone gives the angle.
     base_angle_rad: Vec<f32>,
 }
 
@@ -108,7 +108,7 @@ impl BakedBody {
 const CHUNK: usize = 1024;
 
 impl BakeInputs {
-    /// The lifts of all particles. `before` was baked from equal inputs: it is shortened or extended.
+    /// Bakes the lifts of all particles. Shortens or extends `before`, which must come from equal inputs.
     pub(crate) fn bake(&self, before: Option<Arc<BakedBody>>) -> Arc<BakedBody> {
         let sources = &self.sources;
         let count = sources.traits.particles.len();

@@ -32,7 +32,7 @@ pub struct BodyMaterial {
     pub albedo: [f32; 3],
     /// Multiplies `albedo`; sRGB bytes.
     pub texture: Option<Arc<Texture>>,
-    /// Shown as it is, without light or shadow.
+    /// Whether it is shown as it is, without light or shadow.
     pub unlit: bool,
     /// Strength of highlights, 0 matt .. 1 glazed.
     pub gloss: f32,
@@ -78,7 +78,7 @@ pub struct NoiseLayers {
     pub tint: [f32; 3],
     /// Multiplies alpha.
     pub opacity: f32,
-    /// The first channel is the alpha too.
+    /// Whether the first channel is the alpha too.
     pub alpha_is_grey: bool,
     /// How much of what is brighter than `threshold` is spread as a glow.
     pub bloom: f32,

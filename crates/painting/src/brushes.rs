@@ -31,7 +31,7 @@ pub(crate) fn of_rules(loaded: &LoadedScene, rules: &[RegionRule]) -> Brushes {
 }
 
 /// Makes the built-in marks that have not been made yet, on all threads. It holds no lock while it works: two callers
-/// at once make the same marks, and one of them is kept.
+/// at once make the same marks, and those of one caller are kept.
 fn make_built_in_marks(names: &[String]) {
     let missing: Vec<(usize, u32)> = names
         .iter()
@@ -87,8 +87,9 @@ impl Brushes {
     }
 }
 
-/// The mark of a stroke: which brush, which of its marks, and (bit 16) whether it is flipped. Steps by irrational
-/// ratios (the golden one, and the plastic one) keep strokes of neighbouring ranks from taking the same mark.
+/// The mark of a stroke, as an index among the marks of all brushes; bit 16 says whether it is flipped. `order` is the
+/// particle's place in its coat. Steps by irrational ratios (the golden one for the marks of a brush, the plastic one
+/// for the brushes) keep particles that follow each other from taking the same mark.
 pub(crate) fn mark(first_marks: &[u32], order: u32, bits: u32) -> u32 {
     let step = |ratio: f64, count: u32| {
         ((f64::from(order) * ratio + f64::from(hash::unit(hash::combine(bits, 11))) * 0.2).fract()

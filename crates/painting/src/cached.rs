@@ -1,6 +1,6 @@
 //! A result kept with the inputs that it was computed from, so that equal inputs need not be computed again.
 
-/// An output and its inputs; empty at first.
+/// Holds an output and the inputs that it was computed from; empty at first.
 pub(crate) struct Cached<Inputs, Output> {
     entry: Option<(Inputs, Output)>,
 }
@@ -17,7 +17,7 @@ impl<Inputs, Output> Cached<Inputs, Output> {
         self.entry.as_ref().map(|(inputs, _)| inputs)
     }
 
-    /// The output of the last inputs.
+    /// The output that is kept.
     pub(crate) fn output(&self) -> Option<&Output> {
         self.entry.as_ref().map(|(_, output)| output)
     }
@@ -29,8 +29,8 @@ impl<Inputs, Output> Cached<Inputs, Output> {
 }
 
 impl<Inputs: PartialEq, Output> Cached<Inputs, Output> {
-    /// The output for these inputs: the one that is here if its inputs are equal (those stay), else a new one. `compute` gets
-    /// the inputs and what was here before.
+    /// The output for these inputs. If the kept inputs are equal, they stay, and so does their output. If not,
+    /// `compute` makes a new output from the new inputs and from what was kept before.
     pub(crate) fn update(
         &mut self,
         inputs: Inputs,
@@ -45,8 +45,8 @@ impl<Inputs: PartialEq, Output> Cached<Inputs, Output> {
         }
     }
 
-    /// As [`Cached::update`], for outputs of which equal inputs may ask for more or fewer elements: `compute` always runs, and
-    /// gets the output that is here if its inputs are equal.
+    /// As [`Cached::update`], for an output that must sometimes be resized although its inputs stay equal. So `compute`
+    /// always runs; it gets the kept output if the kept inputs are equal.
     pub(crate) fn resize(
         &mut self,
         inputs: Inputs,

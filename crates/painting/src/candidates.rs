@@ -102,7 +102,7 @@ impl PaintingView<'_> {
             let number = numbers[*offset] as usize;
             may_show[number / PaintingOrder::WORD] >> (number % PaintingOrder::WORD) & 1 != 0
         };
-        // Most do not show: those that do are found first, in a tight loop.
+        // Most particles do not show. A tight loop finds those that do, before anything else is read.
         let asked: Vec<usize> = match self.recall {
             Some(recall) => recall.asked(first, numbers.len()).filter(shows).collect(),
             None => (0..numbers.len()).filter(shows).collect(),

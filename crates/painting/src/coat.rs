@@ -1,5 +1,5 @@
-//! A coat: the particles of one object that carry one layer of paint. Layers do not share particles, or every large stroke would
-//! have a small one at its centre.
+//! A coat: the particles of one object that carry one layer of paint. Layers do not share particles: otherwise every
+//! large stroke would have a small one at its centre.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub(crate) struct Coat {
     pub(crate) baked: Arc<BakedBody>,
     /// The surface that the particles lie on.
     pub(crate) surface: Arc<BodySurface>,
-    /// For each rule, the first mark of each of its brushes.
+    /// For each rule and each of its brushes: the index of the brush's first mark in the list of all brushes' marks.
     pub(crate) first_marks: Vec<Vec<u32>>,
 }
 
@@ -43,9 +43,9 @@ impl Coat {
 #[derive(Clone)]
 pub(crate) struct Sampled {
     pub(crate) particles: Particles,
-    /// For every particle sampled so far, which may be more than the coat has.
+    /// The albedo at every particle sampled so far. These may be more particles than the coat has.
     albedo: Arc<Albedo>,
-    /// Area of the visible sides, model units squared.
+    /// Area of all sides of triangles that can be seen, model units squared. Of an open sheet, both sides count.
     pub(crate) area: f64,
     pub(crate) polygons: Option<Arc<PolygonCounts>>,
     /// Where sampling goes on when more particles are wanted.
@@ -62,8 +62,9 @@ pub(crate) struct SampleInputs {
 }
 
 impl SampleInputs {
-    /// The first `count` particles of a body. Shortens `before`, which was sampled from equal inputs, where it has enough, else
-    /// continues it. Calls `surface` only to sample.
+    /// The first `count` particles of a body. If `before` has so many, they are taken from it. If not, further ones are
+    /// sampled and appended to those of `before`; with the paper's rule, all are sampled anew. `before` must come from
+    /// equal inputs. `surface` is called only if particles are sampled.
     pub(crate) fn sample<'a, 'mesh: 'a>(
         &self,
         before: Option<Arc<Sampled>>,

@@ -19,7 +19,7 @@ use crate::view::PictureView;
 pub(crate) struct Context<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) rules: &'a Arc<Vec<RegionRule>>,
-    /// Views over the whole timeline, each with the objects' poses: they tell how many particles are needed.
+    /// Views over the whole timeline, each with the objects' poses. The number of particles needed follows from them.
     pub(crate) views: &'a [(PictureView, Vec<DAffine3>)],
     pub(crate) brushes: &'a Brushes,
     pub(crate) solver: Solver,

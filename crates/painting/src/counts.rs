@@ -12,6 +12,7 @@ use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
 use crate::parts::{BodyParts, Cap};
 use crate::regions::BodyRegions;
+use crate::stroke::fit_of;
 
 const LAYERS: usize = LayerKind::ALL.len();
 
@@ -23,6 +24,8 @@ pub(crate) struct CountInputs {
     sightings: Vec<Sighting>,
     /// For each rule and layer its length, its width and its coverage.
     layers: Vec<[[f32; 3]; LAYERS]>,
+    /// For each rule how far strokes fit the form.
+    fits: Vec<f32>,
     left_out: [bool; LAYERS],
     /// The body layer's count, where the object states it.
     stated: Option<u64>,
@@ -34,6 +37,7 @@ impl PartialEq for CountInputs {
         Arc::ptr_eq(&self.surface, &other.surface)
             && (self.left_out, self.stated, self.paper) == (other.left_out, other.stated, other.paper)
             && self.layers == other.layers
+            && self.fits == other.fits
             && self.caps == other.caps
             && self.sightings == other.sightings
             && self.regions == other.regions
@@ -63,6 +67,7 @@ impl CountInputs {
             caps: object.caps.to_vec(),
             sightings: sightings(context, object.index),
             layers,
+            fits: context.rules.iter().map(|rule| rule.strokes.fit).collect(),
             left_out,
             stated: context.scene.objects[object.index].particles,
             paper: context.paper,
@@ -71,20 +76,23 @@ impl CountInputs {
 
     /// The counts, in the order of [`LayerKind::ALL`].
     pub(crate) fn counts(&self, surface: &Surface<'_>, parts: &BodyParts) -> [usize; LAYERS] {
-        let found: [usize; LAYERS] = particle_count::find(surface, &self.sightings, |triangle| {
-            let cap = self.caps[parts.of_triangle[triangle] as usize];
-            let mut densest = [0.0f32; LAYERS];
-            for rule in self.regions.on_triangle(surface.mesh(), triangle) {
-                for (kind, densest) in
-                    densest.iter_mut().enumerate().filter(|(kind, _)| !self.left_out[*kind])
-                {
-                    let [length_px, width_px, coverage] = self.layers[usize::from(rule)][kind];
-                    let [length, width] = cap.apply(length_px, width_px);
-                    *densest = densest.max(coverage / (length * width));
+        let found: [usize; LAYERS] =
+            particle_count::find(surface, &self.sightings, |triangle, center, normal| {
+                let cap = self.caps[parts.of_triangle[triangle] as usize];
+                let form = parts.form.at(center.as_vec3(), normal.as_vec3());
+                let mut densest = [0.0f32; LAYERS];
+                for rule in self.regions.on_triangle(surface.mesh(), triangle) {
+                    for (kind, densest) in
+                        densest.iter_mut().enumerate().filter(|(kind, _)| !self.left_out[*kind])
+                    {
+                        let [length_px, width_px, coverage] = self.layers[usize::from(rule)][kind];
+                        let fit = fit_of(LayerKind::ALL[kind], self.fits[usize::from(rule)]);
+                        let [length, width] = cap.fitted([length_px, width_px], form, fit);
+                        *densest = densest.max(coverage / (length * width));
+                    }
                 }
-            }
-            std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
-        });
+                std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))
+            });
         std::array::from_fn(|kind| match self.stated {
             Some(stated) if kind == LayerKind::Body as usize => stated as usize,
             _ if self.left_out[kind] => 0,

@@ -1,4 +1,4 @@
-//! Particles on a surface that changes its shape.
+//! Moves baked particles along with a surface that changes its shape.
 
 use glam::{DMat3, DVec3};
 use impasto_core::lift::Lift;
@@ -9,8 +9,9 @@ use crate::body::Vertices;
 use crate::coat::Coat;
 
 impl Coat {
-    /// The baked particles after the vertices of the surface have moved from where they were at the baking. Each particle stays
-    /// on its triangle, and its lift is carried by the triangle's deformation gradient F: `N'' = F N'`.
+    /// The baked particles after the surface's vertices have moved from `before`, where they were at the baking, to
+    /// `now`. Each particle stays on its triangle, and its lift is carried by the triangle's deformation gradient F:
+    /// `N'' = F N'`.
     pub(crate) fn deformed(&self, before: &Vertices, now: &Vertices) -> BakedParticles {
         let mesh = &self.surface.mesh;
         let places = self.sampled.particles.places();

@@ -1,5 +1,5 @@
-//! The direction field of one body: what regions state and guides comb, solved on a few samples and carried from there to every
-//! particle.
+//! The direction field of one body, which gives every particle its direction. It is solved on a few samples, from what
+//! regions state and guides comb, and carried from the samples to the particles.
 
 mod constraints;
 mod guides;
@@ -31,11 +31,11 @@ pub(crate) struct BodyField {
     unguided: Arc<UnguidedField>,
     /// The directions of the samples, as unit complex numbers (`impasto_core::direction`).
     solved: Vec<DVec2>,
-    /// The same after the guides that smooth; `None` where no guide does.
+    /// The directions of the samples after the guides that smooth have changed them; `None` if no guide smooths.
     relaxed: Option<Vec<DVec2>>,
     /// How far the stated direction of each sample holds, 0..=1.
     anchors: Vec<f64>,
-    /// Whether all anchors are 1: then points whose direction is stated outright keep it.
+    /// Whether all anchors are 1. If so, a particle whose direction is stated exactly takes that direction.
     anchored: bool,
     /// Computed when first asked for.
     singularities: OnceLock<Vec<Singularity>>,
@@ -49,8 +49,8 @@ struct UnguidedField {
 }
 
 impl BodyField {
-    /// The field, or none where every direction is stated outright. What does not depend on guides is taken from the field
-    /// `before` if only guides have changed since.
+    /// Solves the field. `None` if every direction is stated exactly: then no field is needed. If only guides have
+    /// changed since the field `before` was solved, what does not depend on guides is taken from it.
     pub(crate) fn solve(inputs: &Arc<FieldInputs>, before: Option<&Self>) -> Option<Self> {
         let only_guides_differ = |before: &&Self| {
             let guides = Arc::clone(&before.inputs.guides);
@@ -84,7 +84,7 @@ impl BodyField {
             .map(|sample| inputs.constraint(&points[sample], anchors[sample], &free))
             .collect();
         let constraints = inputs.with_curvature(graph, points, constraints);
-        // One symmetry for the whole body: arrows only where all its rules have them.
+        // The whole body has one symmetry: arrows only if all its samples have arrows.
         let symmetry = inputs.symmetry(points);
         let solved = graph.solve(symmetry, &constraints);
         let relaxed = inputs
@@ -96,7 +96,7 @@ impl BodyField {
         Some(Self { inputs, symmetry, unguided, solved, relaxed, anchors, anchored, singularities })
     }
 
-    /// The singular points: strokes have no direction there.
+    /// The singular points of the field, at which strokes have no direction.
     pub(crate) fn singularities(&self) -> &[Singularity] {
         let FieldSamples { positions, normals, .. } = &*self.inputs.samples;
         let shown = self.relaxed.as_deref().unwrap_or(&self.solved);
@@ -107,7 +107,8 @@ impl BodyField {
         })
     }
 
-    /// The direction of a particle: the field's, mixed with the stated one by how far that holds.
+    /// The direction of a particle: the field's direction mixed with the stated one, `base`. The further the stated
+    /// direction holds there, the more it counts.
     pub(crate) fn direction(
         &self,
         stencils: &Stencils,
@@ -131,7 +132,7 @@ impl BodyField {
         self.tangent(mixed, axes, base)
     }
 
-    /// The direction of a particle after the guides that smooth; `None` where no guide does.
+    /// The direction of a particle after the guides that smooth have changed it; `None` if no guide smooths.
     pub(crate) fn relaxed(
         &self,
         stencils: &Stencils,
@@ -145,14 +146,16 @@ impl BodyField {
         Some(self.tangent(found, axes, base))
     }
 
-    /// The tangent that a unit complex number stands for. A line has two: the one nearer to the stated direction.
+    /// The tangent that a unit complex number stands for. A line has two opposite tangents: this is the one nearer to
+    /// the stated direction.
     fn tangent(&self, number: DVec2, axes: [DVec3; 2], base: &StatedDirection) -> DVec3 {
         let tangent = self.symmetry.decode(number, axes);
         let is_opposite = self.symmetry == Symmetry::Lines && tangent.dot(base.tangent) < 0.0;
         if is_opposite { -tangent } else { tangent }
     }
 
-    /// The field's direction at a particle, carried from the samples round it, and how far the stated one holds there.
+    /// The field's direction at a particle, carried from the samples round it, and how far the stated direction holds
+    /// there.
     fn carried(
         &self,
         solved: &[DVec2],

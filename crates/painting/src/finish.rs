@@ -1,4 +1,4 @@
-//! The finish: ground, canvas, relief and varnish, from the document to a frame.
+//! Computes the finish of a frame (ground, canvas, relief and varnish) from what the document states.
 
 use glam::{Affine2, DAffine3, DMat2, DVec2, DVec3};
 use impasto_scene::document::{CanvasFollows, Preparation, Scene};
@@ -8,10 +8,10 @@ use crate::frame::{Finish, Ground};
 use crate::lights;
 use crate::view::PictureView;
 
-/// Towards the light on the relief where the scene has no sun: from the upper left, as in most studios.
+/// Direction to the light on the relief where the scene has no sun: to the upper left, as in most studios.
 const DEFAULT_RELIEF_LIGHT: DVec3 = DVec3::new(-0.55, 0.62, 0.56);
 
-/// The light stands at least this high over the canvas (sine), so that its shading always reads as relief.
+/// The sine of the light's height over the canvas is at least this, so that its shading always looks like relief.
 const LEAST_HEIGHT: f64 = 0.45;
 
 /// A scene's finish, before a view places the canvas.
@@ -48,8 +48,8 @@ impl FinishRule {
         Finish { canvas_from_px: canvas_from_px.unwrap_or(Affine2::IDENTITY), ..self.finish }
     }
 
-    /// Moves, turns and scales the canvas with the point that the camera looked at in the reference pose; `None` when that point is
-    /// behind the eye.
+    /// Moves, turns and scales the canvas with `anchor`, the point that the camera looked at in the reference pose.
+    /// `None` where that point is too near to show, or behind the eye.
     fn canvas_from_px(&self, anchor: DVec3, view: &PictureView, shot_height_px: f64) -> Option<Affine2> {
         let (before, now) =
             (self.reference.screen_map(DAffine3::IDENTITY), view.screen_map(DAffine3::IDENTITY));
@@ -72,7 +72,7 @@ impl FinishRule {
     }
 }
 
-/// Towards the first sun, in the space of the reference picture, and at least [`LEAST_HEIGHT`] high.
+/// Direction to the first sun in the reference camera's own axes, raised to [`LEAST_HEIGHT`] if it is lower.
 fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
     let lights = lights::resolve(scene, (glam::Vec3::ZERO, 1.0));
     let view = reference.pose.view_from_world();

@@ -17,7 +17,8 @@ pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strok
 pub struct Frame {
     /// Width and height of the picture in pixels.
     pub size_px: [u32; 2],
-    /// Output height over the scene's own height: pixel lengths have been multiplied by it.
+    /// Height of this picture over the height that the scene states. All lengths in pixels are already multiplied by
+    /// it.
     pub px_scale: f32,
     /// The camera.
     pub view: FrameView,
@@ -27,7 +28,8 @@ pub struct Frame {
     pub lights: FrameLights,
     /// The scene's objects, in the order of the scene file. Body `i` has id `i + 1` in the id target.
     pub bodies: Vec<FrameBody>,
-    /// Strokes in painting order: the regions' layers, the layers of paint, then rank from high to low.
+    /// Strokes in painting order: sorted by the layer of their region, then by layer of paint, then by rank from high
+    /// to low.
     pub strokes: Vec<Stroke>,
     /// Where each stroke comes from, parallel to `strokes`.
     pub sources: Vec<StrokeSource>,
@@ -41,7 +43,7 @@ pub struct Frame {
     pub finish: Finish,
     /// How to draw, with the settings of that style.
     pub style: Style,
-    /// How much care to take.
+    /// Exact, or a quick draft.
     pub quality: Quality,
 }
 
@@ -61,7 +63,7 @@ impl Frame {
 /// Exact, or a quick draft.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Quality {
-    /// As exported: the same bits whatever was drawn before.
+    /// As for a file: a frame gives the same bits whatever was drawn before it.
     #[default]
     Exact,
     /// For a view that moves: the same strokes at the same places, but fewer texture taps and flat paint.
@@ -75,7 +77,7 @@ pub struct FrameView {
     pub view_from_world: Mat4,
     /// OpenGL clip space, depth −1..1.
     pub clip_from_view: Mat4,
-    /// Eye in world space; for an orthographic lens still the key's eye.
+    /// Eye in world space. With an orthographic lens it is still the eye of the camera's pose.
     pub eye_in_world: Vec3,
     /// Whether rays are parallel.
     pub orthographic: bool,
@@ -83,7 +85,7 @@ pub struct FrameView {
     pub near_far: [f32; 2],
 }
 
-/// Lights of a frame, linear Rec. 709, intensity multiplied in.
+/// Lights of a frame. Colours are linear Rec. 709 and already multiplied by the intensity.
 #[derive(Clone, Debug, Default)]
 pub struct FrameLights {
     /// Parallel lights; the first one casts shadows.
@@ -94,7 +96,8 @@ pub struct FrameLights {
     pub ambient_above: Vec3,
     /// Ambient light on a surface that faces down.
     pub ambient_below: Vec3,
-    /// A sphere (centre, radius) round everything over the whole timeline: with it the shadow map never moves.
+    /// A sphere (centre, radius) that holds all bodies at every frame of the timeline. The shadow map covers it, so the
+    /// map is the same in every frame.
     pub shadow_bounds: (Vec3, f32),
 }
 
@@ -119,14 +122,14 @@ pub struct PointLight {
 /// One object at one time.
 #[derive(Clone, Debug)]
 pub struct FrameBody {
-    /// Neither drawn nor casting a shadow; it keeps its id.
+    /// A hidden body is not drawn and casts no shadow, but keeps its id.
     pub hidden: bool,
-    /// A backdrop: ink leaves the paper bare there.
+    /// Whether it is a backdrop: the ink style leaves the paper bare there.
     pub is_backdrop: bool,
     /// The surface. It is shared between frames, so that a renderer may cache what it uploads by the address of the
     /// `Arc`.
     pub surface: Arc<BodySurface>,
-    /// Pose: turned, moved, evenly scaled.
+    /// Pose: a rotation, a translation and one scale for all axes.
     pub world_from_model: Mat4,
     /// How far the surface has turned into its morph, 0..=1.
     pub morph: f32,
@@ -146,7 +149,7 @@ pub struct Brushes {
 /// What the paint lies on, and its relief and varnish.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
-    /// The tone under the first layer where a body is; `None` leaves the background bare.
+    /// The tone under the first layer of paint where a body is; `None` if nothing lies under the paint there.
     pub ground: Option<Ground>,
     /// How much the weave of the canvas shows where paint is thin; 0 for a board.
     pub weave: f32,
@@ -154,8 +157,8 @@ pub struct Finish {
     pub canvas_from_px: Affine2,
     /// Height of the paint; 1 is oil.
     pub relief: f32,
-    /// Unit vector towards the light on the relief, in the picture's space (X right, Y up, Z towards the eye). The same in
-    /// every frame, as if the picture hung in a room.
+    /// Unit vector towards the light on the relief, in the picture's space (X right, Y up, Z towards the eye). The same
+    /// in every frame, as if the picture hung in a room.
     pub to_relief_light: [f32; 3],
     /// Strength of the varnish.
     pub varnish: f32,

@@ -7,8 +7,8 @@ use crate::frame::Quality;
 pub struct FrameOptions {
     /// Width and height of the picture, each at least 1.
     pub size_px: [u32; 2],
-    /// Height of the shot in pixels, > 0, where the picture shows more than the shot (as an editor's view does): strokes are as
-    /// large as in a picture of this height. `None` where the picture is the shot.
+    /// Height of the shot in pixels, > 0, if the picture shows more than the shot, as an editor's view does. Strokes
+    /// are then as large as in a picture of this height. `None` if the picture is the shot.
     pub shot_height_px: Option<f32>,
     /// Strokes keep their size in pixels, whatever the picture's height.
     pub keep_stroke_px: bool,
@@ -28,8 +28,8 @@ pub enum StrokeColors {
     /// The scene, lit and mixed.
     #[default]
     Scene,
-    /// How far each turn can be trusted (κ): green where a rotation describes how the surface has moved in the picture, through
-    /// yellow to red where it does not.
+    /// How far each turn can be trusted (κ): from green, where a rotation describes how the surface has moved in the
+    /// picture, through yellow to red, where it does not.
     Trust,
 }
 
@@ -39,11 +39,13 @@ pub enum Rotation {
     /// They do.
     #[default]
     On,
-    /// They keep the angle that they have in the reference pose: the scene moves behind a fixed pattern (the shower-door effect).
+    /// They keep the angle that they have in the reference pose. The scene then moves behind a fixed pattern (the
+    /// shower-door effect).
     Off,
-    /// At random, anew in each frame.
+    /// They have random angles, anew in each frame.
     Random,
-    /// They are mapped to the surface like a texture: foreshortened, and smaller with distance (the source paper's figure 2).
+    /// They are mapped to the surface like a texture: foreshortened, and smaller with distance (the source paper's
+    /// figure 2).
     Mapped,
 }
 

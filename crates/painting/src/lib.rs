@@ -1,4 +1,5 @@
-//! `prepare(scene) -> Painting`, then `painting.at(frame, options) -> Frame`: plain data, no files, no GL.
+//! Turns a loaded scene into the strokes of any frame: `prepare(scene) -> Painting`, then
+//! `painting.at(frame, options) -> Frame`. A frame is plain data; nothing here needs files or OpenGL.
 //!
 //! ```text
 //! LoadedScene ─▶ surfaces ─▶ sampling ─▶ neighbours (horn only) ─▶ lift ─▶ order ─▶ Painting

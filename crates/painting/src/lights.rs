@@ -1,4 +1,4 @@
-//! The document's lights and colours in linear light, and the sphere round a scene that shadows need.
+//! Turns the document's lights and colours into linear light, and finds the sphere round a scene that shadows need.
 
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::color::linear_from_srgb;
@@ -15,8 +15,8 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
     Vec3::from(linear(color)) * intensity as f32
 }
 
-/// The lights of a scene. Where it names none: a warm sun from the upper left front, cool light from above, warm light from
-/// below.
+/// The lights of a scene. If it names none, they are a warm sun from the upper left front, cool light from above, and
+/// warm light from below.
 pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights {
     let mut lights = FrameLights { shadow_bounds, ..Default::default() };
     if scene.lights.is_empty() {

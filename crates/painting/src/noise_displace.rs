@@ -1,4 +1,4 @@
-//! Noise-displaced materials: from the document to the noise of a body, and what it does to vertices.
+//! Noise-displaced materials: makes the noise of a body from what the document states, and moves vertices by it.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ impl BodyNoise {
         };
         let speed = self.stated.surface.as_ref().map_or(0.0, |surface| surface.speed);
         let travelled = travelled * speed;
-        // Only the fraction matters to a texture that repeats, and it is exact at late frames too.
+        // The texture repeats, so only the fraction matters. Without the whole part it stays exact at late frames.
         FrameNoise { noise: Arc::clone(self), lookup, travelled: (travelled - travelled.floor()).as_vec2() }
     }
 
@@ -46,7 +46,7 @@ impl BodyNoise {
 #[derive(Clone, Default)]
 pub(crate) struct NoiseInputs {
     stated: Option<NoiseDisplace>,
-    /// For the vertices and for the surface.
+    /// The pictures of the noise, first for the vertices, then for the surface; none where the built-in noise is used.
     pictures: [Option<Arc<Texture>>; 2],
 }
 
@@ -106,7 +106,8 @@ impl NoiseInputs {
 
 fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     let count = surface.layer_count.max(1);
-    // The product has 2(k − 1) factors; `Mean` takes their geometric mean, `Root` the k-th root. One layer has no factor.
+    // The product of k layers has 2(k − 1) factors. `Mean` takes the geometric mean of these, `Root` the k-th root of
+    // the product. With one layer there is no factor.
     let root_degree = match surface.mix {
         NoiseMix::Root => f64::from(count),
         NoiseMix::Mean => f64::from(2 * (count - 1).max(1)),
@@ -127,7 +128,8 @@ fn layers(surface: &SurfaceNoise, tile: Arc<Tile>) -> NoiseLayers {
     }
 }
 
-/// The vertices of a mesh after noise has moved them. Each normal turns as the mean of the faces round its vertex does.
+/// The vertices of a mesh after noise has moved them. Each normal turns as the mean normal of the faces round its
+/// vertex does.
 pub(crate) fn displaced(
     mesh: &TriangleMesh,
     vertices: &Vertices,
@@ -140,8 +142,8 @@ pub(crate) fn displaced(
             noise.displaced(position.as_dvec3(), normal.as_dvec3(), lookup).as_vec3()
         });
     let moved: Vec<Vec3> = moved.collect();
-    // Along a seam of texture coordinates a vertex exists twice: equal positions and normals count as one vertex. Along a hard
-    // edge the normals differ, and so do the vertices.
+    // Along a seam of texture coordinates a vertex exists twice: vertices with equal positions and normals count as
+    // one. Along a hard edge the normals differ, and the vertices stay apart.
     let bits = |index: usize| [positions[index], normals[index]].map(|v| v.to_array().map(f32::to_bits));
     let mut groups = HashMap::with_capacity(positions.len());
     let group_of: Vec<usize> = (0..positions.len())

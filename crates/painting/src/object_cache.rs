@@ -107,7 +107,7 @@ impl ObjectCache {
         self.surface.update(inputs.clone(), |inputs, _| {
             let body = inputs.build();
             ObjectSurface {
-                parts: Arc::new(BodyParts::of(&body.mesh)),
+                parts: Arc::new(BodyParts::of(&Surface::with_sides(&body.mesh, &body.sides, |_| true))),
                 bounds: body.bounds(),
                 extent: body.extent(),
                 body: Arc::new(body),

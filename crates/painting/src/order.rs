@@ -1,4 +1,5 @@
-//! The painting order: the regions' layers, the layers of paint, then rank from high to low.
+//! The order in which particles are painted: by the regions' layers, then by the layers of paint, then by rank from
+//! high to low.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -29,7 +30,7 @@ pub(crate) struct PaintingOrder {
 }
 
 impl PaintingOrder {
-    /// Particles in a word of flags; every coat begins with a new word.
+    /// How many particles share one word of flags. Every coat begins with a new word.
     pub(crate) const WORD: usize = u64::BITS as usize;
 
     /// The numbers, in painting order.
@@ -48,7 +49,7 @@ impl PaintingOrder {
 /// All that the order depends on.
 pub(crate) struct OrderInputs {
     coats: Vec<OrderedCoat>,
-    /// The regions' layers, by rule.
+    /// The layer of each rule; empty if all have the same.
     layers: Vec<i32>,
 }
 
@@ -56,7 +57,7 @@ struct OrderedCoat {
     kind: LayerKind,
     name_hash: u32,
     count: usize,
-    /// Tells the regions of the particles, where regions have different layers.
+    /// Tells the region of each particle; `None` if all regions have the same layer.
     traits: Option<Arc<Traits>>,
 }
 
@@ -131,12 +132,12 @@ impl OrderedCoat {
 
 /// Particles of a coat that are in one layer, in progressive order.
 enum LayerParticles {
-    /// The coat's first particles: how many.
+    /// This many particles, the first ones of the coat.
     First(u32),
     These(Vec<u32>),
 }
 
-/// The particles of a coat that are not painted yet; the last one is the next.
+/// The particles of a coat that are not in the order yet. They are taken from the end.
 struct Queue {
     /// The number of the coat's first particle.
     first: u32,
@@ -170,8 +171,8 @@ impl Queue {
     }
 }
 
-/// The next particle of a queue as the heap compares it: the highest rank first, then the least hash of the name,
-/// particle and index of the queue.
+/// The next particle of a queue as the heap compares it. The highest rank comes first; of equal ranks the least hash of
+/// the name, then the least particle, then the least index of the queue.
 type Head = (u64, Reverse<(u32, u32, usize)>);
 
 /// The numbers of the particles of queues, the highest rank first; each queue is sorted already.

@@ -57,6 +57,8 @@ pub(crate) struct PreparedBody {
     pub(crate) surface: Arc<BodySurface>,
     /// The largest strokes that each part carries.
     pub(crate) caps: Vec<Cap>,
+    /// The least size of its form anywhere, model units.
+    pub(crate) least_form: f32,
     /// Left out of the picture.
     pub(crate) hidden: bool,
     /// The direction field, where directions are not all stated outright.

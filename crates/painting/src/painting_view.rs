@@ -47,9 +47,9 @@ pub(crate) struct CoatView<'a> {
     pub(crate) world_from_model: DAffine3,
     /// With the paper's rule, how many particles of each polygon show.
     pub(crate) shown: Option<Vec<u32>>,
-    /// With `horn-exact`, the reference and this view.
+    /// With the solver `HornExact`, the view of the reference and this view.
     clip_views: Option<(ClipView, ClipView)>,
-    /// For each rule; `None` where it paints nothing.
+    /// The presence bound of each rule; `None` for a rule that paints nothing on this coat.
     pub(crate) presence_bounds: Vec<Option<PresenceBound>>,
 }
 
@@ -199,8 +199,8 @@ impl CoatView<'_> {
         self.coat.baked.base_angle_rad(index, self.coat.lift_sources.references.of_rule(region))
     }
 
-    /// The factor on a stroke's stated size where it follows the size of its surface: m^γ, with m the pixels per unit of surface
-    /// now over those in the reference picture, and γ the region's `size_follow`.
+    /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels per unit of
+    /// surface now over those in the reference picture, γ the region's `size_follow`.
     pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
         let region = usize::from(self.coat.traits.region(index));
         let follow = painting.rules[region].strokes.size_follow;
@@ -221,7 +221,7 @@ impl CoatView<'_> {
         }
     }
 
-    /// Random bits of a particle; `which` tells several apart.
+    /// Random bits of a particle, independent for each `which`.
     pub(crate) fn bits(&self, index: usize, which: u32) -> u32 {
         hash::combine(self.coat.traits.bits(index), which)
     }

@@ -1,4 +1,5 @@
-//! The source paper's own count: each polygon shows as many of its particles as its projected area asks for.
+//! Counts strokes by the source paper's own rule: each polygon shows as many of its particles as its projected area
+//! asks for.
 
 use glam::DVec3;
 use impasto_core::ScreenMap;
@@ -10,7 +11,7 @@ use impasto_core::screen_map::area_px;
 /// The polygons of a body, and which of them each particle belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PolygonCounts {
-    /// For each particle, the index of its polygon side in `sides`, and its number there.
+    /// For each particle, the index of its polygon side in `sides`, and its number on that side.
     of_particle: Vec<(u32, u32)>,
     sides: Vec<PolygonSide>,
 }
@@ -57,8 +58,8 @@ impl PolygonCounts {
         Self { of_particle, sides }
     }
 
-    /// How many particles of each polygon show in a view. Fractions are rounded at a threshold that is random but fixed for each
-    /// polygon, so that of the polygons smaller than a stroke, the right share is painted.
+    /// How many particles of each polygon side show in a view. Fractions are rounded at a threshold that is random but
+    /// fixed for each side, so that of the polygons smaller than a stroke the right share is painted.
     pub(crate) fn shown(&self, map: &ScreenMap, wanted_per_px: f64) -> Vec<u32> {
         self.sides
             .iter()
@@ -72,7 +73,7 @@ impl PolygonCounts {
             .collect()
     }
 
-    /// Whether a particle is among those shown.
+    /// Whether a particle is among the `shown` ones of its polygon side.
     pub(crate) fn is_shown(&self, shown: &[u32], particle: usize) -> bool {
         let (side, number) = self.of_particle[particle];
         number < shown[side as usize]

@@ -35,7 +35,7 @@ struct CountedFace<const LAYERS: usize> {
 pub(crate) fn find<const LAYERS: usize>(
     surface: &Surface<'_>,
     sightings: &[Sighting],
-    wanted_per_px: impl Fn(usize) -> [f32; LAYERS],
+    wanted_per_px: impl Fn(usize, DVec3, DVec3) -> [f32; LAYERS],
 ) -> [usize; LAYERS] {
     let stride = surface.faces().count().div_ceil(FACES).max(1);
     let faces: Vec<CountedFace<LAYERS>> = surface
@@ -44,11 +44,12 @@ pub(crate) fn find<const LAYERS: usize>(
         .map(|(triangle, flipped, area)| {
             let [a, b, c] = surface.mesh().corners(triangle as usize).map(Vec3::as_dvec3);
             let across = (b - a).cross(c - a).normalize_or_zero();
+            let (center, normal) = ((a + b + c) / 3.0, if flipped { -across } else { across });
             CountedFace {
-                center: (a + b + c) / 3.0,
-                normal: if flipped { -across } else { across },
+                center,
+                normal,
                 area,
-                wanted_per_px: wanted_per_px(triangle as usize).map(f64::from),
+                wanted_per_px: wanted_per_px(triangle as usize, center, normal).map(f64::from),
             }
         })
         .collect();

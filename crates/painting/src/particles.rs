@@ -76,6 +76,11 @@ impl Particles {
         self.place_on_surface(self.all[..self.count][index])
     }
 
+    /// One of them where it lies on the surface at rest.
+    pub(crate) fn at_rest(&self, index: usize) -> Particle {
+        self.all[..self.count][index].on(&self.surface.mesh)
+    }
+
     /// One of them, if there are so many.
     pub fn get(&self, index: usize) -> Option<Particle> {
         (index < self.count).then(|| self.at(index))

@@ -1,8 +1,10 @@
 //! The parts of a body: the largest stroke that each can carry, and its automatic direction.
 
 use glam::DVec3;
+use impasto_core::ScreenMap;
+use impasto_core::form_size::FormSize;
 use impasto_core::parts::{Part, parts};
-use impasto_core::{ScreenMap, TriangleMesh};
+use impasto_core::sampling::Surface;
 use impasto_scene::document::Direction;
 
 use crate::references::BodyReference;
@@ -13,6 +15,11 @@ const LENGTH_SHARE: f64 = 0.6;
 
 /// The least cap, pixels at the scene's size.
 const LEAST_CAP_PX: f64 = 3.0;
+
+/// A stroke that fits the form is at most this share of the form's size wide, the less the more it has to shrink, and at least this
+/// many pixels.
+const FORM_SHARE: f32 = 0.105;
+const LEAST_FITTED_PX: f32 = 4.0;
 
 /// Strokes stay at least this much longer than wide.
 const LEAST_ASPECT: f32 = 1.2;
@@ -34,6 +41,8 @@ const BACKDROP_FAMILIES_DEG: (f64, f64) = (-58.0, 4.0);
 pub(crate) struct BodyParts {
     pub(crate) parts: Vec<Part>,
     pub(crate) of_triangle: Vec<u32>,
+    /// How large the form is all over the body.
+    pub(crate) form: FormSize,
 }
 
 /// The largest strokes that a part carries, pixels at the scene's size. The reference pose decides: a stroke keeps its size
@@ -42,12 +51,16 @@ pub(crate) struct BodyParts {
 pub(crate) struct Cap {
     length_px: f32,
     width_px: f32,
+    px_per_unit: f32,
 }
 
+/// The seed of the samples that measure the form: the same for all bodies, so that equal meshes have equal strokes.
+const FORM_SEED: u32 = 0x0f02_2a1e;
+
 impl BodyParts {
-    pub(crate) fn of(mesh: &TriangleMesh) -> Self {
-        let (parts, of_triangle) = parts(mesh);
-        Self { parts, of_triangle }
+    pub(crate) fn of(surface: &Surface<'_>) -> Self {
+        let (parts, of_triangle) = parts(surface.mesh());
+        Self { parts, of_triangle, form: FormSize::of(surface, FORM_SEED) }
     }
 
     /// The caps, from the reference view at the scene's own size.
@@ -55,7 +68,11 @@ impl BodyParts {
         let of_part = |part: &Part| {
             let scale = px_per_unit(map, part);
             let cap = |share: f64, extent: f64| (share * extent * scale).max(LEAST_CAP_PX) as f32;
-            Cap { length_px: cap(LENGTH_SHARE, part.extents[0]), width_px: cap(WIDTH_SHARE, part.extents[1]) }
+            Cap {
+                length_px: cap(LENGTH_SHARE, part.extents[0]),
+                width_px: cap(WIDTH_SHARE, part.extents[1]),
+                px_per_unit: scale as f32,
+            }
         };
         self.parts.iter().map(of_part).collect()
     }
@@ -73,6 +90,16 @@ impl Cap {
         // A stroke that is stated to be broader than long stays so.
         let aspect = LEAST_ASPECT.min(length_px / width_px.max(f32::MIN_POSITIVE));
         [length_px.min(self.length_px).max(width * aspect), width]
+    }
+
+    /// As [`Cap::apply`], and as far as `fit` says (0..=1) no larger than suits a form of this size, model units.
+    pub(crate) fn fitted(self, size_px: [f32; 2], form: f32, fit: f32) -> [f32; 2] {
+        let capped = self.apply(size_px[0], size_px[1]);
+        let suited_px = FORM_SHARE * form * self.px_per_unit;
+        let most_px = (suited_px * (suited_px / capped[1]).min(1.0).sqrt()).max(LEAST_FITTED_PX);
+        // A soft minimum: sizes do not change abruptly over the surface.
+        let share = (1.0 + (capped[1] / most_px).powi(4)).powf(-0.25);
+        capped.map(|side| side * (1.0 - fit * (1.0 - share)))
     }
 }
 
@@ -106,11 +133,28 @@ mod tests {
 
     #[test]
     fn a_cap_keeps_strokes_longer_than_wide() {
-        let cap = Cap { length_px: 30.0, width_px: 20.0 };
+        let cap = Cap { length_px: 30.0, width_px: 20.0, px_per_unit: 10.0 };
         assert_eq!(cap.apply(78.0, 25.0), [30.0, 20.0]);
         assert_eq!(cap.apply(10.0, 5.0), [10.0, 5.0]);
-        let stubby = Cap { length_px: 12.0, width_px: 20.0 };
+        let stubby = Cap { length_px: 12.0, width_px: 20.0, px_per_unit: 10.0 };
         assert_eq!(stubby.apply(78.0, 25.0), [24.0, 20.0]);
         assert_eq!(stubby.apply(10.0, 20.0), [10.0, 20.0]);
+    }
+
+    #[test]
+    fn a_stroke_fits_the_form_and_keeps_its_proportion() {
+        let cap = Cap { length_px: 300.0, width_px: 200.0, px_per_unit: 10.0 };
+        let close = |found: [f32; 2], length: f32| {
+            assert!((found[0] - length).abs() < 0.02 * length, "{found:?}, not {length}");
+            assert!((found[0] / found[1] - 3.0).abs() < 1e-4, "{found:?}");
+        };
+        // A form 100 units large suits strokes far wider than these, one of 10 units suits 10.5 px: so much narrower that they
+        // shrink a little further, to 10.5 √(10.5 / 25).
+        close(cap.fitted([75.0, 25.0], 100.0, 1.0), 75.0);
+        close(cap.fitted([75.0, 25.0], 10.0, 1.0), 20.4);
+        close(cap.fitted([75.0, 25.0], 10.0, 0.5), 47.7);
+        assert_eq!(cap.fitted([75.0, 25.0], 5.0, 0.0), [75.0, 25.0]);
+        assert_eq!(cap.fitted([75.0, 25.0], f32::INFINITY, 1.0), [75.0, 25.0]);
+        close(cap.fitted([75.0, 25.0], 1e-9, 1.0), 3.0 * LEAST_FITTED_PX);
     }
 }

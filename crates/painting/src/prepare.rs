@@ -228,6 +228,7 @@ fn plain(loaded: &Arc<LoadedScene>, caches: &[ObjectCache]) -> Painting {
         hidden: object.hidden,
         surface: cache.surface(),
         caps: cache.parts().caps(&references.of_body(index).own().map),
+        least_form: cache.parts().form.least(),
         field: None,
         regions: Arc::default(),
     });

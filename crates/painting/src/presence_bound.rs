@@ -43,7 +43,8 @@ impl Painting {
                 return None;
             }
             let of_part = |cap: &Cap| {
-                let [length, width] = cap.apply(layer.length_px, layer.width_px);
+                let size_px = [layer.length_px, layer.width_px];
+                let [length, width] = cap.fitted(size_px, body.least_form, rule.strokes.fit);
                 let wanted_per_px = f64::from(layer.coverage / (length * width));
                 (wanted_per_px * coat.sampled.area * most * LEEWAY / f64::from(px_scale * px_scale)) as f32
             };

@@ -1,5 +1,6 @@
-//! Which strokes the last picture of a moving view had. Few of all strokes are present, and mostly the same ones again
-//! in the next picture, so that not all others need to be computed.
+//! Remembers which strokes the last picture of a moving view had, so that the next one is computed more quickly. Few
+//! of all strokes are present in a picture, and mostly the same ones in the next, so that only a share of the others
+//! is computed.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,10 +11,10 @@ use crate::frame::Frame;
 use crate::order::PaintingOrder;
 use crate::painting::Painting;
 
-/// Of the small strokes that were absent, each picture computes another sixteenth: they may appear late unnoticed.
+/// Of the small strokes that were absent, each picture computes another sixteenth: nobody notices if they appear late.
 const SMALL: u64 = 0x0001_0001_0001_0001;
 
-/// Of the large strokes that were absent, each picture computes one half: where they appear late they leave holes.
+/// Of the large strokes that were absent, each picture computes one half: if they appear late, they leave holes.
 const LARGE: u64 = 0x5555_5555_5555_5555;
 
 /// Which strokes were present in a picture.
@@ -24,15 +25,17 @@ pub struct Recall {
 }
 
 impl Recall {
-    /// Particles in a word.
+    /// How many particles have their bits in one number of `words`.
     pub(crate) const WORD: usize = 64;
 
-    /// What a picture of this painting says for the next one. `is_present` tells by index whether anything of a stroke of the
-    /// frame was painted; `turn` counts the pictures.
+    /// What is remembered of a picture of this painting for the next one. `is_present` says, by a stroke's index in
+    /// the frame, whether anything of that stroke was painted. `turn` counts the pictures.
     pub fn of(painting: &Painting, frame: &Frame, is_present: impl Fn(usize) -> bool, turn: u32) -> Self {
         let order = Arc::clone(&painting.order);
         let pattern = |number: u32| match painting.coats[order.entry(number).coat as usize].kind {
-            LayerKind::Form | LayerKind::Accents | LayerKind::Lights => SMALL << (turn % 16),
+            LayerKind::Form | LayerKind::Accents | LayerKind::Contour | LayerKind::Lights => {
+                SMALL << (turn % 16)
+            }
             LayerKind::Body | LayerKind::Scumble => LARGE << (turn % 2),
             // Drafts have no underpainting.
             LayerKind::Underpainting => 0,
@@ -56,8 +59,8 @@ impl Recall {
         Arc::ptr_eq(&self.order, &painting.order)
     }
 
-    /// Which of the `count` particles from the place `first` on (a multiple of [`Recall::WORD`]) are to be computed, counted from
-    /// `first`.
+    /// Which of the `count` particles from the place `first` on are to be computed, counted from `first`. `first` is a
+    /// multiple of [`Recall::WORD`].
     pub(crate) fn asked(&self, first: usize, count: usize) -> impl Iterator<Item = usize> {
         let words: Range<usize> = first / Self::WORD..(first + count).div_ceil(Self::WORD);
         self.words[words].iter().enumerate().flat_map(move |(index, &word)| {

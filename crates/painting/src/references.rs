@@ -1,4 +1,5 @@
-//! The references (poses and views that directions are stated in), as one body sees them, and the lift of a particle from them.
+//! The references (poses and views in which directions are stated): how they see a point of a body, and the lift of a
+//! particle that follows from that.
 
 use glam::{DAffine3, DVec2, DVec3};
 use impasto_core::ScreenMap;
@@ -10,8 +11,8 @@ use impasto_scene::motion;
 
 use crate::view::PictureView;
 
-/// Cosines between the normal and the direction to the eye: a reference states nothing about surfaces below `NONE`, and
-/// states directions wholly from `WHOLE` on.
+/// Cosines of the angle between the normal and the direction to the eye. A reference states nothing about surfaces
+/// below `NONE`, states directions wholly from `WHOLE` on, and in part between them.
 const NONE: f64 = 0.2;
 const WHOLE: f64 = 0.5;
 
@@ -29,7 +30,7 @@ pub(crate) struct SceneReferences {
     pub(crate) poses: Vec<ReferencePose>,
     /// How many further references there are.
     pub(crate) further: usize,
-    /// For each rule, the reference that its directions refer to.
+    /// For each rule, the index of the reference that its directions refer to.
     pub(crate) of_rule: Vec<u16>,
 }
 
@@ -93,7 +94,7 @@ impl SceneReferences {
 pub(crate) struct BodyReference {
     pub(crate) map: ScreenMap,
     pub(crate) near: f64,
-    /// Of the angle by which its camera is rolled.
+    /// Sine and cosine of the angle by which its camera is rolled.
     roll_sin_cos: [f64; 2],
     /// The world's up in model space, at the reference pose.
     pub(crate) up_in_model: DVec3,
@@ -122,7 +123,8 @@ pub(crate) struct SurfacePoint {
 
 /// How the references see one point of a surface.
 pub(crate) struct Views {
-    /// The reference of its rule, then the further one that faces it best; none where a reference does not face the point.
+    /// The reference of the point's rule, then the further one that faces the point best; `None` for one that does not
+    /// face it.
     pub(crate) facing: [Option<FacingReference>; 2],
     pub(crate) normal: DVec3,
     /// Axes of the tangent plane, right and up as on a turntable.
@@ -130,7 +132,7 @@ pub(crate) struct Views {
     /// The same, turned by the roll of the reference's camera.
     pub(crate) rolled_axes: [DVec3; 2],
     px_per_unit: f64,
-    /// Of the reference of its rule, even where that does not face the point.
+    /// In the reference of the point's rule, even where that does not face the point.
     pub(crate) jacobian: [DVec3; 2],
 }
 
@@ -154,8 +156,8 @@ impl BodyReferences {
         &self.all[usize::from(self.of_rule[rule])]
     }
 
-    /// How a point is seen. `horn` may replace the lift of the tangent plane in the reference of the point's rule: by
-    /// another (`Some(Some(lift))`), or by none (`Some(None)`), as if the reference did not face the point.
+    /// How the references see a point. `horn` may replace the lift of the tangent plane in the reference of the point's
+    /// rule: by another (`Some(Some(lift))`), or by none (`Some(None)`), as if the reference did not face the point.
     pub(crate) fn views(
         &self,
         point: SurfacePoint,
@@ -214,7 +216,7 @@ impl Views {
         1.0 - self.facing.iter().flatten().map(|reference| 1.0 - reference.share).product::<f64>()
     }
 
-    /// The tangent whose stroke, carried flat and without stretch, shows at this angle in a view.
+    /// The unit tangent whose flat lift (see `flat`) shows at this angle in the view with this Jacobian.
     pub(crate) fn tangent_at(&self, angle_rad: f64, jacobian: [DVec3; 2]) -> DVec3 {
         let turned = angle_rad - self.flat(self.axes[0]).map(jacobian).angle_rad();
         let (sin, cos) = turned.sin_cos();
@@ -227,8 +229,9 @@ impl Views {
         Lift { along, across: self.normal.cross(along) }
     }
 
-    /// N' for strokes along `tangent` (unit): the lifts of the references that face the point, each turned so that strokes lie
-    /// along `tangent` in its own picture, blended over the lift of a camera that looks straight at the surface.
+    /// N' for strokes along `tangent` (unit). Begins with the lift of a camera that looks straight at the surface. Over
+    /// it, blends the lift of each reference that faces the point, turned so that in that reference's picture strokes
+    /// lie along `tangent`.
     pub(crate) fn lift(&self, tangent: DVec3) -> Lift {
         let flat = self.flat(tangent);
         let mut lift = flat;
@@ -239,7 +242,7 @@ impl Views {
         lift
     }
 
-    /// N, without any stroke's direction: κ is measured with it.
+    /// N, without any stroke's direction, with which κ is measured.
     pub(crate) fn bare_lift(&self) -> Lift {
         self.lift(self.rolled_axes[0])
     }

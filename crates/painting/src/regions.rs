@@ -16,14 +16,14 @@ use impasto_scene::presets::{self, ResolvedStrokes};
 use crate::frame::ANY_COLOR;
 use crate::lights::linear;
 
-/// A dab touches only surfaces whose normal has a cosine above this with its own.
+/// A dab touches a surface only where the cosine between their normals is above this.
 const DAB_FACING: f32 = 0.0;
 
 /// A rule: the resolved settings of a region.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RegionRule {
     pub(crate) direction: Direction,
-    /// What is added to all its directions, radians counter-clockwise as seen in the reference.
+    /// An angle that is added to all its directions, radians counter-clockwise as seen in the reference.
     pub(crate) turn_rad: f64,
     pub(crate) seam: Seam,
     pub(crate) sense: Sense,
@@ -94,7 +94,8 @@ fn surface_guide(guide: &Guide) -> Option<SurfaceGuide> {
     SurfaceGuide::new(points, guide.radius, guide.strength, falloff)
 }
 
-/// The palettes of all rules, linear, and for each rule the number of its own ([`ANY_COLOR`] where it has none).
+/// The palettes of all rules in linear light, and for each rule the index of its palette ([`ANY_COLOR`] if it has
+/// none).
 pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
     let mut palettes: Vec<Vec<[f32; 3]>> = Vec::new();
     let of_rule = rules
@@ -109,7 +110,7 @@ pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
                 palettes.push(palette);
                 palettes.len() - 1
             });
-            // A byte cannot count more palettes: all further ones share the last number.
+            // A byte cannot number more palettes: rules with a further one get the last number.
             index.min(usize::from(ANY_COLOR) - 1) as u8
         })
         .collect();
@@ -126,19 +127,19 @@ pub(crate) struct BodyRegions {
     implicit: u16,
 }
 
-/// A region with dabs, sorted into cells as wide as the largest one.
+/// A region with dabs. The dabs are sorted into cells, whose side is the largest radius of a dab.
 #[derive(Clone, Debug, PartialEq)]
 struct Dabbed {
     rule: u16,
     cell: f32,
     dabs: Vec<PlacedDab>,
     in_cell: HashMap<IVec3, Vec<u32>>,
-    /// For each triangle, one more than the number of dabs before the last patch (group, material, …) that covers it; 0 where no
-    /// patch does. Empty where all patches are dabs.
+    /// For each triangle, 0 if no patch other than dabs (a group, a material, …) covers it; else 1 + the number of dabs
+    /// that come before the last such patch. Empty if all patches are dabs.
     whole: Vec<u32>,
 }
 
-/// A dab. Where two touch a point, the later one decides.
+/// A dab. Where two dabs touch a point, the later one decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlacedDab {
     at: Vec3,
@@ -212,7 +213,7 @@ impl BodyRegions {
     }
 }
 
-/// Writes `value` for each triangle that a patch covers; dabs cover no whole triangle.
+/// Writes `value` for each triangle that a patch covers. Dabs are skipped, because they cover no whole triangles.
 fn cover<T: Copy>(
     of_triangle: &mut [T],
     file: &MeshFile,

@@ -10,9 +10,9 @@ use crate::regions::RegionRule;
 /// The directions that the rules state on one body.
 pub(crate) struct DirectionRules<'a> {
     pub(crate) rules: &'a [RegionRule],
-    /// For each part, its direction where the rule says `Auto`.
+    /// For each part, its direction where the rule states none outright (`Auto` or `Curvature`).
     pub(crate) automatic: Vec<Direction>,
-    /// Centre and length of the diagonal of the body's bounds, model space.
+    /// Centre of the body's bounds and length of their diagonal, model space.
     pub(crate) extent: (DVec3, f64),
 }
 
@@ -25,11 +25,11 @@ pub(crate) struct StatedDirection {
     pub(crate) exact: f64,
 }
 
-/// What is stated at a point: a direction on the surface, which shows at a different angle in each view, or an angle, which is
-/// the same in all.
+/// What is stated at a point.
 enum Line {
+    /// A direction on the surface, which shows at a different angle in each view.
     OnSurface(DVec3),
-    /// Radians.
+    /// An angle in the picture, radians, the same in every view.
     Shown(f64),
 }
 
@@ -93,7 +93,7 @@ impl DirectionRules<'_> {
             z = Some(mixed.try_normalize().unwrap_or(there));
         }
         StatedDirection {
-            // Where one reference states all, its tangent is taken as it is, exact to the last bit.
+            // Where a single reference states the whole direction, its tangent is taken unmixed, exact to the last bit.
             tangent: whole.unwrap_or_else(|| {
                 let z = z.unwrap_or_else(|| symmetry.encode(line.unseen(views), views.axes));
                 symmetry.decode(z, views.axes)
@@ -127,8 +127,8 @@ impl DirectionRules<'_> {
     }
 
     /// Whether the surface at a point faces along the axis that states its direction, within 26 degrees. A stated angle
-    /// has no such axis: the world's up stands in, from which directions are guessed on surfaces that no reference
-    /// sees.
+    /// has no such axis: the world's up is taken instead, because directions are guessed from it on surfaces that no
+    /// reference sees.
     pub(crate) fn is_pole(&self, point: SurfacePoint, up_in_model: DVec3) -> bool {
         const COSINE: f64 = 0.9;
         let axis = match *self.direction(point) {

@@ -71,13 +71,19 @@ impl PaintingView<'_> {
         }
         let cap = self.painting.bodies[coat.object].caps[part];
         let grown = coat_view.growth(index, self.painting, self.px_scale);
-        let size_px = cap.apply(layer.length_px, layer.width_px).map(|side| side * grown);
+        let size_px = [layer.length_px, layer.width_px];
+        let form = coat.traits.form[index];
+        let size_px = cap.fitted(size_px, form, fit_of(coat.kind, strokes.fit));
+        // A stroke that is smaller than its layer's carries less paint, mixed less boldly.
+        let boldness = (size_px[1] / layer.width_px).clamp(0.2, 1.0).sqrt();
+        let small = small_enough(coat.kind, size_px[1] / layer.width_px);
+        let size_px = size_px.map(|side| side * grown);
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&coat_view.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
             (Some(_), _) => return None,
             _ => {
-                let wanted_per_px = layer.coverage * patches / (size_px[0] * size_px[1]);
+                let wanted_per_px = layer.coverage * patches * small / (size_px[0] * size_px[1]);
                 self.supply_ln(coat_view, index, solved.area_px, wanted_per_px)
             }
         };
@@ -154,8 +160,8 @@ impl PaintingView<'_> {
                 StrokeColors::Trust => trust_srgb8(map.kappa() as f32),
             },
             mark: brushes::mark(&coat.first_marks[region as usize], entry.particle, bits),
-            paint: chance.paint(layer, strokes.size_jitter > 0.0),
-            mixing: mixing(strokes, self.painting.palette_of_rule[region as usize]),
+            paint: chance.paint(layer, strokes.size_jitter > 0.0, boldness),
+            mixing: mixing(strokes, boldness, self.painting.palette_of_rule[region as usize]),
             normal_in_world: (coat_view.world_from_model.matrix3 * normal)
                 .normalize_or_zero()
                 .as_vec3()
@@ -225,6 +231,23 @@ fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
     }
 }
 
+/// How much of a layer of small strokes is wanted where the form has shrunk them to this share of their size: where the body
+/// layer's are small, they add nothing.
+fn small_enough(kind: LayerKind, share: f32) -> f32 {
+    match kind {
+        LayerKind::Form | LayerKind::Accents => smoothstep((share - 0.5) / 0.4).max(0.02),
+        _ => 1.0,
+    }
+}
+
+/// How far the strokes of a layer fit the form. The underpainting and the scumble are there to be broad.
+pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
+    match kind {
+        LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour => 0.0,
+        LayerKind::Body | LayerKind::Form | LayerKind::Accents | LayerKind::Lights => fit,
+    }
+}
+
 /// The colour of a trust: red up to κ = 0.72 (a mirrored map has at most 0.71), yellow half-way, green from 0.9.
 fn trust_srgb8(kappa: f32) -> u32 {
     const RED: [f32; 3] = [176.0, 38.0, 28.0];
@@ -246,10 +269,10 @@ fn patch(noise: f32) -> f32 {
     smoothstep(0.5 + 0.45 * noise).max(0.02)
 }
 
-fn mixing(strokes: &ResolvedStrokes, palette: u8) -> Mixing {
+fn mixing(strokes: &ResolvedStrokes, boldness: f32, palette: u8) -> Mixing {
     let byte = |value: f32, scale: f32| (value * scale).round() as u8;
     Mixing {
-        jitter: byte(strokes.color_jitter, Mixing::SCALE),
+        jitter: byte(strokes.color_jitter * boldness, Mixing::SCALE),
         temperature: byte(strokes.temperature, Mixing::SCALE),
         grading: byte(strokes.grading, 255.0),
         palette,
@@ -305,7 +328,7 @@ impl Chance {
         (BEND_SHARE * jitter * self.normal(BEND)).exp()
     }
 
-    fn paint(&self, layer: &ResolvedLayer, varied: bool) -> Paint {
+    fn paint(&self, layer: &ResolvedLayer, varied: bool, boldness: f32) -> Paint {
         let byte = |value: f32| value.round().clamp(0.0, 255.0) as u8;
         let (thickness, dryness) = if varied {
             let dryness = hash::unit(hash::combine(self.bits, DRYNESS_JITTER));
@@ -315,7 +338,7 @@ impl Chance {
         };
         Paint {
             opacity: byte(layer.opacity * 255.0),
-            thickness: byte(layer.thickness * thickness * Paint::THICKNESS_SCALE),
+            thickness: byte(layer.thickness * thickness * boldness * Paint::THICKNESS_SCALE),
             pickup: byte(layer.pickup * 255.0),
             dryness: byte((layer.dryness * dryness).min(1.0) * 255.0),
         }

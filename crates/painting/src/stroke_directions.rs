@@ -20,9 +20,9 @@ pub struct StrokeDirection {
     pub object: usize,
     /// Index of the region in the scene; `regions.len()` for the implicit one.
     pub region: usize,
-    /// Index of the particle in the progressive order of its object's body layer.
+    /// Index of the particle in its object's body layer. Particles are in the order in which they were sampled.
     pub particle: usize,
-    /// Rank in (0, 1): low ranks come first.
+    /// The particle's place in that order as a share of all particles, in (0, 1).
     pub rank: f32,
     /// Pixels, origin at the upper left corner of the picture, Y down.
     pub position_px: [f32; 2],
@@ -41,7 +41,7 @@ pub struct StrokeDirection {
 pub struct SurfacePlace {
     /// Index of the object in the scene.
     pub object: usize,
-    /// Model space, static scale applied.
+    /// Model space: the object's fixed `scale` is applied, its keys are not.
     pub position: DVec3,
     /// Unit normal, model space.
     pub normal: DVec3,
@@ -58,14 +58,16 @@ pub struct ShownDirection {
     pub kappa: f32,
 }
 
-/// Only strokes count whose normal is within 60 degrees of the place's: the cosine.
+/// The cosine of 60 degrees. A stroke counts only if the angle between its normal and the place's is smaller.
 const LEAST_COSINE: f64 = 0.5;
 
 impl Painting {
-    /// At most one direction for each cell of `cell_px` × `cell_px` pixels, row by row. It is that of the stroke of the
-    /// lowest rank (of equal ranks the first object's) among the strokes of the body layer that are in the cell, face
-    /// the eye and are `accepted`. Whether another body hides a stroke is for `accepted` to judge; it is given all but
-    /// angle and κ (both 0).
+    /// The directions of some strokes of the body layer: at most one for each cell of `cell_px` × `cell_px` pixels, row
+    /// by row. Of the strokes in a cell that face the eye and are `accepted`, the one of the lowest rank is taken; of
+    /// equal ranks, the first object's.
+    ///
+    /// `accepted` must judge whether another body hides a stroke. The directions that it is given have no angle and κ
+    /// yet: both are 0.
     pub fn stroke_directions(
         &self,
         camera: &CameraPose,
@@ -102,8 +104,9 @@ impl Painting {
         cells.into_iter().flatten().map(|(coat, direction)| view.with_angle(coat, direction)).collect()
     }
 
-    /// The angle of strokes at a place as a camera sees them: that of the nearest particle of the object's body layer within the
-    /// place's radius that faces about the same way. `None` where there is none, or where it is behind the eye.
+    /// The angle of strokes at a place as a camera sees them. It is taken from the nearest particle of the object's
+    /// body layer that is within the place's radius and faces about the same way. `None` if there is none, or if its
+    /// depth is not between the nearest and the farthest that show.
     pub fn angle_at(&self, place: &SurfacePlace, camera: &CameraPose, frame: f64) -> Option<ShownDirection> {
         let options = FrameOptions::new([self.scene().size.0, self.scene().size.1]);
         let view = self.view(camera, frame, &options, |coat| place.is_on(coat));
@@ -119,8 +122,9 @@ impl Painting {
         Some(view.shown_direction(coat, index))
     }
 
-    /// The strokes of an object's body layer round a place, as a camera sees them: those within the place's radius that face about
-    /// the same way and are not behind the eye. At most `most`, the first ones in progressive order.
+    /// The directions of strokes of an object's body layer round a place, as a camera sees them. These strokes are
+    /// within the place's radius, face about the same way as the place, and face the eye. If there are more than
+    /// `most`, those that were sampled first are taken.
     pub fn stroke_directions_near(
         &self,
         place: &SurfacePlace,
@@ -156,7 +160,7 @@ impl SurfacePlace {
     }
 }
 
-/// The rank of a particle of a coat; `solved` has all of them.
+/// The rank of a particle. `solved` must hold all particles of its coat.
 fn rank(index: usize, solved: &SolvedParticles) -> f32 {
     (index as f32 + 0.5) / solved.area_px.len() as f32
 }

@@ -1,4 +1,5 @@
-//! Makes the surface that is sampled and drawn from an object of the document; its vertices in any shape; its albedo.
+//! Makes the surface of a body from an object of the document, and gives the surface's vertices in any shape and its
+//! albedo.
 
 use std::sync::Arc;
 
@@ -66,7 +67,7 @@ impl SurfaceInputs {
         })
     }
 
-    /// Names of the groups and materials of the mesh file, as regions know them.
+    /// The mesh file, whose groups and materials regions name.
     pub(crate) fn file(&self) -> &MeshFile {
         &self.file
     }
@@ -122,11 +123,16 @@ impl SurfaceInputs {
     }
 }
 
-/// Turns Z up into Y up and applies the static scale. A scale of zero leaves no triangle: nothing is painted.
+/// Turns the mesh so that its file's up axis becomes Y, and applies the static scale. A scale of zero leaves
+/// no triangle: nothing is painted.
 fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
     let turn = |v: Vec3| match up {
         Up::Y => v,
         Up::Z => Vec3::new(v.x, v.z, -v.y),
+        Up::X => Vec3::new(-v.y, v.x, v.z),
+        Up::NegX => Vec3::new(v.y, -v.x, v.z),
+        Up::NegY => Vec3::new(v.x, -v.y, -v.z),
+        Up::NegZ => Vec3::new(v.x, -v.z, v.y),
     };
     let scale = Vec3::from_array(scale.0.map(|value| value as f32));
     if scale.min_element() <= 0.0 {
@@ -197,7 +203,7 @@ impl BodySurface {
         (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
     }
 
-    /// sRGB albedo of each material, or, where one has a texture, of each of `particles`.
+    /// sRGB albedo of each material; if any material has a texture, of each of `particles` instead.
     pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
         if self.materials.iter().any(|material| material.texture.is_some()) {
             return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());
@@ -230,7 +236,7 @@ impl BodySurface {
 /// The albedo of triangles without a material.
 const NO_MATERIAL: u32 = 0xffcc_cccc;
 
-/// A linear albedo as [`BodySurface::albedo_srgb8`] gives it.
+/// A linear albedo in the form that [`BodySurface::albedo_srgb8`] gives.
 fn srgb8(material: &BodyMaterial, albedo: [f32; 3]) -> u32 {
     let [r, g, b] = albedo.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u32);
     let lit = if material.unlit { 0 } else { 255 };
@@ -240,8 +246,9 @@ fn srgb8(material: &BodyMaterial, albedo: [f32; 3]) -> u32 {
 /// sRGB albedo of particles, 8 bits a channel, as 0xAABBGGRR; A is 0 where unlit.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Albedo {
-    /// No material has a texture.
+    /// One albedo per material: no material has a texture.
     OfMaterial(Vec<u32>),
+    /// One albedo per particle.
     OfParticle(Vec<u32>),
 }
 

@@ -91,6 +91,8 @@ pub(crate) struct Traits {
     dabbed: Vec<u16>,
     /// Slow noise of each particle: of hue and value, and of how firm edges are.
     pub(crate) drift: Vec<[f32; 2]>,
+    /// The size of the form at each particle, model units.
+    pub(crate) form: Vec<f32>,
 }
 
 /// All traits of a coat's particles.
@@ -187,23 +189,30 @@ impl TraitInputs {
     /// The traits of all particles. `before` was made from equal inputs: it is shortened or extended.
     pub(crate) fn traits(&self, before: Option<CoatTraits>) -> CoatTraits {
         let count = self.particles.len();
-        let (mut dabbed, mut drift, mut stray_rad) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut dabbed, mut drift, mut form, mut stray_rad) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         if let Some(before) = before {
             if before.traits.drift.len() == count {
                 return before;
             }
             let traits = Arc::unwrap_or_clone(before.traits);
-            (dabbed, drift) = (traits.dabbed, traits.drift);
+            (dabbed, drift, form) = (traits.dabbed, traits.drift, traits.form);
             stray_rad = Arc::unwrap_or_clone(before.stray_rad);
         }
         dabbed.truncate(count);
         drift.truncate(count);
+        form.truncate(count);
         stray_rad.truncate(count);
         let from = drift.len();
         if self.regions.has_dabs() {
             let regions = self.particles.par_range(from..count).map(|particle| self.regions.of(&particle));
             dabbed.par_extend(regions);
         }
+        let sizes = (from..count).into_par_iter().map(|index| {
+            let particle = self.particles.at_rest(index);
+            self.parts.form.at(particle.position, particle.normal)
+        });
+        form.par_extend(sizes);
         drift.resize(count, [0.0; 2]);
         stray_rad.resize(count, 0.0);
         let traits = Traits {
@@ -213,12 +222,13 @@ impl TraitInputs {
             name_hash: self.name_hash,
             dabbed,
             drift: Vec::new(),
+            form: Vec::new(),
         };
         let chunks = drift[from..].par_chunks_mut(CHUNK).zip(stray_rad[from..].par_chunks_mut(CHUNK));
         chunks.enumerate().for_each(|(chunk, (drift, stray_rad))| {
             self.fill_noise(&traits, from + chunk * CHUNK, drift, stray_rad);
         });
-        CoatTraits { traits: Arc::new(Traits { drift, ..traits }), stray_rad: Arc::new(stray_rad) }
+        CoatTraits { traits: Arc::new(Traits { drift, form, ..traits }), stray_rad: Arc::new(stray_rad) }
     }
 
     /// Computes the slow noise and the stray angles of the particles from `first` on; `traits` have no noise yet.

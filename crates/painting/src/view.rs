@@ -1,4 +1,4 @@
-//! A camera with a picture's size: the matrices and maps that projection and drawing use.
+//! A camera with a picture's size, and the matrices and maps that projection and drawing take from it.
 
 use glam::{DMat4, DVec2};
 use impasto_core::horn_exact::ClipView;
@@ -38,7 +38,8 @@ impl PictureView {
         ScreenMap::new(self.pose.view_from_world(), world_from_model, lens)
     }
 
-    /// The same picture by way of OpenGL's matrices, for the paper's own solve.
+    /// The same map as [`PictureView::screen_map`], but by way of OpenGL's matrices, as the paper's own solve needs
+    /// it.
     pub(crate) fn clip_view(&self, world_from_model: glam::DAffine3) -> ClipView {
         let size_px = DVec2::new(f64::from(self.size_px[0]), f64::from(self.size_px[1]));
         let clip_from_model =

@@ -12,7 +12,7 @@ pub const MAX_NAME_BYTES: usize = 4096;
 /// The folders that a scene's files may come from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AssetFolders {
-    /// Searched after the scene file's own folder, in order (`--asset-dir`).
+    /// Searched in this order, after the folder of the file that names the asset (`--asset-dir`).
     pub extra: Vec<PathBuf>,
 }
 
@@ -21,7 +21,7 @@ pub struct AssetFolders {
 pub struct AssetRequest<'a> {
     /// The file that names it: the name is relative to this file's folder.
     pub beside: &'a Path,
-    /// The scene's folder: nothing outside it (and outside the extra folders) is read.
+    /// The scene's folder. Only files in it or in the extra folders are read.
     pub root: &'a Path,
     /// The name as written. `/` and `\` both separate folders.
     pub name: &'a str,
@@ -34,11 +34,11 @@ pub struct AssetRequest<'a> {
 pub struct Asset {
     /// Where it was found.
     pub path: PathBuf,
-    /// All of it.
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
-/// Why a file that another one names was not read.
+/// Why a file that another file names was not read.
 #[derive(Debug, thiserror::Error)]
 pub enum AssetError {
     /// The name itself is refused: nothing was opened.
@@ -49,7 +49,7 @@ pub enum AssetError {
         /// Why.
         why: &'static str,
     },
-    /// No folder has it.
+    /// None of the folders has the file.
     #[error("{name:?} was not found (tried {})", list(.tried))]
     Missing {
         /// The name, shortened for people.
@@ -57,10 +57,10 @@ pub enum AssetError {
         /// The full paths that were tried.
         tried: Vec<PathBuf>,
     },
-    /// A folder, a device, a pipe or a socket.
+    /// It is a folder, a device, a pipe or a socket.
     #[error("{} is not a regular file", .0.display())]
     NotAFile(PathBuf),
-    /// Larger than the limit.
+    /// It is larger than the limit.
     #[error("{} is larger than the limit of {max_bytes} bytes", path.display())]
     TooLarge {
         /// The file.
@@ -92,7 +92,7 @@ impl AssetError {
         }
     }
 
-    /// The problem to report for the file `path`, which names this one. A file that is too large always gives
+    /// The problem to report. `path` and `place` say where the file is named. A file that is too large always gives
     /// [`Severity::Limit`].
     pub fn to_problem(&self, severity: Severity, path: &Path, place: Option<TextPosition>) -> Problem {
         let severity = if matches!(self, Self::TooLarge { .. }) { Severity::Limit } else { severity };
@@ -121,8 +121,8 @@ impl AssetFolders {
     /// Finds a file that another file names, without opening it: first beside that file, then in the extra folders.
     ///
     /// # Errors
-    /// [`AssetError`] when the name is absolute, a URL, over [`MAX_NAME_BYTES`] or leads (also through a link) out of
-    /// the scene's folder and the extra folders; when no folder has it.
+    /// [`AssetError`] when the name is empty, absolute, a URL or over [`MAX_NAME_BYTES`], when it leads (also through a
+    /// link) out of the scene's folder and the extra folders, or when none of the folders has the file.
     pub fn find(&self, request: &AssetRequest<'_>) -> Result<PathBuf, AssetError> {
         let name = request.name.trim().replace('\\', "/");
         if let Some(why) = refusal(&name) {
@@ -157,8 +157,8 @@ impl AssetFolders {
     }
 }
 
-/// Reads a regular file of at most `max_bytes`. Devices, pipes and folders are refused before they are opened, and what
-/// is read is bounded by the limit whatever size the file claims.
+/// Reads a regular file of at most `max_bytes`. Devices, pipes and folders are refused before they are opened.
+/// However large the file claims to be, at most one byte more than the limit is read.
 ///
 /// # Errors
 /// [`AssetError`] when there is no such file, it is not a regular one, is over the limit, or can not be read.
@@ -201,7 +201,7 @@ fn refusal(name: &str) -> Option<&'static str> {
     }
 }
 
-/// The real path of a folder; the path as it is where there is no such folder.
+/// The real path of a folder, with links followed. If there is no such folder, the path unchanged.
 fn canonical(folder: &Path) -> PathBuf {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned())

@@ -14,6 +14,11 @@ pub const PREFIX: &str = "impasto:";
 /// −0.28, the wall 1.3 high.
 pub const BACKDROP: &str = "impasto:backdrop";
 
+/// The backdrop's groups: the floor up to its bend, and what rises.
+pub const FLOOR: &str = "floor";
+/// See [`FLOOR`].
+pub const WALL: &str = "wall";
+
 const FRONT: f32 = 1.0;
 const BACK: f32 = -0.28;
 const HEIGHT: f32 = 1.3;
@@ -29,7 +34,7 @@ const ALONG: [usize; 3] = [16, 10, 14];
 pub fn of_name(name: &str) -> Option<MeshFile> {
     (name == BACKDROP).then(|| MeshFile {
         mesh: backdrop(),
-        groups: vec!["backdrop".to_owned()],
+        groups: vec![FLOOR.to_owned(), WALL.to_owned()],
         materials: vec![Material {
             name: "backdrop".to_owned(),
             color: [0.42, 0.40, 0.35],
@@ -75,7 +80,7 @@ fn backdrop() -> TriangleMesh {
             for triangle in [[a, b, c], [a, c, d]] {
                 mesh.triangles.push(triangle);
                 mesh.polygon_of_triangle.push(polygon);
-                mesh.group_of_triangle.push(0);
+                mesh.group_of_triangle.push(u32::from(row >= ALONG[0] as u32 + ALONG[1] as u32 / 2));
                 mesh.material_of_triangle.push(0);
             }
         }

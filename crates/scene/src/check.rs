@@ -54,7 +54,7 @@ pub fn check_with_meshes(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>
     check_anew(scene, meshes, &Known::default())
 }
 
-/// As [`check_with_meshes`], skipping what is known to be right.
+/// Like [`check_with_meshes`], but skips what is known to be right.
 pub(crate) fn check_anew(
     scene: &Scene,
     meshes: &BTreeMap<String, Arc<MeshFile>>,
@@ -112,7 +112,7 @@ impl Findings {
         self.add(Severity::Warning, || (field_path.into(), message.into(), mend.into()));
     }
 
-    /// A number that must lie in a range. NaN lies in none.
+    /// Checks that a number lies in a range. NaN lies in none.
     fn number(&mut self, field_path: &str, value: f64, range: std::ops::RangeInclusive<f64>) {
         if !range.contains(&value) {
             let mend = format!("give a number from {} to {}", short(*range.start()), short(*range.end()));
@@ -120,7 +120,7 @@ impl Findings {
         }
     }
 
-    /// All numbers of a table of settings; `settings_path` is the path of the settings.
+    /// Checks all numbers of a table of settings; `settings_path` is the path of the settings.
     fn numbers<T: 'static>(
         &mut self,
         settings_path: &str,
@@ -133,14 +133,14 @@ impl Findings {
         }
     }
 
-    /// A number that may be left out.
+    /// Checks a number that may be left out.
     fn number_of<T>(&mut self, settings_path: &str, settings: &T, number: &Number<T, Option<f64>>) {
         if let Some(value) = (number.get)(settings) {
             self.number(&format!("{settings_path}.{}", number.field), value, number.limits.clone());
         }
     }
 
-    /// A point, or a vector, within the space that this build can handle.
+    /// Checks that a point or a vector lies within the space that this build can handle.
     fn vector(&mut self, field_path: &str, value: [f64; 3]) {
         if let Some(&bad) = value.iter().find(|component| !within(**component, limits::MAX_LENGTH)) {
             let limit = short(limits::MAX_LENGTH);
@@ -149,7 +149,7 @@ impl Findings {
         }
     }
 
-    /// A direction: a vector that is not zero.
+    /// Checks a direction: a vector that is not zero.
     fn direction(&mut self, field_path: &str, value: [f64; 3]) {
         self.vector(field_path, value);
         if value.iter().all(|component| component.abs() < limits::MIN_LENGTH) {
@@ -157,7 +157,7 @@ impl Findings {
         }
     }
 
-    /// Frames of keys: in range, and strictly increasing.
+    /// Checks that frames of keys are in range, and strictly increase.
     fn frames(&mut self, keys_path: &str, frames: impl Iterator<Item = f64>) {
         let mut before: Option<f64> = None;
         for (index, frame) in frames.enumerate() {
@@ -183,7 +183,7 @@ impl Findings {
         }
     }
 
-    /// A name: not empty, not too long, on one line.
+    /// Checks a name: it is not empty, not too long, and on one line.
     fn name(&mut self, field_path: &str, name: &str) {
         if name.trim().is_empty() {
             self.error(field_path, "the name is empty", "give it a name");
@@ -195,7 +195,7 @@ impl Findings {
         }
     }
 
-    /// Names that must differ. `list_path` is the path of the list whose items have a `name`.
+    /// Checks names, which must differ. `list_path` is the path of the list whose items have a `name`.
     fn unique<'a>(&mut self, list_path: &str, names: impl Iterator<Item = &'a str>) {
         let mut seen = HashSet::new();
         for (index, name) in names.enumerate() {
@@ -243,7 +243,7 @@ fn shown(name: &str) -> String {
     shown
 }
 
-/// The mend for a name that is not known: the nearest one, or the known ones.
+/// The mend for a name that is not known: it offers the nearest known name, or else lists the known ones.
 fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> String {
     if let Some(near) = crate::nearest::nearest(name, known.clone()) {
         return format!("did you mean \"{}\"?", shown(near));

@@ -1,5 +1,5 @@
-//! The scene document: every field of a scene file, with its default. Degrees, frames and sRGB colours, as a
-//! person writes them; nothing here is solved or resolved.
+//! The scene document: every field of a scene file, with its default. Angles are in degrees, times in
+//! frames and colours in sRGB, as a person writes them; nothing here is solved or resolved.
 
 mod color;
 mod noise_displace;
@@ -40,10 +40,10 @@ pub use sumi_e::{InkDrawing, InkLight, InkRule, SumiE};
 pub struct Scene {
     /// Version of the format: 1.
     pub version: u32,
-    /// Width and height in pixels, at most 16384 each; stroke sizes are meant for them.
+    /// Width and height in pixels, at most 16384 each. Sizes of strokes are stated for a picture of this size.
     #[serde(default = "default_size")]
     pub size: (u32, u32),
-    /// Changes every random choice at once; from 0.
+    /// A whole number from 0; another one changes every random choice at once.
     #[serde(default, skip_serializing_if = "is_default")]
     pub seed: u32,
     /// What is seen where nothing is painted.
@@ -273,6 +273,41 @@ pub enum Up {
     Y,
     /// Z up, Y forward (CAD, raw Blender).
     Z,
+    /// X up.
+    X,
+    /// −X up.
+    NegX,
+    /// −Y up: upside down.
+    NegY,
+    /// −Z up.
+    NegZ,
+}
+
+impl Up {
+    /// All, with their names on the command line.
+    pub const ALL: [(&'static str, Self); 6] = [
+        ("x", Self::X),
+        ("y", Self::Y),
+        ("z", Self::Z),
+        ("-x", Self::NegX),
+        ("-y", Self::NegY),
+        ("-z", Self::NegZ),
+    ];
+
+    /// Turns the file's axes so that Y points up.
+    pub fn y_up_from_file(self) -> glam::DMat3 {
+        use glam::DVec3;
+        // The images of the file's X, Y and Z.
+        let [x, y, z] = match self {
+            Self::Y => [DVec3::X, DVec3::Y, DVec3::Z],
+            Self::Z => [DVec3::X, DVec3::NEG_Z, DVec3::Y],
+            Self::X => [DVec3::Y, DVec3::NEG_X, DVec3::Z],
+            Self::NegX => [DVec3::NEG_Y, DVec3::X, DVec3::Z],
+            Self::NegY => [DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z],
+            Self::NegZ => [DVec3::X, DVec3::Z, DVec3::NEG_Y],
+        };
+        glam::DMat3::from_cols(x, y, z)
+    }
 }
 
 /// A thing in the scene: a mesh file or one group of it, placed and keyed.
@@ -283,10 +318,10 @@ pub struct Object {
     pub name: String,
     /// Path of the mesh, relative to the scene file.
     pub mesh: String,
-    /// Only this group of the mesh.
+    /// The only group of the mesh that is used; left out, the whole mesh.
     #[serde(default, skip_serializing_if = "is_default")]
     pub group: Option<String>,
-    /// Moves with this object.
+    /// The object that this one moves with.
     #[serde(default, skip_serializing_if = "is_default")]
     pub parent: Option<String>,
     /// How many particles it has, at most 16000000; left out, found from the coverage.
@@ -392,11 +427,7 @@ impl Object {
 
     /// From the mesh file's coordinates to the object's own space: Z up turned into Y up, and the static scale.
     pub fn model_from_file(&self) -> glam::DMat3 {
-        let turn = match self.up {
-            Up::Y => glam::DMat3::IDENTITY,
-            Up::Z => glam::DMat3::from_cols(glam::DVec3::X, glam::DVec3::NEG_Z, glam::DVec3::Y),
-        };
-        glam::DMat3::from_diagonal(glam::DVec3::from(self.scale.0)) * turn
+        glam::DMat3::from_diagonal(glam::DVec3::from(self.scale.0)) * self.up.y_up_from_file()
     }
 }
 

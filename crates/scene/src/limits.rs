@@ -1,4 +1,4 @@
-//! Limits of a scene. Whatever exceeds one is refused by name, before any memory is allocated for it.
+//! Limits of a scene. What exceeds one is refused before memory is allocated for it, with a message that names it.
 
 /// Bytes of a scene file.
 pub const MAX_SCENE_BYTES: u64 = 16 << 20;
@@ -51,7 +51,7 @@ pub const MAX_PARTICLES: u64 = 32_000_000;
 /// Length or width of a stroke, pixels.
 pub const MAX_STROKE_PX: f64 = 4096.0;
 
-/// Strokes per pixel × length × width.
+/// Coverage: strokes per pixel × length × width.
 pub const MAX_COVERAGE: f64 = 20.0;
 
 /// Factors without a natural limit: jitter of colour, temperature, relief, weave, varnish, bloom.
@@ -69,10 +69,10 @@ pub const MAX_BRUSHES: usize = 64;
 /// Brushes of a scene that are pictures, each counted once.
 pub const MAX_BRUSH_PICTURES: usize = 16;
 
-/// Frames for which a pose is held.
+/// Frames for which a pose may be held.
 pub const MAX_HOLD: u32 = 1000;
 
-/// Distance of a layer from 0.
+/// Distance from 0 of the number `layer` in stroke settings.
 pub const MAX_LAYER: i32 = 1000;
 
 /// Lights of kind `Sun`.
@@ -84,7 +84,7 @@ pub const MAX_POINT_LIGHTS: usize = 16;
 /// Problems that one report lists.
 pub const MAX_PROBLEMS: usize = 100;
 
-/// References in addition to the first.
+/// Further references, in addition to the scene's own.
 pub const MAX_FURTHER_REFERENCES: usize = 16;
 
 /// Guides of a scene.

@@ -6,11 +6,12 @@ use std::sync::Arc;
 use crate::assets::{AssetFolders, AssetRequest};
 use crate::built_in_mesh;
 use crate::check::{self, Finding};
-use crate::document::Scene;
+use crate::document::{Scene, Up};
 use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::Located;
 use crate::mesh_file::{MeshFile, Texture};
+use crate::new_scene::{NewScene, Placing};
 use crate::problem::{Problem, Report, Severity};
 
 mod edited;
@@ -34,6 +35,8 @@ pub struct LoadOptions {
     /// quotes; an item of a list is named by its index or its name, as in `objects[0].particles` and
     /// `objects.apple.particles`; `style.RotatingStrokes.solver` and `style.solver` are the same field.
     pub overrides: Vec<(String, String)>,
+    /// How a mesh without a scene is placed.
+    pub placing: Placing,
 }
 
 /// Reads a document from its text; `path` is for messages only, no file is opened. A byte order mark is skipped.
@@ -99,13 +102,30 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
 /// Loads a mesh in a new scene. The scene is written as text and read again, so that `--set` works as on a file that
 /// `impasto new` writes, and both are painted alike.
 fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
-    let (mesh, warnings) = load_mesh(path, &options.folders)?;
-    let scene = crate::new_scene::for_mesh(path, &mesh);
+    let (mesh, mut warnings) = load_mesh(path, &options.folders)?;
+    let NewScene { scene, up_is_unsure } = crate::new_scene::for_mesh(path, &mesh, options.placing);
+    if up_is_unsure {
+        warnings.push(unsure_of_up(path, &scene));
+    }
     let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
     finish(path, parsed, options, Some((mesh, warnings)))
 }
 
-/// Applies overrides, checks, and reads files. `known_mesh` is the mesh of a scene that was made for it.
+/// Says which axis was taken to be up where another could as well be.
+fn unsure_of_up(path: &Path, scene: &Scene) -> Problem {
+    let up = scene.objects.first().map_or(Up::Y, |object| object.up);
+    let name = Up::ALL.iter().find(|(_, known)| *known == up).map_or("y", |(name, _)| name);
+    Problem {
+        severity: Severity::Warning,
+        path: path.to_owned(),
+        place: None,
+        field_path: Box::default(),
+        message: format!("which way is up is not certain; {name} was taken"),
+        mend: "if it lies or hangs, turn it with --up z, --up y, --up=-y or --up x".to_owned(),
+    }
+}
+
+/// Applies overrides, checks, and reads files. For a scene that was made for a mesh, `known_mesh` is that mesh.
 fn finish(
     path: &Path,
     parsed: Parsed,
@@ -154,7 +174,7 @@ struct FieldLocator<'a> {
     /// The file as it was written; `None` for a generated scene.
     written: Option<&'a Located>,
     applied: &'a [Applied],
-    /// A document that was edited in memory: there is no text, so messages begin with their field.
+    /// `Some` for a document that was edited in memory. It has no text, so messages begin with their field.
     edited: Option<&'a Scene>,
 }
 
@@ -194,8 +214,9 @@ impl FieldLocator<'_> {
     }
 }
 
-/// Sorts the scene's problems by position, then those of its files in the order of use; at most
-/// [`limits::MAX_PROBLEMS`] of either, with a last one that counts the rest.
+/// Puts the scene file's problems first, by position, then those of the files that it names: fatal ones before
+/// warnings, each in the order of use. Keeps at most [`limits::MAX_PROBLEMS`] of the latter; a last problem counts the
+/// others.
 fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Problem>) {
     let is_of_scene = |problem: &Problem| problem.path == path;
     problems.extend(of_files.extract_if(.., |problem| is_of_scene(problem)));

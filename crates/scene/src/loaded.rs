@@ -27,7 +27,8 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The scene file, and the files that it names, each as a path from its folder; these must not be overwritten.
+    /// The scene file and the files that it names, which output must not overwrite. Names are taken from the scene's
+    /// folder.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
         let named = self.meshes.keys().chain(self.textures.keys()).chain(self.brushes.keys());

@@ -46,7 +46,7 @@ pub(crate) struct Field {
     pub(crate) value: Node,
 }
 
-/// Why the scan refuses a text: where, what, the mend, and whether a limit was exceeded.
+/// Why the scan refuses a text: the place, what is wrong, how to mend it, and whether a limit was exceeded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refused {
     pub(crate) offset: usize,
@@ -88,16 +88,16 @@ impl Located {
         place_in(&self.text, &self.line_starts, offset)
     }
 
-    /// The byte offset of a line and a column, both counted from 1, in a text with the same line ends at the same
-    /// bytes; the end of the text for a place beyond it.
+    /// The byte offset of a line and a column, both counted from 1, in `text`, whose line ends must be at the same
+    /// bytes as in the scanned text. A place beyond the end of `text` gives its end.
     pub(crate) fn offset_in(&self, text: &str, line: usize, column: usize) -> usize {
         let Some(&start) = self.line_starts.get(line.saturating_sub(1)) else { return text.len() };
         let rest = &text[start..];
         rest.char_indices().nth(column.saturating_sub(1)).map_or(text.len(), |(at, _)| start + at)
     }
 
-    /// The position of a field such as `objects[2].keys[1].frame`. If the file leaves it out (it has a default, or a
-    /// variant has no such field), that of the nearest value around it.
+    /// The position of a field such as `objects[2].keys[1].frame`. If the file leaves the field out, gives the position
+    /// of the innermost value around it that the file has.
     pub fn place_of(&self, field_path: &str) -> TextPosition {
         let mut node = &self.root;
         for step in Step::split(field_path) {
@@ -114,7 +114,7 @@ impl Located {
         Step::split(field_path).try_fold(&self.root, |node, step| self.child(node, step))
     }
 
-    /// The value one step inside another, through a `Some(…)`.
+    /// The value one step inside another. If the outer value is `Some(…)`, the step starts inside that.
     pub(crate) fn child<'a>(&'a self, node: &'a Node, step: Step<'_>) -> Option<&'a Node> {
         match (&self.through_some(node).inside, step) {
             (Inside::Fields(fields), Step::Field(name)) => {
@@ -125,7 +125,7 @@ impl Located {
         }
     }
 
-    /// The value inside `Some(…)`; any other value itself.
+    /// The value inside `Some(…)`; any other value is returned as it is.
     pub(crate) fn through_some<'a>(&'a self, node: &'a Node) -> &'a Node {
         match &node.inside {
             Inside::Items(items) if items.len() == 1 && self.name_of(node) == "Some" => &items[0],
@@ -142,7 +142,7 @@ impl Located {
             let next = match &node.inside {
                 Inside::Nothing => None,
                 Inside::Items(items) => {
-                    // An offset between two values belongs to the later one only if that starts there.
+                    // This is the first value that ends at the offset or behind it; it may also start behind it.
                     let index = items.partition_point(|item| (item.end as usize) < offset);
                     items.get(index).filter(|item| holds(item)).inspect(|_| {
                         // In field paths, what a variant such as `Frame(0)` holds has no index.
@@ -179,8 +179,8 @@ pub(crate) enum Step<'a> {
 }
 
 impl<'a> Step<'a> {
-    /// `objects[2].name` is the field `objects`, the item 2, the field `name`. An index that is not a number ends the
-    /// steps.
+    /// The steps of a path: `objects[2].name` is the field `objects`, the item 2, the field `name`. The steps end
+    /// before an index that is not a number.
     pub(crate) fn split(field_path: &'a str) -> impl Iterator<Item = Step<'a>> {
         field_path.split(['.', '[']).filter(|part| !part.is_empty()).map_while(|part| {
             match part.strip_suffix(']') {

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The largest peak that [`peak_since_last_bytes`] has seen before it reset the system's mark.
+/// The largest peak that [`peak_since_last_bytes`] has read. It resets the system's own record of the peak each time.
 static MOST: AtomicU64 = AtomicU64::new(0);
 
 /// Bytes that can still be allocated: what the system has free or can free, within the limit of the control group.
@@ -28,7 +28,7 @@ pub fn peak_bytes() -> Option<u64> {
 pub fn peak_since_last_bytes() -> Option<u64> {
     let peak = field_bytes("/proc/self/status", "VmHWM:")?;
     MOST.fetch_max(peak, Ordering::Relaxed);
-    // "5" resets the mark to the current use; where that is not allowed, peaks only grow.
+    // Writing "5" resets the system's peak to the current use. Where that is not allowed, the peak only grows.
     let _ = std::fs::write("/proc/self/clear_refs", "5");
     Some(peak)
 }

@@ -33,10 +33,11 @@ impl CameraPose {
     }
 }
 
-/// The camera at a frame, which need not be whole. It stands still before the first and after the last key.
+/// The camera at a frame; the frame may lie between two whole ones. The camera stands still before the first and after
+/// the last key.
 ///
 /// Eye, target, roll and field of view are interpolated as numbers, with the `ease` of the earlier key. A key without a
-/// field of view keeps the one of the key before; the first keys take it from the lens.
+/// field of view keeps the one of the key before it. Until a key states one, it is that of the lens.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     let span = Span::at(keys, frame, |key| (key.frame, key.ease));
@@ -129,7 +130,8 @@ fn held_frame(scene: &Scene, object: &Object, frame: f64) -> f64 {
     }
 }
 
-/// For each object, the index of its parent; the first object of a name counts.
+/// For each object, the index of its parent. Of several objects with the parent's name, it is the first one. A parent
+/// that closes a cycle is left out.
 pub(crate) fn parent_indices(objects: &[Object]) -> Vec<Option<usize>> {
     if objects.iter().all(|object| object.parent.is_none()) {
         return vec![None; objects.len()];
@@ -148,7 +150,7 @@ pub(crate) fn parent_indices(objects: &[Object]) -> Vec<Option<usize>> {
 
 /// One object of every cycle of parents, each cycle once, in the order of the file.
 pub(crate) fn cycle_closers(parents: &[Option<usize>]) -> Vec<usize> {
-    // The walk that visited each object first; a walk that meets itself has found a cycle.
+    // For each object, the start of the walk that visited it first. A walk that meets itself has found a cycle.
     let mut walk_of = vec![usize::MAX; parents.len()];
     let mut closers = Vec::new();
     for start in 0..parents.len() {
@@ -222,14 +224,14 @@ pub fn rotation_from_euler_deg(angles_deg: DVec3) -> DMat3 {
     about_z * (about_y * about_x)
 }
 
-/// The Euler angles in degrees that [`rotation_from_euler_deg`] makes this rotation of. Where the angle about Y is
-/// ±90, one of the other two is free, and is 0.
+/// The Euler angles in degrees from which [`rotation_from_euler_deg`] makes this rotation. Where the angle about Y is
+/// ±90, one of the other two could be anything; it is 0.
 pub fn euler_deg_from_rotation(rotation: DMat3) -> DVec3 {
     let (z, y, x) = rotation.to_euler(EulerRot::ZYX);
     DVec3::new(x, y, z).map(f64::to_degrees)
 }
 
-/// The same angle in (−180, 180], without rounding: a whole turn is exactly no turn, so that loops close bit for bit.
+/// The same angle in (−180, 180], without rounding: 360 gives exactly 0, so that loops close bit for bit.
 fn wrap_deg(angle_deg: f64) -> f64 {
     let within_a_turn = angle_deg % 360.0;
     if within_a_turn > 180.0 {

@@ -33,14 +33,23 @@ pub enum LayerKind {
     Scumble,
     /// Small strokes where colours meet.
     Accents,
+    /// Thin lines where a body ends, lost and found.
+    Contour,
     /// A few thick ones on highlights.
     Lights,
 }
 
 impl LayerKind {
     /// All, from the first laid on to the last.
-    pub const ALL: [Self; 6] =
-        [Self::Underpainting, Self::Body, Self::Form, Self::Scumble, Self::Accents, Self::Lights];
+    pub const ALL: [Self; 7] = [
+        Self::Underpainting,
+        Self::Body,
+        Self::Form,
+        Self::Scumble,
+        Self::Accents,
+        Self::Contour,
+        Self::Lights,
+    ];
 
     /// The name in a scene's list of layers.
     pub fn name(self) -> &'static str {
@@ -50,6 +59,7 @@ impl LayerKind {
             Self::Form => "form",
             Self::Scumble => "scumble",
             Self::Accents => "accents",
+            Self::Contour => "contour",
             Self::Lights => "lights",
         }
     }

@@ -41,7 +41,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// Whether the file can not be used.
+    /// Whether the file cannot be used.
     pub fn is_fatal(self) -> bool {
         self != Self::Warning
     }

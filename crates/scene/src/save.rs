@@ -1,4 +1,5 @@
-//! Writing a document as a scene file: readable, what is at its default left out, the same bytes every time.
+//! Writes a document as a scene file that a person can read. Fields with their default values are left out, and equal
+//! documents give equal bytes.
 
 use std::path::Path;
 

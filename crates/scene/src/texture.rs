@@ -110,8 +110,8 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Decoded, Problem> {
 /// Finds, reads and decodes a picture that another file names.
 ///
 /// # Errors
-/// As [`decode`], and a warning (or a limit, when the file is too large) that names the paths tried when it is not
-/// there.
+/// Those of [`decode`]. Also a warning that names the paths that were tried if the file is not there, and a limit if
+/// the file is too large.
 pub fn read(folders: &AssetFolders, request: &AssetRequest<'_>) -> Result<Decoded, Problem> {
     let asset =
         folders.open(request).map_err(|error| error.to_problem(Severity::Warning, request.beside, None))?;

@@ -1,5 +1,5 @@
-//! Tests of reading OBJ files: good files are read whole, errors in bad ones have a place, and no mutation breaks an
-//! invariant.
+//! Tests of reading OBJ files: good files are read whole, errors in bad ones have a place, and a file with random
+//! changes gives a sound mesh or a report.
 
 use std::fs;
 use std::path::Path;
@@ -118,7 +118,7 @@ fn faces_do_without_texture_coordinates_and_normals_that_the_file_does_not_have(
         assert_eq!((&file, warnings.len()), (&plain, warned), "{face}");
         assert_eq!(warnings[0].place, Some(TextPosition { line: 5, column: 3 }), "{face}");
     }
-    // When the file has some, an index beyond them is an error.
+    // When the file has texture coordinates, an index beyond them is an error.
     for face in ["f 1/1 2/2 3/1", "f 1/-2 2/1 3/1"] {
         assert!(read(folder.path(), format!("vt 0 0\n{SQUARE}{face}\n").as_bytes()).is_err(), "{face}");
     }
@@ -126,7 +126,8 @@ fn faces_do_without_texture_coordinates_and_normals_that_the_file_does_not_have(
     assert_eq!(first_place(ahead), Some(TextPosition { line: 5, column: 3 }));
 }
 
-/// tobj skips corners without texture coordinates in its list: later ones must still go to their own corners.
+/// tobj's list of texture coordinates has no entries for corners without any. Entries of later corners must still go to
+/// their own corners.
 #[test]
 fn corners_with_and_without_texture_coordinates_and_normals_go_together() {
     let folder = tempfile::tempdir().unwrap();

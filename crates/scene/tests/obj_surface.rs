@@ -117,7 +117,7 @@ fn creases_stay_and_low_polygon_curves_are_smooth() {
         ))
         .0
     };
-    // With 6 vertices the two of the ridge are shared; with 8 each side has its own.
+    // With 6 vertices, both sides share the two of the ridge; with 8, each side has its own.
     assert_eq!(roof((20_f64).to_radians().tan()).mesh.positions.len(), 6);
     assert_eq!(roof((30_f64).to_radians().tan()).mesh.positions.len(), 8);
 }
@@ -181,7 +181,7 @@ fn a_last_line_without_an_end_is_kept_where_it_can_be_whole() {
     }
 }
 
-/// The materials of a square with this MTL file beside it.
+/// Reads a square with this MTL file beside it. Returns the mesh file and the number of warnings.
 fn materials(folder: &Path, mtl: &[u8]) -> (MeshFile, usize) {
     for name in ["my library.mtl", "model.obj"] {
         fs::remove_file(folder.join(name)).ok();

@@ -1,5 +1,6 @@
-//! Checks `docs/scene_file.md` against the source: its tables are made from the fields, defaults and comments of the
-//! declarations and from the tables of numbers, and its examples are read. `IMPASTO_BLESS=1` rewrites the tables.
+//! Tests that `docs/scene_file.md` agrees with the source. Its tables must be those that are made here from the
+//! declarations of the document, with their comments, and from the tables of numbers; its examples must load.
+//! `IMPASTO_BLESS=1` rewrites the tables.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by it")]
 
@@ -31,7 +32,7 @@ fn range(limits: &RangeInclusive<f64>) -> String {
     format!("{} to {}", number(*limits.start()), number(*limits.end()))
 }
 
-/// The range of a number, from the row of the document's tables that declares it.
+/// The range of a number field, if one of the document's tables of numbers declares it.
 fn range_in_tables(of: &str, field: &str) -> Option<String> {
     macro_rules! within {
         ($type:ty) => {
@@ -47,7 +48,7 @@ fn range_in_tables(of: &str, field: &str) -> Option<String> {
     }
 }
 
-/// What the page is made from: all declarations, and the heading that describes each.
+/// What the page is made from: all declarations, and for each the heading under which the page describes it.
 struct Page<'a> {
     declared: &'a [Declared],
     headings: BTreeMap<String, String>,
@@ -93,7 +94,7 @@ impl Page<'_> {
         format!("[{}](#{})", heading.to_lowercase(), anchor.replace(['`', ','], ""))
     }
 
-    /// The table of a struct, or of the words of a choice.
+    /// The table of a struct's fields, or of the variants of a choice.
     fn table(&self, name: &str) -> String {
         let declared = self.find(name).unwrap_or_else(|| panic!("there is no {name}"));
         let mut table = String::new();
@@ -142,7 +143,7 @@ impl Page<'_> {
     }
 }
 
-/// A preset's settings at a height of 720.
+/// A preset's settings in a picture 720 pixels high.
 fn resolved(preset: &str) -> presets::ResolvedStrokes {
     let mut scene = new_scene::empty();
     scene.size = (1280, 720);
@@ -290,7 +291,7 @@ fn known_at([before, _, after]: [&str; 3]) -> Vec<String> {
     known
 }
 
-/// The fields that serde reads are those that were found, so no field is missing from the page.
+/// The fields that serde accepts are those that were found in the source, so no field is missing from the page.
 #[test]
 fn every_field_that_is_read_was_found() {
     let declared = declared();

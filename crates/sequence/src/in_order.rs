@@ -15,7 +15,7 @@ pub(crate) struct Workers<'a, J, T> {
     pub(crate) own: Worker<'a, J, T>,
     /// How many further threads.
     pub(crate) further: usize,
-    /// Makes the worker of a further thread, on that thread. Where it gives `None`, the others do that thread's share.
+    /// Makes the worker of a further thread, on that thread. Where it gives `None`, the other threads do its share.
     pub(crate) open: &'a (dyn Fn() -> Option<Worker<'a, J, T>> + Sync),
 }
 
@@ -26,9 +26,9 @@ struct State<I, J, T> {
     taken_in: u64,
     /// Results that wait for an earlier one, by the number of their job.
     ready: BTreeMap<u64, (J, T)>,
-    /// No more jobs are given out.
+    /// Whether no more jobs are given out.
     closed: bool,
-    /// A thread panicked: the result of its job never comes.
+    /// Whether a thread panicked: the result of its job never comes.
     broken: bool,
 }
 
@@ -77,7 +77,7 @@ where
                     shared.hand_in(number, job, result);
                 }
             };
-            // Where the system gives no thread, the others do its share.
+            // Where the system gives no thread, the other threads do its share.
             if std::thread::Builder::new().name("frames".to_owned()).spawn_scoped(scope, run).is_err() {
                 break;
             }
@@ -101,8 +101,8 @@ impl<I: Iterator<Item = J>, J: Copy, T> Shared<I, J, T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// For the calling thread: it takes in before it works, so that few results wait, and it waits only while other
-    /// threads have all the jobs that may be begun.
+    /// What the calling thread does next. It takes results in before it works, so that few results wait. It waits only
+    /// while other threads have all the jobs that may be begun.
     fn next(&self) -> Next<J, T> {
         let mut state = self.state();
         loop {
@@ -190,7 +190,7 @@ mod tests {
     use std::sync::atomic::{AtomicI64, Ordering};
     use std::time::Duration;
 
-    /// Later jobs are done sooner.
+    /// Of each twenty jobs, later ones take less time, so that results come out of order.
     fn slowly(job: i64) -> i64 {
         std::thread::sleep(Duration::from_micros(400 - 20 * (job as u64 % 20)));
         job * job

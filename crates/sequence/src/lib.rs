@@ -2,7 +2,7 @@
 //! and `F12`.
 //!
 //! ```text
-//! Sequence::render, render_files ─▶ in_order ─▶ painters: each draws whole frames, with a renderer and a thread of its own
+//! Sequence::render, render_files ─▶ in_order ─▶ painters: each draws whole frames, with its own renderer and thread
 //!                                           └─▶ on the calling thread: each frame in its turn ─▶ caller, or its file
 //! ```
 //!
@@ -31,8 +31,10 @@ const MAX_PAINTERS: u64 = 4;
 /// Opening a driver and compiling the shaders once more takes about as long as this many frames.
 const FRAMES_PER_PAINTER: u64 = 4;
 
-/// What the render targets of one painter take per pixel, and what those of all painters may take together.
+/// What the render targets of one painter take per pixel.
 const TARGET_BYTES_PER_PIXEL: u64 = 128;
+
+/// What the render targets of all painters may take together.
 const MAX_TARGET_BYTES: u64 = 1 << 30;
 
 /// What became of a frame's file.
@@ -71,11 +73,11 @@ enum Early<E> {
 }
 
 impl Sequence {
-    /// Draws the frames and hands each over in its turn, on this thread. The first failure ends it, whether of a frame or of
-    /// `take_in`; so does `stop`, which is asked again and again.
+    /// Draws the frames and hands them to `take_in` in their order, on this thread. Ends at the first frame that fails,
+    /// when `take_in` fails, or when `stop`, which is asked again and again, returns true.
     ///
     /// # Errors
-    /// That failure.
+    /// The failure at which it ended.
     pub fn render<E: From<FrameError>>(
         &self,
         renderer: &mut Renderer,
@@ -97,10 +99,11 @@ impl Sequence {
     }
 
     /// Renders frames into files, each whole or not at all, and reports in their order what became of them, on this
-    /// thread. It goes on after a frame that failed, unless `report` fails; `stop` is asked again and again.
+    /// thread. It goes on after a frame that failed. It ends early when `report` fails, or when `stop`, which is asked
+    /// again and again, returns true.
     ///
     /// # Errors
-    /// What `report` gave.
+    /// The error of `report`.
     pub fn render_files<E>(
         &self,
         renderer: &mut Renderer,
@@ -108,7 +111,7 @@ impl Sequence {
         stop: &(dyn Fn() -> bool + Sync),
         mut report: impl FnMut(i64, FileOutcome) -> Result<(), E>,
     ) -> Result<Ending, E> {
-        // A frame that the list names twice has its file by the second time.
+        // A frame that the list names twice is drawn once: the second time, its file counts as existing.
         let mut seen = HashSet::new();
         let must_draw = |frame_number: i64| {
             !files.keep_existing || (seen.insert(frame_number) && !(files.path)(frame_number).exists())

@@ -17,7 +17,7 @@ pub(crate) struct Painter<'a> {
     renderer: &'a mut Renderer,
 }
 
-/// The worker of a further thread, opened on that thread; `None` where the same driver cannot be opened once more.
+/// The worker of a further thread; call this on that thread. `None` where the same driver cannot be opened once more.
 pub(crate) fn further<'a>(
     sequence: &'a Sequence,
     driver: &str,
@@ -39,7 +39,7 @@ impl<'a> Painter<'a> {
         Self { sequence, renderer }
     }
 
-    /// `None` for a frame that need not be drawn, or that `stop` gives up.
+    /// Draws the frame of a job. `None` for a frame that need not be drawn, or that is given up because `stop` says so.
     pub(crate) fn paint(&mut self, job: Job, stop: &dyn Fn() -> bool) -> Painted {
         if !job.must_draw {
             return Ok(None);

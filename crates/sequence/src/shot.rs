@@ -26,7 +26,7 @@ pub struct Sequence {
     pub options: FrameOptions,
     /// The scene's file name, which is noted in each PNG file.
     pub scene_name: String,
-    /// Where further painters take OpenGL from.
+    /// The driver that further painters open.
     pub driver: Driver,
     /// Shaders that stand in for the program's own; empty to use those.
     pub shaders: ShaderTexts,
@@ -76,7 +76,7 @@ pub(crate) struct Job {
     pub(crate) must_draw: bool,
 }
 
-/// What a painter makes of a job: `None` where it need not be drawn, or was given up.
+/// What a painter makes of a job; `None` if the frame need not be drawn, or drawing it was given up.
 pub(crate) type Painted = Result<Option<Drawn>, FrameError>;
 
 impl Sequence {

@@ -15,8 +15,8 @@ use super::{chance, on_two_triangles};
 
 const SIZE_PX: [u32; 2] = [320, 240];
 
-/// A frame with these strokes alone, in flat paint over black. Marks 0 and 1 are full of paint whose tint rises along the
-/// stroke and across it; mark 2 is a filbert's.
+/// A frame with these strokes alone, in flat paint over black. Marks 0 and 1 are full of paint: the tint of mark 0
+/// rises along the stroke, that of mark 1 across it. Mark 2 is a filbert's.
 fn frame(strokes: Vec<Stroke>, quality: Quality) -> Frame {
     static BARE: LazyLock<Frame> = LazyLock::new(bare);
     let mut frame = BARE.clone();
@@ -140,7 +140,7 @@ fn two_triangles_would_be_seen() {
         let at = DVec2::new(chance(index, 0), chance(index, 1));
         (on_two_triangles(place(&tapered, at), corners) - at).abs().max_element()
     });
-    // As a share of the mark. The test above notices about 0.06 of the ramp: 1.5 of 27.
+    // `worst` is in shares of the mark. The test above would notice about 0.06: a difference of 1.5 on a ramp of 27.
     assert!(worst.fold(0.0, f64::max) > 0.3);
 }
 

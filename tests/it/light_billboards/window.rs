@@ -8,13 +8,14 @@ use impasto_tests::screen::{EditorWindow, SIZE_PX, Screen};
 
 use crate::editor_window::{folder, read};
 
-/// The viewport's middle and width: between the rail (48) and the column (280), below the bars (80), above the strip (68).
+/// Middle and width of the viewport. To its left is the rail (48 px wide), to its right the column (280 px), above it
+/// are the bars (80 px high), below it the strip (68 px).
 fn viewport() -> (DVec2, f64) {
     let [width, height] = SIZE_PX.map(|side| side as f64);
     (DVec2::new((48.0 + width - 280.0) * 0.5, (80.0 + height - 68.0) * 0.5), width - 280.0 - 48.0)
 }
 
-/// Where a point of the world shows in the window; the shot is as wide as the viewport, and in its middle.
+/// Where a point of the world shows in the window. The shot is as wide as the viewport and lies in its middle.
 fn shown_at(scene: &Scene, position: DVec3) -> DVec2 {
     let (middle, width) = viewport();
     let size = DVec2::new(f64::from(scene.size.0), f64::from(scene.size.1));

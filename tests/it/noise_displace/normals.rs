@@ -1,5 +1,5 @@
-//! Tests of light on displaced surfaces. Noise that is a ramp shears a whole sheet, so its picture must equal that of a sheet
-//! that was modelled sheared.
+//! Tests of light on displaced surfaces. Noise that is a linear ramp shears a whole sheet, so the picture of that sheet
+//! must equal the picture of a sheet that was modelled sheared.
 
 use std::sync::Arc;
 
@@ -20,11 +20,13 @@ use super::{material, moved_by};
 
 const SIDE: u32 = 200;
 const TEXELS: u32 = 64;
-/// Textures per unit along X and Y, and the displacement from the least noise to the greatest.
+/// Textures per unit along X and Y.
 const VALUE: [f64; 2] = [0.20, 0.22];
+/// The displacement from the least noise to the greatest, units.
 const SCALE: f64 = 4.0;
-/// Bytes that each channel of the noise rises by from texel to texel along U and along V, and where it begins.
+/// How many bytes each channel of the noise rises from one texel to the next, along U and along V.
 const RISE: [[f64; 3]; 2] = [[2.0, 0.0, 2.0], [0.0, 1.0, -2.0]];
+/// The bytes of the channels at the first texel.
 const BEGIN: [f64; 3] = [60.0, 60.0, 128.0];
 
 /// The sheet's pose: in the middle of the texture, away from the edge where the ramp repeats.
@@ -59,7 +61,7 @@ fn scene() -> Scene {
     scene
 }
 
-/// Displaced by the ramp, with these normals.
+/// The sheet displaced by the ramp, lit by these normals.
 fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
     let mut scene = scene();
     let noise = VertexNoise {
@@ -73,7 +75,7 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
     scene.objects[0].material = material(moved_by(noise));
     let mut loaded = LoadedScene::clone(&shapes::loaded(scene, [shapes::sheet(4)]));
     let texel = |index: u32| {
-        // Top row first; V goes up.
+        // Texels are stored with the top row first, and V goes up.
         let (u, v) = (index % TEXELS, TEXELS - 1 - index / TEXELS);
         let byte = |channel: usize| {
             BEGIN[channel] + RISE[0][channel] * f64::from(u) + RISE[1][channel] * f64::from(v)
@@ -90,7 +92,7 @@ fn displaced(normals: NoiseNormals) -> Arc<LoadedScene> {
 fn modelled() -> Arc<LoadedScene> {
     let scene = scene();
     let world_from_model = impasto_scene::motion::poses_at(&scene, 0.0)[0];
-    // The noise at a place of the model, and its slope there along each axis.
+    // The noise at a place of the model, in bytes.
     let byte = |at: DVec3| {
         let world = world_from_model.transform_point3(at);
         let texels = [world.x * VALUE[0], world.y * VALUE[1]].map(|length| length * f64::from(TEXELS) - 0.5);

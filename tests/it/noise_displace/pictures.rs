@@ -1,4 +1,5 @@
-//! Tests that every body of the shipped noise scenes is seen, that bad materials are reported, and that extreme ones render.
+//! Tests that every body of the shipped noise scenes is seen, that bad materials are reported, and that extreme ones
+//! give a picture.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;

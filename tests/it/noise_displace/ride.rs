@@ -36,7 +36,7 @@ fn painted(scene: Scene) -> Painting {
     prepare(shapes::loaded(scene, [shapes::sphere(192, 96)])).unwrap()
 }
 
-/// Places in pixels from the picture's centre, angles and facings of the body layer's strokes, by particle.
+/// The strokes of the body layer by particle: each one's place in pixels from the picture's centre, angle and facing.
 fn strokes(frame: &Frame) -> BTreeMap<u32, (DVec2, f64, f32)> {
     let run = *frame.layers.iter().find(|run| run.kind == LayerKind::Body).unwrap();
     (run.first as usize..(run.first + run.count) as usize)
@@ -54,7 +54,7 @@ fn pixel(at: DVec3) -> DVec2 {
     at.truncate() * focal_px / (4.0 - at.z)
 }
 
-/// Where the source's shader puts a place of the surface at this time.
+/// Where the shader that the technique comes from, as [`super::seed`] has it, puts a place of the surface at this time.
 fn judge(seconds: f64) -> impl Fn(DVec3) -> DVec3 {
     let tile = gaussian();
     move |at| {

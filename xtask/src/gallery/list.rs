@@ -6,7 +6,7 @@ pub(super) struct Picture {
     pub(super) view: View,
     /// Rendered at the scene's own size instead of the gallery's.
     pub(super) own_size: bool,
-    /// Panels side by side.
+    /// How many panels a row has.
     pub(super) columns: usize,
     /// One entry per panel: the values that are set in the scene; `--frames`, `--rotation` and `--colors` go to the
     /// command line.
@@ -142,7 +142,7 @@ pub(super) const PICTURES: &[Picture] = &[
             &[],
         ],
     },
-    // The camera rolled by 30°, strokes with it.
+    // The camera has rolled by 30°, and the strokes have turned with the surface.
     Picture {
         name: "roll",
         view: View::Scene { scene: "roll", frame: 30, crop: None },
@@ -242,8 +242,8 @@ pub(super) const PICTURES: &[Picture] = &[
         ],
     ),
     sweep("paint_swing", JUG, 3, &[&[("strokes.swing_deg", "0")], &[], &[("strokes.swing_deg", "25")]]),
-    // The contour is set in the region, which states its own. Its direction is an angle here, because strokes that
-    // run up would lie along most of the outline anyway.
+    // The contour is set in the apple's region, because that region states a contour of its own. The direction is an
+    // angle here, because strokes that run up would lie along most of the outline anyway.
     sweep(
         "paint_contour",
         FRUIT,

@@ -1,4 +1,5 @@
-//! `cargo xtask gallery`: renders the pictures of the README and the docs anew. With names, only those.
+//! `cargo xtask gallery`: renders the pictures of the README and the docs anew. If names are given, only those
+//! pictures.
 
 mod list;
 mod noise;
@@ -15,7 +16,7 @@ use crate::tidy::pictures::DOCS_LIMIT_BYTES;
 use list::{Picture, View};
 use panel::Panel;
 
-/// Size at which pictures are rendered that do not ask for their scene's own; crops are in pixels of the rendered
+/// Size at which a picture is rendered, unless it asks for the size of its scene. Crops are in pixels of the rendered
 /// picture.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
@@ -59,7 +60,7 @@ impl Work<'_> {
         let columns = picture.columns.min(panels.len());
         let whole = Panel::side_by_side(&panels, columns)?;
         let target = self.root.join(format!("docs/pictures/{}.png", picture.name));
-        // 256 colours are enough for paint; a picture that is still too heavy is reduced.
+        // The file has 256 colours, enough for paint. If it is still too large, the picture is reduced.
         for percent in [100, 85, 70, 60, 50, 40] {
             let reduced = whole.reduced(percent);
             reduced.write(&target)?;

@@ -1,4 +1,5 @@
-//! The pictures of noise-displaced materials: each parameter swept over its range.
+//! The list of the gallery's pictures of noise-displaced materials. Most show one parameter at several values, side by
+//! side.
 
 use super::list::{Picture, View};
 

@@ -1,11 +1,11 @@
-//! The pictures of ink on paper: each setting of the style swept over its range.
+//! Lists the gallery's pictures of ink on paper: whole scenes, and each setting of the style swept over its range.
 
 use super::list::{Picture, View};
 
-/// A part of the apple in ink, in pixels of the scene's own size.
+/// A part of the apple in ink: left, top, width and height in pixels of the scene's own size.
 const APPLE: [usize; 4] = [440, 440, 400, 330];
 
-/// Leaves of the bamboo.
+/// A part of the bamboo, with leaves: left, top, width and height as above.
 const LEAVES: [usize; 4] = [0, 100, 360, 330];
 
 type Panels = &'static [&'static [(&'static str, &'static str)]];

@@ -1,6 +1,6 @@
-//! Circles between the files of one crate: files that, directly or through others, use each other.
+//! Finds circles between the files of one crate: files that, directly or through others, use each other.
 //!
-//! A module and the modules inside it belong together: a child may use its parent (`super::…`).
+//! A module may use the modules that it is inside of (`super::…`): that makes no circle, except with the crate's root.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -45,10 +45,11 @@ fn uses(modules: &BTreeMap<Names, Module>) -> Uses {
     uses
 }
 
-/// Chains of re-exports are followed this far only, because a chain may itself run in a circle.
+/// A chain of re-exports is followed this far only, because it may itself run in a circle.
 const MOST_RE_EXPORTS: usize = 16;
 
-/// The module that defines the item of a path, and the item's name; `None` for a path to a module or into another crate.
+/// The module that defines the item of a path, and the item's name. `None` for a path to a module or into another
+/// crate.
 fn resolve(
     modules: &BTreeMap<Names, Module>,
     from: &Names,
@@ -98,7 +99,7 @@ fn parent(of: &Names) -> Option<Names> {
     of.split_last().map(|(_, before)| before.to_vec())
 }
 
-/// The files that `file` reaches and that reach it, with itself.
+/// The file itself and all files that, directly or through others, it uses and that use it.
 fn group(uses: &Uses, file: &PathBuf) -> BTreeSet<PathBuf> {
     let mut group: BTreeSet<PathBuf> =
         reached(uses, file).into_iter().filter(|other| reached(uses, other).contains(file)).collect();

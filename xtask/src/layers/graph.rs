@@ -1,4 +1,4 @@
-//! Which packages use which, read from the output of `cargo metadata`.
+//! Which packages use which, read from the output of `cargo metadata`: the check of the layers needs it.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use anyhow::Context as _;
 use serde_json::Value;
 
-/// Who uses whom, by package name; arrows of every kind (normal, build and dev).
+/// Which package uses which, by name. Dependencies of all kinds count: normal, build and dev.
 #[derive(Debug, Default)]
 pub struct Graph {
     /// The Cargo.toml of each crate of the workspace.

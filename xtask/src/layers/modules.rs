@@ -1,4 +1,5 @@
-//! The modules of a crate, read from its source files: what each one imports and which paths it writes. Tests are left out.
+//! The modules of a crate, read from its source files: what each imports and which paths it names. The check of the
+//! layers needs this. Tests are left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -16,8 +17,8 @@ pub struct Module {
     pub file: PathBuf,
     /// What `use` brings in, by its name here.
     pub imports: BTreeMap<String, Names>,
-    /// Every imported and every written path that the module uses, as written. A path that is only re-exported does
-    /// not count.
+    /// The paths of everything that the module uses, in imports and in its code, as they are written. A path that is
+    /// only re-exported does not count.
     pub paths: BTreeSet<Names>,
 }
 
@@ -93,7 +94,8 @@ impl Reader {
     }
 }
 
-/// Reads the tokens of one module; child modules come back by name, inline ones with their tokens.
+/// Reads the tokens of one module into `contents`. Adds its child modules to `children`: their names, and the tokens of
+/// inline ones.
 fn read(tokens: TokenStream, contents: &mut Contents, children: &mut Vec<(String, Option<TokenStream>)>) {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let mut at = 0;
@@ -143,7 +145,7 @@ fn read(tokens: TokenStream, contents: &mut Contents, children: &mut Vec<(String
     }
 }
 
-/// The imports of a `use` tree, each with the names before it.
+/// Adds the imports of a `use` tree to `found`. `before` has the names that stand before the tree.
 fn imports(tree: &[TokenTree], before: &Names, public: bool, found: &mut Vec<Import>) {
     for branch in tree.split(|token| is_mark(Some(token), ',')) {
         let mut path = before.clone();
@@ -170,7 +172,7 @@ fn imports(tree: &[TokenTree], before: &Names, public: bool, found: &mut Vec<Imp
     }
 }
 
-/// The name after `::` at a place.
+/// The name behind the `::` that stands at `at`, if there is one.
 fn next_name(tokens: &[TokenTree], at: usize) -> Option<String> {
     match (tokens.get(at), tokens.get(at + 1), tokens.get(at + 2)) {
         (first, second, Some(TokenTree::Ident(name))) if is_mark(first, ':') && is_mark(second, ':') => {
@@ -184,7 +186,7 @@ fn is_mark(token: Option<&TokenTree>, wanted: char) -> bool {
     matches!(token, Some(TokenTree::Punct(mark)) if mark.as_char() == wanted)
 }
 
-/// Whether an attribute keeps what follows to test builds.
+/// Whether an attribute limits what follows to test builds.
 fn is_for_tests(attribute: &TokenStream) -> bool {
     let text = attribute.to_string().replace(' ', "");
     text.starts_with("cfg(test") || text.starts_with("cfg(all(test")

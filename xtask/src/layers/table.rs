@@ -1,10 +1,11 @@
-//! The two tables of ARCHITECTURE.md that say which arrows are allowed.
+//! Reads the two tables of ARCHITECTURE.md that say which crate may use which; `cargo xtask layers` checks against
+//! them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context as _, bail};
 
-/// Allowed arrows, by package name.
+/// Which crate may use which, by package name.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Rules {
     /// For each crate of ours, the crates of ours that it may use.

@@ -1,7 +1,7 @@
-//! How long each test took, told from the moments at which the test runner prints that tests have ended.
+//! Finds how long each test took, from the moments at which the test runner prints that tests have ended.
 //!
-//! The runner of a stable toolchain gives no times. It starts tests in the order of their names, as many at once as there are
-//! threads, and the next whenever one ends: so the moments at which tests end tell when each began.
+//! The runner of a stable toolchain gives no times. It starts tests in the order of their names, as many at once as
+//! there are threads, and the next one whenever one ends. So the moments at which tests end tell when each began.
 
 use std::time::{Duration, Instant};
 
@@ -75,7 +75,7 @@ mod tests {
     fn times_are_told_from_the_moments_at_which_tests_end() {
         let mut times = Times::of_threads(2);
         let begin = Instant::now();
-        // `a` and `b` start at 0; `b` ends and `c` starts, which ends before `a`; then `d`.
+        // `a` and `b` start at second 0. When `b` ends, `c` starts. `c` ends before `a`, and then `d` starts.
         let lines = [
             (0, "running 4 tests"),
             (2, "test b ... ok"),

@@ -1,4 +1,4 @@
-//! The files of the repository, without what is built or written by running it.
+//! Lists the files of the repository for the tidy checks, without those that a build or a run wrote.
 
 use std::path::Path;
 

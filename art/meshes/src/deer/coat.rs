@@ -1,18 +1,19 @@
-//! Which colour of the deer's coat lies where, in units of its height at the withers.
+//! Decides which colour of the deer's coat lies where. Lengths are in units of the deer's height at the withers.
 
 use glam::DVec3;
 
 use crate::curve::{bump, noise, smoothstep};
 use crate::poly_mesh::Look;
 
-/// The coat from the dark line along the back to the white of the rump: so many steps that no border shows.
+/// The materials of the coat, from the dark line along the back to the white of the rump. Neighbours differ so little
+/// that no border shows between them.
 pub const COAT: [&str; 20] = [
     "coat_01", "coat_02", "coat_03", "coat_04", "coat_05", "coat_06", "coat_07", "coat_08", "coat_09",
     "coat_10", "coat_11", "coat_12", "coat_13", "coat_14", "coat_15", "coat_16", "coat_17", "coat_18",
     "coat_19", "coat_20",
 ];
 
-/// Group and material at a place of the skin, where it looks towards `outward`.
+/// Group and material at a point of the skin, whose normal there is `outward`.
 pub fn look(point: DVec3, outward: DVec3) -> Look {
     let group = group(point);
     let material = match group {

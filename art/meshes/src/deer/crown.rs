@@ -56,7 +56,7 @@ pub fn add_crown(mesh: &mut PolyMesh, form: &Form) {
     }
 }
 
-/// One ear: a hollow leaf with a pale inside, held sideways.
+/// One ear: leaf-shaped, hollow, pale inside, held sideways.
 fn ear(mesh: &mut PolyMesh, side: f64) {
     const CELLS: [usize; 2] = [8, 14];
     let root = DVec3::new(0.640, 1.385, 0.052 * side);
@@ -70,7 +70,7 @@ fn ear(mesh: &mut PolyMesh, side: f64) {
         CELLS,
         |column, row| {
             let (s, t) = (column as f64 / CELLS[0] as f64 * 2.0 - 1.0, row as f64 / CELLS[1] as f64);
-            // A stem, full below the middle, running out into a point.
+            // Half the ear's width: narrow at the stem, widest below the middle, pointed at the end.
             let half = 0.026 + 0.038 * smoothstep(0.0, 0.45, t);
             let half = half * (1.0 - smoothstep(0.45, 1.06, t)).powf(0.7);
             let bend = 0.030 * t * t;

@@ -1,11 +1,13 @@
-//! The deer's body as a distance field, in units of its height at the withers: x forwards, z to its right.
+//! The shape of the deer's body as a distance field, round which its mesh is made. A unit is its height at the withers;
+//! x is forwards, z to its right.
 
 use glam::DVec3;
 
 use crate::curve::smoothstep;
 use crate::limb::{Limb, blend};
 
-/// From the buttocks to the breast: x, y, z, half the depth, half the width.
+/// Cross-sections of the torso from the buttocks to the breast: x, y, z, half the depth, half the width. The tables
+/// below have the same columns.
 const TORSO: [[f64; 5]; 9] = [
     [-0.575, 0.800, 0.0, 0.070, 0.050],
     [-0.535, 0.812, 0.0, 0.125, 0.096],
@@ -18,7 +20,7 @@ const TORSO: [[f64; 5]; 9] = [
     [0.475, 0.768, 0.0, 0.120, 0.080],
 ];
 
-/// From between the shoulders up to the poll.
+/// The neck, from between the shoulders up to the poll.
 const NECK: [[f64; 5]; 6] = [
     [0.320, 0.840, 0.0, 0.195, 0.105],
     [0.430, 0.960, 0.0, 0.160, 0.090],
@@ -28,7 +30,7 @@ const NECK: [[f64; 5]; 6] = [
     [0.645, 1.350, 0.0, 0.070, 0.055],
 ];
 
-/// From the back of the skull to the nose.
+/// The head, from the back of the skull to the nose.
 const HEAD: [[f64; 5]; 7] = [
     [0.628, 1.375, 0.0, 0.055, 0.055],
     [0.690, 1.357, 0.0, 0.088, 0.078],
@@ -46,7 +48,7 @@ const JAW: [[f64; 5]; 3] =
 /// The right brow.
 const BROW: [[f64; 5]; 2] = [[0.700, 1.395, 0.052, 0.030, 0.026], [0.760, 1.362, 0.055, 0.024, 0.020]];
 
-/// From its root to its tip.
+/// The tail, from its root to its tip.
 const TAIL: [[f64; 5]; 4] = [
     [-0.575, 0.895, 0.0, 0.034, 0.040],
     [-0.640, 0.835, 0.0, 0.032, 0.044],

@@ -1,4 +1,4 @@
-//! A stag that stands and listens.
+//! The mesh `deer`: a stag that stands and listens.
 
 mod coat;
 mod crown;
@@ -11,7 +11,7 @@ use super::surface_net::{Grid, slope, tighten, weave};
 
 use form::Form;
 
-/// Units of the mesh per height at the withers.
+/// Height of the finished mesh at the withers. The form is built with a height of 1 there.
 const WITHERS: f64 = 0.6;
 
 /// A stag 1.15 units high with its antlers, standing on y = 0 and looking to +X.

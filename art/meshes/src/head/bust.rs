@@ -1,4 +1,4 @@
-//! The bust under the head: a jacket with folds, and a linen collar round the neck.
+//! Makes the mesh of the bust under the portrait's head: a jacket with folds, and a linen collar round the neck.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,8 @@ use super::{PIVOT, turn};
 use crate::curve::{bump, noise, smoothstep};
 use crate::poly_mesh::{Look, PolyMesh};
 
-/// From the neck's opening over the shoulders down: front (y, z), side (x, y, z), back (y, z).
+/// The jacket's rings, from the neck's opening over the shoulders down. Each row gives three points of a ring: in front
+/// (y, z), at the side (x, y, z), and at the back (y, z).
 const JACKET: [[f64; 7]; 12] = [
     [-0.330, -0.100, 0.000, -0.330, -0.120, -0.330, -0.140],
     [-0.320, 0.060, 0.150, -0.280, -0.130, -0.240, -0.300],
@@ -102,7 +103,7 @@ fn collar(mesh: &mut PolyMesh) {
     mesh.blade(
         [ALONG, ACROSS],
         |column, row| {
-            // From the front round the neck to the front again; to the right, seen from outside.
+            // Columns run from the front round the neck to the front again; seen from outside, to the right.
             let angle = 0.10 + (TAU - 0.20) * column as f64 / ALONG as f64;
             // Rows run up: from the lower edge on the jacket to the edge that stands at the neck.
             let up = row as f64 / ACROSS as f64;

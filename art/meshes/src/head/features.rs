@@ -1,4 +1,4 @@
-//! What sits in and on the face: eyes with their lids, brows, lips, ears and a pearl.
+//! The parts of the portrait's head that are made apart from its skin: eyes with their lids, brows, lips, ears, pearls.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,7 +19,7 @@ const fn look(group: &'static str, material: &'static str) -> Look {
 pub fn eyes(mesh: &mut PolyMesh) {
     for side in [1.0, -1.0] {
         ball(mesh, side);
-        // Elevations of the lid's edge and of its end in the socket.
+        // For each lid, the elevations of its free edge and of its end in the socket.
         lid(mesh, side, [-0.18, 1.05], 0.0655);
         lid(mesh, side, [-0.46, -1.15], 0.0635);
     }
@@ -29,7 +29,7 @@ fn eye_centre(side: f64) -> DVec3 {
     DVec3::new(side * EYE.x, EYE.y, EYE.z)
 }
 
-/// The eyeball looks down: its pole is the pupil.
+/// The eyeball. It looks down, and its pole is the pupil.
 fn ball(mesh: &mut PolyMesh, side: f64) {
     const ROWS: usize = 12;
     let gaze = DVec3::new(0.0, -0.42, 1.0).normalize();
@@ -145,7 +145,8 @@ pub fn lips(mesh: &mut PolyMesh, skin: &Skin) {
     }
 }
 
-/// Front and back of a lip: `at` runs from corner to corner (−1..=1) and from the parting line outwards (0..=1).
+/// The front and the back of a lip at a place: `at.x` runs from corner to corner of the mouth (−1..=1), `at.y` from the
+/// parting line outwards (0..=1).
 fn lip_point(skin: &Skin, upper: bool, at: DVec2) -> [DVec3; 2] {
     let (u, v) = (at.x, at.y);
     let wide = u.abs();
@@ -186,7 +187,7 @@ pub fn ears(mesh: &mut PolyMesh) {
                 let angle = TAU * segment as f64 / SEGMENTS as f64 * side;
                 let away = row as f64 / ROWS as f64 * 2.0;
                 let (away, front) = if away <= 1.0 { (away, true) } else { (2.0 - away, false) };
-                // Narrow at the lobe, full at the top behind.
+                // The ear is narrow at the lobe, and full at the top and the back.
                 let (sine, cosine) = angle.sin_cos();
                 let rim = DVec2::new(0.058 + 0.016 * sine + 0.006 * cosine, 0.118);
                 let (across, along) = (rim.x * away * cosine, rim.y * away * sine);

@@ -1,4 +1,4 @@
-//! The hair: parted in the middle, drawn back in waves over the ears to a knot.
+//! Models the hair of the head: parted in the middle, drawn back in waves over the ears to a knot.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,7 +8,7 @@ use super::loft::form;
 use crate::curve::{Profile, bump, smoothstep};
 use crate::poly_mesh::{Look, PolyMesh};
 
-/// The ring of the head at which the hair ends: angle from the front, ring.
+/// Where the hair ends, as pairs of an angle from the front and the ring of the head that the hair reaches there.
 const HAIRLINE: [[f64; 2]; 9] = [
     [0.0, 3.70],
     [0.30, 3.85],
@@ -24,7 +24,7 @@ const HAIRLINE: [[f64; 2]; 9] = [
 /// How many locks lie between the crown and the hairline.
 const LOCKS: f64 = 7.0;
 
-/// Cap and knot.
+/// Adds the cap of hair and the knot.
 pub fn hair(mesh: &mut PolyMesh) {
     cap(mesh);
     knot(mesh);

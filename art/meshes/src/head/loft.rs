@@ -6,9 +6,10 @@ use glam::DVec3;
 
 use super::relief::Relief;
 
-/// From the crown down to the pit of the neck. A ring: front (y, z), side (x, y, z), back (y, z), and how square the
-/// ring is in front and behind (2 an ellipse, more squarer, less more pointed). The chin is at y = 0, the crown
-/// of the skull at y = 1, the eyes half-way between; the face looks towards +Z.
+/// The rings from the crown down to the pit of the neck. Each row states a front point (y, z), a side point (x, y, z),
+/// a back point (y, z), and how square the ring is in front and behind: 2 is an ellipse, more is squarer, less is more
+/// pointed. The chin is at y = 0, the crown of the skull at y = 1, the eyes half-way between; the face looks towards
+/// +Z.
 const RINGS: [[f64; 9]; 26] = [
     [1.000, -0.080, 0.000, 1.000, -0.080, 1.000, -0.080, 2.0, 2.0],
     [0.985, 0.095, 0.165, 0.972, -0.080, 0.970, -0.240, 2.0, 2.0],

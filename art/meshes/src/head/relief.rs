@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::curve::{Profile, smoothstep};
 
-/// How far the nose's ridge stands out over the face: height on the face, distance.
+/// How far the nose's ridge stands out over the face: pairs of the height on the face and the distance there.
 const RIDGE: [[f64; 2]; 13] = [
     [0.270, 0.0],
     [0.286, 0.004],
@@ -21,7 +21,7 @@ const RIDGE: [[f64; 2]; 13] = [
     [0.620, 0.0],
 ];
 
-/// Half the nose's width at its foot: height on the face, distance.
+/// Half the nose's width at its foot: pairs of the height on the face and the half width there.
 const NOSE_WIDTH: [[f64; 2]; 7] = [
     [0.270, 0.052],
     [0.320, 0.060],
@@ -32,7 +32,7 @@ const NOSE_WIDTH: [[f64; 2]; 7] = [
     [0.620, 0.070],
 ];
 
-/// A soft hump of height 1 round a centre, `size` its half-widths.
+/// A soft hump of height 1 round a centre; `size` holds its half-widths.
 fn hump(point: DVec2, centre: [f64; 2], size: [f64; 2]) -> f64 {
     let away = (point - DVec2::from_array(centre)) / DVec2::from_array(size);
     (-away.length_squared()).exp()

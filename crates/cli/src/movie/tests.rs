@@ -1,8 +1,8 @@
-//! Tests of movies: flat colours and transparency, written and then decoded as a player does.
+//! Tests that movies keep colours and transparency: flat colours are written, and then decoded as a player does.
 
 use super::*;
 
-/// Bands of flat colour, left to right: colours that BT.601 and BT.709 show differently, white, black and grey.
+/// Bands of flat colour, left to right: three colours that BT.601 and BT.709 show differently, then white, black, grey.
 const BANDS: [[u8; 4]; 6] = [
     [0, 160, 0, 255],
     [200, 30, 30, 255],
@@ -33,7 +33,8 @@ fn encoding(name: &str, transparent: bool) -> Encoding {
     Encoding::of(Path::new(name), transparent).unwrap().unwrap()
 }
 
-/// Writes a movie of three equal frames of bands. `extra_px` widens the last band and the height, to make the sides odd.
+/// Writes a movie of three equal frames of bands. `extra_px` is added to the last band's width and to the height, so
+/// that the sides can be odd.
 fn write(path: &Path, transparent: bool, bands: &[[u8; 4]], extra_px: usize) {
     let width = bands.len() * BAND_PX + extra_px;
     let row = (0..width).flat_map(|x| bands[(x / BAND_PX).min(bands.len() - 1)]);

@@ -3,7 +3,8 @@
 use crate::hash;
 use crate::presence::smoothstep;
 
-/// Value noise, 0..1, on a grid of random values. `u` and `across` run from −[`MARGIN`] to 1 + [`MARGIN`].
+/// Value noise, 0..1, on a grid of random values over a mark. `u` runs along the mark and `across` over its width, both
+/// from −[`MARGIN`] to 1 + [`MARGIN`].
 pub(super) struct Lattice {
     columns: usize,
     cycles: [f32; 2],

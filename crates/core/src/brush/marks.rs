@@ -1,4 +1,4 @@
-//! The marks of the built-in brushes.
+//! Makes the marks of the built-in brushes: textures of paint, height and tint, from noise that imitates hairs.
 
 use super::lattice::{Between, Lattice};
 use super::{Mark, NAMES, SIZE, Texel};
@@ -13,7 +13,7 @@ const ASPECT: f32 = 6.2;
 struct Brush {
     /// How many hairs across.
     hairs: f32,
-    /// How far the loaded start and the lifted end are rounded, in half widths.
+    /// How far the start of the mark, where the brush is full, and its end are rounded, in half widths.
     caps: [f32; 2],
     /// How ragged the end is, as a share of the length.
     ragged: f32,
@@ -26,7 +26,7 @@ struct Brush {
     shape: Shape,
 }
 
-/// Outline of a brush.
+/// Outline of a brush's marks.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     /// As wide at its ends as in the middle.
@@ -49,7 +49,7 @@ const USUAL: Brush = Brush {
     shape: Shape::Straight,
 };
 
-/// In the order of [`NAMES`].
+/// The brushes, in the order of [`NAMES`].
 const BRUSHES: [Brush; NAMES.len()] = [
     USUAL,
     Brush { hairs: 18.0, caps: [0.8, 0.55], ragged: 0.16, dry: [0.06, 0.36], shape: Shape::Belly, ..USUAL },
@@ -135,7 +135,8 @@ impl Hairs {
         }
     }
 
-    /// What depends on u alone. `along` is the place along the mark, 0..=1: u itself, except where hairs spread.
+    /// What all texels at one `u` share. `along` is the place along the mark, 0..=1. It differs from `u` only at texels
+    /// beyond the mark's ends, and where spreading hairs shift `u`.
     fn along(&self, u: f32, along: f32) -> AlongHere {
         let brush = &self.brush;
         let width = match brush.shape {
@@ -154,7 +155,7 @@ impl Hairs {
         }
     }
 
-    /// What depends on v alone.
+    /// What all texels at one `v` share.
     fn across(&self, v: f32) -> AcrossHere {
         let across = v * 0.5 + 0.5;
         AcrossHere {
@@ -250,7 +251,7 @@ impl Streaks {
         std::array::from_fn(|which| self.along[which].row(across))
     }
 
-    /// How much paint the hairs carry over their whole length.
+    /// How much paint the hairs carry at a place across the brush, the same over the whole length of the mark.
     fn hairs(&self, across: f32) -> f32 {
         0.4 * self.hairs[0].along(across)
             + 0.35 * self.hairs[1].along(across)

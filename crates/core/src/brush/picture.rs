@@ -4,7 +4,7 @@ use super::marks::Streaks;
 use super::{Mark, SIZE, Texel, VARIANTS};
 use crate::hash;
 
-/// How many hairs across are laid over the picture, so that no two marks are quite alike.
+/// How many streaks of brush hairs lie side by side over the picture, so that no two marks are quite alike.
 const HAIRS: f32 = 16.0;
 
 /// A picture whose emptiest and fullest texels differ by less than this (of 255) holds no mark.
@@ -20,9 +20,9 @@ pub fn has_mark(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> bool {
     most - least >= LEAST_CONTRAST / 255.0
 }
 
-/// The marks of a brush that is a picture. Light texels are paint and dark ones none, times opacity; a dark mark on a light
-/// background is inverted. The picture is stretched over the stroke, its left edge at the stroke's start. None where `rgba8`
-/// holds fewer texels than its size says.
+/// The marks of a brush that is a picture. A texel holds as much paint as its lightness times its opacity; a dark mark
+/// on a light background is inverted. The picture is stretched over the stroke, its left edge at the stroke's start.
+/// There are no marks where `rgba8` holds fewer texels than the size says.
 pub fn marks_of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Vec<Mark> {
     let [width, height] = size_px.map(|side| side as usize);
     let grey: Vec<f32> = rgba8.iter().map(paint_of).collect();

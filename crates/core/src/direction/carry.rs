@@ -46,9 +46,9 @@ impl Stencils {
     /// The direction and the anchor of a particle, from the samples near it for which `sample` gives something.
     ///
     /// The solve has turned each sample away from its stated direction; the particle's own `stated` direction is turned
-    /// by the mean of these turns. The less the turns agree, as around a singular point of the stated directions, the
-    /// more the mean of the samples' solved directions, transported to the particle, takes its place. `None` where no
-    /// sample counts, or where the directions cancel.
+    /// by the mean of these turns. Where the turns agree less than the samples' solved directions do, as around a
+    /// singular point of the stated directions, the mean of the solved directions is used instead, transported to the
+    /// particle. `None` where no sample counts, or where the directions cancel.
     pub fn carry(
         &self,
         particle: usize,
@@ -72,7 +72,7 @@ impl Stencils {
         {
             let distance_sq = f64::from(position.distance_squared(at));
             let weight = normal.dot(there).max(0.0) * (-0.5 * distance_sq / deviation_sq).exp();
-            // solved / stated, for unit numbers.
+            // The quotient solved / stated of unit complex numbers: the sample's turn.
             turned += DVec2::new(stated_there.x, -stated_there.y).rotate(solved) * weight;
             transported += symmetry.turn(transport_rad(there, normal)).rotate(solved) * weight;
             anchor += anchor_there * weight;

@@ -9,12 +9,12 @@ use super::tangent_axes;
 pub struct Curvature {
     /// The one of greater magnitude first; 1 / model units, positive where the surface bends away from its normal.
     pub curvatures: [f64; 2],
-    /// Their unit tangents, model space.
+    /// For each, the unit tangent along which the surface bends so, model space.
     pub directions: [DVec3; 2],
 }
 
-/// Fits the shape operator S (symmetric, `n' ≈ n + S d`) to neighbours, given as offsets and unit normals. `None` with too few
-/// of them, or when they lie on one line.
+/// Fits the shape operator S (symmetric, `n' ≈ n + S d`) to the neighbours of a point. `normal` is n; `near` gives the
+/// offset d and the unit normal n' of each neighbour. `None` with too few neighbours, or when they lie on one line.
 pub fn principal(normal: DVec3, near: impl Iterator<Item = (DVec3, DVec3)>) -> Option<Curvature> {
     let [right, above] = tangent_axes(normal);
     let flat = |v: DVec3| DVec2::new(v.dot(right), v.dot(above));

@@ -2,8 +2,10 @@
 //! et al. 2013, the guided case, on points instead of a mesh).
 //!
 //! The unknown is one complex number `u` per sample (see [`super`]). The field minimises
-//! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`, ρ the transport of j's axes to i's, raised to the field's power. The solution
-//! is normalised, and then steps with every `u` on the unit circle make the same sum smaller still.
+//! `Σ w_ij |u_i − ρ_ij u_j|² + Σ μ_i |u_i − û_i|²`. Here `ρ_ij` is the transport of j's axes to i's, raised to the
+//! field's power, `w_ij` is the weight of a pair of neighbours, and `û_i` is the direction that sample i is pulled to
+//! with the weight `μ_i`. The numbers that are found are normalised. Then further steps, which keep every `u` on the
+//! unit circle, make the sum smaller.
 
 use std::sync::OnceLock;
 
@@ -19,8 +21,9 @@ pub const MAX_SAMPLES: usize = 4096;
 /// Samples within this many spacings (of the hexagonal lattice) of each other are neighbours.
 const REACH_SPACINGS: f64 = 1.9;
 
-/// Conjugate gradients stop after this many steps, or when the residual has fallen by this factor.
+/// Conjugate gradients stop after this many steps at the latest.
 const MOST_STEPS: usize = 400;
+/// Conjugate gradients stop when the residual has fallen to this share of the first one.
 const RESIDUAL: f64 = 1e-5;
 
 /// How many steps are taken on the unit circle after the linear solve.
@@ -49,15 +52,15 @@ struct Edge {
 /// The direction that a sample is pulled to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraint {
-    /// The unit number that the sample should have.
+    /// The unit complex number that the sample should have.
     pub target: DVec2,
     /// How strong the pull is, in units of one neighbour's weight, > 0.
     pub weight: f64,
 }
 
 impl FieldGraph {
-    /// The graph of samples (positions and unit normals, model space) that stand about `spacing` apart. `joined` says whether
-    /// two of them may be neighbours at all.
+    /// The graph of samples that stand about `spacing` apart. Positions and unit normals are in model space. `joined`
+    /// says whether two samples may be neighbours at all.
     pub fn new(
         positions: &[Vec3],
         normals: &[Vec3],
@@ -129,8 +132,8 @@ impl FieldGraph {
         &self.edges[self.starts[sample] as usize..self.starts[sample + 1] as usize]
     }
 
-    /// The unit numbers that fit the constraints best; a sample that nothing reaches keeps its target. The same inputs give the
-    /// same bits, on any number of threads.
+    /// The unit complex numbers that fit the constraints best. A sample whose number comes out as 0 keeps its target.
+    /// The same inputs give the same bits, on any number of threads.
     pub fn solve(&self, symmetry: Symmetry, constraints: &[Constraint]) -> Vec<DVec2> {
         let system = System { graph: self, turns: self.turns(symmetry), constraints };
         let mut u = system.conjugate_gradients();
@@ -230,7 +233,8 @@ impl System<'_> {
     }
 }
 
-/// Positions and unit normals on a unit sphere, spread evenly (a spiral); shared by the tests of this folder.
+/// Points spread evenly over a unit sphere along a spiral, each of which is also its normal, and their spacing. The
+/// tests of this folder share them.
 #[cfg(test)]
 pub(super) fn spiral_sphere(count: usize) -> (Vec<Vec3>, f64) {
     use glam::DVec3;

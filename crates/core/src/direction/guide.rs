@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-/// A polyline on a surface with its reach, model space.
+/// A polyline on a surface, in model space, and how it combs the strokes near it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
-    /// At least two; consecutive ones do not coincide.
+    /// At least two points; no two consecutive ones coincide.
     points: Vec<Corner>,
     /// How far it reaches, model units.
     radius: f64,
@@ -53,19 +53,20 @@ struct Corner {
 pub struct Influence {
     /// Strength times falloff, 0..=1.
     pub weight: f64,
-    /// Unit, along the gesture; not tangent to the surface.
+    /// Unit vector along the gesture. It is not projected onto the surface.
     pub along: DVec3,
     /// How far strokes are turned from `along`, radians, counter-clockwise as seen.
     pub turn_rad: f64,
 }
 
-/// A guide has no effect where the cosine between the surface's normal and its own is below `NO_EFFECT_COS`, and its full effect
-/// from `FULL_EFFECT_COS` on.
+/// A guide has no effect where the cosine between the surface's normal and its own is below `NO_EFFECT_COS`, and full
+/// effect where the cosine is at least `FULL_EFFECT_COS`.
 const NO_EFFECT_COS: f64 = 0.1;
 const FULL_EFFECT_COS: f64 = 0.4;
 
 impl Guide {
-    /// A guide through points; a point that coincides with the one before is left out. `None` where fewer than two are left.
+    /// A guide through points. A point that coincides with the one before is left out; `None` if fewer than two are
+    /// left.
     pub fn new(
         points: impl Iterator<Item = GuidePoint>,
         radius: f64,
@@ -86,7 +87,7 @@ impl Guide {
         for (index, point) in kept.iter_mut().enumerate() {
             let before = pieces[index.saturating_sub(1)];
             let after = pieces[index.min(pieces.len() - 1)];
-            // The shorter piece counts more: it is nearer to the tangent.
+            // The shorter piece counts more, because its direction is nearer to the tangent.
             let (unit_before, unit_after) = (before.normalize_or_zero(), after.normalize_or_zero());
             let mean = unit_before * after.length() + unit_after * before.length();
             point.along = mean.try_normalize().unwrap_or(unit_after);
@@ -97,7 +98,8 @@ impl Guide {
         Some(Self { points: kept, radius, strength, falloff, ball })
     }
 
-    /// The influence on a point with this unit normal, if any. The guide reaches at least as far as `least_reach`.
+    /// The influence on a point with this unit normal, if any. A guide whose radius is smaller than `least_reach`
+    /// reaches that far instead.
     pub fn influence(&self, position: DVec3, normal: DVec3, least_reach: f64) -> Option<Influence> {
         let reach = self.radius.max(least_reach);
         if position.distance(self.ball.0) > self.ball.1 + reach {

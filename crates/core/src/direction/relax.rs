@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::Symmetry;
 use super::field::{Constraint, FieldGraph};
 
-/// Where the blended complex number is shorter than this, opposite directions meet and nearly cancel: a tear.
-/// Normalised, the field would jump there from one to the other instead of turning.
+/// Where a blended complex number is shorter than this, there is a tear: opposite directions meet and nearly cancel.
+/// If it were only normalised, the field would jump there from one direction to the other instead of turning.
 const TORN: f64 = 0.5;
 
 /// Weight of the constraint that makes a tear turn one way round, in units of one neighbour's weight.
@@ -22,9 +22,10 @@ const RESIDUAL: f64 = 1e-6;
 const ROUNDS: usize = 3;
 
 impl FieldGraph {
-    /// The field `solved` with some samples freed: those with a constraint in `holds` are pulled by it and by their neighbours,
-    /// all others stay as they are. The turn from one fixed side to the other is spread evenly over the free samples; where the
-    /// two sides are opposite, all turn the same way round. The same inputs give the same bits.
+    /// The field `solved` with some samples freed. Samples that have a constraint in `holds` are free: they are pulled
+    /// by it and by their neighbours. All others stay as they are. The turn from one fixed side to the other is spread
+    /// evenly over the free samples; where the two sides are opposite, all free samples turn the same way round. The
+    /// same inputs give the same bits.
     pub fn relaxed(&self, symmetry: Symmetry, solved: &[DVec2], holds: &[Option<Constraint>]) -> Vec<DVec2> {
         let free = FreeSamples::new(self, symmetry, holds);
         let mut field = solved.to_vec();
@@ -45,9 +46,9 @@ impl FieldGraph {
 struct FreeSamples {
     /// The free samples, as indices into the field; the arrays below are in the same order.
     inner: Vec<usize>,
-    /// What pulls each.
+    /// The constraint that pulls each sample.
     hold: Vec<Constraint>,
-    /// The edges of each.
+    /// The edges of each sample.
     ties: Vec<Vec<Tie>>,
 }
 
@@ -56,7 +57,7 @@ struct Tie {
     /// The index of `to` among the free samples; `None` if it is fixed.
     inner: Option<usize>,
     weight: f64,
-    /// ρ of the edge.
+    /// ρ of the edge: turns the direction at `to` into the frame of the sample that has the edge.
     turn: DVec2,
 }
 
@@ -81,7 +82,7 @@ impl FreeSamples {
         Self { inner, hold, ties }
     }
 
-    /// The complex numbers that fit best, not yet normalised.
+    /// For each free sample, the complex number that fits its neighbours and constraints best, not yet normalised.
     fn blend(&self, field: &[DVec2], leads: &[Option<Constraint>]) -> Vec<DVec2> {
         let mut firm = Vec::with_capacity(self.inner.len());
         let mut pull = Vec::with_capacity(self.inner.len());
@@ -103,7 +104,7 @@ impl FreeSamples {
         let at = |tie: &Tie| tie.inner.map_or(field[tie.to], |inner| blend[inner]);
         let across = |index: usize| -> Option<DVec2> {
             let change = |tie: &Tie| tie.turn.rotate(at(tie)) - blend[index];
-            // Squared, so that a change and its opposite count as one.
+            // Squared, so that a change and its opposite count as the same.
             let squares = self.ties[index].iter().map(|tie| change(tie).rotate(change(tie)) * tie.weight);
             let along = DVec2::from_angle(squares.sum::<DVec2>().try_normalize()?.to_angle() * 0.5);
             Some(along.perp())
@@ -222,8 +223,8 @@ mod tests {
 
     use super::*;
 
-    /// The angles along the middle row, in degrees, of a plane of 30 by 30 samples: its left half at 0 degrees, its right half
-    /// at `angle_deg`, free for 10 columns on either side of the seam.
+    /// The relaxed angles along the middle row, in degrees, of a plane of 30 by 30 samples. Before, its left half is at
+    /// 0 degrees and its right half at `angle_deg`; 10 columns on either side of the seam are free.
     fn middle_row(symmetry: Symmetry, angle_deg: f64) -> Vec<f64> {
         let positions: Vec<Vec3> =
             (0..900).map(|i| Vec3::new((i % 30) as f32, (i / 30) as f32, 0.0)).collect();

@@ -1,7 +1,8 @@
-//! Singular points, where a direction field has no direction: lines run round them or out of them.
+//! Finds singular points, where a direction field has no direction: lines run round them or out of them.
 //!
-//! The index of a loop is how often the field turns along it, less what parallel transport alone turns. On a closed
-//! surface without handles the indices add up to 2, whatever the field (Poincaré and Hopf).
+//! The index of a loop is the number of turns that the field makes along it, corrected for the turn of parallel
+//! transport round the loop. On a closed surface without handles the indices add up to 2, whatever the field (Poincaré
+//! and Hopf).
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -14,11 +15,12 @@ use crate::angle::wrap_pi;
 pub struct Singularity {
     /// Model space.
     pub position: DVec3,
-    /// 1 where strokes run round a point or out of it, ½ and −½ where lines bend round an end or part at a fork.
+    /// 1 where strokes run round the point or out of it, ½ where lines bend round an end, −½ where they part at a fork.
     pub index: f64,
 }
 
-/// The singular points of a field of unit numbers over samples (positions and unit normals, model space).
+/// The singular points of a direction field that is given by a complex number of length 1 at each sample. Positions and
+/// unit normals of the samples are in model space.
 pub fn find(
     graph: &FieldGraph,
     positions: &[Vec3],
@@ -29,8 +31,8 @@ pub fn find(
     let index_of = |ring: &[usize]| index_of_loop(ring, normals, field, symmetry);
     let indices: Vec<f64> =
         (0..graph.len()).map(|sample| index_of(&ring(graph, sample, positions, normals))).collect();
-    // Loops round neighbouring samples overlap. Neighbours with an index make one cluster, whose index is that of the
-    // loop round it.
+    // Loops round neighbouring samples overlap, so neighbours whose index is not 0 are joined into one cluster. Its
+    // index is that of the loop round the whole cluster.
     let mut seen = vec![false; indices.len()];
     let mut found = Vec::new();
     for start in 0..indices.len() {
@@ -69,7 +71,7 @@ fn index_of_loop(ring: &[usize], normals: &[Vec3], field: &[DVec2], symmetry: Sy
         turned += symmetry.turn(rho).rotate(field[from]).angle_to(field[to]) / n;
         transport += rho;
     }
-    // Transport alone turns by the curvature inside the loop, a small angle.
+    // Parallel transport round the loop turns by the curvature inside it, which is small: wrapping loses no turn.
     ((turned + wrap_pi(transport)) / std::f64::consts::TAU * n).round() / n
 }
 
@@ -117,7 +119,7 @@ fn ring(graph: &FieldGraph, sample: usize, positions: &[Vec3], normals: &[Vec3])
         }
     }
     let filled = nearest.iter().filter(|(_, other)| *other != usize::MAX).count();
-    // The ring does not close at a border.
+    // At a border of the surface the neighbours form no closed ring.
     if filled + 2 < SECTORS {
         return Vec::new();
     }
@@ -148,7 +150,7 @@ mod tests {
                 assert_eq!(pole.index, 1.0);
                 assert!(pole.position.normalize().y.abs() > 0.99, "{pole:?}");
             }
-            // A solved field has other points; their sum is the same.
+            // A solved field has other singular points, but the sum of their indices is the same.
             let constraints: Vec<Constraint> = up
                 .iter()
                 .zip(&positions)

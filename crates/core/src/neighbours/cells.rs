@@ -1,4 +1,4 @@
-//! Points sorted by grid cell, so that all points near a cell lie in nine runs of memory.
+//! Sorts points by the cell of a grid, so that all points near a cell lie in nine runs of memory and are found quickly.
 
 use std::ops::Range;
 
@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::Points;
 
-/// The grid. Cells are at least as wide as the search radius and numbered with x fastest, then y, then z; every cell that holds
-/// a point has neighbours on all sides.
+/// The grid. Cells are at least as wide as the search radius. They are numbered with x fastest, then y, then z. Every
+/// cell that holds a point has neighbours on all sides.
 #[derive(Clone, Copy)]
 pub(super) struct CellSpace {
     low: [f64; 3],
@@ -74,7 +74,7 @@ impl SortedPoints {
             .map(|(number, position)| (space.number(*position), number as u32))
             .collect();
         sorted.par_sort_unstable();
-        // Positions and normals are gathered once, not once per axis: each point's place in memory is a cache miss.
+        // Positions and normals are gathered once, not once per axis, because every access to a point is a cache miss.
         let numbers = sorted.par_iter().with_min_len(4096);
         let gathered: Vec<[Vec3; 2]> = numbers
             .map(|&(_, number)| [points.positions[number as usize], points.normals[number as usize]])
@@ -90,7 +90,7 @@ impl SortedPoints {
         }
     }
 
-    /// Splits a part of the points where the cell changes.
+    /// The runs of points in one cell, within a part of the points: number of the cell, and range of the points.
     pub(super) fn by_cell(&self, part: Range<usize>) -> impl Iterator<Item = (u64, Range<usize>)> {
         let first = part.start;
         let mut from = first;

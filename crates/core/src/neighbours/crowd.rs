@@ -1,4 +1,5 @@
-//! The points round one cell, copied next to each other, and the search for the nearest of them.
+//! Finds the points nearest to a point of a cell. First the points round the cell are copied next to each other in
+//! memory, so that many can be tested together.
 
 use glam::Vec3;
 
@@ -8,7 +9,7 @@ use std::ops::Range;
 /// How many candidates are tested together.
 pub(super) const LANES: usize = 16;
 
-/// Buckets of the counting sort by distance. At most [`MANY`] candidates are sorted this way, so that counts fit into bytes.
+/// Buckets of the counting sort by distance. It sorts at most [`MANY`] candidates, so that its counts fit into bytes.
 const BUCKETS: usize = 256;
 
 /// More candidates than this are first reduced to the nearest by selection.
@@ -46,8 +47,8 @@ pub(super) trait PackNear {
     ) -> usize;
 }
 
-/// Portable code. To avoid a branch that would often be mispredicted, every key is written, and the next one overwrites
-/// it unless it is near.
+/// Portable code. To avoid a branch that would often be mispredicted, it writes every key, and writes the next key
+/// over one that is not near.
 pub(super) struct OneByOne;
 
 impl PackNear for OneByOne {
@@ -75,7 +76,7 @@ pub(super) struct Query {
     /// The number of the query point, which does not count.
     pub(super) own: u32,
     pub(super) radius: f32,
-    /// The longest list.
+    /// How many neighbours are wanted at most.
     pub(super) most: usize,
 }
 
@@ -189,7 +190,7 @@ fn sort_nearly_sorted(sorted: &mut [u64; SLOTS], count: usize) {
         while falls != 0 {
             let mut i = first + falls.trailing_zeros() as usize + 1;
             falls &= falls - 1;
-            // Moving a key down may leave the one after it too low as well.
+            // After a key has moved down, the next one may be out of order too.
             while i < count && sorted[i - 1] > sorted[i] {
                 let (key, mut at) = (sorted[i], i);
                 while at > 0 && sorted[at - 1] > key {

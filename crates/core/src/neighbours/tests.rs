@@ -1,4 +1,4 @@
-//! Tests of neighbour lists against brute force, for every build of the search.
+//! Tests of neighbour lists against brute force, for every build of the search (portable, and with wide vectors).
 
 use super::*;
 use crate::hash;
@@ -16,7 +16,8 @@ fn scattered(count: u32, size: Vec3) -> (Vec<Vec3>, Vec<Vec3>) {
     (positions, normals)
 }
 
-/// The lists by definition. With `own`, the point with the query's own index counts too.
+/// The lists found by comparing every query with every point. With `own`, the point with the query's own index counts
+/// too.
 fn brute_force(
     queries: Points<'_>,
     points: Points<'_>,

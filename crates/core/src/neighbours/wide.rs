@@ -1,6 +1,6 @@
-//! Runs the search with AVX-512 where the processor has it: one of its instructions packs the near points together.
-//! Shorter vectors gain nothing over portable code. Both builds round alike (no fused multiply-add), so the bits do not
-//! depend on the machine.
+//! Runs the search for neighbours with AVX-512 where the processor has it, since one of its instructions packs the near
+//! points together. Shorter vectors gain nothing over portable code. With and without AVX-512 the search rounds alike
+//! (no fused multiply-add), so results are the same to the bit on every machine.
 #![expect(unsafe_code, reason = "a function compiled for vectors may only be called where they were found")]
 
 use super::crowd::OneByOne;
@@ -8,7 +8,7 @@ use super::crowd::OneByOne;
 use super::crowd::{LANES, PackNear};
 use super::{Part, Search};
 
-/// Finds the lists of a part of the queries.
+/// Finds the neighbours of a part of the queries.
 pub(super) fn run(search: &Search<'_>, part: Part<'_>) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("popcnt") {
@@ -37,7 +37,7 @@ impl PackNear for Compressed {
         radius_sq: f32,
         found: &mut [u64; LANES],
     ) -> usize {
-        // SAFETY: only run_avx512 uses this, and it runs only where both were found.
+        // SAFETY: only run_avx512 uses this, and it runs only where AVX-512F and POPCNT were found.
         unsafe { compress(distances_sq, numbers, radius_sq, found) }
     }
 }
@@ -67,7 +67,8 @@ fn compress(
     let count = near_lower.count_ones() as usize;
     let (lower, upper) =
         (_mm512_maskz_compress_epi64(near_lower, lower), _mm512_maskz_compress_epi64(near_upper, upper));
-    // SAFETY: of the sixteen places of `found`, eight are written from the first on, then eight from at most the ninth.
+    // SAFETY: `found` has sixteen places. The first store fills eight from index 0 on, the second eight from `count`
+    // on, which is at most 8.
     unsafe {
         _mm512_storeu_si512(found.as_mut_ptr().cast(), lower);
         _mm512_storeu_si512(found.as_mut_ptr().add(count).cast(), upper);
@@ -75,7 +76,7 @@ fn compress(
     count + near_upper.count_ones() as usize
 }
 
-/// A build of the search.
+/// A build of the search: a function that runs it, with or without AVX-512.
 #[cfg(test)]
 pub(super) type Build = fn(&Search<'_>, Part<'_>);
 

@@ -12,7 +12,7 @@ use crate::hash;
 /// Side of the Gaussian noise, texels.
 const GAUSSIAN_SIDE: usize = 128;
 
-/// Deviation of the Gaussian that smooths the white noise, texels.
+/// Standard deviation of the Gaussian that smooths the white noise, texels.
 const SMOOTHING: f64 = 4.0;
 
 /// Side of the Perlin noise, texels.
@@ -22,11 +22,11 @@ const PERLIN_SIDE: usize = 256;
 const CELLS: f64 = 4.0;
 const OCTAVES: u32 = 5;
 
-/// Deviation of either noise; its mean is a half.
+/// Standard deviation of the values of each noise; their mean is a half.
 const DEVIATION: f64 = 0.17;
 
-/// Coloured Gaussian noise: three independent channels, normally distributed about a half, smoothed so that neighbouring vertices
-/// move alike.
+/// Coloured Gaussian noise: three independent channels, normally distributed about a half. It is smoothed, so that
+/// neighbouring vertices move alike.
 pub fn gaussian() -> Arc<Tile> {
     static TILE: LazyLock<Arc<Tile>> = LazyLock::new(|| {
         let channels = [0, 1, 2].map(|channel| levelled(smoothed(channel), |value| value));
@@ -53,7 +53,7 @@ pub fn perlin() -> Arc<Tile> {
             octaves.iter().enumerate().map(of_octave).sum::<f64>()
         };
         let values = (0..PERLIN_SIDE * PERLIN_SIDE).into_par_iter().map(value).collect();
-        // Never quite black or white: a product of layers could not recover from either.
+        // The curve keeps values away from 0 and 1: layers are multiplied, so a zero in one would hide all others.
         let grey = levelled(values, |value| 0.5 * (2.0 * value).tanh());
         let texels = grey.into_iter().map(|grey| [grey, grey, grey, 1.0]).collect();
         Arc::new(Tile::new([PERLIN_SIDE; 2], texels))
@@ -83,8 +83,8 @@ fn smoothed(channel: u32) -> Vec<f64> {
     along(&along(&white, 1), side)
 }
 
-/// The values with a mean of a half and a deviation of about [`DEVIATION`], clamped to 0..=1; `curve` is applied to them while
-/// their mean is 0.
+/// Scales and shifts the values to a mean of a half and a deviation of about [`DEVIATION`], clamped to 0..=1. `curve`
+/// is applied after they are scaled, while their mean is still 0.
 fn levelled(values: Vec<f64>, curve: impl Fn(f64) -> f64) -> Vec<f32> {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;

@@ -1,4 +1,4 @@
-//! A repeating texture of raw values, read bilinearly.
+//! The tile: a repeating texture that noise is read from. Its values are raw and interpolated bilinearly.
 
 use glam::DVec2;
 
@@ -9,7 +9,7 @@ const MAX_SIDE: usize = 1024;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile {
     size: [usize; 2],
-    /// Bottom row first, red, green, blue and alpha.
+    /// Red, green, blue and alpha of each texel, the bottom row first.
     texels: Vec<[f32; 4]>,
 }
 
@@ -20,7 +20,7 @@ impl Tile {
         Self { size, texels }
     }
 
-    /// From a picture, top row first. One with a side of more than 1024 texels is halved until it fits.
+    /// From a picture whose top row comes first. It is halved until no side has more than 1024 texels.
     pub fn of_picture(size_px: [u32; 2], rgba8: &[[u8; 4]]) -> Self {
         let size = size_px.map(|side| side as usize);
         let texels = rgba8.chunks_exact(size[0]).rev().flatten();
@@ -53,12 +53,12 @@ impl Tile {
         &self.texels
     }
 
-    /// Size of a texel, in lengths of the texture.
+    /// Width and height of a texel, where the whole texture is 1 by 1.
     pub fn texel(&self) -> DVec2 {
         1.0 / DVec2::new(self.size[0] as f64, self.size[1] as f64)
     }
 
-    /// The bilinear value at a point, in lengths of the texture, V up.
+    /// The value at a point, interpolated bilinearly. The texture is 1 by 1 and repeats; V points up.
     pub fn sample(&self, at: DVec2) -> [f64; 4] {
         let [columns, rows] = self.size;
         let at = (at - at.floor()) * DVec2::new(columns as f64, rows as f64) - 0.5;

@@ -1,4 +1,5 @@
-//! A block of dart throwing's candidates, side by side, so that wide vectors compute their random places and normals.
+//! Computes the random places and normals of many candidates of dart throwing at once: a block of them, side by side,
+//! in wide vectors.
 
 use glam::Vec3;
 
@@ -17,8 +18,9 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// The candidates with these numbers. `face` finds a candidate's face from the area that comes before the candidate
-    /// and the step of area that it is in.
+    /// The candidates with these numbers. Their places are random shares of the surface's area, counted face by face:
+    /// `area` is the whole area, cut into `steps` equal steps. `face` finds a candidate's face from the area before the
+    /// candidate and from the step that the candidate is in.
     #[inline]
     pub(super) fn new(
         (seed, numbers): (u32, &[u32; LANES]),
@@ -86,7 +88,7 @@ struct Throwing<'a> {
 }
 
 struct Thrown {
-    /// The area that comes before each candidate.
+    /// The surface's area before each candidate, counted face by face.
     areas: [f64; LANES],
     /// The step of area that each is in.
     steps: [i32; LANES],

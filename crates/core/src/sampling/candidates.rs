@@ -1,4 +1,4 @@
-//! An endless, even, random sequence of places on a surface: what dart throwing throws.
+//! An endless, even, random sequence of places on a surface: the candidates from which dart throwing chooses particles.
 
 use std::ops::Range;
 
@@ -39,7 +39,8 @@ pub fn scattered(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle
 /// The sequence: its `i`th place depends on the surface, the seed and `i` alone.
 pub(super) struct Candidates<'a> {
     surface: &'a Surface<'a>,
-    /// The area is cut into equal steps, as many as there are faces: the face where each begins, then the last face.
+    /// The total area is cut into equal steps, as many as there are faces. This is the face in which each step
+    /// begins, and at the end the last face.
     guide: Vec<u32>,
     seed: u32,
 }
@@ -70,7 +71,8 @@ impl<'a> Candidates<'a> {
         (face, throw.barycentric())
     }
 
-    /// The face in which a candidate lies, from the area that comes before it; its step of area narrows the search.
+    /// The face in which a candidate lies. `area` is the area that comes before it; `step`, its step of the area,
+    /// narrows the search.
     #[inline(always)]
     fn face(&self, area: f64, step: i32) -> usize {
         let Self { surface, guide, .. } = self;
@@ -88,13 +90,13 @@ impl<'a> Candidates<'a> {
         face.min(surface.faces.len() - 1)
     }
 
-    /// The face and position of a candidate: most candidates are never asked for more.
+    /// The face and position of a candidate. Most candidates are refused by these alone.
     pub(super) fn dart(&self, number: u32) -> Dart {
         let (face, place) = self.place(number);
         Dart { position: self.surface.position(face, place), face: face as u32, number }
     }
 
-    /// [`Candidates::dart`] for several.
+    /// The same as [`Candidates::dart`], for several candidates.
     pub(super) fn darts(&self, numbers: Range<u32>) -> Vec<Dart> {
         let mut darts = Vec::with_capacity(numbers.len());
         for first in numbers.clone().step_by(LANES) {
@@ -108,7 +110,7 @@ impl<'a> Candidates<'a> {
         darts
     }
 
-    /// Several candidates as particles.
+    /// The candidates with these numbers as particles.
     pub(super) fn particles(&self, numbers: &[u32]) -> Vec<Particle> {
         let mut particles = Vec::with_capacity(numbers.len());
         for numbers in numbers.chunks(LANES) {

@@ -1,4 +1,5 @@
-//! A hash grid of darts, sorted by cells, so that a search reads a few short runs of memory.
+//! Finds the particles (darts) near a place while particles are sampled by dart throwing. A hash grid keeps them sorted
+//! by cells, so that a search reads a few short runs of memory.
 
 use std::ops::Range;
 
@@ -22,12 +23,13 @@ const LANES: usize = 8;
 /// along x, in its own row of cells and in the next rows in y and z where they are within reach.
 const CELL: Vec3 = Vec3::new(2.02, 4.04, 4.04);
 
-/// Darts by grid cell. Cells are hashed into buckets so that neighbours along x have neighbouring buckets; distant cells may share
-/// one, so a search reads some darts too many, never too few.
+/// Darts by grid cell. Cells are hashed into buckets so that neighbours along x have neighbouring buckets. Distant
+/// cells may share a bucket, so a search reads some darts too many, never too few.
 pub(super) struct DartGrid {
     /// Along each axis.
     cells_per_unit: Vec3,
-    /// Buckets from one row to the next in y: about as many as a row has cells, so that rows are near each other in memory.
+    /// Buckets from one row to the next in y: about as many as a row has cells, so that rows are near each other in
+    /// memory.
     row_stride: u32,
     /// One less than the number of buckets, a power of two.
     mask: u32,
@@ -65,7 +67,7 @@ impl DartGrid {
             end += *start;
             *start = end;
         }
-        // Each bucket is filled from its end, so that `starts` ends up at the beginnings.
+        // Each bucket is filled from its end, so that `starts` then holds where the buckets begin.
         for dart in darts.iter().rev() {
             let bucket = grid.bucket(dart.position) as usize;
             grid.starts[bucket] -= 1;
@@ -94,7 +96,8 @@ impl DartGrid {
         (0..self.numbers.len()).map(|at| self.dart(at)).collect()
     }
 
-    /// Builds the grid anew, with finer cells or more buckets, where `radius` has become much smaller or the darts many more.
+    /// Builds the grid anew, with finer cells or more buckets, if `radius` has become much smaller or the darts many
+    /// more.
     pub(super) fn fit(&mut self, radius: f32) {
         if radius * CELL.x * self.cells_per_unit.x < 0.8 || self.numbers.len() > 2 * self.starts.len() {
             *self = Self::new(&self.darts(), radius);
@@ -157,7 +160,8 @@ impl DartGrid {
         }
     }
 
-    /// Whether `found` holds for any of the darts nearer than `radius` to a position; it may be asked twice about a dart.
+    /// Whether `found` holds for any of the darts nearer than `radius` to a position. `found` may be called twice for a
+    /// dart.
     #[inline]
     pub(super) fn any_near(&self, position: Vec3, radius: f32, mut found: impl FnMut(&Dart) -> bool) -> bool {
         let scaled = position * self.cells_per_unit;
@@ -167,7 +171,7 @@ impl DartGrid {
             let bucket = self.bucket_of([first_x, y, z]) as usize;
             self.any_in_row(bucket, position, radius * radius, &mut found)
         };
-        // Its own row first, where most of the near darts are.
+        // The position's own row comes first, because most of the near darts are there.
         if in_row(y, z) {
             return true;
         }
@@ -205,7 +209,7 @@ impl DartGrid {
         let [xs, ys, zs] = &self.axes;
         let mut from = run.start;
         loop {
-            // Whole blocks, past the run's end too: darts there are tested like all others.
+            // Tests whole blocks. The last one may reach past the run's end: darts there are tested like all others.
             let (x, y, z) = (&xs[from..][..LANES], &ys[from..][..LANES], &zs[from..][..LANES]);
             let mut distances_sq = [0.0; LANES];
             let mut any = 0;

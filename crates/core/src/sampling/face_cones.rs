@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::{Face, Surface};
 
-/// More than rounding changes unit vectors and interpolation between them.
+/// Larger than the error that rounding makes in unit vectors and in interpolation between them.
 const MARGIN: f32 = 1e-3;
 
 /// For each face, a cone that holds the interpolated normals of all its points.
@@ -27,7 +27,8 @@ impl FaceCones {
         Self { cones: surface.faces.iter().map(|face| Cone::of(surface, face)).collect() }
     }
 
-    /// Whether the dot product of normals on the two faces is positive, for all of them; `None` where it depends on the points.
+    /// Whether any normal of the first face and any of the second have a positive dot product (`true`) or a negative
+    /// one (`false`). `None` if that may depend on the points.
     #[inline]
     pub(super) fn same_side(&self, first: u32, second: u32) -> Option<bool> {
         let alike = first == second;
@@ -60,7 +61,8 @@ impl Cone {
         let Some(across) = (if face.flipped { -across } else { across }).try_normalize() else {
             return Self::UNSURE;
         };
-        // A particle's normal is flipped to its side of the triangle. Either all three corners flip, or, as checked below, none.
+        // A particle's normal is flipped to the particle's side of the triangle. Here all three corners flip, or none
+        // does; the check below refuses the rest.
         if normals.iter().all(|normal| normal.dot(across) < 0.0) {
             normals = normals.map(|normal| -normal);
         }

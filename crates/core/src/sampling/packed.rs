@@ -31,7 +31,7 @@ impl PackedParticle {
         (self.triangle_and_side & !FLIPPED) as usize
     }
 
-    /// The particle again, to the bit, on the mesh that it was sampled on.
+    /// Unpacks the particle on the mesh that it was sampled on; equal to the bit to the one that was packed.
     #[inline]
     pub fn on(self, mesh: &TriangleMesh) -> Particle {
         self.unplaced(Vec3::Y).on(mesh, &mesh.positions, &mesh.normals)

@@ -16,8 +16,8 @@ pub struct PolygonParticle {
     pub count_in_polygon: u32,
 }
 
-/// `count` particles at random points, equally many on each visible side of a polygon (source paper, 2.1); the first
-/// `count % polygons` get one more.
+/// Samples `count` particles at random points, the same number on each visible side of each polygon (source paper,
+/// 2.1). If `count` does not divide evenly, the first sides get one more.
 pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<PolygonParticle> {
     let polygons = polygons(surface);
     let counts: Vec<usize> = (0..polygons.len())
@@ -52,7 +52,7 @@ pub fn per_polygon(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Polygo
         .collect()
 }
 
-/// The faces of each visible side of a polygon, with their areas.
+/// For each visible side of each polygon, its faces with their areas.
 fn polygons(surface: &Surface<'_>) -> Vec<Vec<(usize, f64)>> {
     let mut polygons: Vec<Vec<(usize, f64)>> = Vec::new();
     let mut keys: std::collections::HashMap<(u32, bool), usize> = std::collections::HashMap::new();

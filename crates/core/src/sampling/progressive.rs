@@ -9,7 +9,8 @@ use super::dart_grid::{Dart, DartGrid};
 use super::face_cones::FaceCones;
 use super::{Particle, Surface, hexagonal_spacing};
 
-/// Least distance between particles, as a share of the hexagonal spacing of those that their level should end with.
+/// Least distance between particles, as a share of the hexagonal spacing of as many particles as the level is meant to
+/// end with.
 const SPACING: f64 = 0.56;
 
 /// Candidates thrown per particle that a level is meant to add. More is smoother and slower.
@@ -18,12 +19,13 @@ const TRIES: usize = 5;
 /// A level ends with this many times the particles that it began with.
 const GROWTH: f64 = 1.08;
 
-/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is filled up to this
-/// share of the particles that it is meant to end with, regardless of distances, so that the work stays proportional to the count.
+/// Where there is too little room (faces on top of each other, the first few particles of a thin rod), a level is
+/// filled up to this share of the particles that it is meant to end with. Distances do not count then, so that the work
+/// stays proportional to the count.
 const LEAST_FILLED: f64 = 0.5;
 
-/// How many candidates one task handles. Fewer are not worth another thread. The more there are, the better sorting
-/// lets consecutive searches share the cache.
+/// The least and the most candidates that one task handles. Fewer are not worth another thread. A task sorts its
+/// candidates by place: the more there are, the better consecutive searches share the cache.
 const LEAST_CHUNK: usize = 1024;
 const MOST_CHUNK: usize = 1 << 20;
 
@@ -33,9 +35,9 @@ const NONE: u32 = u32::MAX;
 /// `count` particles in progressive blue-noise order: the first `n` of them are spread evenly, for every `n`, and a
 /// greater `count` keeps the particles that a smaller one gives.
 ///
-/// Dart throwing in levels whose spacings do not depend on how many particles there will be in the end. Two particles crowd each
-/// other only on the same side of the surface, so thin sheets carry their full share on both.
-/// The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
+/// Darts are thrown in levels whose spacings do not depend on how many particles there will be in the end. Two
+/// particles crowd each other only on the same side of the surface, so thin sheets carry their full share on both
+/// sides. The result depends on the mesh, the count and the seed alone. An empty surface gives no particles.
 pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Particle> {
     let mut particles = Vec::new();
     ProgressiveState::default().grow(surface, seed, &mut particles, count);
@@ -43,8 +45,8 @@ pub fn progressive(surface: &Surface<'_>, count: usize, seed: u32) -> Vec<Partic
     particles
 }
 
-/// How far a progressive order has come, so that it can go on later: more particles then cost what is added, and one
-/// pass over those that are there.
+/// How far a progressive order has come, so that it can go on later. Going on takes the time for the added particles,
+/// and for one pass over those that are there.
 #[derive(Clone, Copy, Debug)]
 pub struct ProgressiveState {
     /// Candidates thrown so far.
@@ -61,8 +63,8 @@ impl Default for ProgressiveState {
 }
 
 impl ProgressiveState {
-    /// Grows `particles` by whole levels to at least `count`, unless the surface is empty. Surface, seed and particles must be
-    /// those of the call before; the first `n` particles are those of [`progressive`].
+    /// Grows `particles` by whole levels to at least `count`, unless the surface is empty. Surface, seed and particles
+    /// must be those of the call before. The first `n` particles are those that [`progressive`] gives.
     pub fn grow(&mut self, surface: &Surface<'_>, seed: u32, particles: &mut Vec<Particle>, count: usize) {
         if surface.faces.is_empty() || particles.len() >= count {
             return;
@@ -79,7 +81,7 @@ impl ProgressiveState {
             grid.fit(radius);
             let tries = ((*level_end - level_begin) * TRIES) as u32;
             let level = *thrown..thrown.wrapping_add(tries);
-            // First against the particles of earlier levels; the few candidates that are left, then against each other.
+            // Candidates are tested against the particles of earlier levels; the few that are left, against each other.
             let clear = field.clear_of(&Accepted { grid: &grid, particles, radius }, level.clone());
             let mut added = field.thinned(&level, &clear, radius);
             let least = (*level_end as f64 * LEAST_FILLED) as usize;
@@ -107,7 +109,7 @@ struct Accepted<'a> {
     radius: f32,
 }
 
-/// The candidates of a surface, and what tells on which side of it they are.
+/// The candidates of a surface, and the cones that tell whether two of them are on the same side of it.
 struct DartField<'a> {
     candidates: Candidates<'a>,
     cones: FaceCones,
@@ -146,8 +148,8 @@ impl DartField<'_> {
         darts
     }
 
-    /// Goes through the darts by number, drops each that an earlier dart crowds which was not dropped, and gives the
-    /// others in order of their numbers.
+    /// Goes through the darts in order of their numbers, and drops each dart that is crowded by an earlier one which
+    /// was kept. Returns the kept darts in this order.
     fn thinned(&self, level: &Range<u32>, darts: &[Dart], radius: f32) -> Vec<Dart> {
         let grid = DartGrid::new(darts, radius);
         let rivals = |dart: &Dart| {
@@ -173,7 +175,7 @@ impl DartField<'_> {
             sorted.par_iter().with_min_len(LEAST_CHUNK).flat_map_iter(rivals).collect()
         };
         pairs.sort_unstable();
-        // For each number, the index of its dart as long as it stays.
+        // For each number, the index of its dart, or `NONE` once it is dropped.
         let mut stays = vec![NONE; level.len()];
         for (index, dart) in darts.iter().enumerate() {
             stays[(dart.number - level.start) as usize] = index as u32;

@@ -6,8 +6,8 @@ use crate::hash;
 /// The random numbers of one candidate.
 #[derive(Clone, Copy)]
 pub(super) struct Throw {
-    /// `high + low` is the share of the area that comes before the candidate, 0..1. It has 53 random bits, so that a
-    /// tiny face beside a huge one still gets its share.
+    /// With the faces lined up, `high + low` is the share of their area, 0..1, that lies before the candidate. It has
+    /// 53 random bits, so that a tiny face beside a huge one still gets its share.
     high: f64,
     low: f64,
     /// Where on its face the candidate lies: two numbers in 0..1.
@@ -25,7 +25,7 @@ impl Throw {
         }
     }
 
-    /// The area that comes before the candidate, on a surface of area `total`.
+    /// The area that lies before the candidate, on a surface of area `total`.
     #[inline(always)]
     pub(super) fn area(&self, total: f64) -> f64 {
         (self.high + self.low) * total

@@ -1,4 +1,4 @@
-//! Culling: marks with one bit each which particles may show in a view, and solves single particles.
+//! Culling: finds the particles that may show in a view, as one bit for each. Also solves single particles.
 
 use rayon::prelude::*;
 
@@ -47,7 +47,7 @@ impl ParticleView {
         Self { rows: Rows::new(map) }
     }
 
-    /// One particle, to the bit as [`super::solve`] finds it.
+    /// Solves one particle, with the same bits as [`super::solve`].
     #[inline]
     pub fn solved(&self, particles: &BakedParticles, particle: usize) -> SolvedParticle {
         let of = |arrays: &[Vec<f32>; 3]| [0, 1, 2].map(|axis| arrays[axis][particle]);

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
+use impasto_scene::document;
 use impasto_scene::document::{
     CameraKey, Dab, Direction, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Patch, Scene,
     Seed, Selector, Up,
@@ -11,7 +12,7 @@ use impasto_scene::document::{
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion::{self, CameraPose};
-use impasto_scene::{document, new_scene};
+use impasto_scene::new_scene::{self, Placing};
 
 use super::region::in_file;
 use super::{Done, counted, finite, object_mut, unlocked_object};
@@ -25,7 +26,7 @@ use crate::selection::{Item, Selection};
 pub struct Shift {
     /// Where each point of the world goes: a rotation, a uniform scale above 0 and a translation.
     pub world_from_world: DAffine3,
-    /// The frame whose poses count: a child is shifted in the space of its parent as the parent stands at this frame.
+    /// A child is shifted in the space of its parent, as the parent stands at this frame.
     pub frame: f64,
 }
 
@@ -84,7 +85,7 @@ pub enum Arrange {
         /// Its new value; degrees for turns.
         value: f64,
     },
-    /// Turns a mesh that was made with Z up upright, or back.
+    /// Turns a mesh upright that was made with Z up, or turns it back.
     TurnUpright(String),
     /// Scales a mesh so that its longest side is as long as this.
     ScaleTo(String, f64),
@@ -226,9 +227,12 @@ fn import(scene: &mut Scene, before: &LoadedScene, mesh: &str, file: &MeshFile) 
     if mesh.trim().is_empty() {
         return Err(Refusal::new("That file has no name"));
     }
-    // The first object of a scene is framed, if nobody has moved the camera.
+    // The camera frames the first object of a scene, if nobody has moved the camera.
     if scene.objects.is_empty() && scene.camera == new_scene::empty().camera {
-        scene.camera = new_scene::for_mesh(Path::new(mesh), file).camera;
+        scene.camera = {
+            let placing = Placing { up: Some(Up::Y), ..Placing::default() };
+            new_scene::for_mesh(Path::new(mesh), file, placing).scene.camera
+        };
     }
     let name = new_scene::add_mesh(scene, mesh, file, &before.meshes);
     let file_name = mesh.rsplit(['/', '\\']).next().unwrap_or(mesh);
@@ -267,7 +271,7 @@ fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<
     Ok(())
 }
 
-/// Whether any of the objects above this one is among `objects`.
+/// Whether an object that this one is a child of, directly or not, is among `objects`.
 fn has_ancestor_among(scene: &Scene, index: usize, objects: &[String]) -> bool {
     let mut above = scene.objects[index].parent.as_deref();
     for _ in 0..scene.objects.len() {

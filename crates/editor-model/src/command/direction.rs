@@ -77,7 +77,7 @@ pub enum Directions {
     InsertGuidePoint {
         /// The region and the guide's place in it.
         guide: (String, usize),
-        /// Its place.
+        /// The index of that point.
         point: usize,
         /// Where.
         at: GuidePoint,
@@ -114,7 +114,7 @@ pub enum Directions {
     },
     /// Turns all directions of a region round, so that strokes begin where they ended.
     Flip(RegionTarget),
-    /// Whether strokes have a beginning and an end.
+    /// States whether the strokes of a region have a beginning and an end.
     SetSense(String, Sense),
     /// Leaves out points of guides that lie within a distance of the line between their neighbours, and guides that
     /// later ones cover.
@@ -124,7 +124,7 @@ pub enum Directions {
         /// The distance, units of the object's own space.
         tolerance: f64,
     },
-    /// Takes a frame as the new reference; directions stay as they are stored.
+    /// Takes a frame as the new reference. No direction changes.
     Recapture(i64),
 }
 
@@ -236,7 +236,7 @@ fn target(scene: &mut Scene, region: &RegionTarget) -> Result<String, Refusal> {
         RegionTarget::NewOn(object) => {
             unlocked_object(scene, object)?;
             let name = names::unique(object, scene.regions.iter().map(|region| region.name.as_str()));
-            // First in the list: it covers the whole object, and regions that cover a part take precedence.
+            // Inserted first, because later regions win: those that cover a part of the object take precedence.
             scene.regions.insert(0, Region::new(name.clone(), Selector::Object(object.clone())));
             Ok(name)
         }
@@ -312,7 +312,7 @@ fn simplify(region: &mut Region, tolerance: f64) -> Result<Done, Refusal> {
     Ok(Done::new(format!("Simplify {before} guides to {after}")))
 }
 
-/// Changes the scene's reference. Guides and regions that were stated in the old one get it written down, so that no
+/// Changes the scene's reference. The old one is written into the guides and regions that were stated in it, so that no
 /// direction changes.
 fn recapture(scene: &mut Scene, frame: i64) -> Result<Done, Refusal> {
     let new = Reference::Frame(frame);

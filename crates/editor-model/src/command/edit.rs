@@ -15,22 +15,22 @@ use crate::selection::{Item, Selection};
 pub enum Edit {
     /// Deletes things. An object is deleted with its regions; its children move to its parent.
     Delete(Vec<Item>),
-    /// Makes copies of objects (with their regions), regions and lights, and selects them.
+    /// Makes copies of objects (with their regions), regions, lights and guides, and selects the copies.
     Duplicate(Vec<Item>),
     /// Gives a thing another name.
     Rename(Item, String),
-    /// Makes an object the child of another one, or of none; its pose in the world at the reference stays.
+    /// Makes an object the child of another one, or of none. Its pose in the world at the reference's frame stays.
     SetParent {
         /// The object.
         object: String,
         /// The new parent, if any.
         parent: Option<String>,
     },
-    /// Moves an object, a region or a light to another place of its list; later regions win.
+    /// Moves an object, a region, a light or a guide to another place in its list. Later regions win.
     Reorder(Item, usize),
-    /// Leaves objects and regions out of the picture, or takes them in again.
+    /// Hides objects and regions, or shows them again.
     SetHidden(Vec<Item>, bool),
-    /// Keeps objects and regions from being changed, or no longer.
+    /// Locks objects and regions, so that they cannot be changed, or unlocks them.
     SetLocked(Vec<Item>, bool),
 }
 
@@ -74,7 +74,8 @@ fn of_items(items: &[Item]) -> String {
 }
 
 fn delete(scene: &mut Scene, items: &[Item]) -> Result<Done, Refusal> {
-    // Guides from the last to the first, so that the indices of the others stay valid.
+    // Items are sorted here and deleted from the last to the first, so that the indices of guides stay valid until they
+    // are deleted.
     let mut items = items.to_vec();
     items.sort();
     items.dedup();
@@ -230,7 +231,8 @@ fn set_parent(scene: &mut Scene, object: &str, parent: Option<&str>) -> Result<D
     }))
 }
 
-/// Changes an object's parent; its keys are converted to the new parent's space in its pose at `frame`.
+/// Changes an object's parent. Its keys are converted from the old parent's space to the new one's, with both parents
+/// as they stand at `frame`.
 fn reparent(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -> Result<(), Refusal> {
     let poses = motion::poses_at(scene, frame);
     let pose_of = |name: Option<&str>| {

@@ -14,9 +14,9 @@ use crate::selection::{Item, Selection};
 /// The owner of stroke settings.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum StrokesOf {
-    /// The scene's, which regions can replace.
+    /// The scene. Regions can replace its settings.
     Scene,
-    /// A region's.
+    /// The region of this name.
     Region(String),
 }
 
@@ -39,7 +39,7 @@ pub enum StrokeChange {
     PaintLayer(Box<LayerSettings>),
 }
 
-/// Regions and their strokes.
+/// A change to a region, or to the stroke settings of a region or of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Regions {
     /// Adds a region on top of the others; its name is made unique.
@@ -53,13 +53,13 @@ pub enum Regions {
         /// The dabs.
         dabs: Vec<Dab>,
     },
-    /// Its colour in the overlays.
+    /// Sets the colour in which overlays show a region.
     SetColor(String, Color),
-    /// How its directions meet those around it.
+    /// Sets how the directions of a region meet those around it.
     SetSeam(String, Seam),
     /// Changes one stroke setting.
     SetStroke(StrokesOf, StrokeChange),
-    /// Replaces all stroke settings by copied ones.
+    /// Replaces all stroke settings by those that were copied.
     PasteStrokes(StrokesOf, Box<StrokeSettings>),
 }
 

@@ -6,11 +6,11 @@ use super::Done;
 use super::region::in_file;
 use crate::refusal::Refusal;
 
-/// Size, style and backdrop.
+/// Size, seed, background and style.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "edits are made one at a time")]
 pub enum SceneEdit {
-    /// Width and height in pixels for which stroke sizes are meant.
+    /// Sets the picture's width and height in pixels. Stroke sizes are stated for a picture of this size.
     SetSize(u32, u32),
     /// Sets the seed of all random choices.
     SetSeed(u32),

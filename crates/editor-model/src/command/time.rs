@@ -38,7 +38,7 @@ pub enum Time {
     CopyKeys(Vec<(KeyOf, f64)>, f64),
     /// Deletes keys. The camera keeps its last one.
     DeleteKeys(Vec<(KeyOf, f64)>),
-    /// Sets the ease of keys, which holds up to the next key.
+    /// Sets the ease from each of these keys to the next key.
     SetEase(Vec<(KeyOf, f64)>, Ease),
     /// First and last frame.
     SetRange(i64, i64),
@@ -219,7 +219,7 @@ fn move_key(scene: &mut Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Ref
     Ok(())
 }
 
-/// Copies a key of the scene as it was before.
+/// Copies a key of `before`, the scene as it was before the command copied any key.
 fn copy_key(scene: &mut Scene, before: &Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Refusal> {
     match of {
         KeyOf::Camera => {

@@ -57,7 +57,7 @@ pub enum SaveError {
 }
 
 impl Document {
-    /// Writes the scene to its file; at any moment that is the whole old one or the whole new one.
+    /// Writes the scene to its file. At any moment the file on disk is whole: the old one or the new one.
     ///
     /// # Errors
     /// As [`Document::save_as`], and if there is no file yet, or another program has changed it.
@@ -118,8 +118,8 @@ impl Document {
         }
     }
 
-    /// Writes the scene to another file; the document keeps its own. Returns the files that the scene names but that
-    /// are in neither folder, if `target` is in another folder.
+    /// Writes the scene to another file; the document keeps its own. If `target` is in another folder, returns the
+    /// files that the scene names but that are in neither folder.
     ///
     /// # Errors
     /// If a file that the scene names is in the scene's folder but not in that of `target`, or if writing fails; then

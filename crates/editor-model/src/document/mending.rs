@@ -1,4 +1,5 @@
-//! Problems of a document and their repairs; each repair is one entry of the history.
+//! Lists the problems of a document, and repairs them; each repair is one entry of the history. A *loss* is a part of
+//! the file that could not be used.
 
 use std::sync::Arc;
 
@@ -37,7 +38,7 @@ pub enum Repair {
     Fix {
         /// Index of the loss in the source.
         loss: usize,
-        /// The verb: *Rename*, *Use leaf.obj*.
+        /// What its button says: *Rename*, *Use leaf.obj*.
         verb: String,
         /// Whether it is certain: nothing else can have been meant.
         is_certain: bool,
@@ -81,7 +82,7 @@ impl Document {
         losses.chain(warnings).collect()
     }
 
-    /// How many losses are left. While there are any, the scene must not be saved over its file.
+    /// How many losses are left. While any is left, the scene must not be saved over its file.
     pub fn loss_count(&self) -> usize {
         self.open_losses().count()
     }
@@ -92,7 +93,8 @@ impl Document {
         Some(first.problem.place.map_or(1, |place| place.line))
     }
 
-    /// The losses that are left; of unusable meshes, only those that the scene still names.
+    /// The losses that are left, with their indices. That of an unusable mesh counts only while the scene names the
+    /// mesh.
     fn open_losses(&self) -> impl Iterator<Item = (usize, &Loss)> {
         let losses = self.source.iter().flat_map(|source| source.losses.iter().enumerate());
         losses.filter(|(_, loss)| {
@@ -104,7 +106,7 @@ impl Document {
     /// Mends one loss.
     ///
     /// # Errors
-    /// If there is no certain repair, or the same thing was edited since; the document is unchanged.
+    /// If it has no fix, or if what the fix changes was edited since. The document is then unchanged.
     pub fn fix_problem(&mut self, loss: usize) -> Result<Step, Refusal> {
         self.fix(&[loss])
     }
@@ -140,7 +142,7 @@ impl Document {
     /// Reads another text in place of the one that the scene was read from. The file on disk stays as it is.
     ///
     /// # Errors
-    /// If nothing of it can be read, or the same thing was edited since; the document is unchanged.
+    /// If nothing of it can be read, or if what it changes was edited since. The document is then unchanged.
     pub fn read_text(&mut self, text: &str) -> Result<Step, Refusal> {
         self.read_instead(text, "Read the source again".to_owned())
     }
@@ -153,7 +155,7 @@ impl Document {
             // The scene was edited since it was read: merge the edits with the new text.
             Some(source) if source.scene != *self.scene() => {
                 let scene = merged_scene(&source.scene, &read.loaded.scene, self.scene())?;
-                // With the meshes that were read, and the boxes in place of unusable ones.
+                // The merged scene gets the meshes that were just read, with boxes in place of unusable ones.
                 let held = after.as_ref().map(|after| after.held(&read.loaded));
                 let held = held.as_ref().unwrap_or(&read.loaded);
                 held.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?
@@ -260,7 +262,8 @@ fn merged_value<T: Clone + PartialEq>(from: &T, left: &T, right: &T, what: &str)
     }
 }
 
-/// Three-way merge of lists of named things: `right` with the changes, additions and removals of `left`.
+/// Three-way merge of lists of named things: `right`, with what was changed, added and removed between `from` and
+/// `left`.
 fn merged_list<T: Clone + PartialEq>(
     from: &[T],
     left: &[T],
@@ -279,7 +282,7 @@ fn merged_list<T: Clone + PartialEq>(
     }
     for (index, item) in left.iter().enumerate() {
         if find(from, item).is_none() && find(right, item).is_none() {
-            // After the item that it came after in `left`.
+            // It is placed behind the item that it follows in `left`.
             let before = left[..index].iter().rev().find_map(|before| find(&merged, before));
             merged.insert(before.map_or(0, |at| at + 1), item.clone());
         }

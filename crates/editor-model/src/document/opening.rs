@@ -1,4 +1,4 @@
-//! Opening scenes with errors, as far as they can be read, and copies of unsaved work.
+//! Opens scenes with errors as far as they can be read, and opens copies of unsaved work.
 
 use std::path::Path;
 use std::sync::Arc;

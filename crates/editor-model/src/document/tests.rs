@@ -156,7 +156,7 @@ fn a_file_changed_outside_is_not_saved_over_and_can_be_read_again() {
     fs::write(folder.path(), "(version: 1, camera").expect("written");
     assert!(document.reload().is_err());
     assert_eq!(document.scene().seed, 1);
-    // Its own saving is not reported as a change.
+    // What the document itself saves is not reported as a change.
     document.save_as(&folder.path()).expect("chosen by hand");
     assert!(!document.is_changed_outside());
 }

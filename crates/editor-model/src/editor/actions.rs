@@ -59,7 +59,7 @@ impl Editor {
             ),
             Action::Compare => {
                 self.session.compare = !self.session.compare;
-                // The layout of the pictures changes: the pointer is over something else.
+                // The layout of the pictures changes, so the pointer is now over something else.
                 self.cancel(view);
                 self.output = Default::default();
             }
@@ -129,7 +129,7 @@ impl Editor {
         }
     }
 
-    /// Actions on tools and on the interaction under way; whether the action was one of these.
+    /// Does actions on tools and on the interaction under way. Returns whether the action was one of these.
     fn act_on_tools(&mut self, action: Action, view: &View) -> bool {
         let tool = match action {
             Action::Select => Tool::Select,
@@ -147,8 +147,8 @@ impl Editor {
                     Action::Turn => (Operation::Turn, Tool::Turn),
                     _ => (Operation::Scale, Tool::Scale),
                 };
-                // With Blender's keys, a key pressed over the viewport starts the transform at once; else it takes the
-                // tool up.
+                // With Blender's keys, a key that is pressed over the viewport starts the transform at once. In all
+                // other cases the key takes the tool up.
                 match self.pointer_px.filter(|_| self.keymap.preset == crate::keymap::Preset::Blender) {
                     Some(at_px) if matches!(self.busy, Busy::Idle) => {
                         self.begin_transform(operation, None, at_px, false, view);
@@ -319,7 +319,7 @@ impl Editor {
         self.run(&Command::Directions(Directions::Recapture(frame)));
     }
 
-    /// How far an object has turned about the gaze since the reference, degrees: Compare shows it beside its strokes.
+    /// How far an object has turned about the gaze since the reference, in degrees, for the note that Compare shows.
     pub fn turned_deg(&self, object: usize) -> Option<f64> {
         let scene = &self.document.shown().scene;
         let (camera, at) = motion::referred_to(scene, &scene.reference);

@@ -14,7 +14,7 @@ use crate::transform::{Operation, TransformDelta};
 /// How far from the middle of the scene a sun's icon is, world units.
 const AWAY: f64 = 2.0;
 
-/// Radius of an icon for the pointer, pixels.
+/// The pointer is on an icon up to this distance from its middle, pixels.
 const REACH_PX: f64 = 14.0;
 
 /// Where a light has its icon.
@@ -22,12 +22,14 @@ const REACH_PX: f64 = 14.0;
 pub struct LightPlace {
     /// Index in the scene.
     pub index: usize,
-    /// World space: where a lamp stands; for a sun, where it comes from; for a sky, above the scene.
+    /// World space. For a lamp: where it stands. For a sun: a place in the direction that it shines from. For a sky: a
+    /// place above the scene.
     pub position: DVec3,
 }
 
 impl Editor {
-    /// Where the lights of what is shown have their icons; none outside of Arrange, or while two pictures are compared.
+    /// Where the lights of the shown scene have their icons. Empty outside of Arrange, and while two pictures are
+    /// compared.
     pub fn light_places(&self) -> Vec<LightPlace> {
         if self.session.mode != Mode::Arrange || self.session.compare {
             return Vec::new();
@@ -68,7 +70,7 @@ impl Editor {
         Some((&lights[found.index], found.position))
     }
 
-    /// The command that moves or turns a light; `axes` are those of the delta.
+    /// The command that moves or turns a light; `None` if its kind cannot do that. `delta` is given in `axes`.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
         // As it was at the beginning of the drag, not as it is previewed.
         let light = self.document.scene().lights.iter().find(|light| light.name == name)?;
@@ -100,7 +102,7 @@ impl Editor {
     }
 }
 
-/// Why an operation does not go with a kind of light.
+/// Why an operation cannot be done with a kind of light; `None` if it can.
 pub(super) fn refusal(kind: LightKind, operation: Operation) -> Option<&'static str> {
     match (kind, operation) {
         (LightKind::Ambient, _) => Some("A sky comes from all around: it has no place"),

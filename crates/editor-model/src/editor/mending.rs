@@ -10,11 +10,11 @@ use crate::watch::News;
 /// A repair of the document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// Mends the loss with this index in the source.
+    /// Repairs one loss (a part of the source that could not be read), by its index.
     Fix(usize),
-    /// Mends all losses that have a certain repair.
+    /// Repairs all losses whose repair is certain.
     FixCertain,
-    /// A guide of a region goes onto its surface.
+    /// Moves a guide onto the surface that it belongs to: name of its region, and its index there.
     Snap(String, usize),
     /// Reads this text in place of the source.
     ReadText(String),
@@ -28,27 +28,27 @@ pub struct Mended {
     result: Result<Step, Refusal>,
     /// Revision of the document, and whether it was edited, when the repair began.
     version_of: (u64, bool),
-    /// The message after success, where nobody asked for the repair.
+    /// The message after a success that the user did not ask for; `None` if the user asked.
     unasked: Option<String>,
 }
 
 /// Whether a repaired document was put in place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Took {
-    /// It was; whether anything changed.
+    /// It was put in place; true if that changed anything.
     In(bool),
     /// It was dropped, because the document was edited or saved meanwhile.
     Late,
 }
 
 impl Editor {
-    /// Does a repair; whether anything changed.
+    /// Does a repair. Returns whether anything changed.
     pub fn mend(&mut self, mend: &Mend) -> bool {
         let mended = self.mending(mend.clone())();
         self.take(mended) == Took::In(true)
     }
 
-    /// As [`Editor::mend`], for any thread: it may read many files.
+    /// A repair as a function for any thread, since it may read many files. [`Editor::take`] puts the result in place.
     pub fn mending(&self, mend: Mend) -> impl FnOnce() -> Mended + Send + use<> {
         let mut document = self.document.clone();
         move || {
@@ -88,8 +88,8 @@ impl Editor {
         })
     }
 
-    /// Reads what changed on the disk; view, selection and mode stay. To be run on any thread, since it may read many
-    /// files. None if that would lose edits, so that the user has to be asked.
+    /// A function for any thread that reads what changed on disk, for [`Editor::take`]; view, selection and mode stay.
+    /// `None` if that would lose edits, so that the user has to be asked first.
     pub fn taking_in(&self, news: News) -> Option<impl FnOnce() -> Mended + Send + use<>> {
         if news == News::Scene && self.document.is_edited() {
             return None;
@@ -113,7 +113,8 @@ fn version_of(document: &Document) -> (u64, bool) {
 fn take_in(document: &mut Document, news: News) -> Result<Step, Refusal> {
     let first = |report: Report| Refusal::of(&report);
     match (news, document.source().map(|source| source.text.clone())) {
-        // A file that is repaired in another program is read as far as possible, to show what is left.
+        // The user may be repairing the file in another program: it is read as far as possible, to show what is still
+        // wrong.
         (News::Scene, Some(_)) => document.read_again().map_err(first),
         (News::Scene, None) => document.reload().map_err(first),
         (News::Files, Some(text)) => document.read_text(&text),

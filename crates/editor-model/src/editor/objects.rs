@@ -19,12 +19,12 @@ use crate::transform::{
 };
 
 impl Editor {
-    /// Takes a mesh that was read before; see [`crate::Document::hold_mesh`].
+    /// Takes over a mesh that was read from its file; see [`crate::Document::hold_mesh`].
     pub fn hold_mesh(&mut self, mesh: &str, file: Arc<MeshFile>) {
         self.document.hold_mesh(mesh, file);
     }
 
-    /// Begins a transform of what is selected; false where nothing is, or it is locked. `at_px` is where the pointer
+    /// Begins a transform of what is selected; returns false and says why if it cannot. `at_px` is where the pointer
     /// is, and `held` whether its button is down.
     pub(super) fn begin_transform(
         &mut self,
@@ -86,7 +86,8 @@ impl Editor {
         }
     }
 
-    /// The handles round the selected object, in Arrange and Animate; in Arrange, round the selected light.
+    /// The handles round the selected object, in Arrange and Animate, or round the selected light, in Arrange. `None`
+    /// while the view moves, the shot plays or two pictures are compared.
     pub fn gizmo(&self, view: &View) -> Option<Gizmo> {
         let operation = match self.session.tool() {
             Tool::Move | Tool::Select => Operation::Move,
@@ -140,7 +141,7 @@ impl Editor {
         if let Some(light) = &drag.light {
             return self.light_command(light, delta, drag.machine.world_from_space());
         }
-        // A loose pose is what the user sees, so the transform starts from it.
+        // A loose pose, which is not keyed yet, is what the user sees, so the transform starts from it.
         let loose = self.time.loose_scene().map(|loaded| &loaded.scene);
         let scene = loose.unwrap_or(self.document.scene());
         let frame = self.session.frame;
@@ -159,7 +160,8 @@ impl Editor {
             TransformDelta::Scale(factors) if factors.max_element() - factors.min_element() < 1e-12 => {
                 (about_pivot(pivot, DMat3::from_diagonal(factors)), "Scale")
             }
-            // Uneven factors are along the object's own axes, whatever space was chosen: poses hold no others.
+            // A pose has only one factor for all axes, so uneven factors stretch the object itself, along its own axes
+            // in any chosen space.
             TransformDelta::Scale(factors) => {
                 let object = active.clone();
                 return Some(Command::Arrange(Arrange::Stretch { object, factors }));

@@ -9,14 +9,14 @@ use crate::picking::{Hit, Picker};
 use crate::tools::{Painted, PaintedDirection};
 
 impl Editor {
-    /// As [`Editor::prepared`], with what a picker on another thread has built of it.
+    /// Like [`Editor::prepared`]; also takes what a picker on another thread has built for the painting.
     pub fn prepared_with(&mut self, painting: Painting, picker: Picker) {
         self.picker.learn(picker);
         self.prepared(painting);
     }
 }
 
-/// A painting as a camera sees it; none before the first is prepared.
+/// The painting as a camera sees it. There is no painting before the first one is prepared.
 pub(super) struct PaintedView<'a> {
     pub(super) painting: Option<&'a Painting>,
     pub(super) camera: &'a CameraPose,

@@ -24,7 +24,7 @@ const ZOOM_PX_PER_STEP: f64 = 60.0;
 /// The kind of a pointer event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointerKind {
-    /// It moves, with whatever is held.
+    /// The pointer moves, with or without a button down.
     Move,
     /// A button goes down.
     Press(Button),
@@ -32,20 +32,20 @@ pub enum PointerKind {
     Release(Button),
     /// The wheel turns by this many steps; positive is towards the screen.
     Wheel(f64),
-    /// It leaves the viewport.
+    /// The pointer leaves the viewport.
     Leave,
 }
 
 /// One event of the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointerEvent {
-    /// What it does.
+    /// What the pointer does.
     pub kind: PointerKind,
     /// Where, pixels of the viewport from its upper left corner.
     pub at_px: DVec2,
     /// The modifiers that are held.
     pub held: Modifiers,
-    /// When, seconds of any clock.
+    /// When, in seconds on any clock.
     pub at_secs: f64,
 }
 
@@ -184,7 +184,7 @@ impl Editor {
             let hit = self.hit(event.at_px, view)?;
             Some(Item::Object(self.document.shown().scene.objects[hit.object].name.clone()))
         };
-        // Icons lie over everything.
+        // The icons of lights lie over everything.
         let Some(item) = self.light_at(event.at_px, view).or_else(object) else {
             if !event.held.shift {
                 self.document.select(Selection::default());
@@ -250,8 +250,8 @@ impl Editor {
         self.session.mode == Mode::Animate && self.session.lock_to_view && self.looking == Looking::Shot
     }
 
-    /// The point that the view turns about: the one under the pointer, else the selection, else one at the target's
-    /// depth.
+    /// The point that the view turns about: the surface under the pointer; if there is none, the middle of the selected
+    /// object; else the point under the pointer that is as deep as the camera's target.
     fn about(&self, at_px: DVec2, view: &View) -> glam::DVec3 {
         if let Some(hit) = self.hit(at_px, view) {
             return hit.position_in_world;

@@ -1,4 +1,4 @@
-//! Saving, with a message that names the file and any files that the scene will not find from there.
+//! Saves the document. A message to the user names the file, and any files that the scene will not find from there.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ impl Editor {
     /// Saves; see [`crate::Document::save`] and [`crate::Document::save_as`].
     ///
     /// # Errors
-    /// As those.
+    /// The errors of those two.
     pub fn save(&mut self, target: Option<&Path>) -> Result<(), SaveError> {
         let missing = match target {
             Some(target) => self.document.save_as(target)?,
@@ -23,7 +23,7 @@ impl Editor {
     /// Saves a copy; see [`crate::Document::save_copy`].
     ///
     /// # Errors
-    /// As that.
+    /// The errors of that.
     pub fn save_copy(&mut self, target: &Path) -> Result<(), SaveError> {
         let missing = self.document.save_copy(target)?;
         self.say(format!("Saved a copy as {}{}", target.display(), without_files(&missing)));
@@ -41,7 +41,7 @@ impl Editor {
     }
 }
 
-/// The end of *Saved s.ron* if files that the scene names were not found.
+/// What follows *Saved s.ron* in the message if files that the scene names were not found.
 fn without_files(missing: &[String]) -> String {
     match missing {
         [] => String::new(),

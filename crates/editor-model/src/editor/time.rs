@@ -15,7 +15,7 @@ impl Editor {
         &self.time
     }
 
-    /// Sets the time to `now_secs`, on the clock of the pointer's events. To be called before anything else.
+    /// Sets the time to `now_secs`, on the clock of the pointer's events. Must be called first in each pass.
     pub fn tick(&mut self, now_secs: f64) {
         self.at_secs = now_secs;
         let (frame, mode) = (self.session.frame, self.session.mode);
@@ -99,7 +99,7 @@ impl Editor {
         }
     }
 
-    /// Applies an action to the selected keys; false if it does not concern them.
+    /// Applies an action to the selected keys. Returns false if the action does not concern keys.
     pub(super) fn act_on_keys(&mut self, action: Action) -> bool {
         if !self.time.keys.has_focus() {
             return false;
@@ -138,7 +138,7 @@ impl Editor {
         self.time.played = Some(self.session.frame);
     }
 
-    /// Keys the selected things and all loose poses.
+    /// Sets keys for the selected things and for all loose poses.
     pub(super) fn set_key(&mut self) {
         let frame = self.session.frame;
         let loose = self.time.loose.take();
@@ -163,7 +163,8 @@ impl Editor {
         }
     }
 
-    /// With Auto key off, shows the command's poses as loose ones; `None` where the command goes to the history.
+    /// With Auto key off, shows the poses that a command sets as loose ones, and returns whether that worked. `None` if
+    /// the command goes to the history instead.
     pub(super) fn pose_loosely(&mut self, command: &Command) -> Option<bool> {
         let frame = self.session.frame;
         if self.session.auto_key || self.session.mode != Mode::Animate {
@@ -192,7 +193,7 @@ impl Editor {
         }
     }
 
-    /// The command that keys a loose pose, where `command` sets a key of just that thing.
+    /// If `command` sets a key for a thing with a loose pose, takes that pose out and returns the command that keys it.
     pub(super) fn take_loose(&mut self, command: &Command) -> Option<Command> {
         let Command::Time(Time::SetKey(of, at_frame)) = command else { return None };
         let loose = self.time.loose.as_mut().filter(|loose| loose.frame == *at_frame)?;
@@ -272,7 +273,7 @@ impl Editor {
     }
 }
 
-/// The poses that a command sets at a frame; `None` if it does anything else.
+/// The poses that a command sets at a frame, each as a command; `None` if it does anything else too.
 fn poses_of(command: &Command, at_frame: f64) -> Option<Vec<(String, Command)>> {
     match command {
         Command::Time(Time::PoseAtFrame(pose, frame)) if *frame == at_frame => {

@@ -12,7 +12,7 @@ const MODAL: &[Where] = &[Where::In(Scope::Transform), Where::In(Scope::Drawing)
 const UNDERWAY: &[Where] =
     &[Where::In(Scope::Transform), Where::In(Scope::Drawing), Where::In(Scope::Typing), Where::Everywhere];
 
-/// The digits of the main row that do what the number pad's do, with [`super::Digits::NumPad`].
+/// With [`super::Digits::NumPad`], these digits of the main row do what the number pad's do.
 pub(super) const DIGITS_AS_NUMPAD: &[(Action, u8)] = &[
     (Action::ViewFront, 1),
     (Action::ViewRight, 3),

@@ -1,12 +1,12 @@
-//! Interpolates the pointer between two reports by a centripetal Catmull-Rom curve (Barry and Goldman 1988; Yuksel,
-//! Schaefer and Keyser 2011), walked in equal steps.
+//! Smooths the path of the pointer: lays a centripetal Catmull-Rom curve (Barry and Goldman 1988; Yuksel, Schaefer and
+//! Keyser 2011) through the places that the pointer reports, and walks it in equal steps.
 
 use glam::DVec2;
 
 use super::STEP_PX;
 
-/// A curve through the reported points. It ends one point before the last: how it bends into a point depends on the
-/// next.
+/// A curve through the reported points. It ends at the last point but one, because how it bends on the way to a point
+/// depends on the point after that.
 #[derive(Clone, Debug)]
 pub(super) struct PointerCurve {
     /// The last points, at most three; neighbours are never at the same place.
@@ -83,7 +83,8 @@ impl PointerCurve {
     }
 }
 
-/// Mirrors a point in the line halfway between `from` and `to`: the next point on the arc through all three.
+/// Mirrors a point in the line that crosses the middle of `from` and `to` at a right angle. The image lies on the
+/// circle through all three points, and stands in for a point that the curve lacks at its start or end.
 fn mirrored(point: DVec2, from: DVec2, to: DVec2) -> DVec2 {
     let along = (to - from).normalize_or_zero();
     point - along * (2.0 * (point - (from + to) * 0.5).dot(along))

@@ -1,4 +1,4 @@
-//! Mirrors gestures in an object's own axes.
+//! Mirrors gestures in the planes of an object's own axes, so that one gesture combs both sides of the object.
 
 use glam::DVec3;
 use impasto_scene::document::{Guide, GuidePoint};
@@ -9,16 +9,17 @@ use crate::picking::SurfacePoint;
 /// The axes of an object that a gesture is mirrored in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MirrorAxes {
-    /// In the plane x = 0.
+    /// Whether it is mirrored in the plane x = 0.
     pub x: bool,
-    /// In the plane y = 0.
+    /// Whether it is mirrored in the plane y = 0.
     pub y: bool,
-    /// In the plane z = 0.
+    /// Whether it is mirrored in the plane z = 0.
     pub z: bool,
 }
 
 impl MirrorAxes {
-    /// What positions are multiplied by for each mirror image: one for one axis, three for two, seven for three.
+    /// What positions are multiplied by, for each mirror image. One axis gives one image, two give three, and three
+    /// give seven.
     pub fn flips(self) -> Vec<DVec3> {
         let on = [self.x, self.y, self.z];
         (1..8usize)
@@ -30,9 +31,9 @@ impl MirrorAxes {
     }
 }
 
-/// A guide's mirror image laid onto the surface; in pieces where nothing lies within half its radius. `nearest` finds
-/// the surface near a point, facing a way, within a distance. `seen` and `reference` are as in
-/// [`super::SurfacePath::guides`].
+/// A guide's mirror image, laid onto the surface. It is broken into pieces where no surface lies within half the
+/// guide's radius. `nearest` finds the surface: its arguments are a point, the direction that the surface faces, and
+/// the greatest distance. `seen` and `reference` are as in [`super::SurfacePath::guides`].
 pub fn mirrored(
     guide: &Guide,
     flip: DVec3,

@@ -1,4 +1,5 @@
-//! The fewest points that keep a path within a distance (Ramer 1972; Douglas and Peucker 1973).
+//! Leaves out points of a path, so that a guide has few, as long as the path stays within a distance of what it was
+//! (Ramer 1972; Douglas and Peucker 1973).
 
 use glam::DVec3;
 use impasto_scene::document::GuidePoint;
@@ -25,7 +26,7 @@ pub(crate) fn guide_within(points: &[GuidePoint], tolerance: f64) -> Vec<GuidePo
     points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| point.clone()).collect()
 }
 
-/// Which points are needed between those of `ends`, which stay.
+/// For each point, whether it stays: those of `ends` do, and those that are needed between them.
 fn needed(places: &[DVec3], ends: &[usize], tolerance: f64) -> Vec<bool> {
     let mut keep = vec![false; places.len()];
     for &end in ends {

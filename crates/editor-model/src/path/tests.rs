@@ -1,4 +1,4 @@
-//! Tests of gestures on surfaces: they do not depend on the event rate, are cut at gaps, and are mirrored.
+//! Tests of gestures on surfaces: they do not depend on the rate of pointer events, are cut at gaps, and are mirrored.
 
 use glam::DQuat;
 use impasto_scene::document::{GuideMode, GuideView, Lens};
@@ -113,7 +113,7 @@ fn the_same_drag_gives_the_same_guide_at_any_event_rate() {
                 worst_stamp = worst_stamp.max(stamp.position.distance(other.position) * path.px_per_unit);
             }
             println!("steady {steady}: {worst_px:.3} px off the path, stamps {worst_stamp:.3} px apart");
-            // Seven pointer events over an S of 180 px cannot say more.
+            // Seven pointer events cannot define an S of 180 px more exactly.
             assert!(worst_px < 1.5 && worst_stamp < 1.5, "{worst_px} {worst_stamp}");
         }
         let (some, many) = (&drags[1], &drags[2]);
@@ -207,7 +207,7 @@ fn a_fold_in_front_of_the_same_object_is_not_drawn_across() {
         Some(Hit { position_in_model: hit.position_in_model * (1.0 - nearer.z / 4.0) + nearer, ..hit })
     });
     assert_eq!(folded.pieces().len(), 2);
-    // Steep, but one surface.
+    // A steep step, but of one surface, does not cut the path.
     let steep = drag(&across, &SETTINGS, &mut |at_px| {
         let hit = on_plane(&front(), at_px)?;
         let nearer = ((at_px.x - 318.0) / 4.0).clamp(0.0, 1.0) * 0.5;
@@ -227,7 +227,7 @@ fn a_string_steadies_a_trembling_hand() {
     let spread = |steady: f64| {
         let path =
             drag(&trembling, &PathSettings { steady, ..SETTINGS }, &mut |at_px| on_plane(&front(), at_px));
-        // It ends where the button was released: at the end the path goes on across the length of the string.
+        // The path ends where the button was released: on release it goes on by the length of the string.
         let points = &path.pieces()[0];
         assert!(points.last().unwrap().at_px.distance(*trembling.last().unwrap()) <= STEP_PX);
         let inner = &points[20..points.len() - (steady * LONGEST_STRING_PX) as usize - 4];
@@ -328,7 +328,7 @@ fn mirror_images_lie_on_the_surface_and_are_seen_from_the_other_side() {
     }
     assert!(image.points.len() < guide.points.len(), "what has no surface near by is left out");
     assert_eq!(image.view, Some(GuideView { eye: [-1.0, 0.0, 4.0], target: [0.0; 3] }));
-    // Seen straight on, the mirror image of the reference is the reference.
+    // The reference looks straight on, so its mirror image is the reference again.
     assert_eq!(mirrored(guide, flip, &own_view(), &own_view(), &mut ball)[0].view, None);
     assert!(mirrored(guide, flip, &side, &own_view(), &mut |_, _, _| None).is_empty());
 }

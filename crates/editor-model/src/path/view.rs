@@ -4,8 +4,8 @@ use glam::{DAffine3, DVec3};
 use impasto_scene::document::{GuideView, Lens};
 use impasto_scene::motion::CameraPose;
 
-/// A camera in an object's own space. Roll, lens and picture size do not matter to a guide: they turn and scale what is
-/// drawn and what is shown alike.
+/// A camera in an object's own space. Roll, lens and picture size are left out, because they turn and scale a gesture
+/// and the surface under it alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectView {
     /// The eye.
@@ -25,13 +25,14 @@ pub enum Rays {
     Parallel,
 }
 
-/// Two views count as equal within this sine, or this share of the distance.
+/// Two views count as equal if their gazes differ by at most this sine, and their eyes by at most this share of the
+/// distance to the target.
 const SAME: f64 = 1e-7;
-/// From this many times the distance, the rays of an eye are practically parallel.
+/// From an eye that is this many times as far away, rays are practically parallel.
 const FAR: f64 = 1e5;
 
 impl ObjectView {
-    /// A camera before an object at a pose.
+    /// The view of a camera, in the space of an object with this pose.
     pub fn new(camera: &CameraPose, world_from_model: DAffine3) -> Self {
         let model_from_world = world_from_model.inverse();
         let rays = match camera.lens {
@@ -49,7 +50,8 @@ impl ObjectView {
             return None;
         }
         let distance = self.eye.distance(self.target);
-        // Guides are read with rays of the scene's own kind; a view of the other kind is converted.
+        // A guide's view is taken to have the same kind of rays as the reference, so a view of the other kind is
+        // converted.
         let [eye, target] = match (self.rays, reference.rays) {
             (Rays::Parallel, Rays::Central) => {
                 let centre = middle.reject_from(self.gaze()) + self.target.project_onto(self.gaze());

@@ -24,7 +24,8 @@ pub struct SurfacePoint {
     pub barycentric: [f64; 3],
     /// Where.
     pub position: DVec3,
-    /// Smooth normal, unit, of the painted side; of a sheet, of the side that was asked for.
+    /// Smooth normal, unit, of the painted side. A sheet is painted on both sides: there, of the side that was asked
+    /// for.
     pub normal: DVec3,
     /// Normal of the flat triangle, unit, of the same side.
     pub face_normal: DVec3,
@@ -96,7 +97,7 @@ impl SurfaceTree {
         &self.surface
     }
 
-    /// The middle of a triangle, of a sheet on its front.
+    /// The middle of a triangle, with the normals of its front.
     pub(super) fn middle(&self, triangle: u32) -> SurfacePoint {
         self.point(triangle, [1.0 / 3.0; 3], |_| true).0
     }
@@ -110,8 +111,8 @@ impl SurfaceTree {
         self.mesh().triangles[triangle as usize].map(|vertex| self.positions[vertex as usize].as_dvec3())
     }
 
-    /// The nearest point that a ray meets within `farthest` (in lengths of `direction`), that distance, and whether its
-    /// painted side was met. All in the object's own space.
+    /// The first point that a ray meets within `farthest`, its distance, and whether its painted side was met.
+    /// Everything is in the object's own space; distances are in lengths of `direction`.
     pub(super) fn first_hit(
         &self,
         origin: DVec3,
@@ -146,8 +147,8 @@ impl SurfaceTree {
         Some((point, (distance + skipped) / length, front))
     }
 
-    /// The point of the surface nearest to `to`, within `farthest`, of those whose painted side (of a sheet, either
-    /// side) faces the way of `facing`.
+    /// The point of the surface that is nearest to `to`, at most `farthest` away. Only points whose painted side faces
+    /// the way of `facing` count; a sheet is painted on both sides.
     pub(super) fn closest(&self, to: DVec3, farthest: f64, facing: DVec3) -> Option<SurfacePoint> {
         if self.tree.nodes.is_empty() || !to.is_finite() {
             return None;

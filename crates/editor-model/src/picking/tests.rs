@@ -1,4 +1,4 @@
-//! Tests of picking against a search of all triangles.
+//! Tests of picking surfaces by rays. The picks are compared with a plain search of all triangles.
 
 use glam::{DQuat, DVec2, Vec3};
 use impasto_core::TriangleMesh;
@@ -121,7 +121,7 @@ fn picking_equals_a_search_of_all_triangles() {
     let mut number = numbers();
     let (mut met, mut missed) = (0, 0);
     for index in 0..2000 {
-        // From near by, and from the distance at which a parallel view may stand.
+        // Rays begin near by, or as far away as the camera of a parallel view may stand.
         let far = if index % 4 == 0 { 1e4 } else { 9.0 };
         let mut place = |size: f64| DVec3::new(number() - 0.5, number() - 0.5, number() - 0.5) * size;
         let origin = place(1.0).normalize() * far;
@@ -270,7 +270,7 @@ fn trees_of_another_picker_are_reused() {
     let ray = Ray { origin: DVec3::new(0.2, 0.2, 1.0), direction: -DVec3::Z };
     let hits = [&there, &here].map(|picker| picker.pick(&ray, &[DAffine3::IDENTITY], |_| true));
     assert!(hits[0].is_some() && hits[0] == hits[1]);
-    // The tree of another surface is not reused.
+    // The tree of another surface is not reused, even if the two are equal.
     let other = [(surface(mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]])), 0.0)];
     let mut elsewhere = Picker::default();
     elsewhere.learn(there);

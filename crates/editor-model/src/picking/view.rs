@@ -50,13 +50,13 @@ impl View {
         }
     }
 
-    /// Where a point of the world shows; `None` behind the near plane.
+    /// Where a point of the world shows; `None` if it is nearer than the near plane.
     pub fn project(&self, position_in_world: DVec3) -> Option<DVec2> {
         let map = self.map(DAffine3::IDENTITY);
         let near = match self.camera.lens {
             Lens::Perspective { near, .. } | Lens::Orthographic { near, .. } => near,
         };
-        // A ray begins on the near plane: its first point must still project.
+        // A little nearer is allowed: rays begin on the near plane, and their first point must still project.
         let least = near - near.abs() * 1e-9;
         (map.depth(position_in_world) >= least).then(|| self.viewport_px(map.project(position_in_world)))
     }
@@ -66,8 +66,8 @@ impl View {
         self.map(DAffine3::IDENTITY).depth(position_in_world)
     }
 
-    /// How many pixels a world unit across the gaze takes at a point's depth; for what stands at the eye, at the least
-    /// depth.
+    /// How many pixels a world unit across the gaze takes at a point's depth. A point nearer than the near plane counts
+    /// as lying on it.
     pub fn px_per_unit(&self, position_in_world: DVec3) -> f64 {
         match self.camera.lens {
             Lens::Perspective { near, .. } => self.focal_px() / self.depth(position_in_world).max(near),
@@ -75,7 +75,7 @@ impl View {
         }
     }
 
-    /// The map from an object's own space to pixels from the picture's centre, Y up, as strokes are solved in it.
+    /// The map in which strokes are solved: from an object's own space to pixels from the picture's centre, Y up.
     pub fn map(&self, world_from_model: DAffine3) -> ScreenMap {
         let lens = match self.camera.lens {
             Lens::Perspective { .. } => PixelLens::Perspective { focal_px: self.focal_px() },

@@ -19,7 +19,7 @@ fn pictures_that_come_at_once_show_the_frame_of_the_clock() {
         let mut playback = Playback::default();
         playback.play(0.0, course, 100.0);
         let mut frames = BTreeSet::new();
-        // The window looks 144 times a second, for two minutes.
+        // The window asks for a frame 144 times a second, for two minutes.
         for step in 0..144 * 120 {
             let now = 100.0 + f64::from(step) / 144.0;
             let frame = playback.tick(course, now).unwrap();
@@ -85,7 +85,7 @@ fn drops_are_counted_and_remembered_exactly() {
     let course = course(0, 9, 10.0);
     let mut playback = Playback::default();
     playback.play(0.0, course, 0.0);
-    // Asked once, in the middle of frame 3.
+    // The frame is asked for only once, in the middle of frame 3.
     assert_eq!(playback.tick(course, 0.35), Some(3.0));
     assert!(playback.shown(3.0, 0.35));
     assert_eq!((playback.dropped(), playback.missed().collect::<Vec<_>>()), (2, vec![1, 2]));

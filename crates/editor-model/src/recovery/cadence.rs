@@ -13,8 +13,8 @@ pub struct Cadence {
 }
 
 impl Cadence {
-    /// Whether a copy is due now; if so, it counts as made. `edited` is the revision of a document with unsaved edits,
-    /// else `None`; time is on the caller's clock.
+    /// Whether a copy is due now; if so, it counts as made. `edited` is the document's revision, or `None` if it has no
+    /// unsaved edits. The time is the caller's clock.
     pub fn is_due(&mut self, edited: Option<u64>, now_secs: f64, every_secs: f64) -> bool {
         let Some(revision) = edited else {
             *self = Self::default();
@@ -33,7 +33,7 @@ impl Cadence {
         is_due
     }
 
-    /// A copy of this revision was made for another reason.
+    /// Notes that a copy of this revision was made.
     pub fn kept_now(&mut self, revision: u64) {
         (self.kept, self.since_secs) = (Some(revision), None);
     }

@@ -18,7 +18,7 @@ const LAST: &str = "// end of what it is a copy of";
 /// Unsaved work to be copied.
 #[derive(Clone, Debug)]
 pub struct Work {
-    /// What the copy is of.
+    /// The copy's origin; its text is still empty.
     pub copy: Copy,
     /// The scene.
     pub scene: Arc<LoadedScene>,
@@ -29,7 +29,7 @@ pub struct Work {
 pub struct Copy {
     /// The scene's own file; none if it was never saved.
     pub file: Option<PathBuf>,
-    /// A path in the folder that paths in the scene are relative to, absolute.
+    /// An absolute path in the folder that the scene's own paths are relative to.
     pub path: PathBuf,
     /// The stamp of the scene file as it was read; none if there is no file, or it was deleted.
     pub stamp: Option<Stamp>,
@@ -44,7 +44,7 @@ pub struct Copy {
 }
 
 impl Work {
-    /// The whole file.
+    /// The text of the whole file.
     pub(super) fn to_text(&self) -> String {
         let Copy { file, path, stamp, at_unix_secs, changes, lossy, .. } = &self.copy;
         let scene = save::to_ron(&self.scene.scene);
@@ -124,7 +124,7 @@ impl Copy {
         if count == 1 { format!("1 {what} ago") } else { format!("{count} {what}s ago") }
     }
 
-    /// Whether the scene file is another one than the copy was made from.
+    /// Whether the scene file has other bytes now than when the scene was read from it.
     pub fn is_of_another_file(&self) -> bool {
         self.file.as_ref().is_some_and(|file| Stamp::is_other(self.stamp.as_ref(), file))
     }

@@ -16,9 +16,9 @@ pub struct Keeper {
 /// The result of writing a copy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// It was written; the time when it was made, seconds since 1970.
+    /// The copy was written. The number is the time when it was made, seconds since 1970.
     At(u64),
-    /// It failed, for this reason.
+    /// The copy could not be written, for this reason.
     Not(String),
 }
 
@@ -29,10 +29,10 @@ enum Order {
 }
 
 impl Keeper {
-    /// A thread for one session's place.
+    /// Starts a thread that writes the copies of one session.
     ///
     /// # Errors
-    /// Where the system gives no thread.
+    /// If the system starts no thread.
     pub fn new(recovery: Recovery) -> std::io::Result<Self> {
         let (orders, to_do) = mpsc::channel();
         let (told, done) = mpsc::channel();
@@ -42,7 +42,7 @@ impl Keeper {
         Ok(Self { orders: Some(orders), done, thread: Some(thread) })
     }
 
-    /// Copies this, soon.
+    /// Orders a copy of this work, and does not wait for it.
     pub fn keep(&self, work: Work) {
         self.order(Order::Keep(Box::new(work)));
     }
@@ -52,7 +52,7 @@ impl Keeper {
         self.order(Order::Forget);
     }
 
-    /// Goes on with a copy that was offered.
+    /// Makes an offered copy this session's own, so that work goes on with it.
     pub fn take_over(&self, offer: Offer) {
         self.order(Order::TakeOver(Box::new(offer)));
     }
@@ -71,7 +71,7 @@ impl Keeper {
 }
 
 impl Drop for Keeper {
-    /// Waits until all orders are done. A copy that was not forgotten stays.
+    /// Waits until all orders are done. The copy stays, unless [`Keeper::forget`] removed it.
     fn drop(&mut self) {
         self.orders = None;
         if let Some(thread) = self.thread.take() {

@@ -1,4 +1,4 @@
-//! The command line that renders the same frames.
+//! The `impasto render` command line that renders the same frames as the editor's render sheet, for the user to copy.
 
 use super::{Existing, RenderDriver, RenderPlan};
 use crate::document::Document;
@@ -7,8 +7,8 @@ impl RenderPlan {
     /// The arguments with which `impasto` writes the same files.
     ///
     /// # Errors
-    /// If the scene has no file, or was read with losses: the command reads the file. Unsaved edits are no error, but
-    /// the command does not see them.
+    /// If the scene has no file, or was read with losses, because the command reads the file. Unsaved edits are no
+    /// error, but the command does not see them.
     pub fn command(&self, document: &Document) -> Result<Vec<String>, String> {
         let Some(file) = document.file() else {
             return Err("Save the scene first: a command reads its file".to_owned());
@@ -19,7 +19,7 @@ impl RenderPlan {
         let file = std::path::absolute(file).map_err(|error| error.to_string())?;
         let mut words: Vec<String> = vec!["render".to_owned(), file.to_string_lossy().into_owned()];
         let [width, height] = self.size_px;
-        // A list may begin with a minus.
+        // Written with `=`, because the list of frames may begin with a minus.
         words.push(format!("--frames={}", self.list));
         words.extend(["--size".to_owned(), format!("{width}x{height}")]);
         words.extend(["--output".to_owned(), self.output.to_string_lossy().into_owned()]);

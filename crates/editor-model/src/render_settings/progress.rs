@@ -1,4 +1,5 @@
-//! Progress of rendering, in numbers and words. Times are handed in.
+//! The progress of rendering frames, in numbers and in words for the window. The caller passes the times: no clock is
+//! read here.
 
 use std::path::PathBuf;
 
@@ -12,44 +13,44 @@ pub enum Stage {
     Drawing,
 }
 
-/// How it ended.
+/// How rendering ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// All frames are there.
+    /// Every frame has its file.
     Done,
     /// It was stopped.
     Stopped,
-    /// It broke off, with what went wrong and where.
+    /// It broke off; the words say what went wrong and where.
     Failed(String),
 }
 
-/// How far it is.
+/// How far rendering is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderProgress {
     /// What is being done.
     pub stage: Stage,
     /// How many frames there are to be.
     pub total: u64,
-    /// How many were written.
+    /// How many frames were written.
     pub written: u64,
-    /// How many were there already and stay.
+    /// How many frames had files before, which are kept.
     pub kept: u64,
-    /// Time since it began, seconds.
+    /// Time since rendering began, seconds.
     pub gone_s: f64,
-    /// The part of it that the written frames took, seconds.
+    /// The part of `gone_s` that went into the written frames, seconds.
     pub drawing_s: f64,
     /// Strokes of the last frame.
     pub strokes: usize,
     /// The file that was written last.
     pub last: Option<PathBuf>,
-    /// How it ended; none while it runs.
+    /// How rendering ended; `None` while it runs.
     pub outcome: Option<Outcome>,
-    /// It was asked to stop.
+    /// Whether it was asked to stop.
     pub stopping: bool,
 }
 
 impl RenderProgress {
-    /// How many frames are there.
+    /// How many frames have their files now.
     pub fn done(&self) -> u64 {
         self.written + self.kept
     }
@@ -64,7 +65,7 @@ impl RenderProgress {
         format!("{} of {}", self.done(), self.total)
     }
 
-    /// Estimated time left, from the frames so far; `None` before the first and after the last.
+    /// Estimated time left, seconds, from the frames so far; `None` before the first frame and after the last.
     pub fn left_s(&self) -> Option<f64> {
         let left = self.total.saturating_sub(self.done());
         let is_known = self.written > 0 && left > 0 && self.outcome.is_none();
@@ -81,7 +82,7 @@ impl RenderProgress {
         }
     }
 
-    /// *2.4 s a frame, 5,774 strokes*; empty before the first.
+    /// *2.4 s a frame, 5,774 strokes*; empty before the first frame.
     pub fn frame_words(&self) -> String {
         if self.written == 0 {
             return String::new();

@@ -1,5 +1,6 @@
 //! Selecting and dragging keys: `Idle —press a key→ Held —3 px→ Dragging —release→ one command`. Keys that a drag would
-//! replace are shown before and replaced on release only. A drag that begins beside keys draws a selection box.
+//! replace are shown during the drag, and replaced only on release. A drag that begins beside keys draws a selection
+//! box.
 
 use impasto_scene::limits::MAX_FRAME;
 
@@ -21,14 +22,14 @@ pub struct LanePosition {
     pub y_px: f64,
     /// The frame there, not rounded.
     pub frame: f64,
-    /// The lane there, counted from the first; below the last there is none.
+    /// Index of the lane there. Below the last lane it is no lane's index.
     pub lane: usize,
 }
 
 /// An event that concerns keys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeysEvent {
-    /// The button goes down, on a key or beside all.
+    /// The button goes down, on a key or beside all keys.
     Press {
         /// Where.
         at: LanePosition,
@@ -77,7 +78,7 @@ enum Busy {
     Dragging {
         /// The frame of the key that was grabbed; it snaps to whole frames.
         grabbed: f64,
-        /// Where the pointer was; none before it is known.
+        /// Where the pointer was when the drag began; `None` until the first movement.
         from: Option<LanePosition>,
         dragged: Dragged,
     },

@@ -12,7 +12,7 @@ pub type KeyAt = (KeyOf, f64);
 pub struct LaneKey {
     /// Its frame.
     pub frame: f64,
-    /// How values leave it.
+    /// The ease from this key to the next.
     pub ease: Ease,
 }
 
@@ -33,7 +33,7 @@ impl Lane {
         self.keys.iter().any(|key| key.frame == frame)
     }
 
-    /// The key whose ease holds at a frame between two keys.
+    /// The last key at or before a frame: its ease holds there. `None` before the first key and from the last key on.
     pub fn left_of(&self, frame: f64) -> Option<LaneKey> {
         let right = self.keys.partition_point(|key| key.frame <= frame);
         (right > 0 && right < self.keys.len()).then(|| self.keys[right - 1])

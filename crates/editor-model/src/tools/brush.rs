@@ -18,7 +18,7 @@ use crate::session::{RegionDoes, Tool};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Brush {
     heading: Heading,
-    /// True from the first quick movement until the pointer rests: strokes are previewed as a comb would lay them.
+    /// Whether strokes are previewed as a comb would lay them: from the first quick movement until the pointer rests.
     previews_comb: bool,
     stroke: Option<Stroke>,
 }
@@ -44,7 +44,7 @@ enum Act {
     Add,
     /// The region brush with Ctrl.
     TakeAway,
-    /// The region brush, for a region that is not there yet.
+    /// The region brush: makes a new region.
     AddNew,
 }
 
@@ -91,13 +91,13 @@ impl Brush {
         }
     }
 
-    /// The ring and the needle before a press.
+    /// What shows while no button is pressed: the ring, the needle and the preview of a comb.
     fn aim(&mut self, tool: Tool, at_px: DVec2, at_secs: f64, around: &Surroundings) -> ToolOutput {
         self.heading.follow(at_px, at_secs);
         let radius_px = around.options.radius_px;
         let hit = around.hit(at_px);
         let mut output = match around.paintable(hit.as_ref()) {
-            // A hollow ring already shows that nothing is under it.
+            // The refusal is put into words only where something is hit; elsewhere the hollow ring says enough.
             Err(refusal) if hit.is_some() => ToolOutput { refusal: None, ..ToolOutput::refusing(refusal) },
             _ => ToolOutput::saying(words(tool, around)),
         };
@@ -122,7 +122,7 @@ impl Brush {
         output
     }
 
-    /// The comb that a press would begin here, if it could.
+    /// The comb that a press would begin here; `None` if a press would begin none, or previews are off.
     fn comb_preview(&self, tool: Tool, hit: &Hit, around: &Surroundings) -> Option<CombPreview> {
         let options = around.options;
         let wanted = tool == Tool::Comb && options.foresee && self.previews_comb;
@@ -163,7 +163,7 @@ impl Brush {
         ToolOutput { preview, ..self.under_way(around) }
     }
 
-    /// Ring and words while dragging.
+    /// What shows during a drag: the rings, the needle and the words of the status line.
     fn under_way(&self, around: &Surroundings) -> ToolOutput {
         let Some(stroke) = &self.stroke else { return ToolOutput::default() };
         let radius_px = around.options.radius_px;
@@ -187,7 +187,7 @@ impl Brush {
     }
 }
 
-/// The status line while it waits; the region brush names the region that it paints.
+/// The words of the status line while no drag is under way. For the region brush they name the region that it paints.
 fn words(tool: Tool, around: &Surroundings) -> String {
     let selected = around.selected_region().and_then(|region| around.scene().regions.get(region));
     let name = selected.map_or("a new region", |region| region.name.as_str());
@@ -226,12 +226,12 @@ impl Act {
         }
     }
 
-    /// Whether it paints what a region covers. Then it may cross other regions.
+    /// Whether it changes what a region covers. If so, a drag may cross other regions.
     fn is_for_regions(self) -> bool {
         matches!(self, Self::Add | Self::TakeAway | Self::AddNew)
     }
 
-    /// What a press acts on.
+    /// What a press acts on, and where it meets the surface.
     fn begin(self, at_px: DVec2, around: &Surroundings) -> Result<(Paintable, Hit), Refusal> {
         let nothing = || Refusal::new(NOTHING_HERE);
         let hit = around.hit(at_px).ok_or_else(nothing)?;
@@ -291,7 +291,7 @@ impl Act {
 }
 
 impl Stroke {
-    /// The command if the button were released now; `None` if the stroke is too short.
+    /// The command that a release of the button would give now; `None` if the stroke is too short.
     fn command(&self, around: &Surroundings) -> Option<Command> {
         let path = self.path.finished(&mut self.does.picks(&self.on, around));
         let directions = |gesture: Gesture, guides: Vec<Guide>| {
@@ -311,7 +311,7 @@ impl Stroke {
         }
     }
 
-    /// The pieces of a path, each followed by its mirror images.
+    /// The guides of a path's pieces, then the mirror images of those guides.
     fn guides(&self, path: &SurfacePath, mode: GuideMode, around: &Surroundings) -> Vec<Guide> {
         let options = around.options;
         let style = GuideStyle {
@@ -346,7 +346,7 @@ impl Stroke {
         guides
     }
 
-    /// Where the brush touches, and the mirror images of that.
+    /// The points at which the brush touches the surface along a path, then their mirror images.
     fn touched(&self, path: &SurfacePath, around: &Surroundings) -> Vec<PathPoint> {
         let mut touched = path.stamps();
         let own = touched.len();

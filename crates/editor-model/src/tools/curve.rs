@@ -1,6 +1,6 @@
 //! The guide curve tool: draws curves point by point, and edits existing ones by their handles.
 //!
-//! `Idle ─press─▶ Drawing ─press─▶ +1 ─Enter, double press, last point─▶ one guide`;
+//! `Idle ─press─▶ Drawing ─press─▶ one more point ─Enter, double press, press on the last point─▶ one guide`;
 //! `Idle ─press on a handle─▶ Dragging`.
 
 use glam::{DVec2, DVec3};
@@ -30,7 +30,7 @@ const DOUBLE_SECS: f64 = 0.4;
 const DOUBLE_PX: f64 = 4.0;
 /// A press on a handle is a click until the pointer has moved this far.
 const CLICK_PX: f64 = 3.0;
-/// The points that are kept stay this close to the curve, as a share of the radius.
+/// How far the line through the points that a guide keeps may be from the drawn curve, as a share of the radius.
 const TOLERANCE: f64 = 0.05;
 
 /// The state of the curve tool.
@@ -61,7 +61,7 @@ struct Drawing {
 struct Dragging {
     grip: Grip,
     from_px: DVec2,
-    /// None until the pointer has moved.
+    /// `None` until the pointer has moved; on a line it is set by the press already.
     command: Option<Box<Command>>,
 }
 
@@ -276,7 +276,7 @@ impl Drawing {
         }
     }
 
-    /// Points on the curve, on the surface.
+    /// The curve through `points`, sampled and laid onto the surface.
     fn curve(&self, points: &[PathPoint], around: &Surroundings) -> Vec<PathPoint> {
         spline::through(points, self.radius * 0.25, &mut |at, normal| {
             let found = around.picker.closest_on_surface(self.on.object, at, normal, self.radius);
@@ -308,7 +308,7 @@ impl Drawing {
         let flips = mirror_axes(around).flips().into_iter();
         let images: Vec<Guide> =
             flips.flat_map(|flip| mirrored(&own, flip, &seen, &reference, &mut nearest)).collect();
-        // The curve itself goes last: it is what is selected from then on.
+        // The curve itself goes behind its mirror images, because the last guide is selected from then on.
         let guides = images.into_iter().chain([own]).collect();
         let region = self.on.target.clone();
         Some(Command::Directions(Directions::Stroke { region, gesture: Gesture::Curve, guides }))
@@ -323,7 +323,7 @@ impl Dragging {
         }
     }
 
-    /// The command with the pointer here; `None` off the object.
+    /// The command that the drag gives with the pointer at `at_px`; `None` where the pointer is off the object.
     fn command_at(&self, at_px: DVec2, around: &Surroundings) -> Option<Command> {
         let Grip { guide, object, on } = &self.grip;
         let region = around.scene().regions.iter().find(|region| region.name == guide.0)?;

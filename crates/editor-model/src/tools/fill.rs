@@ -78,8 +78,8 @@ impl Fill {
 }
 
 impl Filling {
-    /// The direction of the drag, unit, Y down. `None` for fills other than a constant angle, and for a click, which
-    /// takes the angle of the options.
+    /// The direction of the drag, unit, Y down. `None` for fills other than a constant angle. Also `None` for a click,
+    /// for which the fill takes the angle of the options.
     fn needle(&self, around: &Surroundings) -> Option<DVec2> {
         let drawn = self.at_px - self.from_px;
         (around.options.fill == FillKind::Angle && drawn.length() >= LEAST_NEEDLE_PX)
@@ -128,9 +128,9 @@ impl Filling {
     }
 }
 
-/// The angle by which a direction that shows here is turned in the reference of a region, radians: the rotation in the
-/// polar decomposition of A = (J_ref B)(J B)⁻¹, where B spans the tangent plane. `None` where either view sees the
-/// surface edge-on.
+/// The angle from how a direction shows in this view to how it shows in the reference of a region, radians. It is the
+/// rotation in the polar decomposition of A = (J_ref B)(J B)⁻¹, where B spans the tangent plane and the J are the
+/// views' Jacobians. `None` where either view sees the surface edge-on.
 pub(super) fn to_reference_rad(hit: &Hit, region: Option<usize>, around: &Surroundings) -> Option<f64> {
     let (camera, pose) = around.reference(hit.object, region);
     let reference = crate::picking::View { camera, size_px: around.view.size_px };

@@ -1,4 +1,4 @@
-//! The active tool of Paint: passes events to it, and to the resizing by F and Shift F.
+//! Passes events to the active tool of the mode Paint, and to the resizing of its brush by F and Shift F.
 
 use glam::DVec2;
 
@@ -18,7 +18,7 @@ pub struct Hand {
     tool: Option<Tool>,
     held: ToolState,
     sizing: Option<Sizing>,
-    /// Set while the button is down whose press ended a resizing: that press begins no gesture.
+    /// Set from a press that ended a resizing until its release, because that press begins no gesture.
     ignores_release: bool,
     at_px: Option<DVec2>,
 }

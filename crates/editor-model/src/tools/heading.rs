@@ -1,4 +1,4 @@
-//! The heading of the pointer: its direction over the last pixels, and whether it moves or rests.
+//! Tells the tools the heading of the pointer: its direction over the last pixels, and whether it moves or rests.
 
 use std::collections::VecDeque;
 

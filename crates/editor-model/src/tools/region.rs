@@ -1,4 +1,4 @@
-//! The region tool by clicks: chooses a flood of faces, a group or a material of the mesh.
+//! The region tool for clicks: makes or extends a region by a flood of faces, a group or a material of the mesh.
 
 use impasto_scene::document::{Patch, Region, Seed, Selector};
 
@@ -8,7 +8,7 @@ use crate::picking::Hit;
 use crate::refusal::Refusal;
 use crate::session::{RegionBy, RegionDoes};
 
-/// Takes an event; a press is all that it acts on.
+/// Takes an event. Only a press does something; all other events give the words for the status line.
 pub(super) fn take(event: &ToolEvent, around: &Surroundings) -> ToolOutput {
     let ToolEvent::Press { at_px, .. } = *event else {
         let what = match around.options.region_by {
@@ -86,7 +86,7 @@ fn patch(hit: &Hit, around: &Surroundings) -> Result<(Patch, String), Refusal> {
     }
 }
 
-/// A selector with one more patch; `None` if it does not lie on the object.
+/// The selector with one more patch on `object`; `None` if the selector is not of that object.
 fn added(on: &Selector, object: &str, patch: Patch) -> Option<Selector> {
     if on.object() != Some(object) {
         return None;

@@ -1,4 +1,4 @@
-//! The ring of a brush on the surface, and the needle in it.
+//! The ring that shows a brush on the surface, and the needle in it that shows a direction.
 
 use glam::{DVec2, DVec3};
 
@@ -11,13 +11,13 @@ const PIECES: usize = 48;
 /// A brush as it lies on the surface, pixels of the viewport.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ring {
-    /// The circle of its radius in the tangent plane, closed.
+    /// The ring itself: a closed circle in the tangent plane.
     pub points_px: Vec<DVec2>,
-    /// The circle at half strength, closed; empty where the ring is hollow.
+    /// A closed circle where the brush has half its strength; empty while the pointer is on no surface.
     pub half_px: Vec<DVec2>,
-    /// The hit.
+    /// Its centre.
     pub at_px: DVec2,
-    /// Off the surface, or without a surface to mirror to: grey, of constant size.
+    /// Whether it is drawn grey, since there is no surface under the pointer or at the mirrored place.
     pub hollow: bool,
     /// Whether it is a mirror image, drawn fainter.
     pub mirrored: bool,
@@ -30,11 +30,11 @@ pub struct Needle {
     pub at_px: DVec2,
     /// Unit, Y down.
     pub along: DVec2,
-    /// Whether it has a head: the pointer moves, or strokes have a beginning.
+    /// Whether it has an arrow head, since the pointer moves or strokes have a beginning.
     pub headed: bool,
 }
 
-/// A comb that a press would begin here; strokes under it are previewed.
+/// The combing that a press at the pointer would begin; the strokes under it are previewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CombPreview {
     /// Index of the object under the ring.
@@ -43,13 +43,13 @@ pub struct CombPreview {
     pub region: Option<usize>,
     /// The hit, in the object's own space.
     pub position_in_model: DVec3,
-    /// Unit.
+    /// Surface normal there, unit length.
     pub normal_in_model: DVec3,
     /// Radius of the ring, model units.
     pub radius: f64,
-    /// The hit in the viewport.
+    /// The hit, pixels of the viewport.
     pub at_px: DVec2,
-    /// The way that strokes would follow: unit, Y down.
+    /// The direction that strokes would take: unit, Y down.
     pub along: DVec2,
 }
 
@@ -82,7 +82,7 @@ impl Ring {
         Self { points_px, half_px, at_px, hollow: false, mirrored: false }
     }
 
-    /// The mirror images of a ring at a hit, by the options' axes.
+    /// The mirror images of a ring at a hit, about the axes that are chosen in the options.
     pub(super) fn mirrored(hit: &Hit, radius_px: f64, around: &Surroundings) -> Vec<Self> {
         let [x, y, z] = around.options.mirror;
         let radius = radius_px / hit.px_per_model_unit(around.view, around.poses);
@@ -103,7 +103,7 @@ fn angle(piece: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * piece as f64 / PIECES as f64)
 }
 
-/// The radius in the object's own units that is `radius_px` at a hit.
+/// A radius of `radius_px` at a hit, converted to the object's own units.
 pub(super) fn radius_in_model(hit: &Hit, radius_px: f64, around: &Surroundings) -> f64 {
     let scale = world_units_per_model_unit(around.pose(hit.object));
     radius_px / (around.view.px_per_unit(hit.position_in_world) * scale)

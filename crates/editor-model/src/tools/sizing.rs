@@ -1,4 +1,4 @@
-//! Resizing by F and Shift F: radius or strength follows the pointer until a press.
+//! Resizing the brush by F and Shift F: its radius or strength follows the pointer until a press.
 
 use glam::DVec2;
 
@@ -8,7 +8,7 @@ use crate::session::ToolOptions;
 
 /// Radii that a brush may have, points on the screen.
 const RADII_PX: std::ops::RangeInclusive<f64> = 2.0..=500.0;
-/// `[` and `]` change the radius by this.
+/// `[` and `]` change the radius by this factor.
 const RADIUS_STEP: f64 = 1.1;
 /// How far the pointer moves for the full range of the strength, pixels.
 const STRENGTH_PX: f64 = 200.0;
@@ -29,7 +29,7 @@ enum What {
 }
 
 impl Sizing {
-    /// Begins by a key; `None` for any other.
+    /// Begins by the action of F or Shift F; `None` for any other action.
     pub(super) fn begin(action: Action, options: &ToolOptions, at_px: Option<DVec2>) -> Option<Self> {
         let what = match action {
             Action::SizeRadius => What::Radius,
@@ -39,7 +39,7 @@ impl Sizing {
         Some(Self { what, from: options.clone(), value: options.clone(), from_px: at_px })
     }
 
-    /// Takes an event; whether it goes on.
+    /// Takes an event. Also returns whether the resizing goes on.
     pub(super) fn take(&mut self, event: &ToolEvent) -> (ToolOutput, bool) {
         let goes_on = match *event {
             ToolEvent::Hover { at_px, .. } | ToolEvent::Move { at_px, .. } => {
@@ -71,7 +71,7 @@ impl Sizing {
     }
 }
 
-/// `[` and `]`; `None` for any other key.
+/// The options after the action of `[` or `]`; `None` for any other action.
 pub(super) fn stepped(action: Action, options: &ToolOptions) -> Option<ToolOptions> {
     let factor = match action {
         Action::SmallerRadius => 1.0 / RADIUS_STEP,

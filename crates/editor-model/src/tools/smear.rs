@@ -4,14 +4,13 @@ use glam::DVec2;
 
 use crate::path::PathPoint;
 
-/// The share of the direction under it that the brush takes up at each stamp.
+/// How far, from 0 to 1, the brush's own direction turns to the direction under the brush at each stamp.
 const TAKEN_UP: f64 = 0.1;
 
-/// The direction that the brush carries at each stamp: the angle of a line as it shows, radians counter-clockwise.
-/// `shown_rad` is the direction at each stamp before the smear; where there is none, the brush keeps the one it
-/// carries.
+/// The direction that the brush carries at each stamp: the angle of a line on the screen, radians counter-clockwise.
+/// `shown_rad` gives the direction under each stamp before the smear. Where it gives none, the brush's direction stays.
 pub(super) fn carried(shown_rad: impl Iterator<Item = Option<f64>>) -> Vec<Option<f64>> {
-    // Blended at twice the angle, so that opposite directions of a line are the same.
+    // Directions are blended at twice the angle, so that the two directions of a line are the same.
     let mut brush: Option<DVec2> = None;
     shown_rad
         .map(|shown| {

@@ -1,5 +1,5 @@
-//! The turn tool, which flips a region's directions by a click or turns them by a drag; and Pick, which copies a
-//! direction.
+//! Two tools. The turn tool turns a region's directions by a drag, or flips them by a click. Pick copies the direction
+//! of a stroke.
 
 use glam::DVec2;
 
@@ -9,7 +9,7 @@ use crate::keymap::{Action, Modifiers};
 use crate::selection::Item;
 use crate::session::{FillKind, Tool, ToolOptions};
 
-/// Degrees that a pixel of drag turns.
+/// By how many degrees a drag of one pixel turns.
 const DEG_PER_PX: f64 = 0.5;
 /// The step of turns with Ctrl, degrees.
 const STEP_DEG: f64 = 5.0;
@@ -96,7 +96,7 @@ fn waiting(at_px: DVec2, around: &Surroundings) -> ToolOutput {
     }
 }
 
-/// Pick: a press takes the direction under the pointer into Fill, and selects the region there.
+/// Pick: a press makes the direction under the pointer the angle of the Fill tool, and selects the region there.
 pub(super) fn pick(event: &ToolEvent, around: &Surroundings) -> ToolOutput {
     let ToolEvent::Press { at_px, .. } = *event else {
         return ToolOutput::saying(waiting_words(Tool::Pick, around.options, ""));

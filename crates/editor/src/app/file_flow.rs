@@ -1,4 +1,4 @@
-//! New, open, save, import and dropped files, with the questions that come first.
+//! What happens on New, Open, Save, Import and when files are dropped, with the questions that come first.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -57,7 +57,7 @@ struct SaveElsewhere {
 /// Work that closing the document would lose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unsaved {
-    /// Text in the panel of problems that was edited and not read.
+    /// Text that was edited in the panel of problems and has not been parsed into the document since.
     Text,
     /// Edits of the scene.
     Edits,
@@ -347,7 +347,7 @@ impl EditorApp {
         if Present::of(document) == Present::Nothing {
             return self.open(path);
         }
-        // A document without a folder of its own takes the mesh's.
+        // A document that has no file and names none moves to the mesh's folder; `live_in` checks that.
         if let Some(folder) = std::path::absolute(path).ok().as_deref().and_then(Path::parent) {
             self.editor.live_in(folder);
         }

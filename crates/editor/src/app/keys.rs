@@ -1,4 +1,4 @@
-//! Passes key presses, and turns of the wheel with `Alt`, from egui to the editor.
+//! Hands key presses, and turns of the mouse wheel with `Alt`, from egui to the editor.
 
 use egui::{Event, Key as EguiKey, MouseWheelUnit, Ui};
 use impasto_editor_model::editor::Editor;
@@ -6,7 +6,8 @@ use impasto_editor_model::keymap::{Key, Modifiers};
 use impasto_editor_model::picking::View;
 use impasto_editor_model::timeline::TimelineEvent;
 
-/// Passes the keys of this pass to the editor, the number pad's first. Keys that it uses do not reach the panels.
+/// Hands the keys that were just pressed to the editor, those of the number pad first. Keys that the editor uses do not
+/// reach the panels.
 pub(super) fn hand_on(ui: &mut Ui, editor: &mut Editor, view: &View, numpad: Vec<(Key, Modifiers)>) {
     let typing = ui.ctx().text_edit_focused();
     // A control with the keyboard focus uses Space, Enter and the arrows itself.

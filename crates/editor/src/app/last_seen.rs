@@ -43,8 +43,8 @@ fn view_of(pose: &CameraPose) -> LastView {
     }
 }
 
-/// A free view with the shot's lens. If that is perspective and the view was orthographic, things at the target keep
-/// their size.
+/// A free view from a remembered one, with the shot's lens. If only one of the two is orthographic, the lens is changed
+/// to be like the remembered view; things at the target then keep their size.
 fn free_view(view: &LastView, shot: &CameraPose) -> FreeView {
     let mut free = FreeView::new(CameraPose {
         eye: DVec3::from(view.eye),

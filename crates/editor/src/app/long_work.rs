@@ -67,7 +67,7 @@ impl LongWork {
         self.queue.clear();
     }
 
-    /// The entry in the status line; none while it has taken little time.
+    /// The entry in the status line; none while reading has taken less than [`SHOWN_AFTER`].
     pub(super) fn work(&self) -> Option<Work> {
         let reading = self.reading.as_ref().filter(|reading| reading.since.elapsed() >= SHOWN_AFTER)?;
         Some(Work { words: reading.words.clone(), share: None, kind: WorkKind::Reading })
@@ -78,7 +78,7 @@ impl LongWork {
         let (sender, outcome) = channel();
         let waker = self.waker.clone();
         let run = move || {
-            // Fails once reading was stopped and nobody listens.
+            // Sending fails once reading was stopped, because nobody listens any more.
             let _stopped = sender.send(work());
             waker.wake();
         };
@@ -220,7 +220,7 @@ impl EditorApp {
         let document = self.editor.document();
         match outcome {
             Outcome::Opened(path, opened) => {
-                // Edits that were made while it was read are not thrown away.
+                // Edits that were made while the file was read are not thrown away.
                 if document.revision() != reading.revision && document.is_edited() {
                     let name = document.name();
                     let words = format!("{} was not opened: {name} was edited meanwhile", name_of(&path));

@@ -158,7 +158,7 @@ impl MarkCache {
         half.map = Some((key, map));
     }
 
-    /// All marks of a picture; with `fresh`, also those that are made in every pass.
+    /// The marks of a picture: the cached ones and, with `fresh`, also those that are made in every pass.
     pub(super) fn marks<'a>(&'a self, index: usize, editor: &Editor, fresh: Option<&'a Fresh>) -> Marks<'a> {
         let half = &self.halves[index];
         let marks = Marks {
@@ -275,7 +275,7 @@ fn guides(editor: &Editor, scene: &Scene, sight: &Sight<'_>) -> Vec<GuideCurve> 
         Some(Item::Guide(_, index)) => Some(*index),
         _ => None,
     };
-    // Of many combs only the newest show: all of them would hide the strokes.
+    // Of many guides only the newest are shown: all of them would hide the strokes.
     let first = region.guides.len().saturating_sub(24);
     let curve = |(index, guide): (usize, &Guide)| {
         let name = guide.object.as_deref().or(region.on.object())?;
@@ -306,7 +306,7 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
         .flat_map(|object| painting.singularities(object).iter().map(move |point| (object, point)))
         .map(|(object, point)| {
             let position_in_world = poses[object].transform_point3(point.position);
-            // It faces the eye, so that only surfaces in front can hide it.
+            // Its normal points to the eye, so that only surfaces in front of it can hide it.
             let normal_in_world = (view.camera.eye - position_in_world).normalize_or(DVec3::Z);
             SingularPoint { position_in_world, normal_in_world, index: point.index as f32 }
         })

@@ -93,7 +93,7 @@ struct Sheets {
 #[derive(Default)]
 struct Folds {
     column: bool,
-    /// All panels: only the viewport is left.
+    /// Whether all panels are folded away, so that only the viewport is left.
     everything: bool,
     /// Whether the window had the focus in the previous pass.
     had_focus: bool,
@@ -328,7 +328,7 @@ impl window::App for EditorApp {
         }
         self.folds.had_focus = focused;
         let numpad = numpad_pressed(&ctx);
-        // An open menu takes the keys.
+        // While a menu is open, keys belong to it.
         if !self.is_modal() && !egui::Popup::is_any_open(&ctx) {
             if tab_pressed(&ctx).is_some_and(|held| held.is_none()) {
                 self.editor.act(impasto_editor_model::keymap::Action::TogglePaint, &view);

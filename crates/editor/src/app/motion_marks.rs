@@ -1,4 +1,5 @@
-//! The marks of Animate: the path of the selected object with its keys, and its outlines at the keys before and after.
+//! Finds what the overlay shows of motion in the mode Animate: the path of the selected object with its keys, and its
+//! outlines at the keys before and after. Also finds the boxes in place of missing meshes.
 
 use glam::{DAffine3, DVec3};
 use impasto_editor_model::editor::Editor;
@@ -13,7 +14,8 @@ use crate::viewport::surface_map::{StandingBody, SurfaceMap};
 
 /// A path has about this many dots at most.
 const MAX_PLACES: f64 = 400.0;
-/// Cells per point of the coarse map from which ghosts, the outlines at other frames, are made.
+/// Ghosts, the object's outlines at other frames, are made from a coarse map with this many cells per point of the
+/// window.
 const CELLS_PER_POINT: f64 = 0.3;
 
 /// The path of an object from its first key to its last; none if it does not move.

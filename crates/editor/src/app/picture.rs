@@ -109,7 +109,7 @@ impl PictureFlow {
         (newest.elapsed().as_secs_f64() < SPAN_S && recent > 1).then_some(recent as f64)
     }
 
-    /// For how long the scene has been prepared; none if none is being prepared.
+    /// For how long a scene has been in preparation; none if no scene is.
     pub(super) fn preparing_for(&self) -> Option<Duration> {
         self.preparing.map(|(_, since)| since.elapsed())
     }
@@ -203,7 +203,7 @@ impl PictureFlow {
         asked.is_some_and(|(_, views)| !views.iter().enumerate().all(shows)) && self.trouble.is_none()
     }
 
-    /// The version of the scene, once all views that were asked for show it exactly and at rest; none before.
+    /// The version of the scene, if all views that were asked for show it exactly and at rest; otherwise none.
     pub(super) fn at_rest(&self) -> Option<u64> {
         let (version, views) = self.asked.as_ref()?;
         let is_done =

@@ -1,9 +1,10 @@
-//! The picture of the viewport that marks are made for: which one, its camera and its frame.
+//! Says which picture of the viewport overlay marks are made for, and that picture's camera and frame.
 
 use impasto_scene::motion::CameraPose;
 
-/// A picture of the viewport: index 0, or in a comparison 0 (the reference) and 1 (now).
+/// A picture of the viewport: the only one, or one of the two that are compared.
 pub(super) struct PictureView<'a> {
+    /// In a comparison, 0 for the picture at the reference and 1 for the current one; otherwise 0.
     pub(super) index: usize,
     pub(super) camera: &'a CameraPose,
     pub(super) frame: f64,

@@ -66,7 +66,7 @@ impl RenderFlow {
         self.is_open || self.asks.is_some()
     }
 
-    /// Whether the window must stay open because frames are rendered; if so, opens the question.
+    /// Whether the window must stay open because frames are rendered. If so, opens the question whether to stop.
     pub(super) fn holds_window(&mut self) -> bool {
         let runs = self.running.as_ref().is_some_and(|running| !running.is_over());
         if runs {

@@ -75,12 +75,12 @@ impl SafeKeeping {
         self.asks.is_some() || !self.offers.is_empty()
     }
 
-    /// Checks the files in the next pass.
+    /// Makes the next pass check the files.
     pub(super) fn look_now(&mut self) {
         self.next_look = Instant::now();
     }
 
-    /// Removes the copy: the work was saved or dropped.
+    /// Removes the recovery copy, since the work was saved or dropped.
     pub(super) fn give_up(&mut self) {
         if std::mem::take(&mut self.has_copy)
             && let Some(keeper) = &self.keeper
@@ -100,7 +100,8 @@ impl SafeKeeping {
 }
 
 impl EditorApp {
-    /// Finds copies that earlier runs of the editor left behind, of one scene or of any, to ask about them.
+    /// Finds the copies that earlier runs of the editor left behind, to ask about them: those of the scene `of`, or
+    /// all.
     pub(super) fn offer_copies(&mut self, of: Option<&Path>) {
         let Some(folder) = &self.safe.folder else { return };
         let of = of.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned()));
@@ -111,7 +112,7 @@ impl EditorApp {
         self.safe.offers = offers.into();
     }
 
-    /// Writes a copy if one is due, and checks whether other programs changed the document's files.
+    /// Writes a recovery copy if one is due, and checks whether other programs changed the document's files.
     pub(super) fn keep_safe(&mut self, ctx: &Context) {
         if let Some(words) = self.safe.trouble.take() {
             self.toast(words, None, true);
@@ -146,7 +147,7 @@ impl EditorApp {
         }
     }
 
-    /// Writes a copy now, before something that may go wrong.
+    /// Writes a recovery copy now, before something that may go wrong.
     pub(super) fn keep_before_risk(&mut self) {
         let document = self.editor.document();
         if document.is_edited() && self.preferences.autosave_minutes > 0 {
@@ -218,7 +219,7 @@ impl EditorApp {
                     self.toast(format!("The copy was not removed: {error}"), None, true);
                 }
             }
-            // Later: dropping the offer releases its lock, so that it is offered again.
+            // The answer was *Later*: dropping the offer releases its lock, so that it will be offered again.
             _ => {}
         }
     }

@@ -1,4 +1,4 @@
-//! Connects the viewport with the editor: its inputs, and its events.
+//! Connects the viewport with the editor: gives the viewport what it shows, and carries out what the user does there.
 
 use egui::Ui;
 use impasto_editor_model::camera_rig::Looking;

@@ -40,7 +40,7 @@ pub enum Source {
     /// The desktop, if it has them.
     #[default]
     Desktop,
-    /// Always the window.
+    /// Always the window's own sheet.
     InApp,
 }
 
@@ -101,7 +101,8 @@ impl FileDialogs {
         ctx.request_repaint();
     }
 
-    /// The answer, given once; none before. Call it in every pass, because it shows the window's own sheet.
+    /// The answer, given once; `None` as long as the user has not answered. Call it in every pass, because it shows the
+    /// window's own sheet.
     pub fn poll(&mut self, ctx: &Context) -> Option<Answer> {
         let open = self.open.as_mut()?;
         let ask = open.ask;

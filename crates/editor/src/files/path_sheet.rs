@@ -25,7 +25,7 @@ const LIST_HEIGHT: f32 = 260.0;
 /// The answer of a [`PathSheet`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Picked {
-    /// This file. To save: if it exists, the user agreed to replace it.
+    /// This file. If it is to be saved and exists already, the user has agreed to replace it.
     File(PathBuf),
     /// The user cancelled.
     Cancelled,
@@ -205,7 +205,8 @@ impl PathSheet {
         }
     }
 
-    /// The file in the field, if it can be used; if not, sets the error to say why.
+    /// Acts on what is in the field: returns a file that can be used, enters a folder, asks before a file is
+    /// replaced, or shows why the file cannot be used.
     fn submit(&mut self) -> Option<Picked> {
         self.wants_focus = true;
         match self.judge() {

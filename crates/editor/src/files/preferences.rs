@@ -76,13 +76,13 @@ impl Default for Preferences {
     }
 }
 
-/// A set of key bindings and drags from another program.
+/// The program whose key bindings and drags the editor uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Keys {
-    /// Those of Blender.
+    /// As in Blender.
     #[default]
     Blender,
-    /// Those of Maya.
+    /// As in Maya.
     Maya,
 }
 
@@ -189,7 +189,7 @@ fn storable(file: &Path) -> Option<PathBuf> {
     file.to_str().is_some().then_some(file)
 }
 
-/// How a theme is written.
+/// How a theme is written in the file.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Theme")]
 enum ThemeText {
@@ -197,7 +197,7 @@ enum ThemeText {
     Light,
 }
 
-/// How a mode is written.
+/// How a mode is written in the file.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Mode")]
 enum ModeText {

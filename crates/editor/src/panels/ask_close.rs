@@ -1,4 +1,5 @@
-//! The questions that the editor asks before it goes on: unsaved edits, changed files, frames that would be replaced.
+//! The dialogs in which the editor asks a question before it goes on, for instance what to do with unsaved edits, with
+//! a file that another program changed, or with frames that would be replaced.
 
 use crate::widgets::{Dialog, dialog};
 
@@ -12,7 +13,7 @@ pub enum Question {
         /// How long it has had unsaved edits, in minutes.
         minutes: u64,
     },
-    /// The window is closing, or another scene is opening, and the scene's text was edited but not read into the scene.
+    /// The window is closing, or another scene is opening, and edits of the scene's text have not been applied yet.
     UnreadText {
         /// The document's name.
         name: String,
@@ -84,7 +85,7 @@ pub enum Answer {
     Recapture,
     /// Read the file again and drop the edits.
     ReadAgain,
-    /// Read the scene from the text that was edited.
+    /// Apply the edits of the scene's text.
     ReadText,
     /// Copy the files, then save.
     Copy,
@@ -108,7 +109,8 @@ pub enum Answer {
     StopRendering,
 }
 
-/// Shows the question over everything else. Returns the answer once there is one; `Enter` chooses the safe verb.
+/// Shows the question over everything else. Returns the answer once there is one. `Enter` chooses the last button,
+/// which is the safe one.
 pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
     let (title, words, verbs): (_, _, &[(&str, Answer)]) = match question {
         Question::SaveChanges { name, minutes } => (
@@ -191,7 +193,7 @@ pub fn ask(ctx: &egui::Context, question: &Question) -> Option<Answer> {
         ),
     };
     let names: Vec<_> = verbs.iter().map(|(words, _)| *words).collect();
-    // Without a Cancel, the last verb is the one that changes nothing.
+    // `Esc` chooses Cancel. Without a Cancel it chooses the last button, which then changes nothing.
     let cancel = verbs.iter().position(|(_, answer)| *answer == Answer::Cancel).unwrap_or(names.len() - 1);
     let chosen = dialog(ctx, &Dialog { title: &title, words: &words, verbs: &names, cancel })?;
     verbs.get(chosen).map(|(_, answer)| *answer)

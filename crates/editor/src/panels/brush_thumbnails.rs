@@ -14,12 +14,12 @@ const HEIGHT: usize = 60;
 /// How far the stroke is turned, in radians, and its length as a share of the thumbnail's width.
 const TURN_RAD: f32 = -0.3;
 const LENGTH: f32 = 0.9;
-/// Texels with no more paint than this stay empty, which leaves holes as from a brush that is not quite full.
+/// Texels with no more paint than this stay empty: the stroke then has holes, as from a brush that is not quite full.
 const LEAST_PAINT: u8 = 24;
 
 type Known = BTreeMap<String, (usize, TextureHandle)>;
 
-/// The thumbnail of a brush, by its name in a scene; cached. None if the brush is neither built in nor the scene's.
+/// The thumbnail of a brush, by its name in a scene; cached. None if the brush is neither built in nor in the scene.
 pub fn thumbnail(ctx: &Context, name: &str, loaded: &LoadedScene) -> Option<TextureHandle> {
     let known: Arc<Known> = ctx.data_mut(|data| data.get_temp(key())).unwrap_or_default();
     let picture = loaded.brushes.get(name);
@@ -47,7 +47,7 @@ fn mark_of(picture: &Texture) -> Option<Mark> {
     brush::marks_of_picture(picture.size_px, &picture.rgba8).into_iter().next()
 }
 
-/// The mark as a stroke across the thumbnail; its ridges are lighter than its furrows.
+/// Draws the mark as a stroke across the thumbnail; ridges of paint are lighter than furrows.
 fn image(mark: &Mark) -> ColorImage {
     const SAMPLES: usize = 3;
     let (sin, cos) = TURN_RAD.sin_cos();

@@ -1,4 +1,4 @@
-//! The right column: the tree over the inspector.
+//! The column at the right of the window: the tree of all items above, the inspector of the selected one below.
 
 use egui::{CentralPanel, Frame, Panel, Ui};
 
@@ -14,7 +14,7 @@ pub fn column_fits(ui: &Ui, shown: &PanelInput<'_>) -> bool {
     ui.available_width() >= if compares { WIDE } else { 900.0 }
 }
 
-/// Takes the right column off the `Ui`. The line between tree and inspector can be dragged.
+/// Shows the column at the right of `ui`, which loses that room. The line between tree and inspector can be dragged.
 pub fn column(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let is_wide = ui.ctx().content_rect().width() >= WIDE;
     let (width, tree_height) = if is_wide { (336.0, 330.0) } else { (280.0, 252.0) };

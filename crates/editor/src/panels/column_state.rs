@@ -1,4 +1,5 @@
-//! What the right column remembers between passes: what is open, searched, renamed, copied.
+//! What the column at the right of the window (tree and inspector) remembers between passes: what is open, searched,
+//! renamed, copied.
 
 use std::collections::BTreeMap;
 
@@ -21,14 +22,14 @@ pub(super) struct ColumnState {
     pub(super) opens_add_menu: bool,
     /// Stroke settings that were copied.
     pub(super) copied_strokes: Option<StrokeSettings>,
-    /// The layer of paint that Advanced shows.
+    /// Index of the layer of paint that the section Advanced shows.
     pub(super) paint_layer: usize,
-    /// What was active in the previous pass: when that changes, the tree scrolls to the new one.
+    /// The item that was active in the previous pass. When another one is active, the tree scrolls to it.
     pub(super) active: Option<Item>,
 }
 
 impl ColumnState {
-    /// Reads or changes it.
+    /// Lets `act` read or change the state.
     pub(super) fn with<R>(ctx: &Context, act: impl FnOnce(&mut Self) -> R) -> R {
         ctx.data_mut(|data| act(data.get_temp_mut_or_default(Id::unique("right column"))))
     }

@@ -1,4 +1,5 @@
-//! The panels round the viewport. Each is a function from what is shown to what is asked for; none changes anything.
+//! The panels round the viewport. Each is a function that shows a [`PanelInput`] and gives what the user asks for as a
+//! list of [`Ask`]; no panel changes the document or the session itself.
 //!
 //! Each bar takes its strip off the `Ui` that it is handed, so the order of the calls lays out the window: top bar,
 //! status line, strip, right column, options bar, rail; the rest is the viewport.
@@ -51,11 +52,11 @@ pub struct PanelInput<'a> {
     pub session: &'a Session,
     /// Playback and selected keys.
     pub time: &'a TimeHand,
-    /// The painting as it was last prepared, perhaps from an earlier version of the document; none before the first.
+    /// The painting as it was last prepared, perhaps from an earlier version of the document; `None` before the first.
     pub painting: Option<&'a Painting>,
-    /// Whose key bindings are used.
+    /// Which preset of key bindings is used.
     pub keys: Preset,
-    /// What the mouse would do now, with keys: `[Drag] comb  [Shift] smooth`.
+    /// What the mouse would do now, alone and with keys: `[Drag] comb  [Shift] smooth`.
     pub status: &'a str,
     /// Numbers for the status line.
     pub numbers: Numbers<'a>,
@@ -76,7 +77,7 @@ impl PanelInput<'_> {
         self.keymap().shortcut_text(action).unwrap_or_default()
     }
 
-    /// Why an action cannot be done now, in the words of its tooltip; none where it can.
+    /// Why an action cannot be done now, in the words of its tooltip; `None` if it can.
     pub fn why_not(&self, action: Action) -> Option<&'static str> {
         let selected = self.document.selection().active().is_some();
         match action {
@@ -103,7 +104,7 @@ impl PanelInput<'_> {
         }
     }
 
-    /// Asks for the session with a change.
+    /// Asks for a session that differs from this one by a change.
     fn session_with(&self, change: impl FnOnce(&mut Session)) -> Ask {
         let mut session = self.session.clone();
         change(&mut session);
@@ -129,11 +130,11 @@ pub struct Numbers<'a> {
 /// What a panel asks for.
 #[derive(Debug)]
 pub enum Ask {
-    /// Carry this out: one entry of the history.
+    /// Carry out this command, as one entry of the history.
     Do(Command),
-    /// As `Do`, but commands with the same key within a second are one entry (the wheel over a field).
+    /// As `Do`, but commands with the same text here within a second make one entry (the wheel over a field).
     DoMerged(Command, String),
-    /// Show the document as this would leave it (while a slider is dragged); `Do` or `EndPreview` follows.
+    /// Show the document as this command would leave it (while a slider is dragged). `Do` or `EndPreview` follows.
     Preview(Command),
     /// Show the document as it is again.
     EndPreview,
@@ -141,11 +142,11 @@ pub enum Ask {
     Select(Selection),
     /// Ask for a mesh file and give it to this object.
     ChooseMesh(String),
-    /// Repair a problem of the document, or read it again.
+    /// Repair a problem of the document, or read the document again.
     Mend(Mend),
     /// Ask for a file, and write a copy of the scene there.
     SaveCopy,
-    /// Do what a key would do.
+    /// Carry out this action, as its key would.
     Act(Action),
     /// Take over this session: mode, tools, overlays and frame.
     Session(Box<Session>),

@@ -107,8 +107,8 @@ fn found(typed: &str) -> Vec<Action> {
     found.into_iter().map(|(_, action)| action).collect()
 }
 
-/// How far a name is from what was typed: 0 at the name's start, 1 at a word's start, 2 anywhere, 3 only the letters
-/// in order; none for no match.
+/// How far a name is from what was typed: 0 if the name begins with it, 1 if a word of the name does, 2 if it stands
+/// anywhere in the name, 3 if the name only has its letters in order. None if there is no match.
 fn distance(typed: &str, name: &str) -> Option<u8> {
     let (typed, name) = (typed.trim().to_lowercase(), name.to_lowercase());
     if name.starts_with(&typed) {

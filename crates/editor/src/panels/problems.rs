@@ -53,7 +53,7 @@ pub fn unread_text(ctx: &Context, document: &Document) -> Option<String> {
     (is_of_source && memory.typed != source.text).then_some(memory.typed)
 }
 
-/// Takes 232 points at the bottom of `ui`. Returns false once it is closed or no problem is left.
+/// Shows the panel, 232 points high, at the bottom of `ui`. Returns false once it is closed or no problem is left.
 pub fn problems(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) -> bool {
     let rows = shown.document.problems();
     if rows.is_empty() {
@@ -170,7 +170,7 @@ fn concerned(row: &ProblemRow) -> Option<Item> {
     })
 }
 
-/// One problem: its place, its words, its repairs.
+/// Draws one problem of the list: its place, its words, its repairs.
 fn line(
     ui: &mut Ui,
     rect: Rect,
@@ -295,7 +295,7 @@ fn sentence(words: &str) -> String {
     first.to_uppercase().chain(characters).collect::<String>() + end
 }
 
-/// The text with its lines numbered and the one with the problem marked.
+/// Shows the scene's text, to be edited, with its lines numbered and the line of the problem marked.
 fn source(
     ui: &mut Ui,
     shown: &PanelInput<'_>,

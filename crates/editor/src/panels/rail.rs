@@ -1,4 +1,4 @@
-//! The tools of the mode, at the left of the viewport.
+//! The strip of buttons at the left of the viewport, with the tools of the mode.
 
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Panel, ScrollArea, Ui, vec2};
@@ -20,7 +20,7 @@ const PAINT: &[&[Tool]] = &[
 pub fn rail(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::left("rail").exact_size(measure::RAIL).resizable(false).frame(frame).show(ui, |ui| {
-        // A low window with open lanes has no room for all tools.
+        // A low window with open lanes has no room for all tools, so they can be scrolled.
         ScrollArea::vertical().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden).show(ui, |ui| {
             ui.add_space(6.0);
             ui.vertical_centered(|ui| tools(ui, shown, asks));

@@ -1,4 +1,4 @@
-//! The sheet for rendering: which frames, their size and files; and the progress while they are rendered.
+//! The sheet for rendering. The user chooses frames, their size and files there, and sees the progress of rendering.
 
 mod progress;
 
@@ -114,7 +114,7 @@ fn head(ui: &mut Ui, runs: bool) -> Option<RenderAsk> {
 /// A row with its label at the left.
 fn labelled<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-    // Only painted: the control has a name of its own.
+    // Painted without an accessibility node: a screen reader gets the name from the control.
     let colour = Tokens::of(ui).weak;
     ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, label, type_face::body(), colour);
     within(ui, rect.with_min_x(rect.left() + LABEL), row(), |ui| {
@@ -139,7 +139,7 @@ fn fault_under(ui: &mut Ui, fault: Option<&Fault>, field: Field) {
     }
 }
 
-/// A field of text, whose response is changed with every letter.
+/// A field of text. Its response counts as changed after every letter.
 fn text(ui: &mut Ui, name: &str, wide: f32, typed: &mut String, wrong: bool) -> egui::Response {
     let tokens = Tokens::of(ui);
     let mut frame = egui::Frame::new().fill(tokens.field).corner_radius(measure::CORNER);

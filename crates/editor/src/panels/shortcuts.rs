@@ -1,4 +1,4 @@
-//! The sheet that lists all keys.
+//! The sheet that lists all keyboard shortcuts, and what the mouse does.
 
 use egui::{RichText, ScrollArea, Ui, vec2};
 use impasto_editor_model::keymap::{Button, Keymap, Modifiers, Navigation, Preset, Scope};
@@ -11,7 +11,7 @@ use crate::widgets::{self, sheet};
 const COLUMN: f32 = 256.0;
 const ROW: f32 = 20.0;
 
-/// The keys that hold in one part of the editor.
+/// The shortcuts that hold in one part of the editor.
 struct Group {
     name: &'static str,
     rows: Vec<(&'static str, String)>,
@@ -38,7 +38,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
         });
         ui.add_space(measure::GAP);
         let lines = lines(groups(&shown.keymap()));
-        // One more line, because no column may end with a head.
+        // One more line, because no column may end with a heading.
         let high = lines.len().div_ceil(columns) + 1;
         let most = room.y - 2.0 * measure::SHEET_PADDING - 48.0;
         ScrollArea::vertical().max_height(most).min_scrolled_height(most).show(ui, |ui| {
@@ -53,7 +53,7 @@ pub fn shortcuts(ctx: &egui::Context, shown: &PanelInput<'_>) -> bool {
     })
 }
 
-/// One line of a column: a head, a key, or nothing between two groups.
+/// One line of a column: a heading, a shortcut, or an empty line between two groups.
 enum Line {
     Head(&'static str),
     Key(&'static str, String),
@@ -72,7 +72,7 @@ fn lines(groups: Vec<Group>) -> Vec<Line> {
     lines
 }
 
-/// Columns of at most `high` lines; none ends with a head or begins with a space.
+/// Divides the lines into columns of at most `high` lines. No column ends with a heading or begins with an empty line.
 fn in_columns(mut lines: &[Line], high: usize) -> Vec<&[Line]> {
     let mut columns = Vec::new();
     loop {

@@ -1,4 +1,4 @@
-//! The lowest line: what the mouse would do now, and a few numbers.
+//! The status line, at the bottom of the window: what the mouse would do now, and a few numbers.
 
 use egui::{Panel, RichText, Role, WidgetInfo, accesskit};
 
@@ -6,7 +6,7 @@ use super::{Ask, Numbers, PanelInput, row, row_from_right, within};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets;
 
-/// A piece of the status text.
+/// A piece of the status text: words, and the key that they explain, if any.
 #[derive(Debug, PartialEq, Eq)]
 struct Part<'a> {
     key: Option<&'a str>,

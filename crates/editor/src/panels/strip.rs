@@ -1,4 +1,5 @@
-//! The timeline as one strip: transport, frame, ruler, range. Opened, it has lanes.
+//! The timeline as one strip at the bottom of the window: transport, frame, ruler, range. When it is opened, the lanes
+//! of keys take its place.
 
 use egui::{Align2, Panel, Rect, RichText, Sense, Ui, pos2, vec2};
 use impasto_editor_model::timeline::keyed_frames;
@@ -14,10 +15,10 @@ use crate::widgets::{Button, Tip};
 
 /// From the strip's top to the ruler's line, points.
 const LINE: f32 = 35.0;
-/// The least distance between labels, in points.
+/// The least distance between two labels of the ruler, points.
 const LABELS: f32 = 128.0;
 
-/// Takes the lowest 44 points of `ui`, or as much as the lanes need.
+/// Shows the timeline in the lowest 44 points of `ui`, or in as many as the lanes need.
 pub fn strip(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     if shown.session.shows_lanes() {
         return timeline::lanes(ui, shown, asks);

@@ -9,7 +9,7 @@ use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Button, Tip};
 
-/// In a window at least this wide, in points, the bars show what is otherwise behind a button.
+/// In a window at least this wide, in points, the bars show controls that are behind a button in narrower ones.
 pub(super) const WIDE: f32 = 1600.0;
 /// The mode switch never begins left of this, in points, so that the document's name does not move it.
 const SWITCH_LEFT: f32 = 525.0;
@@ -73,7 +73,7 @@ fn undo_button(
     }
 }
 
-/// The document's name; it ends in an ellipsis where it would reach the mode switch.
+/// The document's name; it is cut off with an ellipsis if it would reach the mode switch.
 fn document(ui: &mut Ui, shown: &PanelInput<'_>) {
     let tokens = Tokens::of(ui);
     let (name, edited) = (shown.document.name(), shown.document.is_edited());

@@ -75,7 +75,7 @@ fn head(ui: &mut Ui) -> bool {
     within(ui, corner, row(), |ui| widgets::icon_button(ui, icons::CLOSE, "Close welcome")).clicked()
 }
 
-/// A step's head, icon and words, and its keys with what they do.
+/// A step: its title, its icon, its text, and its keys, each with a few words on what it does.
 type Step<'a> = (&'a str, Icon, &'a str, &'a [(&'a str, &'a str)]);
 
 fn cards(ui: &mut Ui, keymap: &Keymap) {

@@ -20,7 +20,7 @@ pub struct Work {
 /// The kinds of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkKind {
-    /// Frames are written; a click opens their sheet.
+    /// Frames are written; a click opens the sheet for rendering.
     Rendering,
     /// Files are read.
     Reading,

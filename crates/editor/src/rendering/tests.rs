@@ -1,4 +1,4 @@
-//! Rendering to files: whole frames, stopping, files that exist already, and errors of the disk.
+//! Tests of rendering to files: whole frames, stopping, files that exist already, and errors of the disk.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Lengths of the window, in points, with a grid of 4.
+//! Lengths in the window, in points: sizes of bars, rows, buttons and icons, and the space around them.
 
 /// Height of the top bar.
 pub const TOP_BAR: f32 = 40.0;
@@ -42,7 +42,7 @@ pub const CORNER: f32 = 4.0;
 pub const GROUP_CORNER: f32 = 6.0;
 /// Corners of sheets and dialogs.
 pub const SHEET_CORNER: f32 = 8.0;
-/// The least side of anything that can be hit.
+/// The least side of anything that can be clicked.
 pub const HIT: f32 = 24.0;
 /// An icon in a button.
 pub const ICON: f32 = 18.0;

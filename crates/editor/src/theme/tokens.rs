@@ -5,10 +5,10 @@ use egui::{Color32, Ui};
 /// Which of the two palettes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {
-    /// Light marks on dark neutral greys.
+    /// Light text and icons on dark neutral greys.
     #[default]
     Dark,
-    /// Dark marks on light neutral greys.
+    /// Dark text and icons on light neutral greys.
     Light,
 }
 
@@ -51,7 +51,7 @@ pub struct Tokens {
     pub weak: Color32,
     /// What cannot be used now.
     pub dis: Color32,
-    /// Cobalt as a fill: the mode, the tool, the main button of a sheet.
+    /// Cobalt as a fill: the current mode and tool, the main button of a sheet.
     pub accent: Color32,
     /// Cobalt as text, and the focus ring.
     pub accent_text: Color32,
@@ -199,7 +199,7 @@ mod tests {
             assert!(contrast(tokens.out, tokens.panel) >= 3.0, "{theme}: a control's outline");
             assert!(contrast(tokens.key, tokens.panel) >= 3.0, "{theme}: a key is a shape");
         }
-        // Neither of these texts stands on `app` in the light theme: only the picture and its chips do.
+        // In the light theme neither of these texts stands on `app`: only the picture and its chips lie on it.
         assert_eq!(weak_pairs, ["light ochre on app: 4.50", "light vermilion on app: 4.42"]);
     }
 }

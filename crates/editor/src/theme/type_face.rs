@@ -1,4 +1,4 @@
-//! The type styles. Inter for words, Hack for numbers and code, Material Symbols Rounded for icons.
+//! The fonts and sizes of all text: Inter for words, Hack for numbers and code, Material Symbols Rounded for icons.
 
 use egui::{FontFamily, FontId};
 

@@ -1,4 +1,4 @@
-//! The outlines of a set of grid cells, as smooth curves.
+//! Finds the outlines of a set of grid cells as smooth curves, to draw outlines of objects and regions.
 
 use std::collections::HashMap;
 
@@ -7,8 +7,9 @@ use glam::DVec2;
 /// Rounds of smoothing; each moves a point to the mean of itself and its two neighbours.
 const ROUNDS: usize = 6;
 
-/// The lines between cells in a set and cells not in it, in cells from the upper left corner, Y down. No line runs
-/// along the rim of the grid, which is no edge of the set: lines that reach the rim end there, all others are closed.
+/// The lines that separate the cells in a set from the other cells. Coordinates count cells from the upper left corner,
+/// Y down. The rim of the grid is no border of the set: a line that reaches the rim ends there. All other lines are
+/// closed.
 pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<DVec2>> {
     // Each piece runs along one side of a cell, with the set on its right as seen on the screen. Where two lines meet
     // at a corner, they turn there and do not cross.
@@ -34,7 +35,7 @@ pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> boo
             }
         }
     }
-    // Open lines (those that end at the rim) come first, from their beginnings.
+    // Open lines (those that end at the rim) are followed first, from their beginnings.
     let mut ends: HashMap<(usize, usize), isize> = HashMap::new();
     for (&from, targets) in &next {
         *ends.entry(from).or_default() += targets.len() as isize;
@@ -57,7 +58,7 @@ pub fn contours([columns, rows]: [usize; 2], is_in: impl Fn(usize, usize) -> boo
     lines
 }
 
-/// Takes one line that begins at `start` out of `next`; none if no piece begins there.
+/// Joins pieces from `start` on to one line, and removes them from `next`; `None` if no piece begins there.
 fn follow(
     start: (usize, usize),
     next: &mut HashMap<(usize, usize), Vec<(usize, usize)>>,
@@ -65,7 +66,7 @@ fn follow(
     let mut line = vec![DVec2::new(start.0 as f64, start.1 as f64)];
     let mut at = start;
     while let Some(to) = next.get_mut(&at).and_then(Vec::pop) {
-        // Through the middles of the sides: this alone removes half of the stair steps.
+        // The line runs through the middles of the sides, which alone removes half of the stair steps.
         line.push(DVec2::new(at.0 as f64 + to.0 as f64, at.1 as f64 + to.1 as f64) * 0.5);
         at = to;
         if at == start {

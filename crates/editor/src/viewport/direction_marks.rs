@@ -1,4 +1,4 @@
-//! Chooses which direction lines to show: spread evenly over the picture, and not hidden by a surface.
+//! Chooses the direction lines that are drawn over the picture: spread evenly, and not hidden by a surface.
 
 use egui::Color32;
 use glam::DVec2;
@@ -27,8 +27,8 @@ pub struct HairLook<'a> {
     pub object: Option<usize>,
 }
 
-/// The direction lines of a painting at a frame, seen through a camera (before widening) in a framing. `map` holds the
-/// surfaces that this camera sees.
+/// The direction lines of a painting at a frame. `camera` is the camera before `framing` widens it to the viewport.
+/// `map` holds the surfaces that this camera sees.
 pub fn direction_marks(
     painting: &Painting,
     camera: &CameraPose,

@@ -1,5 +1,5 @@
-//! Where pictures lie in the viewport: one fills it; the two of a comparison lie side by side or one above the other,
-//! whichever makes them larger.
+//! Where pictures lie in the viewport. A single picture fills it. The two of a comparison lie side by side or one above
+//! the other, whichever makes them larger.
 
 use egui::{Align2, Painter, Rect, pos2, vec2};
 
@@ -11,7 +11,7 @@ use crate::theme::{Tokens, type_face};
 const MARGIN: f32 = 12.0;
 /// Space above each picture of a comparison, for its title, points.
 const TITLE: f32 = 28.0;
-/// Space above and below both, for the chips, points.
+/// Space above and below the two pictures of a comparison, for the chips (floating buttons), points.
 const CHIPS: f32 = 52.0;
 
 /// The places of the pictures in the viewport.
@@ -23,12 +23,12 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// One picture.
+    /// The layout of a single picture.
     pub fn single(area: Rect, scene_size: (u32, u32), pixels_per_point: f32) -> Self {
         Self { area, framings: vec![Framing::new(area, scene_size, pixels_per_point)], stacked: false }
     }
 
-    /// A comparison: the reference and now.
+    /// The layout of a comparison: a picture of the reference, and one of now.
     pub fn compare(area: Rect, scene_size: (u32, u32), pixels_per_point: f32) -> Self {
         let aspect = scene_size.0.max(1) as f32 / scene_size.1.max(1) as f32;
         let half = |at: Rect, above: f32, below: f32| {
@@ -60,7 +60,7 @@ impl Layout {
         self.area
     }
 
-    /// The framing of the one picture, or of the reference and now.
+    /// The framings of the pictures: one, or in a comparison that of the reference and that of now.
     pub fn framings(&self) -> &[Framing] {
         &self.framings
     }

@@ -1,4 +1,4 @@
-//! Everything that is drawn over one picture, in drawing order.
+//! Everything that the editor draws over one picture (grid, outlines, guides, rings, handles), and in which order.
 
 use impasto_editor_model::gizmo::Gizmo;
 use impasto_editor_model::tools::{Needle, Ring};

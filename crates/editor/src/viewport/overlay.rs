@@ -1,4 +1,5 @@
-//! The marks over the picture: functions that draw plain data as shapes, one file each. All lengths are points.
+//! The overlays: what the editor draws over the picture, such as guides and outlines. Each has a file of its own, with
+//! plain data and a function that draws it. All lengths are points.
 
 use egui::{Painter, Pos2, Rect};
 use glam::{DVec2, DVec3};
@@ -54,7 +55,8 @@ impl Sheet<'_> {
         self.rect.min + egui::vec2(at_px.x as f32, at_px.y as f32)
     }
 
-    /// Where a point of the world shows in the window; `None` behind the lens, or too far out to draw.
+    /// Where a point of the world shows in the window; `None` if it is behind the camera or too far outside the
+    /// picture.
     pub fn project(&self, position_in_world: DVec3) -> Option<Pos2> {
         let at_px = self.view.project(position_in_world)?;
         // Tessellation loses precision far outside the picture.

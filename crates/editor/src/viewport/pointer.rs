@@ -1,5 +1,5 @@
-//! Translates egui's pointer events into the editor's, in their order. Places are points from the viewport's upper left
-//! corner, Y down.
+//! Translates egui's pointer events into the editor's, in the same order. The editor's places count in points from the
+//! viewport's upper left corner, Y down.
 
 use egui::{Event, MouseWheelUnit, PointerButton, Ui};
 use glam::DVec2;

@@ -1,5 +1,6 @@
-//! A coarse map of the visible surfaces, for outlines and regions and to hide direction lines behind surfaces. It is
-//! drawn on the CPU in the window's thread, because the picture itself comes later from another thread.
+//! A coarse map of the visible surfaces. It serves to outline objects, to show regions, and to hide direction lines
+//! that are behind surfaces. It is drawn on the CPU in the window's thread, because the picture itself comes later from
+//! another thread.
 
 use std::sync::Arc;
 
@@ -45,7 +46,7 @@ pub struct StandingBody {
     pub shape: BodyShape,
     /// Its pose.
     pub world_from_model: DAffine3,
-    /// Whether it is not hidden.
+    /// Whether it is drawn: false for a hidden object.
     pub visible: bool,
 }
 

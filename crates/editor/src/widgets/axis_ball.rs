@@ -1,4 +1,4 @@
-//! The ball that shows and sets how the view is turned.
+//! The ball in the corner of the picture: it shows how the view is turned, and takes drags and clicks that turn it.
 
 use egui::{Align2, Color32, FontId, Response, Role, Sense, Stroke, Ui, Vec2, vec2};
 use glam::{Mat3, Vec3};
@@ -22,9 +22,9 @@ pub struct AxisBall {
 pub struct BallResponse {
     /// The whole ball.
     pub response: Response,
-    /// The axis (in the world) whose end was clicked: look along it, from its end.
+    /// The world's axis whose end was clicked: the view is to look along it, from that end.
     pub clicked_axis: Option<Vec3>,
-    /// How far it was dragged in this pass, in points: an orbit.
+    /// How far the ball was dragged in this pass, in points: the view is to orbit by as much.
     pub dragged: Vec2,
 }
 
@@ -46,7 +46,7 @@ impl AxisBall {
                 ends.push((axis, sign, direction, vec2(seen.x, -seen.y) * REACH));
             }
         }
-        // What lies further from the eye is drawn first.
+        // Ends that lie farther from the eye are drawn first.
         ends.sort_by(|one, other| {
             let depth = |direction: Vec3| (self.view_from_world * direction).z;
             depth(one.2).total_cmp(&depth(other.2))

@@ -1,4 +1,4 @@
-//! Buttons with words or an icon.
+//! Widgets: buttons with words or an icon.
 
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
@@ -44,7 +44,7 @@ impl<'a> Button<'a> {
         Self { icon: Some(icon), ..self }
     }
 
-    /// Filled with the accent, for what most users want.
+    /// Filled with the accent colour, for what most users want.
     pub fn primary(self) -> Self {
         Self { weight: Weight::Primary, ..self }
     }
@@ -112,7 +112,7 @@ impl<'a> Button<'a> {
     }
 }
 
-/// A button for what most users want, filled with the accent.
+/// A button for what most users want, filled with the accent colour.
 pub fn primary_button(ui: &mut Ui, words: &str) -> Response {
     Button::new(words).primary().show(ui)
 }

@@ -34,7 +34,7 @@ pub fn radio(ui: &mut Ui, name: &str, on: bool) -> Response {
     radio_named(ui, name, name, on)
 }
 
-/// As [`radio`], with words that differ from its name.
+/// As [`radio`], but shows `words`; `name` is for screen readers.
 pub fn radio_named(ui: &mut Ui, words: &str, name: &str, on: bool) -> Response {
     let (mark, response) = row(ui, words);
     let tokens = Tokens::of(ui);

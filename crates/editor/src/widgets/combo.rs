@@ -6,8 +6,8 @@ use super::draw;
 use crate::icons::{self, Icon};
 use crate::theme::{Tokens, measure, type_face};
 
-/// Picks one of `choices` from a menu; `chosen` is its place in them. With an icon it has no fill at rest, as on a
-/// chip.
+/// Picks one of `choices` from a menu; `chosen` is the index of the one that is picked. With an icon, the control has
+/// no fill at rest, as on a chip.
 ///
 /// The response is changed when another one is picked.
 pub fn combo(ui: &mut Ui, name: &str, icon: Option<Icon>, choices: &[&str], chosen: &mut usize) -> Response {

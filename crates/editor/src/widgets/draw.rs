@@ -1,4 +1,4 @@
-//! What all widgets draw in the same way: fills, focus rings, icons, words, names.
+//! What all widgets do in the same way: draw fills, focus rings, icons and words, and tell screen readers their names.
 
 use egui::{
     Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui,

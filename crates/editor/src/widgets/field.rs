@@ -51,11 +51,11 @@ pub struct FieldResponse {
     pub changed: bool,
     /// A drag, a typed number or a step began in this pass.
     pub began: bool,
-    /// It ended in this pass.
+    /// A drag, a typed number or a step ended in this pass.
     pub ended: bool,
-    /// It was one step of the wheel, of an arrow key or of a screen reader.
+    /// The change was one step of the wheel, of an arrow key or of a screen reader.
     pub stepped: bool,
-    /// It was the reset icon, or a double click.
+    /// The change came from the reset icon or from a double click.
     pub reset: bool,
 }
 
@@ -94,7 +94,7 @@ impl<'a> NumberField<'a> {
         }
     }
 
-    /// No label: the name is only spoken.
+    /// Leaves out the label: only screen readers say the name.
     pub fn unlabelled(self, width: f32) -> Self {
         Self { label: false, width: Some(width), ..self }
     }
@@ -139,12 +139,12 @@ impl<'a> NumberField<'a> {
         Self { reads: Some(reads), ..self }
     }
 
-    /// The number stands in the middle of its box.
+    /// Puts the number in the middle of its box.
     pub fn centred(self) -> Self {
         Self { centred: true, ..self }
     }
 
-    /// The number stands in ochre, because it will be lost: a pose that is not keyed.
+    /// Shows the number in ochre where it will be lost, as in a pose that is not keyed.
     pub fn warn(self, warns: bool) -> Self {
         Self { warns, ..self }
     }

@@ -1,4 +1,4 @@
-//! Keys as they are printed on a keyboard.
+//! Draws keys as they are printed on a keyboard, for hints of shortcuts.
 
 use egui::{Align2, Response, Role, Sense, Stroke, StrokeKind, Ui, vec2};
 

@@ -1,4 +1,4 @@
-//! A command in a menu, with its keys.
+//! A widget: a row of a menu that shows a command and its keys.
 
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 

@@ -1,5 +1,5 @@
-//! The editor's own controls. Each takes a name, which a screen reader says and tests find it by, can be reached by the
-//! keyboard, and is at least 24 points high.
+//! The editor's own controls. Each has a name, which screen readers say and by which tests find it. Each can be reached
+//! with the keyboard and is at least 24 points high.
 
 mod axis_ball;
 mod brush_thumbnail;

@@ -1,4 +1,4 @@
-//! A tool on the rail.
+//! The button of a tool on the rail, the column of tools beside the viewport.
 
 use egui::{Align2, Color32, Response, Role, Sense, Ui, vec2};
 
@@ -6,7 +6,7 @@ use super::draw;
 use crate::icons::Icon;
 use crate::theme::{Tokens, measure, type_face};
 
-/// A tool on the rail, with the letter of its key in the corner.
+/// The button of a tool on the rail, with the letter of its key in the corner.
 pub fn rail_button(ui: &mut Ui, icon: Icon, name: &str, letter: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) =

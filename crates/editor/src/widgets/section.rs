@@ -1,4 +1,4 @@
-//! The head of a part of the inspector, which folds it.
+//! A widget: the head of a part of the inspector. A click on it folds or opens that part.
 
 use egui::{Align2, Response, Role, Sense, Ui, pos2, vec2};
 

@@ -1,4 +1,4 @@
-//! A few choices side by side, one of them on.
+//! A widget: a few choices side by side, one of them on.
 
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
@@ -9,8 +9,8 @@ const HEIGHT: f32 = 26.0;
 const INSET: f32 = 2.0;
 const PADDING: f32 = 9.0;
 
-/// A few choices side by side, one of them on; each is named by its words. The response is changed when another one is
-/// picked.
+/// A few choices side by side, one of them on; each is named by its words. The response is marked as changed when
+/// another one is picked.
 pub fn segmented(ui: &mut Ui, choices: &[&str], chosen: &mut usize) -> Response {
     let choices: Vec<_> = choices.iter().map(|words| (*words, *words)).collect();
     segmented_named(ui, &choices, chosen)
@@ -25,7 +25,7 @@ fn part_width(ui: &Ui, words: &str) -> f32 {
     draw::width(ui, words, type_face::small()).max(8.0) + 2.0 * PADDING
 }
 
-/// As [`segmented`], where the words alone would be ambiguous: each choice is named by `of` and its words, *Ease
+/// As [`segmented`], where the words alone would be ambiguous: each choice is named by `of` and its words, as in *Ease
 /// smooth*.
 pub fn segmented_of(ui: &mut Ui, of: &str, choices: &[&str], chosen: &mut usize) -> Response {
     let names: Vec<String> = choices.iter().map(|words| format!("{of} {}", words.to_lowercase())).collect();

@@ -13,7 +13,7 @@ pub struct Tip<'a> {
     pub key: &'a str,
     /// One sentence on what it does.
     pub effect: &'a str,
-    /// *0 to 1, default 1.* Empty where there is no range.
+    /// Range and default, such as *0 to 1, default 1.* Empty where there is no range.
     pub range: &'a str,
 }
 

@@ -1,23 +1,23 @@
-//! Short messages that come up at the bottom and go by themselves.
+//! Toasts: short messages that come up at the bottom of the window and vanish by themselves.
 
 use egui::{Align2, Area, Context, Frame, Id, Margin, Order, RichText, vec2};
 
 use super::{Button, draw};
 use crate::theme::{Tokens, measure, type_face};
 
-/// A short message that comes up at the bottom and goes by itself.
+/// A short message that comes up at the bottom of the window and vanishes by itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Toast {
     /// What happened.
     pub words: String,
-    /// The verb of its button, empty for none.
+    /// The text of its button; empty if it has none.
     pub action: String,
     /// Whether it reports an error.
     pub error: bool,
 }
 
-/// Shows the newest three of `shown`, `clear` points above the window's lower edge, the newest lowest.
-/// Returns the place in `shown` of the one whose action was clicked.
+/// Shows the newest three of `shown`, `clear` points above the window's lower edge, with the newest at the bottom.
+/// Returns the index in `shown` of the toast whose button was clicked.
 pub fn toasts(ctx: &Context, shown: &[Toast], clear: f32) -> Option<usize> {
     let first = shown.len().saturating_sub(3);
     let mut clicked = None;

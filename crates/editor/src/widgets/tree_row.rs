@@ -1,4 +1,4 @@
-//! A row of the scene tree.
+//! The widget that draws one row of the scene tree.
 
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, pos2, vec2};
 
@@ -9,7 +9,7 @@ use crate::theme::{Tokens, measure, type_face};
 /// What stands before a row's name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowMark {
-    /// What kind of thing it is.
+    /// An icon that shows what kind of thing it is.
     Icon(Icon),
     /// A region's colour.
     Colour(Color32),
@@ -25,9 +25,9 @@ pub struct TreeRow<'a> {
     pub spoken: &'a str,
     /// What stands before the name.
     pub mark: RowMark,
-    /// How deep it lies; 0 at the top level.
+    /// How many rows it lies under; 0 at the top level.
     pub depth: usize,
-    /// Whether it is open, for a row with rows under it.
+    /// Whether the rows under it are shown; `None` if there are none.
     pub expanded: Option<bool>,
     /// Whether it is selected.
     pub selected: bool,
@@ -55,7 +55,8 @@ pub struct RowResponse {
 }
 
 impl TreeRow<'_> {
-    /// Draws it. The eye and the lock show under the pointer, on the selected row, and while they are shut.
+    /// Draws it. The eye and the lock show while the pointer is on the row, while the row is selected, and while they
+    /// are shut.
     pub fn show(&self, ui: &mut Ui) -> RowResponse {
         self.draw(ui, true)
     }

@@ -76,8 +76,8 @@ pub fn run<A: App>(options: Options, make: impl FnOnce(&Opened) -> A) -> Result<
 }
 
 fn build_event_loop() -> Result<EventLoop<Happening>, WindowError> {
-    // Code below winit panics if libxkbcommon-x11 or libwayland-egl is missing. The panic's message goes into
-    // the error, so it is not printed here.
+    // The libraries that winit uses panic if libxkbcommon-x11 or libwayland-egl is missing. The panic's message goes
+    // into the error, so it is not printed here.
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| ()));
     let built = catch_unwind(|| EventLoop::with_user_event().build());

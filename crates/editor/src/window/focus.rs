@@ -4,8 +4,8 @@ use egui::{Context, Event, Id, Key, Modifiers, Plugin, RawInput, Ui};
 
 /// Keeps egui's keyboard focus from taking the editor's keys: add it to the context as a plugin.
 ///
-/// While nothing has the focus, `Tab` goes to the app ([`tab_pressed`]); once a control has it, `Tab` moves to the next
-/// control. A click outside a text field gives up the focus, so that `Space` presses no button.
+/// While nothing has the focus, `Tab` goes to the app ([`tab_pressed`]). While a control has the focus, `Tab` moves it
+/// to the next control. A click outside a text field gives up the focus, so that `Space` presses no button.
 #[derive(Debug, Default)]
 pub struct FocusRules;
 

@@ -33,7 +33,7 @@ pub fn force_software() {
     }
 }
 
-/// A window's OpenGL context and what it draws on. Dropped before the window.
+/// A window's OpenGL context and what it draws on. It must be dropped before the window.
 pub(super) struct WindowGl {
     surface: Surface<WindowSurface>,
     context: PossiblyCurrentContext,
@@ -125,7 +125,7 @@ fn open_on(window: &Window, config: &Config) -> Result<WindowGl, String> {
     let least = |length| NonZeroU32::new(length).unwrap_or(NonZeroU32::MIN);
     let surface =
         SurfaceAttributesBuilder::<WindowSurface>::new().build(handle, least(size.width), least(size.height));
-    // SAFETY: the handle is of `window`, which its owner drops after what is made here.
+    // SAFETY: `handle` belongs to `window`, which its owner drops after the context and the surface that are made here.
     let (context, surface) = unsafe {
         let context = display.create_context(config, &wanted).or_else(|first| {
             display

@@ -92,7 +92,7 @@ impl Frame<'_> {
         self.painter
     }
 
-    /// How long the frame before this one took, from input to shown.
+    /// How long the frame before this one took, from the input until it was shown.
     pub fn last_took(&self) -> Duration {
         self.last
     }

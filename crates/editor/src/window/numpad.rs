@@ -1,4 +1,4 @@
-//! Keys of the number pad, which egui does not tell from those of the main row.
+//! Passes keys of the number pad to the application: egui does not tell them from those of the main row.
 
 use egui::{Context, Id};
 use impasto_editor_model::keymap::{Key, Modifiers};
@@ -37,7 +37,8 @@ pub(super) fn keep_numpad(ctx: &Context, keys: Vec<(Key, Modifiers)>) {
     ctx.data_mut(|data| data.get_temp_mut_or_default::<Vec<_>>(id()).extend(keys));
 }
 
-/// Takes the keys of the number pad that were pressed while no text field had the focus, with what was held.
+/// Takes the keys of the number pad that were pressed while no text field had the focus, each with the modifiers that
+/// were held.
 pub fn numpad_pressed(ctx: &Context) -> Vec<(Key, Modifiers)> {
     ctx.data_mut(|data| data.remove_temp(id())).unwrap_or_default()
 }

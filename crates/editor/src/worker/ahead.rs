@@ -21,7 +21,7 @@ struct Computing {
 }
 
 impl Ahead {
-    /// Begins to compute a view that will likely be asked for next, to be drawn with the same options.
+    /// Begins to compute the frame of a view that will likely be asked for next, with the same options.
     pub(super) fn begin(
         &mut self,
         painting: &Painting,
@@ -36,13 +36,13 @@ impl Ahead {
             let options = DrawOptions { size_px, is_exact, give_up: &|| false };
             frame_of(&painting, &theirs, &options, recall.as_deref())
         };
-        // Without a thread it is computed when it is asked for.
+        // If no thread can be started, the frame is computed when it is asked for.
         let thread = std::thread::Builder::new().name("ahead".to_owned()).spawn(compute);
         self.0 = thread.ok().map(|frame| Computing { view: view.clone(), size_px, is_exact, serial, frame });
     }
 
-    /// Takes the frame that was computed and its view, if it can be shown for `view`: it is of the same view or, while
-    /// playback goes on to `next`, of the frame just before `view`.
+    /// Takes the computed frame and its view, if the frame can be shown for `view`. It can if its view looks the same.
+    /// It can too if it is of the frame just before `view`'s and playback goes on to `next`.
     pub(super) fn take(
         &mut self,
         serial: u64,
@@ -107,7 +107,7 @@ mod tests {
             let taken = ahead.take(serial, &view(asked), Some(&next), &options(side));
             assert!(taken.is_none(), "{serial} {asked} {side}");
         }
-        // The last frame of the playback is drawn itself, not the one before it.
+        // At the end of playback the last frame itself is drawn, never the one before it.
         ahead.begin(&painting, 1, &view(3.0), &options(80), None);
         assert!(ahead.take(1, &view(4.0), Some(&view(4.0)), &options(80)).is_none());
     }

@@ -1,4 +1,5 @@
-//! What the window and the painting thread pass each other: the latest job, and the results that wait to be polled.
+//! The mailbox between the window and the painting thread: the window puts the latest job in, the thread the results,
+//! which wait until the window polls them.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,7 +16,7 @@ use super::{Job, Picture, Report, ViewJob};
 /// At most this many failures wait to be polled; further ones are dropped.
 const MOST_FAILURES: usize = 8;
 
-/// Shared by both threads.
+/// Shared by the window and the painting thread.
 #[derive(Default)]
 pub(super) struct Mailbox {
     orders: Mutex<Orders>,
@@ -44,7 +45,7 @@ struct Tray {
     failures: Vec<String>,
 }
 
-/// A job with its ticket: tickets count the jobs.
+/// A job with its ticket: a number that grows with each job.
 pub(super) struct Order {
     pub(super) job: Job,
     pub(super) came: Instant,
@@ -70,7 +71,7 @@ impl Mailbox {
         orders.shaders = (Arc::new(texts), orders.shaders.1 + 1);
     }
 
-    /// The shaders to draw with and their number; none if the number is still this one.
+    /// The shaders to draw with, and their number; `None` if that is still `number`.
     pub(super) fn shaders_after(&self, number: u64) -> Option<(Arc<ShaderTexts>, u64)> {
         let (texts, latest) = lock(&self.orders).shaders.clone();
         (latest != number).then_some((texts, latest))
@@ -102,7 +103,8 @@ impl Mailbox {
         is_closed || self.stopped.load(Ordering::Acquire) >= order.ticket
     }
 
-    /// Waits until a job is this old, or a later one comes. Returns whether none came.
+    /// Waits until a job is `age` old. Returns true then, and false as soon as a later job comes or the mailbox is
+    /// closed.
     pub(super) fn rests(&self, order: &Order, age: Duration) -> bool {
         let until = order.came + age;
         let mut orders = lock(&self.orders);
@@ -159,7 +161,7 @@ impl Mailbox {
     }
 }
 
-/// Ignores poisoning: no code that holds a lock here can panic and leave the data half changed.
+/// Locks, and ignores poisoning: no code that holds a lock here can panic and leave the data half changed.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -21,7 +21,7 @@ use super::{Picture, Report, ViewJob};
 /// The exact pictures of a job are drawn when it is this old and no later job has come.
 const REST: Duration = Duration::from_millis(100);
 
-/// Works until the mailbox is closed. A panic is reported and the worker dropped; the next job gets a new one.
+/// Works until the mailbox is closed. If a job panics, that is reported, and the next job gets a new worker.
 pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
     let tell = |report: Report| {
         mailbox.report(report);
@@ -42,7 +42,7 @@ pub(super) fn run(mailbox: &Mailbox, driver: Driver, wake: &dyn Fn()) {
             let _ = catch_unwind(AssertUnwindSafe(|| drop(broken)));
         }
     };
-    // A driver takes time to open, so that begins before there is anything to draw.
+    // A driver takes time to open, so it is opened before there is anything to draw.
     work(None);
     while let Some(order) = mailbox.take() {
         work(Some(&order));
@@ -77,7 +77,7 @@ struct PaintWorker {
     turn: u32,
     /// How long the last exact picture took, seconds.
     exact_s: Option<f64>,
-    /// The next frame of the playback.
+    /// The next frame of the playback, which is computed while the present one is drawn.
     ahead: Ahead,
 }
 
@@ -87,7 +87,7 @@ struct Drawn {
     exact: bool,
     /// How many strokes it has, and how many of each region.
     strokes: (usize, Vec<usize>),
-    /// What the next draft may recall of it; none if it has no strokes.
+    /// What the next draft may recall of this picture; `None` if it has no strokes.
     recall: Option<Arc<Recall>>,
 }
 
@@ -169,7 +169,7 @@ impl PaintWorker {
         }
     }
 
-    /// Takes up new shaders, if there are any.
+    /// Draws with new shaders from now on, if there are any.
     fn take_shaders(&mut self, mailbox: &Mailbox, tell: Tell<'_>) {
         let Some(renderer) = &mut self.renderer else { return };
         let Some((texts, number)) = mailbox.shaders_after(self.shaders) else { return };
@@ -245,8 +245,8 @@ impl PaintWorker {
         }
     }
 
-    /// If only the icons of lights over an exact picture changed, and the renderer still holds it, redraws the icons
-    /// alone.
+    /// Redraws only the icons of lights, if nothing else changed since the view's exact picture, and the renderer still
+    /// holds that picture.
     fn redraw_light_icons(&mut self, order: &Order, index: usize, tell: Tell<'_>) {
         let (view, serial) = (&order.job.views[index], order.job.serial);
         let (Some(renderer), Some(drawn)) = (&mut self.renderer, &mut self.drawn[index]) else { return };
@@ -343,7 +343,8 @@ fn strokes_per_region(frame: &Frame, regions: usize) -> Vec<usize> {
     counts
 }
 
-/// The frame (`computed` ahead, or now) and its picture; no picture if drawing was given up.
+/// Draws a view. Returns its frame, which was `computed` ahead or is computed now, and the picture; `None` in place of
+/// the picture if drawing was given up.
 fn render(
     renderer: &mut Renderer,
     painting: &Painting,
@@ -375,7 +376,8 @@ fn render(
     (frame, picture.map(|picture| picture.map(image)))
 }
 
-/// A picture as egui takes it. The window's pictures are opaque, so premultiplied is the same.
+/// A picture as egui takes it. The window's pictures are opaque, so it does not matter that egui expects premultiplied
+/// alpha.
 fn image(picture: impasto_gl_render::Picture) -> ColorImage {
     ColorImage::from_rgba_premultiplied(picture.size_px.map(|side| side as usize), &picture.rgba8)
 }

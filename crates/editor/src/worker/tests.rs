@@ -42,7 +42,7 @@ fn worker() -> (Worker, mpsc::Receiver<()>) {
     (Worker::new(Driver::Auto, wake).unwrap(), woken)
 }
 
-/// All reports up to one for which `last` holds.
+/// Waits for a report for which `last` holds. Returns all reports up to then.
 fn until(worker: &(Worker, mpsc::Receiver<()>), last: impl Fn(&Report) -> bool) -> Vec<Report> {
     let mut told = Vec::new();
     let began = Instant::now();
@@ -280,7 +280,7 @@ fn closing_in_the_midst_of_work_ends_the_thread() {
     until(&worker, |report| matches!(report, Report::Picture(_)));
     let (worker, woken) = worker;
     drop(worker);
-    // The thread owns the sender: it is gone only if the thread has ended while the worker was dropped.
+    // The thread owns the sender, so the channel is disconnected only if the thread ended while the worker was dropped.
     let end = loop {
         if let Err(end) = woken.try_recv() {
             break end;

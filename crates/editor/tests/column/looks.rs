@@ -1,4 +1,5 @@
-//! Compares pictures of the column with stored ones.
+//! Tests that the editor's right column, with the tree above and the inspector below, looks as it did: compares
+//! pictures of it with stored ones.
 
 use crate::headless::Headless;
 use egui::{Vec2, vec2};
@@ -11,7 +12,7 @@ use impasto_gl_render::context::Driver;
 
 use super::{Column, SIZE, build, builder, object, region, with_guides};
 
-/// Room for drivers that round colours differently; a misplaced or recoloured control is far over it.
+/// A tolerance for drivers that round colours differently. A misplaced or recoloured control exceeds it by far.
 fn options() -> SnapshotOptions {
     SnapshotOptions::new().threshold(0.6)
 }

@@ -1,4 +1,4 @@
-//! The right column with a document, for tests that find controls by name.
+//! The editor's right column (tree and inspector) with a document, for tests that find its controls by name.
 
 mod guides;
 mod ink;
@@ -25,7 +25,7 @@ use impasto_scene::load::LoadOptions;
 pub struct Column {
     pub document: Document,
     pub session: Session,
-    /// What was asked, in order: *preview*, *end preview*, *merged*, or the words of the history.
+    /// What the column asked, in order, in words: *preview*, *select*; for a command, its words in the history.
     pub log: Vec<String>,
     pub acts: Vec<Action>,
     pub meshes: Vec<String>,
@@ -154,7 +154,7 @@ pub fn build(builder: HarnessBuilder<Column>, column: Column) -> Harness<'static
     harness
 }
 
-/// A window that is high enough to hold every row.
+/// A harness in a window that is high enough for every row, with every section unfolded.
 pub fn harness(scene: &str, selected: Option<Item>) -> Harness<'static, Column> {
     let mut column = Column::open(scene);
     column.document.select(selected.into_iter().collect());

@@ -1,4 +1,4 @@
-//! Tests of the scene tree.
+//! Tests of the scene tree, which is at the top of the column beside the viewport.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn the_tree_names_every_row() {
             "apple, region, up",
             "apple stem, region, up",
             "apple leaf, region",
-            "wall, region, crossing",
+            "wall, region, \u{2212}34°",
             "jug rim, region, around",
             "canvas, background",
             "Expand apple",

@@ -1,4 +1,5 @@
-//! Pictures of egui pages without a display: egui's painter in the renderer's own off-screen context.
+//! Draws pictures of egui pages without a display, for the editor's tests: with egui's painter, in the renderer's own
+//! off-screen context.
 
 use egui::TexturesDelta;
 use egui_glow::Painter;

@@ -1,4 +1,4 @@
-//! The bars of a page with every control.
+//! The bars of the test page that shows every control: top bar, tool options, tools, time strip and status line.
 
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 use impasto_editor::icons::{self, Icon};

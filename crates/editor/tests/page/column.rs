@@ -1,4 +1,4 @@
-//! The right column of a page with every control.
+//! The right column of the page with every control, on which tests check how controls look and behave.
 
 use egui::{Align, Frame, Layout, Margin, RichText, Ui};
 use impasto_editor::icons;

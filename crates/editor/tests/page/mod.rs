@@ -1,4 +1,5 @@
-//! A page with every control, laid out like the editor's window. The example shows it, and the tests check it.
+//! A page with every control of the editor, laid out like its window. The example `gallery` shows it, and tests check
+//! it.
 
 mod bars;
 mod column;

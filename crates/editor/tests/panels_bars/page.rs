@@ -1,4 +1,4 @@
-//! The window's bars with an empty middle, for tests.
+//! A page for tests that shows the window's bars round an empty middle, and keeps what they ask for.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ pub enum Shows {
     Welcome,
     Keys,
     Palette,
-    /// One of the page's questions.
+    /// The question with this index in `questions`.
     Question(usize),
 }
 
@@ -38,7 +38,7 @@ pub struct Page {
     pub shows: Shows,
     pub choices: welcome::Choices,
     pub questions: Vec<Question>,
-    /// Everything that was asked, except new sessions: the page applies those.
+    /// Everything that the bars asked for, except changes of the session or the frame: the page makes those itself.
     pub asked: Vec<Ask>,
     pub left: Option<welcome::Left>,
     pub answer: Option<Answer>,
@@ -107,7 +107,7 @@ impl Page {
     }
 
     pub fn ui(&mut self, ui: &mut egui::Ui) {
-        // The harness leaves a margin; a window has none.
+        // The test harness leaves a margin round its contents; the window has none.
         let whole = ui.ctx().content_rect();
         let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(whole));
         ui.set_clip_rect(whole);

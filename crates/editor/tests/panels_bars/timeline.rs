@@ -25,7 +25,7 @@ fn apple(frame: f64) -> KeyAt {
     (KeyOf::Object("apple".to_owned()), frame)
 }
 
-/// An apple with keys at 0, 37, 60 and 96, in Animate.
+/// A page in the mode Animate, with an apple that has keys at frames 0, 37, 60 and 96.
 fn animated() -> Page {
     let mut page = Page { document: page::apple(), ..Page::new() }.in_mode(Mode::Animate);
     let mut apply = |time: Time| drop(page.document.apply(&Command::Time(time)).expect("it can be done"));
@@ -46,7 +46,7 @@ fn lanes_of(page: Page) -> Harness<'static, Page> {
     harness(page, Theme::Dark, NARROW)
 }
 
-/// The keys of the apple's lane, by name and place.
+/// The keys in the apple's lane: the name and the place in the window of each.
 fn keys(harness: &Harness<'_, Page>) -> Vec<(String, Pos2)> {
     let list = harness.get_by_role_and_label(Role::List, "apple keys");
     let items = list.query_all_by_role(Role::ListItem);
@@ -128,7 +128,7 @@ fn every_control_of_the_timeline_has_its_name() {
     assert!(harness.query_by_label("apple keys").is_none());
     click(&mut harness, "Show keys");
     assert!(harness.query_by_label("apple keys").is_some());
-    // The other modes remember it separately: there the timeline starts folded.
+    // Each mode remembers for itself whether the lanes show. In Arrange they are hidden at first.
     harness.state_mut().session.mode = Mode::Arrange;
     harness.run();
     assert!(harness.query_by_label("apple keys").is_none());
@@ -140,7 +140,7 @@ fn keys_are_dragged_by_the_pointer_and_snap_to_frames() {
     let places = keys(&harness);
     let per_frame = (places[3].1.x - places[0].1.x) / 96.0;
     let from = places[2].1;
-    // From a little beside the key to between two frames.
+    // The drag begins a little beside the key and ends between two frames.
     drag(&mut harness, from + vec2(3.0, 4.0), from + vec2(3.0 + 13.3 * per_frame, -20.0));
     assert_eq!(commands(harness.state()), [&Time::MoveKeys(vec![apple(60.0)], 13.0)]);
     assert_eq!(harness.state().time.keys.selected(), [apple(60.0)]);
@@ -148,7 +148,7 @@ fn keys_are_dragged_by_the_pointer_and_snap_to_frames() {
     harness.state_mut().asked.clear();
     drag(&mut harness, places[1].1, places[1].1 + vec2(1.0, 0.0));
     assert_eq!((harness.state().asked.len(), harness.state().time.keys.selected()), (0, &[apple(37.0)][..]));
-    // A box over the last two keys, begun between keys.
+    // A drag that begins between keys draws a box; this one covers the last two keys.
     drag(&mut harness, places[2].1 - vec2(30.0, 10.0), places[3].1 + vec2(14.0, 10.0));
     assert_eq!(harness.state().time.keys.selected(), [apple(60.0), apple(96.0)]);
     assert_eq!(harness.state().asked.len(), 0);

@@ -1,4 +1,4 @@
-//! EGL devices: every graphics card and the software rasteriser, without a display.
+//! Opens OpenGL on an EGL device, which is a graphics card or the software rasteriser. This needs no display.
 
 #[cfg(target_vendor = "apple")]
 use super::opening::{OpenOptions, Opened};

@@ -1,4 +1,5 @@
-//! EGL's surfaceless platform, for drivers that list no devices. glutin does not know it, so EGL is called directly.
+//! Opens OpenGL on EGL's surfaceless platform, for drivers that list no devices. glutin does not know this platform, so
+//! EGL is called directly.
 
 use std::ffi::{CStr, c_char, c_void};
 use std::rc::Rc;

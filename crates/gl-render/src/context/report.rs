@@ -47,7 +47,7 @@ pub struct Mend {
 }
 
 impl Mend {
-    /// All that is known.
+    /// The packages for each driver that has any.
     pub const ALL: [Mend; 2] = [
         Mend { driver: Driver::Egl, packages: &["libegl1", "libgl1-mesa-dri"] },
         Mend { driver: Driver::Osmesa, packages: &["libosmesa6"] },

@@ -69,7 +69,7 @@ impl Framebuffer {
         self.size_px
     }
 
-    /// Copies the first colour texture into that of another framebuffer of the same size and format.
+    /// Copies the first colour texture into the first one of another framebuffer, of the same size and format.
     pub(crate) fn copy_to(&self, other: &Framebuffer) {
         let gl = self.gpu.gl();
         let [width, height] = self.size_px.map(|side| side as i32);
@@ -90,7 +90,7 @@ impl Framebuffer {
         bytes
     }
 
-    /// Reads one colour texture as floats, bottom row first, four (or two) channels a pixel.
+    /// Reads one colour texture as floats, bottom row first: two channels a pixel in [`Format::Rg32F`], else four.
     pub(crate) fn read_floats(&self, color: usize) -> Vec<f32> {
         let channels = if self.colors[color].format() == Format::Rg32F { 2 } else { 4 };
         let mut values = vec![0.0_f32; self.pixels() * channels];

@@ -9,7 +9,7 @@ use glow::HasContext as _;
 
 use super::{DriverMessages, GlError, Platform, ShaderTexts};
 
-/// A context, shared by everything that was created in it. It is destroyed when the last of them is dropped.
+/// A context, shared by everything that was created in it. It is destroyed when the last of those is dropped.
 #[derive(Clone)]
 pub(crate) struct Gpu {
     shared: Rc<Shared>,
@@ -45,7 +45,7 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Reads them from the current context.
+    /// Reads the limits from the current context.
     pub(crate) fn read(gl: &glow::Context) -> Self {
         // SAFETY: the context is current; the names are defined in OpenGL 3.3.
         unsafe {
@@ -97,7 +97,7 @@ impl Gpu {
         &self.shared.limits
     }
 
-    /// Starts to time passes. Each lap waits for the driver, so a timed frame is slower.
+    /// Starts to time passes. At the end of each, [`Gpu::lap`] waits for the driver, so a timed frame is slower.
     pub(crate) fn start_clock(&self) {
         *self.shared.clock.borrow_mut() =
             Some(PassClock { since: Instant::now(), laps: Vec::new(), fragments: 0 });
@@ -115,7 +115,8 @@ impl Gpu {
         unsafe { self.gl().finish() };
     }
 
-    /// Ends a pass: the time since the last lap is its own. Does nothing unless passes are timed.
+    /// Ends a pass, and notes the time since the last call as the time of this pass. Does nothing unless passes are
+    /// timed.
     pub(crate) fn lap(&self, pass: &'static str) {
         if let Some(clock) = self.shared.clock.borrow_mut().as_mut() {
             self.finish();
@@ -150,7 +151,7 @@ impl Gpu {
         self.shared.messages.is_some()
     }
 
-    /// OpenGL's functions, for others that draw in this context.
+    /// OpenGL's functions, for other code that draws in this context.
     pub(crate) fn functions(&self) -> Arc<glow::Context> {
         self.shared.gl.clone()
     }

@@ -23,10 +23,10 @@ pub(crate) enum Blend {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DrawState {
     pub depth_test: bool,
-    /// Keeps the depth of earlier passes; what is equally near is drawn too.
+    /// Keeps the depth of earlier passes. Then what is as near as what they drew is drawn too.
     pub depth_kept: bool,
     pub blend: Blend,
-    /// Clears every colour target to this.
+    /// Clears every colour target to this colour; `None` keeps what they hold.
     pub clear: Option<[f32; 4]>,
     /// Pushes surfaces away from the eye a little, so that they cast no shadow on themselves.
     pub depth_offset: bool,
@@ -123,8 +123,8 @@ impl Gpu {
         Ok(())
     }
 
-    /// Runs a vertex shader over points and writes what it puts out into `output`, one record for each point. Nothing
-    /// is drawn.
+    /// Runs a vertex shader over points and writes the shader's outputs into `output`, one record for each point.
+    /// Nothing is drawn.
     pub(crate) fn capture(
         &self,
         bound: Bound<'_>,

@@ -32,7 +32,7 @@ impl ShaderTexts {
 #[derive(Debug)]
 pub(super) struct Expanded {
     pub text: String,
-    /// Paths, in the order of the numbers that `#line` gives to the compiler.
+    /// Paths of the files. The index of a path is its number in the `#line` directives.
     paths: Vec<&'static str>,
 }
 
@@ -43,8 +43,8 @@ pub(super) struct Sources<'a> {
     pub replaced: &'a ShaderTexts,
 }
 
-/// `#define`s these names, then replaces every `#include "path"` by that file, which is taken only once. Paths start at
-/// `shaders/`.
+/// `#define`s these names, then replaces every `#include "path"` by the text of that file; a file that is included
+/// again adds nothing. Paths start at `shaders/`.
 pub(super) fn expand(sources: Sources<'_>, path: &str, defined: &[&str]) -> Result<Expanded, String> {
     let mut expanded = Expanded { text: "#version 330 core\n".to_owned(), paths: Vec::new() };
     for name in defined {

@@ -43,9 +43,9 @@ pub(crate) enum Filter {
     Nearest,
     /// Four texels of the nearest level, clamped at the edges.
     LinearInLevel,
-    /// Between levels too, repeated at the edges.
+    /// Four texels of each of the two nearest levels, repeated at the edges.
     TrilinearRepeat,
-    /// Depth compared with a reference value, four texels, clamped at the edges.
+    /// The depths of four texels, each compared with a reference value, clamped at the edges.
     ShadowCompare,
 }
 

@@ -1,4 +1,4 @@
-//! Vertex arrays: where a draw finds its vertices.
+//! Vertex arrays of OpenGL: they say in which buffers a draw call finds its vertices.
 
 use glow::HasContext as _;
 
@@ -18,14 +18,14 @@ pub(crate) struct Attribute<'a> {
     pub per_instance: bool,
 }
 
-/// The inputs of a draw. The buffers must outlive it.
+/// The inputs of a draw call. The buffers must outlive the vertex array.
 pub(crate) struct VertexArray {
     gpu: Gpu,
     id: glow::VertexArray,
 }
 
 impl VertexArray {
-    /// No inputs: the shader computes vertices from their number.
+    /// A vertex array without inputs: the shader computes each vertex from its number.
     pub(crate) fn empty(gpu: &Gpu) -> Result<Self, GlError> {
         // SAFETY: the context is current.
         let id = unsafe { gpu.gl().create_vertex_array() }
@@ -33,7 +33,7 @@ impl VertexArray {
         Ok(Self { gpu: gpu.clone(), id })
     }
 
-    /// Inputs from buffers.
+    /// A vertex array with inputs from buffers.
     pub(crate) fn new(
         gpu: &Gpu,
         attributes: &[Attribute<'_>],
@@ -44,7 +44,7 @@ impl VertexArray {
         Ok(array)
     }
 
-    /// Replaces where the inputs come from.
+    /// Makes the inputs come from other buffers.
     pub(crate) fn set(&self, attributes: &[Attribute<'_>], indices: Option<&Buffer>) {
         let gl = self.gpu.gl();
         // SAFETY: the context is current; offsets and strides are those of the records in the buffers.

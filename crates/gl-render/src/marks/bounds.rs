@@ -1,5 +1,6 @@
-//! Finds where on a mark there is paint. Most of a mark's rectangle is room for ragged ends, and a dry or faint stroke
-//! covers even less. A quad that is cut to the painted box looks the same and covers far fewer pixels.
+//! Finds where on a mark there is paint, so that less is drawn. Most of a mark's rectangle is room for ragged ends, and
+//! a dry or faint stroke covers even less. A quad that is cut to the painted box looks the same and covers far fewer
+//! pixels.
 
 use impasto_core::brush::SIZE;
 use rayon::prelude::*;
@@ -16,10 +17,10 @@ const STEPS: usize = 32;
 /// each start is larger than its end.
 type Bounds = [f32; 4];
 
-/// A row of [`STEPS`] boxes for each mark.
+/// A texture with a row of [`STEPS`] boxes for each mark.
 pub(super) fn texture(gpu: &Gpu, marks: &[Vec<Texel>]) -> Result<Texture, GlError> {
     let mut rows: Vec<Bounds> = marks.par_iter().flat_map_iter(|texels| of_mark(texels)).collect();
-    // A texture has at least one row.
+    // A texture must have at least one row.
     rows.resize(rows.len().max(STEPS), NOWHERE);
     let size_px = [STEPS as u32, (rows.len() / STEPS) as u32];
     Texture::from_texels(gpu, Format::Rgba32F, size_px, bytemuck::cast_slice(&rows))

@@ -1,9 +1,11 @@
-//! Bodies that noise colours: several layers of noise travel over the body. They are blended over what is behind it,
-//! and may glow. Such bodies are drawn after the rest of the reference picture, the farthest first.
+//! Draws bodies that noise colours, such as fire. Several layers of noise travel over the body; they are blended over
+//! what is behind it, and may glow. Such bodies are drawn after the rest of the reference picture, the farthest first.
 //!
-//! Targets: `glow`, and two with a quarter of its width and height. Passes: for each body, `place` (depth and id) and
-//! `look` (colour, blended); `background`, where nothing else is behind; and if something glows, `gather`, `spread`
-//! (twice) and `bloom`.
+//! Passes:
+//! - for each body, `place` (writes depth and id), then `look` (blends the colour, and writes the target `glow`);
+//! - `background`, where nothing else is behind these bodies;
+//! - if something glows, `gather`, `spread` (twice) and `bloom`. They use two targets of a quarter of the width and
+//!   height.
 //!
 //! Noise that displaces vertices is not handled here but in `body_program`.
 
@@ -31,9 +33,9 @@ use bloom::Bloom;
 pub(crate) struct NoiseDisplace {
     gpu: Gpu,
     screen: VertexArray,
-    /// Created when the first such body is drawn.
+    /// Created when the first body that noise colours is drawn.
     programs: Option<Programs>,
-    /// Created when the first of them glows.
+    /// Created when the first such body glows.
     bloom: Option<Bloom>,
     targets: Option<Targets>,
 }
@@ -55,7 +57,7 @@ struct Targets {
     color_pass: Framebuffer,
 }
 
-/// Whether noise colours a body. Then it is drawn after the rest of the reference picture, and casts no shadow.
+/// Whether noise colours a body. If so, it is drawn after the rest of the reference picture, and casts no shadow.
 pub(crate) fn is_coloured(body: &FrameBody) -> bool {
     layers(body).is_some()
 }
@@ -161,7 +163,7 @@ fn draw_body(
     Ok(())
 }
 
-/// Sets the uniforms of `noise_displace/look.vert` itself.
+/// Sets the camera's uniforms of `noise_displace/look.vert`; [`BodyProgram::bind`] has set those of the body.
 fn set_camera<'a>(bound: Bound<'a>, frame: &Frame) -> Bound<'a> {
     bound.set("view_from_world", frame.view.view_from_world).set("clip_from_view", frame.view.clip_from_view)
 }
@@ -187,8 +189,8 @@ fn set_layers<'a>(bound: Bound<'a>, layers: &NoiseLayers, travelled: Vec2, tiles
         .set("threshold", layers.threshold)
 }
 
-/// Indices of the bodies that are drawn here, the farthest centre first; but a body inside another comes before that
-/// one. Fully transparent bodies are left out.
+/// Indices of the bodies to draw, in drawing order: the farthest centre first, except that a body inside another is
+/// drawn before that other. Fully transparent bodies are left out.
 fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
     let depth = |DrawnBody { body, mesh }: &DrawnBody<'_>| {
         let (low, high) = mesh.bounds.unwrap_or_default();
@@ -211,7 +213,7 @@ fn farthest_first(frame: &Frame, bodies: &[DrawnBody<'_>]) -> Vec<usize> {
     sorted
 }
 
-/// Whether the bounding box of a body lies in that of another, along the other's axes.
+/// Whether the bounding box of `inner` lies in that of `outer`, which may be exceeded by a twentieth of its size.
 fn is_within(inner: &DrawnBody<'_>, outer: &DrawnBody<'_>) -> bool {
     let (Some((low, high)), Some((outer_low, outer_high))) = (inner.mesh.bounds, outer.mesh.bounds) else {
         return false;

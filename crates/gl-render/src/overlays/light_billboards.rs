@@ -1,4 +1,4 @@
-//! Lights as icons that face the camera.
+//! Draws the lights of a scene as icons that face the camera, over the picture in an editor's view.
 //!
 //! The corners of a quad (its centre ± the camera's right ± the camera's up) are uniforms, so no buffer is read. The
 //! vertex shader picks a corner by `gl_VertexID`; the fragment shader finds texture coordinates by inverse bilinear
@@ -51,8 +51,8 @@ pub enum BillboardSize {
 }
 
 impl LightBillboard {
-    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height; `None`
-    /// where it does not show, because it is nearer than the near plane or has no size.
+    /// Its corners in world space at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1), in a picture of this height. `None` if
+    /// it is nearer than the near plane or has no size, so that nothing shows.
     pub fn corners(&self, view: &FrameView, height_px: u32) -> Option<[Vec3; 4]> {
         let depth = -view.view_from_world.transform_point3(self.position).z;
         let half = match self.size {
@@ -112,7 +112,7 @@ const BILLBOARD: ProgramSource = ProgramSource::new(
 /// A ring is drawn as this many straight pieces.
 const RING_PIECES: u32 = 64;
 
-/// An icon that passes behind something fades out over this share of its depth.
+/// An icon that passes behind something fades out over this share of its distance from the camera.
 const SOFTNESS: f32 = 0.03;
 
 /// Draws billboards.
@@ -140,7 +140,8 @@ impl LightBillboards {
         })
     }
 
-    /// Draws billboards over the picture in `output`, the farthest first. `depth_and_id` is the scene's.
+    /// Draws billboards over the picture in `output`, the farthest first. `depth_and_id` is the reference pass's
+    /// texture: behind the surfaces in it, billboards fade out.
     pub(crate) fn draw(
         &self,
         billboards: &[LightBillboard],

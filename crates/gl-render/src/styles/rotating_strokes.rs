@@ -157,6 +157,8 @@ impl RotatingStrokes {
             .texture("reference_color", &input.reference.color)
             .texture("depth_and_id", &input.reference.depth_and_id)
             .texture("glint", &input.reference.glint)
+            .texture("normal", &input.reference.normal)
+            .set("view_from_world", input.frame.view.view_from_world)
             .set("px_scale", input.frame.px_scale)
             .set("block_px", targets.block_px as i32);
         self.gpu.draw(bound, &self.screen, Vertices::Screen)?;

@@ -1,11 +1,11 @@
 //! Ink on paper: a dark silhouette over an interior of four tones.
 //!
-//! The rule of the source that the style follows. Targets, 8 bits each: `silhouette`, `blurred silhouette`, `interior`,
-//! `blurred interior`. Passes: those of [`SOURCE_PASSES`].
+//! The style has two rules. First, the rule of its source. Targets, 8 bits each: `silhouette`, `blurred silhouette`,
+//! `interior`, `blurred interior`. Passes: those of [`SOURCE_PASSES`].
 //!
-//! Our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash blurred a little,
-//! and far), `strokes`. Passes: wash, soften (four times), resolve (finds ink, presence and place of each stroke), ink
-//! strokes (a billboard each), lay.
+//! Second, our own rule. Targets: `wash` (silhouette, interior, seal red, body), `soft` and `wide` (the wash blurred a
+//! little, and far), `strokes`. Passes: wash, soften (four times), resolve (finds ink, presence and place of each
+//! stroke), ink strokes (a billboard each), lay.
 
 mod paper;
 mod programs;

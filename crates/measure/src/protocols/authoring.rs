@@ -1,4 +1,5 @@
-//! M11, authoring: saving and reading, frames in another order, and twice the particles change nothing that was stated.
+//! Measures M11, authoring: what was stated must not change when the scene is saved and read again, when its frames are
+//! made in another order, or when it has twice the particles.
 
 use std::path::Path;
 use std::sync::Arc;

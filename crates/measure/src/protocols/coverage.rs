@@ -1,4 +1,4 @@
-//! M9, coverage and bleed: measured on frames of the shot.
+//! M9, coverage and bleed: measures on frames of the shot how much of the surface is painted, and with its own colour.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::options::MeasureError;
 use crate::report::{Counts, Reading, Row, Verdict};
 use crate::versions::{SceneVersion, flat_color};
 
-/// For more objects than this, [`flat_color`] has no further colours.
+/// The most objects for which bleed is measured: [`flat_color`] has no more colours.
 const MOST_COLORS: usize = 26;
 
 /// How many frames are measured, at most.

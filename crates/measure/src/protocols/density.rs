@@ -1,4 +1,4 @@
-//! M14, density: measured on the largest object while zooming in, and with its strokes on a tilted sheet.
+//! Measures M14, density: on the largest object while the camera zooms in, and with its strokes on a tilted sheet.
 
 use std::sync::Arc;
 
@@ -27,15 +27,15 @@ const SHEET_PX: u32 = 2048;
 /// Strokes are counted within this share of the sheet's sides: near its border, strokes from beyond it are missing.
 const WINDOW: f64 = 0.85;
 
-/// If more strokes are wanted per particle than this, particles run out: all ranks together show fewer strokes than
-/// wanted.
+/// If more strokes than this are wanted per particle, particles run out: fewer strokes show than are wanted, even with
+/// every rank.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.
 struct ObjectDensity {
     /// Strokes shown over strokes wanted.
     density: f64,
-    /// Strokes wanted over particles: 9 of 10 strokes have at most this.
+    /// Strokes wanted per particle: nine tenths of the strokes have at most this number.
     demand: f64,
     strokes: usize,
     pixels: usize,

@@ -1,4 +1,4 @@
-//! M8, flatness: measured on the shot and on a zoom.
+//! Measures M8, flatness, on the shot and on a zoom: do strokes keep their length and width on the picture?
 
 use impasto_painting::Rotation;
 use impasto_scene::presets;

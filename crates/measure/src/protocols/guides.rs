@@ -19,10 +19,11 @@ const ON_IT: f64 = 0.05;
 /// Strokes are left out if the cosine between their surface's normal and the direction to the eye is smaller.
 const FACED: f64 = 0.35;
 
-/// The largest difference allowed, degrees.
+/// The largest difference allowed between a stroke on a guide and the guide as drawn, degrees.
 const MOST_DEG: f64 = 0.5;
 
-/// Adds the result to the row of M11; false where a stroke on a guide does not show as drawn.
+/// Adds the result to the row of M11. Returns false if a stroke on a guide does not show as drawn, or if no stroke
+/// lies on the guides.
 pub(super) fn add(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<bool, MeasureError> {
     let scene = context.loaded.scene.clone();
     let (mut errors, mut guides) = (Vec::new(), 0);
@@ -99,8 +100,8 @@ fn at_guide(
 }
 
 /// Distance of a point to a guide's line, the direction of the gesture there, and by how many degrees strokes are
-/// turned from it. The direction at a point of the guide is the mean of its two pieces', and changes evenly in
-/// between.
+/// turned from it. At each of the guide's points the direction is the mean of the two pieces that meet there; along a
+/// piece it changes evenly.
 fn nearest(guide: &Guide, at: DVec3) -> Option<(f64, DVec3, f64)> {
     let points: Vec<DVec3> = guide.points.iter().map(|point| DVec3::from(point.at)).collect();
     let pieces: Vec<DVec3> = points.windows(2).map(|pair| (pair[1] - pair[0]).normalize_or_zero()).collect();

@@ -1,4 +1,5 @@
-//! M10, angular jitter: measured on triples of neighbouring frames of the shot.
+//! Measures M10, angular jitter: how much more unevenly strokes turn over three neighbouring frames than the analytic
+//! turn does.
 
 use std::collections::BTreeMap;
 

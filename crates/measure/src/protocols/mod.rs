@@ -20,7 +20,7 @@ use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Row, Series};
 
-/// Why a metric over several frames does not apply to a shot of one.
+/// The reason to give where a metric needs several frames and the shot has only one.
 pub(crate) const ONE_FRAME: &str = "the shot has one frame";
 
 /// Measures one metric; may add series over the frames of the shot.

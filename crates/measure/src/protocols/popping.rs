@@ -1,4 +1,4 @@
-//! M4, popping: measured on the shot, on a turntable and on a zoom.
+//! Measures M4, popping, on the shot, on a turntable and on a zoom: do strokes appear or vanish suddenly?
 
 use impasto_painting::Rotation;
 use impasto_scene::document::Scene;
@@ -22,9 +22,9 @@ const ZOOMS: [f64; 4] = [1.0, 1.6, 2.7, 5.0];
 
 /// Popping between two neighbouring frames.
 struct Pair {
-    /// As drawn.
+    /// From the strokes as drawn.
     drawn: Popping,
-    /// By presence alone: [`by_presence`].
+    /// From the strokes' presence alone, as [`by_presence`] gives it.
     counted: Popping,
 }
 

@@ -1,4 +1,5 @@
-//! M13, loop and replay: the same frame gives the same picture after other frames, alone, and with the other driver.
+//! Measures M13, loop and replay: whether a frame gives the same picture after other frames, alone, and with the other
+//! driver.
 
 use impasto_gl_render::Renderer;
 use impasto_gl_render::context::{Driver, OpenOptions, open};

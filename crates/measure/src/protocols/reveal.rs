@@ -1,4 +1,5 @@
-//! M6, reveal coherence: measured on views from about 90 and 180 degrees round the target.
+//! Measures M6, reveal coherence: whether strokes that the reference did not see agree with their neighbours, in views
+//! from about 90 and 180 degrees round the target.
 
 use impasto_painting::Rotation;
 
@@ -12,8 +13,9 @@ use crate::report::{LEAST_STROKES, Reading, Row, Verdict};
 use crate::reveal::{Difference, NEIGHBOURS, revealed};
 use crate::versions::{SceneVersion, TurnSolver};
 
-/// Views from about a quarter of the way round and from about half of it, several of each for enough strokes.
+/// Views from about a quarter of the way round; several, so that there are enough strokes.
 const QUARTER_DEG: [f64; 6] = [-90.0, 90.0, -100.0, 100.0, -80.0, 80.0];
+/// Views from about half of the way round.
 const HALF_DEG: [f64; 5] = [180.0, 170.0, 190.0, 160.0, 200.0];
 
 pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError> {
@@ -93,7 +95,7 @@ fn by_object(context: &MeasureContext<'_>, differences: &[Difference]) -> String
     format!("median and p95 by object: {}", words.collect::<Vec<_>>().join(", "))
 }
 
-/// The same on the shot itself; printed, not judged.
+/// Adds the same measure on the frames of the shot, which is printed but not judged.
 fn on_shot(context: &mut MeasureContext<'_>, row: &mut Row) -> Result<(), MeasureError> {
     let version = SceneVersion::NoContour(TurnSolver::Own);
     let painting = context.painting(version)?;

@@ -1,4 +1,5 @@
-//! M1 and M2, picture and angles under roll: measured while the camera rolls about its gaze.
+//! Measures M1 and M2: do the picture, and the strokes' angles, turn as they should when the camera rolls about its
+//! gaze?
 
 use impasto_gl_render::Picture;
 use impasto_painting::{FrameOptions, Rotation};
@@ -19,19 +20,20 @@ use crate::versions::SceneVersion;
 /// Side of M1's picture.
 const SIDE_PX: u32 = 400;
 
-/// Radius of the disk that is compared, as a share of the largest: the picture's border has no influence there.
+/// Only a disk in the middle is compared, where the picture's border has no influence. This is its radius as a share
+/// of the largest possible.
 const DISK: f64 = 0.85;
 
-/// Deviation of the window of structure tensors, pixels.
+/// Standard deviation of the Gaussian over which structure tensors are averaged, pixels.
 const TENSOR_PX: f64 = 2.0;
 
-/// Rolls by other angles than quarter turns.
+/// Rolls by angles that are not quarter turns, degrees.
 const ODD_DEG: [f64; 3] = [7.0, 30.0, 137.0];
 
 /// With more particles than this, M2 measures each angle at one picture size only.
 const MANY_PARTICLES: usize = 120_000;
 
-/// How the pictures of a rolled camera differ from the straight picture when that is turned likewise.
+/// How the pictures of a rolled camera differ from the picture of the level camera, turned by the same angle.
 #[derive(Default)]
 struct Turned {
     mean: f64,

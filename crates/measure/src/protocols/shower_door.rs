@@ -1,4 +1,5 @@
-//! M7, shower door: measured on pairs of frames of the shot, far enough apart for strokes to have moved.
+//! Measures M7, the shower door effect: does the brushwork stand still on the picture while the surface moves under
+//! it? It compares pairs of frames of the shot that are far enough apart for strokes to have moved.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! M3, angles in general: measured on the shot and on fixed views of the reference pose.
+//! M3, angles in general: measures how exactly strokes turn, on the shot and on fixed views of the reference pose.
 
 use impasto_painting::Rotation;
 use impasto_scene::motion::{self, CameraPose};
@@ -13,7 +13,7 @@ use crate::strokes::strokes_by_key;
 use crate::turns::{Reference, Turn};
 use crate::versions::{SceneVersion, TurnSolver};
 
-/// The fixed views: round the target, sideways, closer.
+/// The cameras of the fixed views: orbited round the target, moved sideways, zoomed in.
 fn fixed_views(camera: &CameraPose) -> Vec<CameraPose> {
     vec![
         orbited(camera, 10.0),

@@ -1,4 +1,5 @@
-//! M5, warp error: measured on neighbouring frames of the shot, beside the paper's, random and fixed angles.
+//! Measures M5, the warp error, on neighbouring frames of the shot: with our angles, and to compare, with the paper's
+//! rule, with random angles and with fixed ones.
 
 use impasto_painting::Rotation;
 

@@ -1,4 +1,4 @@
-//! What pulls at each sample of the field: its stated direction, the guides, the curvature.
+//! Finds what pulls at each sample of the direction field: its stated direction, the guides, the curvature.
 
 use impasto_core::direction::field::{Constraint, FieldGraph};
 use impasto_core::direction::{curvature, tangent_axes};
@@ -10,8 +10,8 @@ use super::inputs::{FieldInputs, SamplePoint};
 use super::samples::FieldSamples;
 use crate::stated::symmetry;
 
-/// Where no reference faces the surface, the stated direction is a guess. It pulls so weakly that directions which are
-/// known win over it up to about this share of the body's size away.
+/// Where no reference faces the surface, the stated direction is a guess. It pulls weakly: directions that are known
+/// win over it up to a distance of about this share of the body's size.
 const GUESS_REACH: f64 = 0.25;
 
 /// How firmly all neighbours of a sample together pull at it.
@@ -31,8 +31,8 @@ impl FieldInputs {
         FieldGraph::new(positions, normals, *spacing, |a, b| self.joined(points[a].point, points[b].point))
     }
 
-    /// How far the stated direction of each sample holds, 0..=1: not at all where its rule is `free`, since guides or the curvature
-    /// decide there; less and less towards a soft seam.
+    /// How far the stated direction of each sample holds, 0..=1. It does not hold at all where the sample's rule is
+    /// `free`, since guides or the curvature decide there. Towards a soft seam it holds less and less.
     pub(super) fn anchors(&self, points: &[SamplePoint], free: &[bool]) -> Vec<f64> {
         let reach_of = |rule: usize| match self.rules[rule].seam {
             Seam::Soft(distance) => distance,
@@ -69,7 +69,7 @@ impl FieldInputs {
         let spacings = GUESS_REACH * self.extent.1 / self.samples.spacing;
         let guess = NEIGHBOURS / (spacings * spacings).max(1.0);
         let weakest = if free[sample.point.rule] || anchor < 1.0 { FAINT } else { guess };
-        // Inside a soft seam the field joins the two sides; what is stated there pulls little.
+        // Inside a soft seam the stated direction pulls little, so that the field joins the two sides.
         let mut weight = weakest + FIRM * anchor.powi(12) * sample.base.exact.powi(2);
         let mut target = sample.stated;
         let rule = &self.rules[sample.point.rule];
@@ -89,7 +89,8 @@ impl FieldInputs {
         Constraint { target, weight }
     }
 
-    /// Adds the pull of the curvature where it is asked for: the stronger, the more the two principal curvatures differ.
+    /// Adds the pull of the curvature where a rule asks for it. The more the two principal curvatures differ, the
+    /// stronger it pulls.
     pub(super) fn with_curvature(
         &self,
         graph: &FieldGraph,
@@ -114,7 +115,8 @@ impl FieldInputs {
                 Bend::Max => found.directions[0],
                 Bend::Min => found.directions[1],
             };
-            // The difference of the angles by which normals turn over one spacing, in the two principal directions.
+            // Over one spacing, normals turn by some angle in each principal direction. The pull grows with the
+            // difference of the two angles.
             let pull = 30.0 * ((most - least) * spacing).clamp(0.0, 0.5);
             if pull > constraint.weight {
                 let symmetry = symmetry(&self.rules[points[sample].point.rule]);

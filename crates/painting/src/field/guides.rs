@@ -1,4 +1,5 @@
-//! What guides say: the directions that combing guides state, and how far smoothing guides loosen the field.
+//! Applies guides to the direction field: finds the directions that combing guides state, and how far smoothing guides
+//! loosen the field.
 
 use glam::{DAffine3, DMat4, DVec2, DVec3};
 use impasto_core::ScreenMap;
@@ -15,15 +16,17 @@ use crate::references::{SurfacePoint, Views, shown_rad};
 use crate::regions::BodyGuide;
 use crate::stated::symmetry;
 
-/// Firmness, in units of one neighbour, of what is stated outright and of a guide's own line.
+/// How firmly a direction that is stated outright, or a guide on its own line, pulls at a sample. One neighbour pulls
+/// with a firmness of 1.
 pub(super) const FIRM: f64 = 300.0;
 
-/// How firmly a sample is held that no guide loosens, and one that is loosened wholly.
+/// How firmly smoothing holds a sample to its solved direction: `HELD` where no guide loosens it, `LET_GO` where one
+/// loosens it wholly.
 const HELD: f64 = 1e4;
 const LET_GO: f64 = 1e-6;
 
-/// How much of the relaxed field a stroke takes, from the weight of a smoothing guide there. It may rise steeply,
-/// because the relaxed field itself changes with that weight: at the guide's rim it still equals the solved one.
+/// How much of the relaxed field a stroke takes where a smoothing guide has this weight. It may rise steeply with the
+/// weight, because the relaxed field itself still equals the solved one at the guide's rim.
 fn relaxed_share(weight: f64) -> f64 {
     1.0 - (1.0 - weight).powi(4)
 }
@@ -34,7 +37,8 @@ impl FieldInputs {
         self.guides.iter().filter(move |guide| usize::from(guide.rule) == rule)
     }
 
-    /// The tangent whose stroke lies along the gesture of a combing guide, in the view in which the gesture was drawn.
+    /// The tangent whose stroke lies along the gesture of a combing guide, as seen in the view that the gesture was
+    /// drawn in.
     pub(super) fn combed(
         &self,
         guide: &BodyGuide,
@@ -72,8 +76,8 @@ impl FieldInputs {
             return on_surface;
         }
         let flatness = f64::from(self.rules[rule].strokes.flatness);
-        // Newton's method: turns the tangent until its stroke shows at the wanted angle. The two turn one to one for
-        // flat strokes; for others the slope is measured.
+        // Newton's method: turns the tangent until its stroke shows at the wanted angle. Flat strokes turn as far as
+        // their tangents; for others the ratio of the two turns, the slope, is measured.
         let mut tangent = views.tangent_at(wanted, jacobian);
         let error = |tangent: DVec3| wrap_pi(wanted - views.lift(tangent).map(jacobian).shown_rad(flatness));
         for _ in 0..16 {
@@ -94,7 +98,8 @@ impl FieldInputs {
         if mixed.dot(tangent) < 0.0 { -mixed } else { mixed }
     }
 
-    /// The direction of a particle after every guide that reaches it; `relaxed` gives the field's direction after smoothing.
+    /// The direction of a particle after every guide that reaches it. `relaxed` gives the field's direction after
+    /// smoothing.
     pub(crate) fn with_guides(
         &self,
         point: SurfacePoint,
@@ -120,7 +125,7 @@ impl FieldInputs {
         }
         let Some(last) = last else { return tangent };
         let found = symmetry.decode(z, views.axes);
-        // A line has two ends: the stroke points as the last gesture does.
+        // A line has two ends: the stroke points to the one that the last gesture points to.
         if found.dot(last) < 0.0 && symmetry == Symmetry::Lines { -found } else { found }
     }
 
@@ -129,8 +134,8 @@ impl FieldInputs {
         self.guides.iter().any(|guide| guide.mode == GuideMode::Smooth)
     }
 
-    /// What holds the samples that a guide loosens; `None` for all others. Each smoothing guide weakens the pull
-    /// towards what was solved by a factor; a combing guide after it pulls towards its gesture.
+    /// What holds the samples that a guide loosens; `None` for all other samples. Each smoothing guide multiplies the
+    /// pull towards the solved direction by a small factor. A combing guide after it pulls towards its gesture.
     pub(super) fn holds(
         &self,
         points: &[SamplePoint],

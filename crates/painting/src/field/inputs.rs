@@ -1,4 +1,4 @@
-//! What the direction field of a body depends on, and its samples with what is stated there.
+//! What the direction field of a body depends on, and the field's samples with the directions that are stated there.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub(crate) struct FieldInputs {
     /// The rules that may show on the body.
     pub(crate) used: Arc<Vec<u16>>,
     pub(crate) guides: Arc<Vec<BodyGuide>>,
-    /// All rules, of which directions, seams and flatness matter.
+    /// All rules. Only their directions, senses, seams and flatness matter here.
     pub(crate) rules: Arc<Vec<RegionRule>>,
     pub(crate) parts: Arc<BodyParts>,
     /// Centre and length of the diagonal of the body's bounds, model space.
@@ -64,7 +64,7 @@ impl FieldInputs {
         !guides.is_empty() || used.iter().any(|&rule| needs(&rules[usize::from(rule)]))
     }
 
-    /// Whether directions and seams of the body's rules are the same.
+    /// Whether the body's rules are the same in everything that matters to the field.
     fn same_rules(&self, other: &Self) -> bool {
         self.used == other.used
             && self.rules.len() == other.rules.len()

@@ -1,4 +1,4 @@
-//! Strokes of a frame, as they go to the GPU.
+//! The strokes of a frame, in the layout in which they go to the GPU.
 
 use bytemuck::{Pod, Zeroable};
 use impasto_core::presence;
@@ -23,15 +23,15 @@ pub struct Stroke {
     pub width_px: f32,
     /// Fades strokes out before their surface turns away: 0 edge-on .. 1.
     pub facing_fade: f32,
-    /// ln(D/u): the logarithm of the supply D over the rank u, where the layer is wanted in full. D is the strokes
-    /// wanted per pixel over the particles per pixel. At 0, half of the stroke is there.
+    /// ln(D/u), with u the rank and D the supply: the strokes wanted per pixel over the particles per pixel, if the
+    /// layer is wanted in full there. At 0, half of the stroke is there.
     pub supply_ln: f32,
     /// Random bits of the stroke, the same in every frame.
     pub bits: u32,
     /// Id of the body in the id target (index in `Frame::bodies` plus 1).
     pub body_id: u32,
-    /// Albedo at the stroke, 8 bits a channel, sRGB encoded, as 0xAABBGGRR; A is 0 where unlit, and [`Stroke::AS_IT_IS`] where
-    /// the stroke has this colour whatever the scene.
+    /// Albedo at the stroke, sRGB encoded, 8 bits a channel, as 0xAABBGGRR. A is 0 for unlit surfaces. A is
+    /// [`Stroke::AS_IT_IS`] if the stroke is painted in exactly this colour.
     pub albedo_srgb8: u32,
     /// Index of the mark in [`super::Frame::brushes`], counted over all brushes; bit 16 flips it across.
     pub mark: u32,
@@ -47,7 +47,8 @@ pub struct Stroke {
     pub overrun_px: f32,
     /// Slow drifts over the surface, of hue and of how firm the body's edge is; mean 0, standard deviation 1.
     pub drift: [f32; 2],
-    /// How far the stroke's far side is pushed along it, as a share of its width; 0 for a billboard.
+    /// How far the stroke's left side is pushed forward against its right side, as a share of its width; 0 for a
+    /// billboard.
     pub skew: f32,
     /// How much narrower the stroke is at its end than at its start, −1..=1; `width_px` is its mean width.
     pub taper: f32,
@@ -85,12 +86,12 @@ pub struct Mixing {
 }
 
 impl Paint {
-    /// Bytes per brush thickness.
+    /// The value of the byte for a thickness of 1.
     pub const THICKNESS_SCALE: f32 = 50.0;
 }
 
 impl Mixing {
-    /// Bytes per unit.
+    /// The value of a byte for a factor of 1.
     pub const SCALE: f32 = 25.5;
 }
 
@@ -111,10 +112,11 @@ impl Stroke {
     /// The overrun of strokes that are not clipped to their body.
     pub const FREE: f32 = 1e6;
 
-    /// The A of a stroke whose colour is shown as it is.
+    /// The A in [`Stroke::albedo_srgb8`] of a stroke that is painted in exactly that colour.
     pub const AS_IT_IS: u8 = 128;
 
-    /// The most that a stroke can bend, radians: half a turn, and less where its inner edge would reach the middle of the arc.
+    /// The most that a stroke can bend, radians: half a turn, or less where its inner edge would reach the middle of
+    /// the arc.
     pub fn most_bend_rad(&self) -> f32 {
         const CLOSEST: f32 = 0.9;
         let half_quad_px = 0.5 * self.width_px * (1.0 + self.taper.abs()) / impasto_core::brush::FILL;
@@ -126,7 +128,7 @@ impl Stroke {
         self.taper != 0.0 || self.bend_rad != 0.0
     }
 
-    /// How much of the stroke is there, 0..=1, where its layer is wanted in full and nothing hides it. The resolve shader
+    /// How much of the stroke is there, 0..=1, if its layer is wanted in full and nothing hides it. The resolve shader
     /// computes the same.
     pub fn presence(&self) -> f32 {
         presence::of_supply(self.supply_ln) * self.facing_fade

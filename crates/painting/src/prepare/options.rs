@@ -1,4 +1,4 @@
-//! How to prepare, why it may fail, and what each step took.
+//! The options for preparing a scene, its errors, and a record of the time and memory of each step.
 
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ pub enum PrepareError {
         /// Path of the mesh as written in the scene.
         mesh: String,
     },
-    /// [`PrepareOptions::give_up`] said so.
+    /// [`PrepareOptions::give_up`] returned true.
     #[error("preparing was given up")]
     GivenUp,
     /// The particles need more memory than they may take.
@@ -38,21 +38,22 @@ pub enum PrepareError {
     },
 }
 
-/// Peak memory of preparing, bytes a particle: with a direction field, and with Horn's lists of neighbours as well.
+/// Peak memory of preparing a scene with a direction field, bytes per particle.
 const PEAK_BYTES: u64 = 240;
+/// The same if the solver also needs Horn's lists of neighbours.
 const PEAK_BYTES_WITH_LISTS: u64 = 520;
 
 /// How many particles of all coats together can be numbered.
 const MOST_PARTICLES: u64 = 1 << 31;
 
-/// How to prepare.
+/// Options for preparing a scene.
 #[derive(Clone, Copy)]
 pub struct PrepareOptions<'a> {
-    /// Asked between steps: whether to give up.
+    /// Called between steps: preparing is given up when it returns true.
     pub give_up: &'a (dyn Fn() -> bool + Sync),
-    /// What particles may take in memory, bytes; `None` for as much as there is.
+    /// How much memory the particles may take, bytes; `None` sets no limit.
     pub memory_bytes: Option<u64>,
-    /// The process's peak memory since this was last called, bytes, where that is known.
+    /// Gives the process's peak memory since the last call, bytes, or `None` where that is not known.
     pub peak_bytes: &'a dyn Fn() -> Option<u64>,
 }
 
@@ -70,11 +71,11 @@ pub struct Step {
     pub name: &'static str,
     /// Wall clock seconds.
     pub seconds: f64,
-    /// The process's peak memory during the step, bytes, where that is known.
+    /// The process's peak memory during the step, bytes; `None` where that is not known.
     pub peak_bytes: Option<u64>,
 }
 
-/// Whether the particles of all objects, `counts` by object, fit into memory.
+/// Checks that the particles of all objects fit into memory. `counts` has the number of each object.
 pub(super) fn fits(
     memory_bytes: Option<u64>,
     scene: &Scene,
@@ -111,7 +112,7 @@ impl<'a> StepClock<'a> {
         Self { since: Instant::now(), peak_bytes, steps: Vec::new() }
     }
 
-    /// A step ends here.
+    /// Ends the step that is called `name`.
     pub(super) fn lap(&mut self, name: &'static str) {
         let seconds = self.since.elapsed().as_secs_f64();
         self.steps.push(Step { name, seconds, peak_bytes: (self.peak_bytes)() });

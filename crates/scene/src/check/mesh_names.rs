@@ -38,7 +38,8 @@ enum Kind {
     Material,
 }
 
-/// The names in one mesh; sets, because a mesh may have as many groups as a scene has regions.
+/// The names in one mesh. They are sets, so that the check stays quick where a mesh has many groups and a scene many
+/// regions.
 struct KnownNames<'a> {
     mesh_path: &'a str,
     groups: BTreeSet<&'a str>,

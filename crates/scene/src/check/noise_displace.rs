@@ -1,4 +1,4 @@
-//! Checks noise-displaced materials: numbers in range.
+//! Checks noise-displaced materials: that texture names are valid and numbers lie in their ranges.
 
 use super::Findings;
 use crate::document::{NoiseDisplace, SurfaceNoise, VertexNoise};

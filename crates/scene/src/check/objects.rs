@@ -1,4 +1,4 @@
-//! Checks objects: names, parents, particles, scales, keys.
+//! Checks the objects of a scene: their names, parents, particle counts, scales and keys.
 
 use std::collections::HashMap;
 
@@ -86,7 +86,7 @@ fn check_particles(objects: &[Object], findings: &mut Findings) {
             let message = format!("{particles} particles are more than {limit}");
             findings.limit(field_path, message, format!("give at most {limit}"));
         } else {
-            sum += particles; // Each is small, and a file holds no more than a million values.
+            sum += particles; // No overflow: each is small, and a file holds no more than a million values.
             if sum > limits::MAX_PARTICLES && !is_sum_reported {
                 is_sum_reported = true;
                 let limit = limits::MAX_PARTICLES;

@@ -1,4 +1,5 @@
-//! Checks the document against its meshes: guides on surfaces, groups without triangles, morphs of equal topology.
+//! Checks the document against its meshes: that guides lie on surfaces, groups have triangles, and a morph has the
+//! topology of its mesh.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use crate::document::{Guide, Object, PatchRef, Scene};
 use crate::mesh_file::MeshFile;
 use crate::morph;
 
-/// The most distances from guides to triangles that are measured; guides beyond that are not checked.
+/// At most this many distances from guides to triangles are measured. The guides after that are not checked.
 const MOST_DISTANCES: usize = 200_000_000;
 
 pub(super) fn check(
@@ -63,7 +64,7 @@ fn morph_name(object: &Object) -> String {
 fn check_covers(field_path: &str, patch: PatchRef<'_>, file: &MeshFile, findings: &mut Findings) {
     let mesh = &file.mesh;
     if mesh.triangles.is_empty() {
-        return; // Reported when it was read.
+        return; // A mesh without triangles was reported when it was read.
     }
     let used = |names: &[u32], name: usize| names.iter().any(|&used| used as usize == name);
     let (word, name, is_empty) = match patch {

@@ -90,7 +90,7 @@ fn check_dabs(field_path: &str, dabs: &[Dab], findings: &mut Findings) {
         let mend = "paint it somewhere, or remove it";
         findings.warning(field_path, "the region has no dabs and covers nothing", mend);
     }
-    // What a variant such as `Dabs(…)` holds has no field path of its own, so the path of the variant is given.
+    // Values inside a variant such as `Dabs(…)` have no path of their own, so findings give the path of the variant.
     for dab in dabs {
         findings.vector(field_path, dab.at);
         findings.direction(field_path, dab.normal);
@@ -167,7 +167,8 @@ fn check_guide(guide_path: &str, guide: &Guide, findings: &mut Findings) {
 
 /// Warns of regions that a later one covers completely.
 fn check_covered(scene: &Scene, findings: &mut Findings) {
-    // The last region on each object (`o`), group (`g`) and material (`m`), and on everything (the empty key).
+    // For each object (key `o…`), group (`g…`) and material (`m…`), and for everything (the empty key): the index of
+    // the last region on it.
     let mut last_of: HashMap<String, usize> = HashMap::new();
     let mut cover = |key: String, index: usize| last_of.insert(key, index);
     for (index, region) in scene.regions.iter().enumerate() {

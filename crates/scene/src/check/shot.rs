@@ -83,7 +83,7 @@ fn check_reference(field_path: &str, scene: &Scene, reference: &Reference, findi
     };
     let timeline = &scene.timeline;
     let outside = !(timeline.first..=timeline.last).contains(&frame) && timeline.first <= timeline.last;
-    // Left out, the reference is frame 0, wherever the timeline lies.
+    // A reference that is left out is frame 0, which may lie outside the timeline.
     let is_default = field_path == "reference" && *reference == Reference::default();
     if check_whole_frame(field_path, frame, findings) && outside && !is_default {
         let message =
@@ -151,7 +151,8 @@ fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
     }
 }
 
-/// A gaze must have a length and a horizontal part: straight up or down, the picture's up would be undefined.
+/// A gaze must have a length and a horizontal part. If the camera looked straight up or down, it would be undefined
+/// which way is up in the picture.
 fn check_gaze(field_path: &str, eye: DVec3, target: DVec3, findings: &mut Findings) {
     const LEAST_SINE: f64 = 1e-6;
     let gaze = target - eye;

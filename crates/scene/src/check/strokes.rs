@@ -61,7 +61,7 @@ pub(crate) fn brush_pictures(scene: &Scene) -> Vec<(&str, String)> {
     found
 }
 
-/// The settings of a region.
+/// Checks the stroke settings of a region.
 pub(super) fn check_of_region(strokes_path: &str, scene: &Scene, index: usize, findings: &mut Findings) {
     let settings = &scene.regions[index].strokes;
     check_settings(strokes_path, settings, findings);

@@ -1,4 +1,5 @@
-//! A material whose vertices and colours move with a noise texture, as a scene file states it.
+//! A material whose vertices and colours move with a noise texture, as a scene file states it. *The source* below is
+//! the paper that it follows: see docs/techniques/noise_displace.md.
 
 use serde::{Deserialize, Serialize};
 

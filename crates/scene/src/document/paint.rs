@@ -1,4 +1,4 @@
-//! Strokes and paint as a scene file states them.
+//! Layers of paint, brushes, and how paint ends at borders, as a scene file states them.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX, MAX_THICKNESS};
 pub struct LayerNumber {
     /// Its name, its range in a scene file, what it does, and how to get and set it.
     pub number: Number<LayerSettings, Option<f64>>,
-    /// A reference to the same number of a resolved layer, through which it is set.
+    /// The same number of a resolved layer, to be set through this reference.
     pub resolved: fn(&mut ResolvedLayer) -> &mut f32,
 }
 
@@ -23,8 +23,8 @@ macro_rules! layer_numbers {
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
         #[serde(deny_unknown_fields)]
         pub struct LayerSettings {
-            /// `underpainting`, `body`, `form`, `scumble`, `accents` or `lights`; `ground` is the tone under all of
-            /// them.
+            /// `underpainting`, `body`, `form`, `scumble`, `accents`, `contour` or `lights`; `ground` is the tone under
+            /// all of them.
             pub name: String,
             /// Brush, or a mix of brushes.
             #[serde(default, skip_serializing_if = "is_default")]
@@ -51,7 +51,7 @@ macro_rules! layer_numbers {
             /// Brushes by name; one named twice is taken twice as often. At least one.
             pub brushes: Vec<String>,
             $($(#[doc = $effect])+ pub $field: f32,)+
-            /// How far past its body paint runs where the body layer runs one pixel.
+            /// How many pixels this layer's paint runs past its body where the body layer's paint runs one pixel.
             pub overrun: f32,
         }
     };
@@ -64,9 +64,9 @@ layer_numbers! {
     width_px: 0.001..=MAX_STROKE_PX,
     /// How many strokes lie over each other; 0 leaves the layer out.
     coverage: 0.0..=MAX_COVERAGE,
-    /// How much a stroke hides of what lies under it; of the ground, how far its tone hides the body's own wash.
+    /// How much a stroke hides of what lies under it; for `ground`, how much its tone hides the body's colour.
     opacity: 0.0..=1.0,
-    /// How high the paint stands; 1 is the lights' full brush.
+    /// How high the paint stands: 0 is flat, 1 a full brush.
     thickness: 0.0..=MAX_THICKNESS,
     /// How much of its mark the brush leaves out.
     dryness: 0.0..=1.0,
@@ -85,8 +85,8 @@ pub struct BrushMix(pub Vec<String>);
 pub enum Edges {
     /// Cut off along the border.
     Clip,
-    /// Ragged, up to about this many pixels (at the scene's size) past it; lost in some places and found in others.
+    /// Ragged: it runs past the border by up to about this many pixels (at the scene's size), in some places by less.
     Overrun(f64),
-    /// Strokes end where they end.
+    /// Not cut: whole strokes run past the border.
     Free,
 }

@@ -15,8 +15,8 @@ pub struct Region {
     /// Base direction of its strokes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub direction: Direction,
-    /// Gestures on the surface that strokes follow: within their radius, or, where the direction is `Auto`, everywhere
-    /// in the region; a later one over an earlier one.
+    /// Gestures on the surface that strokes follow: within their radius, or, where the direction is `Auto`, in the
+    /// whole region. A later one overrules an earlier one.
     #[serde(default, skip_serializing_if = "is_default")]
     pub guides: Vec<Guide>,
     /// How its directions meet those of the regions that it lies on.
@@ -70,7 +70,7 @@ pub enum Selector {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Patch {
-    /// All of it.
+    /// The whole object.
     Whole,
     /// A group of its mesh.
     Group(String),
@@ -82,7 +82,8 @@ pub enum Patch {
     Flood(Seed, f64),
 }
 
-/// Where a flood begins: at the nearest face that faces the same way; in the object's own space.
+/// Where a flood begins: at the face nearest to a place, of those that face as the normal does. In the object's own
+/// space.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seed {
@@ -134,9 +135,9 @@ pub enum Direction {
 /// Which of the two principal curvatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Bend {
-    /// Where the surface bends least: along a log.
+    /// The direction in which the surface bends least: along a log.
     Min,
-    /// Where it bends most: round a log.
+    /// The direction in which it bends most: round a log.
     Max,
 }
 
@@ -193,7 +194,7 @@ pub struct Guide {
 /// What a guide does with the strokes that it reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub enum GuideMode {
-    /// They lie along it.
+    /// Strokes lie along it.
     #[default]
     Comb,
     /// It states no direction: it loosens stated directions and those combed by earlier guides, so that strokes blend
@@ -220,7 +221,7 @@ pub struct GuidePoint {
     /// Normal of the surface there.
     pub normal: [f64; 3],
     /// How far strokes are turned from the gesture's own line here: degrees counter-clockwise, as seen in the guide's
-    /// view; between two points, in between.
+    /// view. Between two points, the turn changes evenly.
     #[serde(default, skip_serializing_if = "is_default")]
     pub turn_deg: f64,
 }
@@ -266,7 +267,7 @@ pub enum PatchRef<'a> {
     Group(&'a str),
     /// A material, by name.
     Material(&'a str),
-    /// What dabs leave, in order.
+    /// Dabs, in the order of painting.
     Dabs(&'a [Dab]),
     /// A flood: where it begins, and the angle from which an edge counts as sharp, degrees.
     Flood(&'a Seed, f64),
@@ -298,7 +299,7 @@ impl Selector {
         }
     }
 
-    /// What it covers on each object that it lies on, in order: one patch, or those of `Several`.
+    /// The patches that it covers on each object that it lies on, in order: one, or those of `Several`.
     pub fn patches(&self) -> Vec<PatchRef<'_>> {
         match self {
             Self::Everything | Self::Object(_) => vec![PatchRef::Whole],

@@ -110,6 +110,12 @@ stroke_numbers! {
                 label: "Flatness", unit: "2D", drag: 0.0..=1.0, step: 0.05, decimals: 2, place: Main(4), ..PIXELS
             },
         }
+        /// How far strokes shrink where the form is small, as at eyes, fingers and handles; 0 keeps them at their size.
+        fit => fit as plain {
+            usual: 1.0,
+            limits: 0.0..=1.0,
+            shown: Shown { label: "Fit to form", drag: 0.0..=100.0, place: Advanced(11), ..PERCENT },
+        }
         /// How far strokes stand off the surface, in units of the object.
         offset => offset as plain {
             usual: 0.0,

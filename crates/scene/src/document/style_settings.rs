@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::numbers::Number;
 
-/// The settings of a style: the only place where other code asks about a style.
+/// The settings of a style. Other code asks about a style only through this trait.
 pub trait StyleSettings {
     /// Names and words, the same for every scene in this style.
     fn info(&self) -> &'static StyleInfo;

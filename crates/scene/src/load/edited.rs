@@ -16,9 +16,9 @@ impl LoadedScene {
     /// loaded are shared, others that it names are read, and files that it no longer names are dropped.
     ///
     /// # Errors
-    /// All problems, warnings included; at least one is fatal. There is no text, so they have no line: each has its
-    /// `field_path`, and its message begins with it, by names where things have them (`objects.apple.keys[1].scale:
-    /// …`).
+    /// All problems, warnings included; at least one is fatal. An edited document has no text, so problems have no
+    /// line. Instead, each has its `field_path`, and its message begins with that path, with names in place of numbers
+    /// where things have names (`objects.apple.keys[1].scale: …`).
     pub fn with_scene(&self, scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
         let locator = FieldLocator { path, written: None, applied: &[], edited: Some(&scene) };

@@ -1,4 +1,5 @@
-//! Reads thousands of broken scenes, the same in every run: each gives a scene, or a problem with its position.
+//! Tests that broken scenes never break the reader. Thousands are read, the same in every run: each gives a scene, or a
+//! problem with its position.
 
 use super::*;
 
@@ -118,8 +119,8 @@ fn mutate(dice: &mut Dice) -> String {
     pieces.concat()
 }
 
-/// Asserts that a text is refused with a place and a mend, or is a scene; a scene that passes the checks must also be
-/// saved so that it reads back equal, and have finite poses. Returns whether it was taken.
+/// Asserts that a text is a scene, or is refused with a place and a mend. A scene that passes the checks must also read
+/// back equal once it is saved, and have finite poses. Returns whether the text was taken as a scene.
 fn assert_handled(text: &str) -> bool {
     let path = Path::new("s.ron");
     let lines = text.matches('\n').count() + 1;
@@ -164,7 +165,7 @@ fn the_seed_is_good() {
 fn mutated_scenes_are_taken_or_refused_with_a_place() {
     let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
     let taken = (0..6000).filter(|_| assert_handled(&mutate(&mut dice))).count();
-    // Both outcomes must be well tried.
+    // Both outcomes must occur often enough to be tested.
     assert!((300..5000).contains(&taken), "{taken} of 6000 taken");
 }
 

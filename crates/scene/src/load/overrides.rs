@@ -16,7 +16,7 @@ use crate::problem::{Problem, Report};
 pub(super) struct Applied {
     /// As a check would name the field: `objects[0].particles`.
     field_path: String,
-    /// As the user wrote it, for messages.
+    /// The whole option as the user wrote it, for messages.
     pub(super) option: PathBuf,
 }
 
@@ -63,8 +63,8 @@ fn put_in(parsed: &Parsed, field_path: &str, value: &str, option: &Path) -> Resu
     Err(Report(problems.into_iter().map(|problem| Problem { place: None, ..problem }).collect()))
 }
 
-/// What to try in turn: the value as it is, if it is a single RON value, then the value as quoted text, so that text
-/// needs no quotes beyond the shell's.
+/// What is tried in turn. First the value as it is, if it is a single RON value; then the value between quotes, so that
+/// a user can write text without quoting it for RON.
 fn candidates(value: &str) -> Vec<String> {
     let value = value.trim();
     let as_it_is = Located::scan(value).ok().map(|located| located.text_of(located.root()).to_owned());
@@ -92,7 +92,7 @@ impl Spot {
     }
 }
 
-/// Where the value of a field goes: in place of its old value or, where the file leaves the field out, into a new one.
+/// Where the value of a field goes: in place of its old value, or into a new field if the file leaves the field out.
 fn find_spot(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     let mut node = located.root();
     let mut rest = field_path;
@@ -143,7 +143,7 @@ fn find_spot(located: &Located, field_path: &str) -> Result<Spot, Fault> {
     }
 }
 
-/// The spot for a field that the file leaves out, and for those around it that it leaves out as well.
+/// The spot for a field that the file leaves out. If the file leaves out fields around it too, they are added with it.
 fn new_field(located: &Located, node: &Node, field_path: &str, known: String) -> Result<Spot, Fault> {
     let name_end = (node.start + node.name_bytes) as usize;
     let Some(bracket) = located.text()[name_end..node.end as usize].find('(') else {
@@ -183,10 +183,12 @@ fn new_field(located: &Located, node: &Node, field_path: &str, known: String) ->
     Ok(spot)
 }
 
-/// Fields whose inner fields can be set although the file leaves them out, each with the variant that is then written.
+/// Fields that hold a variant and may be left out. If an inner field of one is set while the file leaves it out, this
+/// variant is written around the inner field.
 const DEFAULT_VARIANTS: [(&str, &str); 2] = [("style", "RotatingStrokes"), ("lens", "Perspective")];
 
-/// A segment with a capital names a variant, as `RotatingStrokes` in `style.RotatingStrokes.solver`.
+/// Whether a segment names a variant: it begins with a capital, like `RotatingStrokes` in
+/// `style.RotatingStrokes.solver`.
 fn is_variant(segment: &str) -> bool {
     segment.starts_with(|first: char| first.is_ascii_uppercase())
 }

@@ -109,7 +109,7 @@ pub(super) fn from_ron(text: &str) -> Result<Scene, SpannedError> {
         .from_str(text)
 }
 
-/// The last field named `found` that begins before `end`, where the parser stopped, and is not blanked out.
+/// The last field named `found` that is not blanked out and begins before `end`, where the parser stopped.
 pub(super) fn field_before<'a>(
     located: &'a Located,
     left: &str,
@@ -204,7 +204,7 @@ pub(super) fn explain(
     }
 }
 
-/// A value of the wrong kind, or text that is not RON.
+/// The problem to report for a value of the wrong kind, or for text that is not RON.
 fn does_not_fit(path: &Path, located: &Located, span: (usize, usize), error: &ron::Error) -> Problem {
     let is_count = matches!(
         error,

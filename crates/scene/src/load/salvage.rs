@@ -31,10 +31,10 @@ use crate::problem::{Problem, Report, Severity, TextPosition};
 use files::FileCache;
 pub use fix::{Fix, mended};
 
-/// Bytes that are scanned and parsed at most in all passes over one text.
+/// All passes over one text together scan and parse about this many bytes at most.
 const MOST_PARSED_BYTES: usize = 64 << 20;
 
-/// Passes over one text at most.
+/// At most this many passes are made over one text.
 const MOST_PASSES: usize = 1000;
 
 /// A scene as far as it could be read.
@@ -44,7 +44,7 @@ pub struct Salvaged {
     pub loaded: LoadedScene,
     /// What could not be read, in the order of the file; empty where everything could.
     pub losses: Vec<Loss>,
-    /// The text that it was read from, without byte order mark.
+    /// The text that the scene was read from, without byte order mark.
     pub text: String,
 }
 
@@ -53,9 +53,9 @@ pub struct Salvaged {
 pub struct Loss {
     /// What is wrong, and where.
     pub problem: Problem,
-    /// What is used until it is mended, as a sentence.
+    /// A sentence that says what is used until this is mended.
     pub instead: String,
-    /// The mesh that a box stands in for, as the document writes it; none for any other loss.
+    /// If a box stands in for a mesh: the mesh as the document writes it.
     pub mesh: Option<String>,
     /// What would mend it.
     pub fix: Option<Fix>,
@@ -72,7 +72,7 @@ pub fn salvage(path: &Path, options: &LoadOptions) -> Result<Salvaged, Report> {
     salvage_text(path, text, options)
 }
 
-/// As [`salvage`], of a text that belongs to a path; its files are named from there.
+/// As [`salvage`], but reads the scene from `text`. Messages name `path`, and the scene's files are found from there.
 ///
 /// # Errors
 /// As [`salvage`].
@@ -106,7 +106,7 @@ struct Reading<'a> {
     /// The text with spaces in place of errors. Bytes keep their offsets; fields may have been added at the end.
     left: String,
     losses: Vec<Loss>,
-    /// The ranges that were overwritten, with the index of the loss.
+    /// The ranges that were overwritten, each with the index of the loss that it belongs to.
     blanked: Vec<(std::ops::Range<usize>, usize)>,
     unlisted: usize,
 }
@@ -175,8 +175,8 @@ impl Reading<'_> {
         }))
     }
 
-    /// Adds a loss; returns its index. Beyond the limit it is only counted, and the index is that of the last one
-    /// listed.
+    /// Adds a loss and returns its index. Beyond the limit a loss is only counted, and the index is that of the last
+    /// loss in the list.
     fn lose(&mut self, problem: Problem, instead: String) -> usize {
         self.add(Loss { problem, instead, mesh: None, fix: None })
     }
@@ -279,7 +279,7 @@ impl Reading<'_> {
             "camera" => "camera: (keys: [(frame: 0, eye: (0, 1, 4), target: (0, 0, 0))])",
             _ => return Err(Report(vec![problem])),
         };
-        // It was cut off or mistyped, which is reported already.
+        // If there are losses, the field was cut off or mistyped, and that is reported already.
         if self.losses.is_empty() {
             self.lose(problem, "A usual one stands in for it.".to_owned());
         }
@@ -306,14 +306,15 @@ impl Reading<'_> {
         Ok(!fatal.is_empty())
     }
 
-    /// Overwrites a field; returns whether anything of it was left.
+    /// Overwrites a field with spaces. Returns false if it was overwritten before.
     fn blank(&mut self, located: &Located, field_path: &str) -> bool {
         let Some(range) = removable_range(located, field_path, &self.left) else { return false };
         blank_range(&mut self.left, range);
         true
     }
 
-    /// Overwrites a field or an item of a list; where nothing is left of it, the value around it.
+    /// Overwrites a field or an item of a list with spaces. If it was overwritten before, does so with the value around
+    /// it.
     fn blank_for(&mut self, located: &Located, field_path: &str, loss: usize) -> Result<(), Report> {
         let mut path = field_path.to_owned();
         loop {
@@ -327,7 +328,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Writes a field before the last bracket.
+    /// Writes a field at the end of the scene, before its closing bracket.
     fn add_at_end(&mut self, located: &Located, field: &str) {
         let end = located.root().end as usize - 1;
         let before = self.left[located.root().start as usize..end].trim_end();
@@ -354,7 +355,7 @@ impl Reading<'_> {
     }
 }
 
-/// The range of text to overwrite for a field, with its comma; `None` where nothing is left.
+/// The range of text to overwrite for a field, with its comma; `None` if only spaces are left of it.
 fn removable_range(located: &Located, field_path: &str, left: &str) -> Option<std::ops::Range<usize>> {
     let mut node = located.root();
     let mut range = None;

@@ -1,4 +1,5 @@
-//! From bytes to scanned text: refuses files that are not scenes at all, before any value is parsed.
+//! Reads, decodes and scans the text of a scene file. Files that are no scenes at all are refused here, before any
+//! value is parsed.
 
 use std::io::Read;
 use std::path::Path;
@@ -60,7 +61,7 @@ pub(super) fn scan(path: &Path, text: &str) -> Result<Located, Problem> {
     })
 }
 
-/// As [`scan`], for a text that is not too long; the error has an offset in place of a file and a line.
+/// Like [`scan`], but does not check the length. The error gives an offset in the text, not a file and a line.
 pub(super) fn scan_refusing(text: &str) -> Result<Located, Refused> {
     if let Some(offset) = text.find('\0') {
         let message = "there is a NUL character in the file".to_owned();

@@ -191,7 +191,7 @@ fn errors_in_set_options_are_reported_for_the_command_line() {
         ("objects[7].scale", "2", "`objects` has no item `7`; it has 2, counted from 0"),
         ("strokes.wdth_px", "2", "unknown field `wdth_px`; did you mean `width_px`?"),
         ("objects.wheel.particles", "many", "`many` does not fit `objects[1].particles`"),
-        // A value cannot close the brackets round it.
+        // A value cannot close brackets that were opened before it.
         ("timeline.last", "9), seed: (7", "`\"9), seed: (7\"` does not fit `timeline.last`"),
         ("", "1", "no field is named"),
         ("version.x", "1", "`version` has no field `x`"),

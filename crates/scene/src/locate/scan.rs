@@ -1,4 +1,5 @@
-//! The scanner: one pass over the bytes, at most [`limits::MAX_NESTING`] calls deep.
+//! Scans the text of a scene file into the tree of positions, in one pass over the bytes and at most
+//! [`limits::MAX_NESTING`] calls deep.
 
 use super::{Field, Inside, Node, Refused};
 use crate::limits;
@@ -45,7 +46,7 @@ impl<'a> Scanner<'a> {
         &self.bytes[self.at..]
     }
 
-    /// One value. The cursor stands on its first character and is left behind its last one.
+    /// Scans one value. The scanner must be at its first character, and is left behind its last one.
     fn value(&mut self, depth: usize) -> Result<Node, Refused> {
         self.values += 1;
         if self.values > limits::MAX_VALUES {
@@ -80,7 +81,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// What brackets hold. The cursor stands on the opening one and is left behind the closing one.
+    /// Scans what brackets hold. The scanner must be at the opening bracket, and is left behind the closing one.
     fn bracketed(&mut self, depth: usize) -> Result<Inside, Refused> {
         let opened_at = self.at;
         if depth >= limits::MAX_NESTING {
@@ -122,8 +123,8 @@ impl<'a> Scanner<'a> {
                 items.push(key);
             }
         }
-        // Values mixed with fields are not valid RON. The parser reports that; until then the fields can be found by
-        // name.
+        // Fields and values without names in one pair of brackets are not valid RON, which the parser reports. Here
+        // only the fields are kept.
         Ok(if fields.is_empty() { Inside::Items(items) } else { Inside::Fields(fields) })
     }
 
@@ -170,7 +171,7 @@ impl<'a> Scanner<'a> {
                 Ok(Some(self.at + end))
             }
             Some(b'\'') if hashes == 0 => {
-                // A quote that opens no character is left to the parser, which says what it is.
+                // If no character literal follows the quote, only the quote is skipped; the parser reports it.
                 let is_character = |end: &usize| *end - body <= "\\u{10FFFF}'".len();
                 let end = end_of_escaped(rest, body, b'\'').filter(is_character).unwrap_or(body);
                 Ok(Some(self.at + end))
@@ -200,7 +201,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Skips a comment and those inside it.
+    /// Skips a comment with the comments inside it.
     fn skip_block_comment(&mut self) -> Result<(), Refused> {
         let opened_at = self.at;
         let mut open = 0_usize;

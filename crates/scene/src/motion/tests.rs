@@ -98,10 +98,10 @@ fn eases_are_step_linear_and_smooth() {
 
 #[test]
 fn euler_angles_turn_about_x_then_y_then_z() {
-    // (0, 1, 0): about X by 90 to +Z, about Y by 90 to +X, about Z by 90 to +Y.
+    // The three turns by 90 degrees take +Y first to +Z, then to +X, then back to +Y.
     let rotation = rotation_from_euler_deg(DVec3::splat(90.0));
     assert_eq!(rotation * DVec3::Y, DVec3::Y);
-    // (1, 0, 0): X leaves it, Y takes it to −Z, Z leaves that.
+    // They take +X to −Z: the turn about Y does that, and those about X and Z change nothing.
     assert_eq!(rotation * DVec3::X, DVec3::NEG_Z);
     let odd = rotation_from_euler_deg(DVec3::new(10.0, 20.0, 30.0));
     assert!((odd.determinant() - 1.0).abs() < 1e-12);

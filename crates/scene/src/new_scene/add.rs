@@ -107,6 +107,17 @@ pub fn regions_of(object: &Object, mesh: &MeshFile) -> Vec<Region> {
     regions
 }
 
+/// The groups of a mesh that triangles use.
+pub(super) fn used_groups(mesh: &MeshFile) -> Vec<usize> {
+    let used: HashSet<u32> = mesh.mesh.group_of_triangle.iter().copied().collect();
+    (0..mesh.groups.len()).filter(|&index| used.contains(&(index as u32))).collect()
+}
+
+/// A valid name for the object that is one group of a model.
+pub(super) fn object_name_of_group(group: &str, model: &str, taken: &HashSet<&str>) -> String {
+    unique(&plain(group, model), taken)
+}
+
 /// A valid name for a region: on one line, not empty, and short enough for [`unique`] to add a number.
 fn plain(name: &str, else_name: &str) -> String {
     let name = name.replace(char::is_control, " ");

@@ -1,5 +1,5 @@
-//! The text that tobj reads of an OBJ file: plain lines unchanged, odd lines of vertices and faces rewritten, and
-//! nothing else.
+//! The text of an OBJ file that is given to tobj to read. It has the plain lines of vertices and faces unchanged, the
+//! odd ones rewritten, and no other lines.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, Read};

@@ -9,10 +9,10 @@ use super::lint::Checked;
 use super::scan::{Kind, unit};
 use super::text::Findings;
 
-/// Models smaller than this across are scaled to 1: their areas would vanish in single precision.
+/// Models that are smaller than this are scaled to a size of 1: their areas would vanish in single precision.
 const LEAST_EXTENT: f64 = 1e-6;
 
-/// Vertices, one for each distinct triple of indices of a corner; and the faces, one after the other.
+/// The vertices, one for each triple of indices that a corner has; and the corners of the faces, face by face.
 #[derive(Debug)]
 pub(super) struct Geometry {
     /// For each vertex; a zero is never −0.
@@ -32,7 +32,7 @@ pub(super) struct Geometry {
 /// # Errors
 /// Those of tobj; none is known that the linter does not find first.
 pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Result<Geometry, LoadError> {
-    // The linter keeps names and materials to itself, so all the faces are one model.
+    // The cleaned text has no names and no materials, so all the faces are one model.
     let options = LoadOptions { single_index: true, ..LoadOptions::default() };
     let (models, _) = tobj::load_obj_buf(&mut checked.cleaned, &options, |_| Err(LoadError::OpenFileFailed))?;
     let mut mesh = models.into_iter().next().ok_or(LoadError::GenericFailure)?.mesh;
@@ -73,7 +73,7 @@ pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Re
     Ok(Geometry { positions, uvs, normals, corners: mesh.indices, ends })
 }
 
-/// Scales up a model whose areas would vanish, and then returns how large it was.
+/// Scales up a model whose areas would vanish, and returns how large it was. `None` if the model is large enough.
 fn enlarge_tiny(positions: &mut [[f64; 3]]) -> Option<f64> {
     let points = positions.iter().map(|&at| DVec3::from_array(at));
     let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)));

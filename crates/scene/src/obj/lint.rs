@@ -14,15 +14,16 @@ use super::text::{Findings, Lines, Word, finite, name_of};
 pub(super) struct Face {
     pub group: u32,
     pub material: u32,
-    /// Where its line begins in the text.
+    /// Where the face's line begins in the text.
     pub offset: u32,
 }
 
 /// An MTL file that the text names.
 #[derive(Clone, Debug)]
 pub(super) struct Library {
-    /// The rest of the line as one file name, and its words as names of several files: either may be meant.
+    /// The rest of the line as the name of one file.
     pub name: String,
+    /// The words of the rest of the line, which may also be the names of several files.
     pub words: Vec<String>,
     pub offset: usize,
 }
@@ -187,8 +188,9 @@ impl<'a> Linter<'_, 'a> {
         }
     }
 
-    /// Whether the last line, which has no line end, was cut short: then it is left out, with a warning. A face that
-    /// only has fewer corners than the one before it may be whole: it is kept, with a warning.
+    /// Takes the last line of the text if it has no line end. Returns whether it was surely cut short: then it is left
+    /// out, with a warning. A face that only has fewer corners than the face before it may be whole, so it is kept,
+    /// also with a warning.
     fn drop_cut_line(&mut self, words: &[Word<'_>]) -> bool {
         let corners_before = self.checked.faces.last().map_or(0, |face| {
             let mut words = Vec::new();
@@ -235,7 +237,7 @@ impl<'a> Linter<'_, 'a> {
         self.value(Kind::Position, rest.iter().take(3).map(|word| word.bytes));
     }
 
-    /// A line that tobj reads as a position, texture coordinate or normal.
+    /// Writes a line that tobj reads as a position, texture coordinate or normal.
     fn value<'w>(&mut self, kind: Kind, numbers: impl Iterator<Item = &'w [u8]>) {
         let keyword: &[u8] = [b"v".as_slice(), b"vt", b"vn"][kind as usize];
         self.counts[kind as usize] += 1;
@@ -252,7 +254,7 @@ impl<'a> Linter<'_, 'a> {
         self.value(Kind::Uv, [number(0), number(1)].into_iter());
     }
 
-    /// An unusable normal is replaced by one without direction, so that the indices of the others stay right.
+    /// Writes a normal. An unusable one is replaced by one of length 0, so that the indices of the others stay right.
     fn normal(&mut self, keyword: Word<'_>, rest: &[Word<'_>]) {
         let numbers: Vec<f64> = rest.iter().take(3).filter_map(|word| finite(word.bytes)).collect();
         if <[f64; 3]>::try_from(numbers).ok().and_then(unit).is_some() {
@@ -263,7 +265,7 @@ impl<'a> Linter<'_, 'a> {
         }
     }
 
-    /// A finite number; anything else is an error where it stands.
+    /// The word as a finite number. Anything else is reported as an error and counts as 0.
     fn number(&mut self, word: Word<'_>) -> f64 {
         if let Some(number) = finite(word.bytes) {
             return number;
@@ -312,7 +314,8 @@ impl<'a> Linter<'_, 'a> {
         self.checked.cleaned.write(words.iter().map(String::as_bytes));
     }
 
-    /// The numbers of the group and the material of a face whose line begins at `offset`, after all lines taken so far.
+    /// The numbers of the group and the material that the lines so far give to the next face. The face's line begins at
+    /// `offset`.
     fn numbers_of_next_face(&mut self, offset: usize) -> (u32, u32) {
         let group = match self.group_number {
             Some(group) => group,
@@ -371,7 +374,8 @@ impl<'a> Linter<'_, 'a> {
                 self.findings.error(word.offset, message, "indices count from 1 (or from -1 backwards)");
                 return None;
             }
-            // Counted backwards with none of the kind so far: the whole file may have none.
+            // The index counts backwards, but no line of its kind came yet. The whole file may have none, which is no
+            // error.
             Some(_) if part[0] == b'-' && kind > 0 && count == 0 => {
                 self.odd.absent[kind].add(word.offset);
                 return Some(0);
@@ -389,8 +393,8 @@ impl<'a> Linter<'_, 'a> {
         index
     }
 
-    /// Reports indices beyond what the whole file has. Where it has no texture coordinate or no normal at all, faces
-    /// do without.
+    /// Reports indices beyond what the whole file has. If the file has no texture coordinate (or no normal) at all, the
+    /// indices of that kind are no errors: faces do without.
     fn check_upper_ends(&mut self) {
         let counts = self.counts;
         let mut beyond = |offset: usize, kind: usize, index: &str| {
@@ -445,7 +449,7 @@ impl<'a> Linter<'_, 'a> {
     }
 }
 
-/// Whether a number or a corner ends in the middle: nothing after a sign, a slash or an exponent's mark.
+/// Whether a number or a corner was cut in the middle: it ends in a sign, a slash or the `e` of an exponent.
 fn is_cut_number(word: Word<'_>) -> bool {
     matches!(word.bytes.last(), Some(b'/' | b'-' | b'+' | b'e' | b'E'))
 }

@@ -1,4 +1,4 @@
-//! The materials of one OBJ file: its MTL files and their pictures, found within limits.
+//! Finds the materials of one OBJ file: reads the MTL files that it names and their pictures, within limits.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -35,7 +35,8 @@ pub(super) struct MaterialLibrary<'a> {
     /// How many files were not found or could not be used; those beyond [`MAX_REPORTED`] are only counted.
     unfound: usize,
     described: HashMap<String, (Described, Arc<PathBuf>)>,
-    /// By the MTL file and the name written there, so that each is read and reported once.
+    /// The pictures by MTL file and the name written there, so that each is read and reported once; `None` for one that
+    /// could not be used.
     pictures: BTreeMap<(Arc<PathBuf>, String), Option<Arc<Texture>>>,
     kept_pixels: usize,
 }
@@ -84,7 +85,7 @@ impl<'a> MaterialLibrary<'a> {
                 if let Some(picture) = described.picture {
                     material.texture = self.picture(mtl, picture, described.picture_place)?;
                 }
-                // A picture without a colour is shown unchanged.
+                // If the material states no colour, its picture is shown unchanged.
                 let otherwise = if material.texture.is_some() { [1.0; 3] } else { GREY };
                 material.color = described.color.unwrap_or(otherwise);
                 material.gloss = gloss;
@@ -161,7 +162,8 @@ impl<'a> MaterialLibrary<'a> {
         }
     }
 
-    /// One warning for all materials that no file describes; none where a named file was not found.
+    /// Gives one warning for all materials that no file describes. If a named file was not found, that was reported,
+    /// and there is no warning here.
     fn tell_of_unknown(&mut self, checked: &Checked<'_>, place_of: PlaceOf<'_>) {
         if self.unfound > 0 {
             return;

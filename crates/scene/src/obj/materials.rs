@@ -1,4 +1,5 @@
-//! MTL files, checked line by line. Their pictures are only named here; `material_library` reads them.
+//! Reads MTL files line by line, with warnings for what cannot be used. Their pictures are only named here;
+//! `material_library` reads those.
 
 use super::text::{Findings, Lines, Walk, Word, name_of, to_utf8};
 use crate::problem::{Problem, TextPosition};
@@ -15,7 +16,7 @@ pub(super) struct Described {
     pub color: Option<[f32; 3]>,
     /// The picture's name as written.
     pub picture: Option<String>,
-    /// Where its line begins in the MTL file.
+    /// Where the line that names the picture begins in the MTL file.
     pub picture_place: Option<TextPosition>,
     /// Mean of `Ks`, 0..=1.
     highlight: f32,
@@ -24,14 +25,14 @@ pub(super) struct Described {
 }
 
 impl Described {
-    /// Strength of highlights, 0 matt .. 1 glazed. What common exporters write for a plain surface (Ks 0.5, Ns 250)
+    /// Strength of highlights: 0 is matt, 1 is glazed. What common exporters write for a plain surface (Ks 0.5, Ns 250)
     /// gives 0.25.
     pub(super) fn gloss(&self) -> f32 {
         self.highlight * (self.exponent / 1000.0).sqrt()
     }
 }
 
-/// Reads an MTL text. Nothing in it is fatal: what can not be used is left out with a warning.
+/// Reads an MTL text. Nothing in it is fatal: what cannot be used is left out with a warning.
 pub(super) fn parse(path: &Path, bytes: Vec<u8>) -> (Vec<Described>, Vec<Problem>) {
     let (text, was_utf16) = to_utf8(bytes);
     let mut findings = Findings::new(path, &text);

@@ -1,7 +1,9 @@
-//! OBJ files with their materials: every line is checked and located here, then tobj reads the geometry.
+//! Reads OBJ files with their materials. Every line is checked first, so that problems name line and column; then tobj
+//! reads the geometry.
 //!
-//! Groups: faces belong to the last `g` line (its whole text), or to the last `o` where no `g` followed it, or to
-//! `default`. The same name is the same group. Smoothing groups are not used: see `surface::CREASE_ANGLE_DEG`.
+//! A face belongs to the group that the last `g` line names (by its whole text). After an `o` line without a `g` line
+//! behind it, the `o` line names the group. Without either, the group is `default`. The same name is the same group.
+//! Smoothing groups are not used: see `surface::CREASE_ANGLE_DEG`.
 
 mod cleaned;
 mod geometry;
@@ -33,9 +35,8 @@ pub const MAX_MTL_BYTES: u64 = 64 << 20;
 
 /// Reads an OBJ file with the materials and pictures that it names.
 ///
-/// `root` is the scene's folder: materials and pictures come from it and from `folders` only. With the mesh it
-/// returns the warnings, in the order of the files; a missing material or picture is one of them, and its faces are
-/// grey.
+/// `root` is the scene's folder: materials and pictures come from it and from `folders` only. Returns the mesh and the
+/// warnings, in the order of the files. A missing material or picture is a warning, and its faces become grey.
 ///
 /// # Errors
 /// A [`Report`] of every error found, with lines and columns: a file that is missing or too large, numbers or indices
@@ -63,8 +64,8 @@ pub fn read(path: &Path, root: &Path, folders: &AssetFolders) -> Result<(MeshFil
     Ok((MeshFile { mesh, groups: checked.groups.list, materials }, warnings))
 }
 
-/// The MTL files and pictures that an OBJ file in `root` names and that are found in `root`: what must be copied with
-/// it to another folder. Pictures are found, not opened.
+/// The files that must be copied with an OBJ file in `root` to another folder: the MTL files and pictures that it names
+/// and that are found in `root`. Pictures are not opened.
 ///
 /// # Errors
 /// A [`Report`] where the file can not be read or has errors.

@@ -1,4 +1,5 @@
-//! Oddities of an OBJ text: counted line by line, and reported once each.
+//! Oddities of an OBJ text, which are no errors. They are counted line by line, and each kind is reported once as a
+//! warning.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +20,7 @@ impl Tally {
         self.count += 1;
     }
 
-    /// Where the first stands, if there is any. Resets the count, so that it is not reported again.
+    /// Where the first one stands, if there is any. Resets the count, so that this kind is not reported again.
     pub fn take(&mut self) -> Option<usize> {
         (std::mem::take(&mut self.count) > 0).then_some(self.first)
     }
@@ -41,7 +42,8 @@ pub(super) struct Oddities {
     pub zero_w: Tally,
     pub bad_normal: Tally,
     pub bad_uv: Tally,
-    /// By [`super::scan::Kind`]: indices of a kind of which the file has none.
+    /// Indices of values (positions, texture coordinates, normals) of which the file has none, by
+    /// [`super::scan::Kind`].
     pub absent: [Tally; 3],
     pub color: Tally,
     pub extra: Tally,

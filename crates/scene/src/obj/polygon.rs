@@ -1,4 +1,4 @@
-//! Polygons cut into triangles: a fan where that is right, ear clipping in the polygon's plane elsewhere.
+//! Cuts polygons into triangles: into a fan where that is right, by ear clipping in the polygon's plane elsewhere.
 
 use std::collections::VecDeque;
 
@@ -35,7 +35,8 @@ pub(super) fn cut(corners: &[DVec3], tests_left: &mut u64) -> Cut {
         .map(|at| at - corners[0])
         .map(|at| DVec2::new(at.dot(along), at.dot(across)))
         .collect();
-    // any_orthonormal_pair may be left-handed with the normal; then mirror, so that the polygon is counter-clockwise.
+    // The pair may be left-handed with the normal. Then the points are mirrored, so that the polygon is
+    // counter-clockwise.
     let is_mirrored = along.cross(across).dot(normal) < 0.0;
     let points = if is_mirrored { points.iter().map(|at| DVec2::new(at.x, -at.y)).collect() } else { points };
     let is_convex = (0..count)
@@ -108,7 +109,8 @@ impl<'a> Ears<'a> {
                 break;
             }
             *self.tests_left = self.tests_left.saturating_sub(1);
-            // Corners at the same place as the triangle's own are bridges to holes: they do not block.
+            // Other corners at the same place as one of the triangle's own come from bridges to holes: they do not
+            // count.
             let is_own = point == a || point == b || point == c;
             if self.is_reflex[corner]
                 && !is_own

@@ -9,13 +9,13 @@ use rayon::prelude::*;
 
 use super::text::{Lines, finite};
 
-/// Beyond this, products of coordinates (areas) overflow in single precision.
+/// The largest coordinate. Beyond it, products of coordinates (areas) would overflow in single precision.
 pub(super) const MAX_COORDINATE: f64 = 1e9;
 
 /// Texture coordinates from here on count as unusable.
 pub(super) const MAX_UV: f64 = 1e30;
 
-/// The least text that is worth a piece of its own, in bytes.
+/// The smallest size of a piece of text, in bytes: smaller pieces would not make scanning quicker.
 const PIECE_BYTES: usize = 1 << 18;
 
 /// What an OBJ file numbers, each kind on its own.
@@ -29,7 +29,7 @@ pub(super) enum Kind {
 /// Indices of a corner, counted from 1, by [`Kind`]; 0 where the corner has none.
 pub(super) type Indices = [u32; 3];
 
-/// What has been read up to some line.
+/// How much has been read up to some line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     /// Positions, texture coordinates and normals, by [`Kind`].
@@ -80,7 +80,7 @@ pub(super) fn raise(highest: &mut Indices, corner: Indices) {
     }
 }
 
-/// Scans a whole text; the pieces come in its order.
+/// Scans a whole text; the pieces are in the order of the text.
 pub(super) fn scan(text: &[u8]) -> Vec<Piece> {
     let most = rayon::current_num_threads() * 4;
     split(text, PIECE_BYTES.max(text.len().div_ceil(most)))
@@ -129,8 +129,8 @@ impl Piece {
         }
     }
 
-    /// Takes the line that begins at `at` and returns where the next begins; `None`, with nothing taken, where it is
-    /// not plain.
+    /// Takes the line that begins at `at`, and returns where the next line begins. If the line is not plain, takes
+    /// nothing and returns `None`.
     #[inline]
     fn plain_line(&mut self, text: &[u8], at: usize) -> Option<usize> {
         let at = skip_blanks(text, at);
@@ -160,13 +160,14 @@ impl Piece {
         }
     }
 
-    /// Counts a line of values and returns its end; `None`, with nothing counted, where they are not good.
+    /// Counts a line of values, and returns its end. If they are not good, counts nothing and returns `None`.
     fn value(&mut self, kind: Kind, is_good: bool, end: usize) -> Option<usize> {
         self.counts.values[kind as usize] += u32::from(is_good);
         is_good.then_some(end)
     }
 
-    /// A face of at least three corners, no two neighbours of which are the same.
+    /// Takes the face whose keyword is at `keyword`, and returns where the next line begins. `None` if the face is not
+    /// plain: it has fewer than three corners, or two equal ones side by side.
     fn face(&mut self, text: &[u8], keyword: usize) -> Option<usize> {
         let before = self.corners.len();
         let end = self.face_corners(text, keyword + 1);
@@ -229,7 +230,7 @@ fn line_end(text: &[u8], at: usize) -> Option<usize> {
     }
 }
 
-/// Finite numbers, each after blanks, and where the last one ends.
+/// Reads `COUNT` finite numbers, each after blanks. Returns them, and where the last one ends.
 #[inline]
 fn numbers<const COUNT: usize>(text: &[u8], mut at: usize) -> Option<([f64; COUNT], usize)> {
     let mut values = [0.0; COUNT];
@@ -244,7 +245,7 @@ fn numbers<const COUNT: usize>(text: &[u8], mut at: usize) -> Option<([f64; COUN
     Some((values, at))
 }
 
-/// An index of at least 1 and at most nine digits, and where it ends.
+/// Reads an index of at least 1 and at most nine digits. Returns it, and where it ends.
 #[inline]
 fn index(text: &[u8], start: usize) -> Option<(u32, usize)> {
     let mut at = start;

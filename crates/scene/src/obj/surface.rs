@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::geometry::Geometry;
 use super::polygon;
 
-/// Faces that meet at more than this angle keep the crease between them, where the file gives no normals: a low
-/// polygon fruit (some 16 to 30 degrees from face to face) is smooth, a chamfer of 45 degrees is not.
+/// Where the file gives no normals, faces that meet at more than this angle keep the crease between them. A fruit of
+/// few polygons (some 16 to 30 degrees from face to face) is smooth, a chamfer of 45 degrees is not.
 pub(super) const CREASE_ANGLE_DEG: f64 = 44.0;
 
 /// A triangle counts as having no area below this share of its longest edge squared.
@@ -43,7 +43,7 @@ pub(super) struct Oddities {
 }
 
 impl Oddities {
-    /// Adds those of later faces.
+    /// Adds the oddities of later faces.
     fn join(&mut self, later: &Self) {
         for (tally, later) in [
             (&mut self.flat_faces, later.flat_faces),
@@ -227,9 +227,10 @@ impl<'a> Builder<'a> {
         Some([a?, b?, c?])
     }
 
-    /// A unit normal for each corner: the file's where all three corners of the triangle have one, else the mean of
-    /// the faces round the corner's place that meet this one below the crease angle, weighted by their angles there
-    /// (Thürmer and Wüthrich 1998). Empty where all triangles have the file's normals.
+    /// A unit normal for each corner of each triangle. Where the file gives normals for all three corners, these are
+    /// taken. Elsewhere it is the mean normal of those faces round the corner that meet this one at less than the
+    /// crease angle, weighted by their angles there (Thürmer and Wüthrich 1998). Empty where all triangles have the
+    /// file's normals.
     fn corner_normals(&self) -> Vec<[Vec3; 3]> {
         if self.triangles.par_iter().with_min_len(SHARE).all(|triangle| self.file_normals(triangle).is_some())
         {
@@ -274,7 +275,7 @@ struct Around {
     place_of_vertex: Vec<u32>,
     /// Where the triangles of each place begin in `list`, and a last entry for its end.
     first: Vec<u32>,
-    /// Triangle times three, plus the number of its corner there.
+    /// For each of them, three times the triangle's number, plus the number of its corner at the place.
     list: Vec<u32>,
     /// Unit normals of the triangles.
     normals: Vec<DVec3>,
@@ -329,7 +330,8 @@ impl Around {
         self.of(place).iter().all(|&number| is_so(self.normals[number as usize / 3]))
     }
 
-    /// The mean direction of the triangles round a place, of those whose normals are `near`; zero where it vanishes.
+    /// The mean normal, weighted by angles, of those triangles round a place whose normals are `near`; zero where they
+    /// cancel.
     fn mean(&self, place: u32, near: impl Fn(DVec3) -> bool) -> DVec3 {
         let others = self.of(place).iter().map(|&number| (number as usize / 3, number as usize % 3));
         others

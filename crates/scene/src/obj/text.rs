@@ -11,7 +11,7 @@ const MAX_REPORTED: usize = 20;
 /// A word of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Word<'a> {
-    /// Its bytes: no white space in them.
+    /// Its bytes, none of them white space.
     pub bytes: &'a [u8],
     /// Where it begins in the text, in bytes.
     pub offset: usize,
@@ -39,8 +39,8 @@ pub(super) fn finite(word: &[u8]) -> Option<f64> {
     std::str::from_utf8(word).ok()?.parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
-/// A file's bytes as text that the readers can walk, and whether it was UTF-16: that becomes UTF-8, a byte order mark
-/// is left out, and every line ends in a line feed.
+/// Makes text of a file's bytes, and tells whether they were UTF-16. UTF-16 becomes UTF-8, a byte order mark is left
+/// out, and every line ends in a line feed.
 pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     let wide = |to_unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| to_unit([pair[0], pair[1]])).collect();
@@ -62,11 +62,11 @@ pub(super) fn to_utf8(bytes: Vec<u8>) -> (Vec<u8>, bool) {
     (text, was_utf16)
 }
 
-/// Keywords of lines that end in a name, in which a `#` belongs to the name.
+/// Keywords of lines that end in a name. In such a line, a `#` belongs to the name.
 const NAMING: [&[u8]; 6] = [b"g", b"o", b"usemtl", b"mtllib", b"newmtl", b"map_Kd"];
 
-/// Walks through the lines that have words: a `\` at the end of a line joins the next one to it, `#` begins a comment
-/// (except in a name).
+/// Walks through the lines that have words. A `\` at the end of a line joins the next line to it. A `#` begins a
+/// comment, except in a name.
 pub(super) struct Lines<'a> {
     text: &'a [u8],
     at: usize,
@@ -225,7 +225,7 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    /// Line and column of a byte at or after the one asked for last.
+    /// Line and column of a byte, which must not come before the byte asked for last.
     pub fn to(&mut self, text: &[u8], offset: usize) -> TextPosition {
         let offset = offset.min(text.len());
         while self.at < offset {

@@ -7,7 +7,7 @@ use crate::document::{Edges, PresetNumbers, ResolvedLayer, ResolvedStrokes};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Preset {
     pub(super) name: &'static str,
-    layers: [Layer; 6],
+    layers: [Layer; 7],
     /// How far past the border paint runs.
     overrun_px: f64,
     numbers: PresetNumbers,
@@ -40,7 +40,7 @@ const UNDERPAINTING: Layer = Layer {
 const BODY: Layer = Layer {
     brushes: &[("flat", 5), ("filbert", 5), ("round", 1)],
     size_px: [78.0, 25.0],
-    coverage: 3.1,
+    coverage: 2.7,
     opacity: 0.95,
     thickness: 0.50,
     dryness: 0.12,
@@ -81,6 +81,17 @@ const ACCENTS: Layer = Layer {
     overrun: 0.4,
 };
 
+const CONTOUR: Layer = Layer {
+    brushes: &[("rigger", 3), ("round", 2)],
+    size_px: [38.0, 4.5],
+    coverage: 1.8,
+    opacity: 0.88,
+    thickness: 0.12,
+    dryness: 0.16,
+    pickup: 0.10,
+    overrun: 0.5,
+};
+
 const LIGHTS: Layer = Layer {
     brushes: &[("round", 1), ("filbert", 1), ("knife", 1)],
     size_px: [21.0, 8.0],
@@ -97,7 +108,7 @@ pub(super) const PRESETS: [Preset; 6] = [
     // A few large strokes for the masses, small ones only where something happens.
     Preset {
         name: DEFAULT_PRESET,
-        layers: [UNDERPAINTING, BODY, FORM, SCUMBLE, ACCENTS, LIGHTS],
+        layers: [UNDERPAINTING, BODY, FORM, SCUMBLE, ACCENTS, CONTOUR, LIGHTS],
         overrun_px: 3.0,
         numbers: PresetNumbers::USUAL,
     },
@@ -118,6 +129,7 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { size_px: [22.0, 9.0], coverage: 0.8, thickness: 1.0, ..FORM },
             Layer { coverage: 0.5, size_px: [48.0, 16.0], ..SCUMBLE },
             Layer { size_px: [15.0, 6.0], thickness: 1.0, ..ACCENTS },
+            Layer { size_px: [26.0, 5.0], coverage: 0.7, ..CONTOUR },
             LIGHTS,
         ],
         overrun_px: 4.0,
@@ -148,6 +160,7 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { brushes: &[("dry", 4), ("flat", 2)], dryness: 0.34, thickness: 0.3, ..FORM },
             Layer { coverage: 1.6, dryness: 0.58, thickness: 0.3, ..SCUMBLE },
             Layer { brushes: &[("rigger", 2), ("dry", 3)], thickness: 0.3, ..ACCENTS },
+            Layer { brushes: &[("rigger", 2), ("dry", 1)], coverage: 1.6, dryness: 0.3, ..CONTOUR },
             Layer { brushes: &[("dry", 1), ("round", 1)], thickness: 0.7, ..LIGHTS },
         ],
         overrun_px: 4.0,
@@ -169,6 +182,7 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { opacity: 1.0, thickness: 0.08, dryness: 0.05, pickup: 0.0, ..FORM },
             Layer { coverage: 0.25, thickness: 0.05, pickup: 0.0, ..SCUMBLE },
             Layer { opacity: 1.0, thickness: 0.08, pickup: 0.0, ..ACCENTS },
+            Layer { coverage: 1.7, opacity: 1.0, thickness: 0.05, pickup: 0.0, ..CONTOUR },
             Layer { opacity: 1.0, thickness: 0.12, pickup: 0.0, ..LIGHTS },
         ],
         overrun_px: 1.5,
@@ -208,12 +222,14 @@ pub(super) const PRESETS: [Preset; 6] = [
                 ..SCUMBLE
             },
             Layer { coverage: 0.2, thickness: 0.0, pickup: 0.0, ..ACCENTS },
+            Layer { coverage: 0.0, ..CONTOUR },
             Layer { coverage: 0.0, ..LIGHTS },
         ],
         overrun_px: 4.0,
         numbers: PresetNumbers {
             angle_jitter_deg: 5.0,
             swing_deg: 5.0,
+            fit: 0.0,
             contour: 0.9,
             size_jitter: 0.24,
             temperature: 0.0,
@@ -236,10 +252,12 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { coverage: 0.0, ..FORM },
             Layer { coverage: 0.0, ..SCUMBLE },
             Layer { coverage: 0.0, ..ACCENTS },
+            Layer { coverage: 0.0, ..CONTOUR },
             Layer { coverage: 0.0, ..LIGHTS },
         ],
         overrun_px: 2.6,
         numbers: PresetNumbers {
+            fit: 0.0,
             angle_jitter_deg: 0.0,
             swing_deg: 0.0,
             size_jitter: 0.0,

@@ -1,4 +1,5 @@
-//! How RON is laid out on lines: what fits on one stays on one, everything else is broken at its outermost brackets.
+//! Lays out the RON of saved scenes on lines: what fits on one line stays on one; everything else, and each list of
+//! several items, is broken at its outermost brackets.
 
 /// A value without a type: only how it is written.
 #[derive(Clone, Debug)]
@@ -12,11 +13,11 @@ pub(super) enum Value {
 /// Values in brackets: `(a, b)`, `[a, b]`, `Name(a, b)`, `(field: a)` or `Name(field: a)`.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
-    /// Before the bracket; empty for none.
+    /// The name before the bracket; empty for none.
     pub(super) name: &'static str,
-    /// The opening and the closing one.
+    /// The opening and the closing bracket.
     pub(super) brackets: [char; 2],
-    /// Each with its field, which is empty for none.
+    /// Each with the name of its field, which is empty where it has none.
     pub(super) items: Vec<(&'static str, Value)>,
 }
 
@@ -60,7 +61,7 @@ pub(super) fn text(text: &str) -> Value {
     Value::Word(quoted)
 }
 
-/// The outermost value is always broken: one field a line.
+/// The text of a whole document. The outermost value is always broken into one field a line.
 pub(super) fn lay_out(value: &Value) -> String {
     let mut out = String::new();
     write_broken(value, 0, &mut out);
@@ -102,8 +103,8 @@ fn write_broken(value: &Value, depth: usize, out: &mut String) {
     out.push(brackets[1]);
 }
 
-/// Writes a value on one line where it fits on the line that started at `line_start` and is not a list of several
-/// items.
+/// Writes a value on the line that started at `line_start`, if it fits there and is not a list of several items. Breaks
+/// it into lines otherwise.
 fn write_fitting(value: &Value, (line_start, depth): (usize, usize), out: &mut String) {
     let before = out.len();
     write_flat(value, out);

@@ -1,5 +1,5 @@
-//! A serde serializer that makes the values that `layout` writes as RON; the counterpart of the reader in
-//! `load::parse`.
+//! A serde serializer that turns a document into values, which `layout` then writes as RON. Its counterpart for loading
+//! is `load::parse`.
 
 use std::fmt::Error;
 
@@ -23,7 +23,7 @@ impl Group {
     }
 }
 
-/// Values that are written as Rust shows them.
+/// Methods for values that are written as Rust displays them.
 macro_rules! words {
     ($($method:ident: $type:ty),*) => {
         $(fn $method(self, value: $type) -> Result<Value, Error> {
@@ -70,7 +70,7 @@ impl Serializer for ToValue {
         Ok(Value::Word("None".to_owned()))
     }
 
-    /// `implicit_some`: the value alone.
+    /// Writes the value alone: scene files enable `implicit_some`.
     fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<Value, Error> {
         value.serialize(self)
     }
@@ -155,7 +155,8 @@ impl Serializer for ToValue {
     }
 }
 
-/// Groups are filled alike, whatever serde calls them: with items, or with fields.
+/// Implements one of serde's traits for a [`Group`] that is filled item by item. A struct's items have field names;
+/// those of sequences and tuples have none.
 macro_rules! filled {
     (@field) => {
         ""

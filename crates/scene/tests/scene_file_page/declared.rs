@@ -1,34 +1,36 @@
-//! Reads what the sources of `scene::document` declare, line by line; rustfmt puts one declaration on a line.
+//! Finds the structs and enums that the sources of `scene::document` declare: a test compares docs/scene_file.md with
+//! them. The sources are read line by line, which is enough since rustfmt puts one declaration on a line.
 
 use std::path::{Path, PathBuf};
 
-/// A struct of the scene file, or an enum: a choice of words.
+/// A struct or an enum of the scene file.
 #[derive(Debug)]
 pub struct Declared {
     /// The name in the source; `Lens::Perspective` for the fields of a variant.
     pub name: String,
-    /// Whether it is an enum: a scene file writes one of `fields`, with the contents of its brackets.
+    /// Whether it is an enum: then a scene file names one of `fields`, with values in brackets if the variant has any.
     pub is_choice: bool,
-    /// Its fields, or its words.
+    /// The fields of a struct, or the variants of an enum.
     pub fields: Vec<Field>,
 }
 
-/// A field of a struct, or a word of a choice.
+/// A field of a struct, or a variant of an enum.
 #[derive(Debug)]
 pub struct Field {
     /// The name in a scene file.
     pub name: String,
-    /// Its type; for a word the types in its brackets, `{` for named fields.
+    /// The type of a field. For a variant: the types in its brackets, or `{` if it has named fields.
     pub kind: String,
-    /// The default, empty for nothing; `None` when the field is required.
+    /// The default of a field, as a scene file would write it. An empty text: the field can be left out, and then has
+    /// no value. `None`: the field must be given. (A variant has no default: always `None`.)
     pub usual: Option<String>,
-    /// Whether a word is the default.
+    /// Whether a variant is the default of its enum.
     pub is_usual: bool,
-    /// What it does.
+    /// Its doc comment.
     pub about: String,
 }
 
-/// Types that are written as one value.
+/// Types that a scene file writes as one value; the page has no tables of them.
 const VALUES: [&str; 3] = ["Color", "Scale", "BrushMix"];
 
 /// Types that no scene file holds.
@@ -59,7 +61,7 @@ fn sources() -> Vec<PathBuf> {
     sources
 }
 
-/// Everything that is declared, in no particular order.
+/// All structs and enums that a scene file may hold, in no particular order.
 pub fn declared() -> Vec<Declared> {
     let texts: Vec<String> = sources().iter().map(|path| std::fs::read_to_string(path).unwrap()).collect();
     let mut found = Vec::new();
@@ -86,7 +88,7 @@ pub fn declared() -> Vec<Declared> {
     found
 }
 
-/// Stands for the default of the type until all types are known.
+/// Placeholder for the default of a field's type. It is replaced once all types are known.
 const DEFAULT: &str = "Default::default()";
 
 fn default_of(kind: &str) -> String {
@@ -106,7 +108,8 @@ fn default_of(kind: &str) -> String {
     .to_owned()
 }
 
-/// A Rust expression as a scene file would write it.
+/// A Rust expression as a scene file would write it; empty for no value. Of the path of an enum variant, the variant's
+/// name stays.
 fn in_file(expression: &str) -> String {
     let expression = expression.trim();
     if expression == "None" || expression == "Vec::new()" {
@@ -135,7 +138,7 @@ fn in_file(expression: &str) -> String {
     word.strip_suffix(".0").unwrap_or(word).to_owned()
 }
 
-/// What a function of the document returns.
+/// The default that a function of the document returns, as a scene file would write it.
 fn returned_by(function: &str, texts: &[String]) -> String {
     if function == "Color::white" {
         return in_file(function);
@@ -146,14 +149,15 @@ fn returned_by(function: &str, texts: &[String]) -> String {
     in_file(body)
 }
 
-/// Reads one source.
+/// Adds to `found` what one source declares. `texts` are all sources.
 fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
     let mut about = String::new();
     let mut usual: Option<String> = None;
     let mut is_usual = false;
     // Whether every field of the type may be left out.
     let mut has_defaults = false;
-    // What is open: a type, and perhaps a variant of it that has fields; each as its index in `found` and its indent.
+    // The type that the line is inside of, if any, and then perhaps a variant of it with named fields. Each is given as
+    // its index in `found` and the indent of its first line.
     let mut open: Vec<(usize, usize)> = Vec::new();
     for line in text.lines() {
         let indent = line.len() - line.trim_start().len();

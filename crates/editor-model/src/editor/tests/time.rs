@@ -7,7 +7,7 @@ use crate::command::{KeyOf, Pose, Time};
 use crate::playback::Pacing;
 use crate::timeline::{KeyAt, KeysEvent, LanePosition, TimelineEvent};
 
-/// The apple's editor in Animate, with the apple selected, at a frame.
+/// An editor in Animate at a frame, with the apple selected; and the apple's name.
 fn animating(frame: f64) -> (Editor, String) {
     let mut editor = with_apple();
     let name = editor.document().scene().objects[0].name.clone();

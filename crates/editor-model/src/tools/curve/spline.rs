@@ -1,4 +1,5 @@
-//! A smooth curve through points of a surface: Catmull-Rom, laid onto the surface at every step.
+//! Finds a smooth curve through points of a surface, for guides that are drawn as curves: a Catmull-Rom spline whose
+//! points are projected onto the surface.
 
 use glam::DVec3;
 
@@ -7,7 +8,7 @@ use crate::path::PathPoint;
 /// The most steps between two points.
 const MOST_STEPS: f64 = 64.0;
 
-/// Points at most `step` (model units) apart on a curve through all of `points`; `onto` projects a point with its
+/// Points about `step` (model units) apart on a curve through all of `points`. `onto` projects a position with its
 /// normal onto the surface.
 pub(super) fn through(
     points: &[PathPoint],
@@ -18,7 +19,7 @@ pub(super) fn through(
     let at = |index: isize| {
         let last = points.len() as isize - 1;
         let inside = |index: isize| points[index.clamp(0, last) as usize].position;
-        // Beyond an end, the curve goes on as it came.
+        // Beyond an end, the first or last piece is continued straight on.
         match index {
             before if before < 0 => inside(0) * 2.0 - inside(1),
             after if after > last => inside(last) * 2.0 - inside(last - 1),

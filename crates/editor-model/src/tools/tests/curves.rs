@@ -90,7 +90,7 @@ fn a_curve_stays_on_its_object() {
     }
 }
 
-/// A world with a straight curve of few points, selected.
+/// A world with one curve, drawn with two clicks and selected.
 fn drawn() -> World {
     let mut world = World::new();
     for at in [A, C] {

@@ -52,7 +52,7 @@ fn esc_and_a_lost_focus_leave_it_as_if_never_begun() {
             let output = world.take(tool, event);
             assert!(output.commit.is_none() && output.preview.is_none() && !world.hand.is_busy());
             assert_eq!(world.document.shown().scene, before, "{tool:?}");
-            // The button is still down.
+            // The button is still down: a drag and the release after the cancel do nothing.
             assert!(world.drag_to(tool, LEFT, NONE).preview.is_none());
             assert!(world.release(tool).commit.is_none());
             assert_eq!((world.document.undo_count(), world.document.scene()), (1, &before), "{tool:?}");
@@ -181,7 +181,7 @@ fn mirror_images_are_part_of_the_entry() {
         let mirrored = DVec3::from(own.at) * DVec3::new(-1.0, 1.0, 1.0);
         assert!((DVec3::from(image.at) - mirrored).length() < 0.01);
     }
-    // The plate has nothing on the other side.
+    // The plate has no mirror image: opposite to it there is no surface, so the mirrored ring is hollow.
     let rings = world.hover(Tool::Comb, [580.0, 180.0]).rings;
     assert!(rings[0].hollow && rings[0].mirrored && !rings[1].hollow);
 }

@@ -1,4 +1,4 @@
-//! Desktop dialogs that answer, are missing, crash or hang.
+//! Tests of file dialogs of the desktop that answer, are missing, crash or hang.
 
 use std::fs;
 use std::thread::sleep;

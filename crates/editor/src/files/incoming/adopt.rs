@@ -1,4 +1,4 @@
-//! Copies a mesh or a picture, with the files that it names, into a scene's folder.
+//! Copies a mesh (with the files that it names) or a picture into a scene's folder, so that the scene can use it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -123,7 +123,7 @@ fn copy_into_scene(
     fs::create_dir_all(&subfolder_path).map_err(unwritable)?;
     let copied = copy_beside(files, &subfolder_path, own_name);
     if copied.is_err() && !was_there {
-        // Fails if the folder is not empty, and leaves it then.
+        // If the folder is not empty, this fails and leaves it.
         let _not_empty = fs::remove_dir(&subfolder_path);
     }
     let (place, copied) = copied.map_err(|error| match error {

@@ -97,7 +97,8 @@ fn a_mesh_in_the_scenes_folder_is_named_where_it_is() {
     let home = Home::new();
     let adopted = adopt_mesh(&home.at("models/apple.obj"), &home.at("")).expect("adopted");
     assert_eq!(adopted, Adopted { name: "models/apple.obj".to_owned(), copied: Vec::new() });
-    // A scene could not name these: outer spaces are trimmed, and a backslash separates folders.
+    // These are copied all the same, since a scene cannot name them: spaces at the ends of a name are trimmed, and a
+    // backslash separates folders.
     for (name, plain) in [("scene/ a.obj", "meshes/a/a.obj"), ("scene/b\\c.obj", "meshes/b_c/b_c.obj")] {
         home.write(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         assert_eq!(adopt_mesh(&home.at(name), &home.at("scene")).expect("adopted").name, plain);

@@ -1,4 +1,4 @@
-//! Lists a folder, and resolves and completes paths that are typed in it.
+//! Lists a folder for the sheet that asks for a file, and resolves and completes the paths that are typed there.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -58,7 +58,7 @@ impl Listing {
         Self { folder: folder.to_owned(), rows, note }
     }
 
-    /// The typed text extended as far as all names that begin with it agree; none if that adds nothing.
+    /// The typed text, made longer as far as all names that begin with it agree; `None` if that adds nothing.
     pub(super) fn complete(&self, typed: &str, kinds: &[Kind]) -> Option<String> {
         let (folder, start) = typed.rfind('/').map_or(("", typed), |at| typed.split_at(at + 1));
         let read;
@@ -105,7 +105,7 @@ fn entries(folder: &Path, kinds: &[Kind]) -> std::io::Result<Vec<ListedFile>> {
     Ok(folders.into_iter().map(ListedFile::Folder).chain(files.into_iter().map(ListedFile::File)).collect())
 }
 
-/// The full path of what is typed in a folder; `~` is the user's home.
+/// The full path of a typed one, which may be relative to `folder` or begin with `~` for the user's home.
 pub(super) fn resolve(folder: &Path, typed: &str) -> PathBuf {
     let home = || etcetera::home_dir().ok();
     let path = match typed.strip_prefix('~') {

@@ -1,4 +1,4 @@
-//! The window's own file dialog, driven by the names of its controls.
+//! Tests of the window's own file dialog, which find its controls by their names.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! The folders of preferences and of copies of unsaved work; reading and writing preferences.
+//! Finds the folders for preferences and for copies of unsaved work; reads and writes preferences.
 
 use std::fs;
 use std::io::Write as _;
@@ -23,8 +23,9 @@ pub fn config_folder() -> Option<PathBuf> {
     }
 }
 
-/// The folder of copies of unsaved work: `recovery` in `$IMPASTO_CONFIG_DIR`, else in `impasto` in the user's folder
-/// for programs' state (or data, if there is no such folder); none if the user has no home.
+/// The folder of copies of unsaved work: `recovery` in `$IMPASTO_CONFIG_DIR`. If that is not set, `impasto/recovery`
+/// in the user's state folder, or in the data folder where the system has no state folder. None if the user has no
+/// home.
 pub fn recovery_folder() -> Option<PathBuf> {
     let folder = match std::env::var_os("IMPASTO_CONFIG_DIR").filter(|folder| !folder.is_empty()) {
         Some(folder) => PathBuf::from(folder),

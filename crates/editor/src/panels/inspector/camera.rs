@@ -1,4 +1,4 @@
-//! The shot's camera: its lens, and where it stands at the frame that is shown.
+//! The inspector of the shot's camera: edits its lens, and where it stands at the frame that is shown.
 
 use egui::Ui;
 use glam::DVec3;

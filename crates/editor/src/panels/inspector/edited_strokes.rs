@@ -1,4 +1,4 @@
-//! The stroke settings that a part of the inspector edits: those of a region or of the whole scene.
+//! The stroke settings that the inspector edits: those of a region or of the whole scene.
 
 use impasto_editor_model::command::{Command, Regions, StrokeChange, StrokesOf};
 use impasto_scene::document::{Scene, StrokeSettings};
@@ -6,12 +6,12 @@ use impasto_scene::presets::{self, ResolvedStrokes};
 
 use super::Asker;
 
-/// The stroke settings of a region or of the scene; in the pairs, first as they are shown, then as they are stored.
+/// The stroke settings of a region or of the scene. Pairs hold them first as they are shown, then as they are stored.
 pub(super) struct EditedStrokes<'a> {
     pub(super) of: StrokesOf,
     pub(super) own: [&'a StrokeSettings; 2],
     pub(super) resolved: [ResolvedStrokes; 2],
-    /// The region's index in the scene as it is shown; none for the scene's own settings.
+    /// The region's index in the scene as it is shown; `None` for the scene's own settings.
     pub(super) index: Option<usize>,
 }
 
@@ -44,7 +44,7 @@ impl<'a> EditedStrokes<'a> {
         }
     }
 
-    /// Changes one setting here.
+    /// The command that changes one of these settings.
     pub(super) fn set(&self, change: StrokeChange) -> Command {
         Command::Regions(Regions::SetStroke(self.of.clone(), change))
     }

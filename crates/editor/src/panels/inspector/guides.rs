@@ -1,4 +1,4 @@
-//! A region's guides, combed or drawn; a later guide lies over earlier ones.
+//! The section of the inspector that lists a region's guides, and shows the settings of the selected one.
 
 use egui::{Align2, Color32, DragAndDrop, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 use impasto_editor_model::command::{Command, Directions, Edit, GuideSettings};
@@ -19,7 +19,7 @@ pub(super) fn section_of(ui: &mut Ui, asker: &mut Asker<'_, '_>, [region, stored
         _ => None,
     };
     let count = region.guides.len().to_string();
-    // Opens for a guide that was picked in the picture, so that it is seen here.
+    // The section opens when a guide is picked in the picture, so that its row is seen.
     let open = is_wide(ui) || active.is_some();
     section(ui, "Guides", &count, open, |ui| {
         if region.guides.is_empty() {

@@ -1,4 +1,4 @@
-//! The settings of a scene that is drawn in ink (sumi-e).
+//! The inspector's rows for the settings of a scene that is drawn in ink (sumi-e).
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
@@ -14,7 +14,7 @@ use crate::widgets;
 /// `silhouette_to` is larger than `silhouette_from` by at least this.
 const MIN_DIFFERENCE: f64 = 0.01;
 
-/// All settings; `shown` includes the change being previewed, `stored` does not.
+/// Shows all settings. `shown` includes the change that is being previewed, `stored` does not.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     choices(ui, asker, [shown, stored]);
     let is_painter = shown.rule == InkRule::Painter;
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&Su
     }
 }
 
-/// The settings that are a choice of a few words.
+/// Shows the settings that offer a few words to choose from.
 fn choices(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&SumiE; 2]) {
     row(ui, "Rule", |ui| {
         let mut chosen = usize::from(shown.rule == InkRule::Source);
@@ -128,7 +128,7 @@ fn one_number(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: &StyleNumber<SumiE>, [
     });
 }
 
-/// One of the four tones; it stays between its neighbours.
+/// Shows one of the four tones, which must stay between the tones beside it.
 fn tone(ui: &mut Ui, asker: &mut Asker<'_, '_>, index: usize, [shown, stored]: [&SumiE; 2]) {
     let name = format!("Tone {}", index + 1);
     let below = if index > 0 { stored.tones[index - 1] } else { 0.0 };

@@ -1,4 +1,4 @@
-//! The noise of an object's material: what moves its vertices, and what colours it.
+//! The inspector's rows for the noise of an object's material, which moves its vertices and colours its surface.
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command};
@@ -19,10 +19,11 @@ struct Setting<T> {
     of: fn(&mut T) -> &mut f64,
 }
 
-/// Gives access to the name of a part's picture.
+/// Gives access to the file name of the picture that a part of the noise uses.
 type NameOf<T> = fn(&mut T) -> &mut Option<String>;
 
-/// A choice of one part of the noise: its label, name and effect, its words, which is chosen, and how to set it.
+/// A setting of one part of the noise that offers a few words: its label, name and effect, the words, which of them is
+/// chosen, and how to set it.
 struct Choice<T> {
     label: &'static str,
     name: &'static str,

@@ -15,15 +15,15 @@ use crate::widgets::NumberField;
 pub(super) struct Number<'a> {
     /// The label, which is also the name for screen readers.
     pub(super) name: &'a str,
-    /// What it does, one sentence.
+    /// What the number does, one sentence.
     pub(super) effect: &'a str,
     /// Shown after the value.
     pub(super) unit: &'a str,
     /// Shown before the value: X, Y, Z.
     pub(super) letter: &'a str,
-    /// How far a drag goes.
+    /// The numbers that a drag can reach.
     pub(super) range: RangeInclusive<f64>,
-    /// How far typing goes; none for the range of a drag.
+    /// The numbers that can be typed. None: only those that a drag can reach.
     pub(super) limits: Option<RangeInclusive<f64>>,
     /// Whether the scene may refuse a number within these limits; a typed number is then checked against the scene.
     pub(super) scene_decides: bool,
@@ -31,9 +31,9 @@ pub(super) struct Number<'a> {
     pub(super) step: (f64, usize),
     /// What the reset icon brings back.
     pub(super) default: Option<f64>,
-    /// The width of the box in points, where it has no label.
+    /// For a box without a label, its width in points. None: the box has a label.
     pub(super) unlabelled: Option<f32>,
-    /// Shown in ochre, because it will be lost: a pose that is not keyed.
+    /// Whether the number is shown in ochre, because it will be lost: a pose that is not keyed.
     pub(super) warns: bool,
 }
 

@@ -1,4 +1,4 @@
-//! An object: pose, mesh, material, parent, its regions.
+//! The inspector of an object: its pose, mesh, material, parent and regions.
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command, Edit};

@@ -1,4 +1,5 @@
-//! The settings of a single layer of paint, from the underpainting to the lights.
+//! The rows of the inspector for the settings of one layer of paint. The user chooses the layer, from the underpainting
+//! to the lights.
 
 use egui::Ui;
 use impasto_editor_model::command::StrokeChange;
@@ -17,7 +18,8 @@ fn tidy(value: f32) -> f64 {
     (f64::from(value) * 1e6).round() / 1e6
 }
 
-/// The numbers of a layer that are shown, and how. Its size is not: it keeps its proportion to that of the body layer.
+/// The numbers of a layer that are shown, each with its field. The size of a layer is not shown: it keeps its
+/// proportion to the size of the body layer.
 fn shown() -> impl Iterator<Item = (&'static LayerNumber, Number<'static>)> {
     LayerSettings::NUMBERS.iter().filter_map(|of| {
         let share = |name| Number::share(name, of.number.effect);

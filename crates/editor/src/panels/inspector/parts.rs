@@ -53,7 +53,7 @@ pub(super) fn body(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// A row with a label at its left, like that of a number.
+/// A row with a label at its left, which is as wide as the labels of numbers.
 pub(super) fn row<R>(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     row_with(ui, label, measure::LABEL, contents)
 }
@@ -70,7 +70,7 @@ pub(super) fn row_with<R>(ui: &mut Ui, label: &str, wide: f32, contents: impl Fn
     .inner
 }
 
-/// Only painted, without an accessibility node: the control beside it says its own name.
+/// Paints a label, without an accessibility node: a screen reader gets the name from the control beside it.
 fn paint_label(ui: &Ui, rect: Rect, label: &str) {
     let weak = Tokens::of(ui).weak;
     let mut job = LayoutJob::simple_singleline(label.to_owned(), type_face::body(), weak);
@@ -86,7 +86,7 @@ pub(super) fn note(ui: &mut Ui, words: &str) {
     ui.add(egui::Label::new(RichText::new(words).font(type_face::small()).color(weak)).wrap());
 }
 
-/// The head of the inspector: a mark, a name, a note; see [`at_end`].
+/// The head of the inspector, such as an icon, a name and a note. [`at_end`] lays out what stands at its right end.
 pub(super) fn head(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let tokens = Tokens::of(ui);
     ui.painter().hline(ui.max_rect().x_range(), ui.cursor().top() + 0.5, (1.0, tokens.div));
@@ -122,7 +122,8 @@ pub(super) fn head_icon(ui: &mut Ui, icon: Icon, colour: Color32) {
     ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, icon.glyph(), font, colour);
 }
 
-/// One line of text to edit, as wide as its words in a head. Returns what was typed, once it is done and differs.
+/// One line of text to edit; in a head, it is as wide as its words. Returns the new text when the line loses the focus,
+/// unless it equals `current` or `Esc` was pressed.
 pub(super) fn text(ui: &mut Ui, name: &str, key: Id, current: &str, look: FieldStyle) -> Option<String> {
     let id = key.with(name);
     let draft: Option<String> = ui.data(|data| data.get_temp(id.with("draft")));
@@ -203,15 +204,15 @@ pub(super) fn pick(ui: &mut Ui, tip: Tip<'_>, choices: &[&str], chosen: usize) -
     (picked != chosen).then_some(picked)
 }
 
-/// A scene's colour as one of egui.
+/// A scene's colour, converted for egui.
 pub(super) fn seen(Color(channels): Color) -> Color32 {
     let [r, g, b] = channels.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8);
     Color32::from_rgb(r, g, b)
 }
 
 impl Asker<'_, '_> {
-    /// A square of colour with its picker. The colour is previewed while the pointer is down, and one entry of the
-    /// history once it is released.
+    /// A square of colour with its picker. While the pointer is down, the picked colour is only previewed. When the
+    /// pointer is released, the change becomes one entry of the history.
     pub(super) fn colour(
         &mut self,
         ui: &mut Ui,
@@ -240,7 +241,8 @@ impl Asker<'_, '_> {
         response
     }
 
-    /// The eye and the lock of a head, from right to left; named *Region hidden*, *Region locked*.
+    /// The eye and the lock at the end of a head, which hide and lock the item. With the `kind` *Region* their names
+    /// are *Region hidden* and *Region locked*.
     pub(super) fn eye_and_lock(&mut self, ui: &mut Ui, item: &Item, kind: &str, [hidden, locked]: [bool; 2]) {
         let icon = if locked { icons::LOCKED } else { icons::UNLOCKED };
         if small_toggle(ui, icon, &format!("{kind} locked"), locked) {

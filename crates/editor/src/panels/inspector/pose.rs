@@ -1,4 +1,5 @@
-//! The pose of an object at the frame that is shown, and the key of an object or the camera at that frame.
+//! The sections of the inspector for the pose of an object at the frame that is shown, and for the key of an object or
+//! the camera at that frame.
 
 use egui::Ui;
 use impasto_editor_model::command::{Arrange, Command, KeyOf, Pose, PoseField, Time};
@@ -20,7 +21,7 @@ pub(super) const NARROW_LABEL: f32 = 48.0;
 /// Width of the label before the three eases.
 const EASE_LABEL: f32 = 64.0;
 
-/// The numbers of an object's pose: in Animate they key this frame, else they shift the whole motion.
+/// The numbers of an object's pose. In Animate, a changed number keys this frame; in other modes it shifts the motion.
 pub(super) fn of_object(ui: &mut Ui, asker: &mut Asker<'_, '_>, [object, stored]: [&Object; 2]) {
     let frame = asker.shown.session.frame;
     let animate = asker.shown.session.mode == Mode::Animate;
@@ -120,7 +121,7 @@ pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Op
             let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
             asker.asks.push(Ask::Session(Box::new(session)));
         }
-        // The label is narrow, so that the three choices fit the column.
+        // The label is narrow, so that the three choices fit into the width of the column.
         super::parts::row_with(ui, "Ease out", EASE_LABEL, |ui| {
             let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
             let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! A region: its head, its base direction, its seam.
+//! The inspector's page for a region: its head, its base direction, its seam.
 
 use egui::Ui;
 use impasto_editor_model::Item;

@@ -1,4 +1,5 @@
-//! The settings of brush strokes that hold for the whole scene: how they turn, the canvas, how the paint stands up.
+//! The section of the inspector for the style of brush strokes, which holds for the whole scene: how strokes turn, the
+//! canvas, the relief of the paint.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
@@ -10,7 +11,7 @@ use super::number::Number;
 use super::parts::{pick, row};
 use crate::widgets::{self, Tip};
 
-/// All settings; `shown` includes the change being previewed, `stored` does not.
+/// Shows all settings. `shown` includes the change being previewed, `stored` does not.
 pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&RotatingStrokes; 2]) {
     let set = |style: RotatingStrokes, words: String| {
         Command::Scene(SceneEdit::SetStyle(Style::RotatingStrokes(style), words))

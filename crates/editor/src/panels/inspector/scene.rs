@@ -1,4 +1,5 @@
-//! The scene: size and background of the picture, time, style, strokes of all regions, reference.
+//! The inspector's page for the scene as a whole: size and background of the picture, time, style, strokes of all
+//! regions, reference.
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit, Time};

@@ -1,4 +1,4 @@
-//! Stroke settings of a region or of the scene: brush, numbers, layer, and what stands under Advanced.
+//! The sections of the inspector for the stroke settings of a region or of the scene: *Strokes* and *Advanced*.
 
 use egui::{Ui, vec2};
 use impasto_core::brush;
@@ -23,7 +23,7 @@ pub(super) fn of_region(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: &str) {
     section(ui, "Strokes", &note, true, |ui| contents(ui, asker, Some(region)));
 }
 
-/// Brush, numbers and layer.
+/// Shows brush, numbers and layer; for the scene, which `region: None` means, also the preset.
 pub(super) fn contents(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     if region.is_none() {
@@ -116,7 +116,7 @@ fn brushes(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     }
 }
 
-/// *filbert 2, round 1*: how often each brush of a mix is taken.
+/// How often each brush of a mix is taken, as *Mixed: filbert 2, round 1*.
 fn mixed(mix: &[String]) -> String {
     let mut words: Vec<String> = Vec::new();
     for (index, name) in mix.iter().enumerate() {
@@ -168,7 +168,8 @@ fn preset(ui: &mut Ui, asker: &mut Asker<'_, '_>, place: &EditedStrokes<'_>) {
     });
 }
 
-/// What is seldom set: more numbers, edges, layers of paint, preset, seed; and buttons to copy and paste strokes.
+/// Shows what is seldom set: more numbers, edges, layers of paint, a region's preset, the seed, and buttons to copy and
+/// paste strokes.
 pub(super) fn advanced(ui: &mut Ui, asker: &mut Asker<'_, '_>, region: Option<&str>) {
     let Some(place) = EditedStrokes::new(asker, region) else { return };
     section(ui, "Advanced", "edges, layers, seed", false, |ui| {

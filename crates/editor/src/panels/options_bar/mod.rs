@@ -1,5 +1,5 @@
-//! The settings of the current tool. Those that have no room are in a menu at the bar's end, so that no word is ever
-//! cut and the bar is always one row.
+//! The options bar: the settings of the current tool, in one row. Settings that have no room are in a menu at the bar's
+//! end, so that no word is ever cut.
 
 mod settings;
 #[cfg(test)]
@@ -17,7 +17,7 @@ use crate::icons;
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, NumberField};
 
-/// The width of the line between groups, with the space on either side.
+/// The width of the line between groups of settings, with the space on either side.
 const DIVIDER: f32 = 9.0 + measure::GAP;
 /// The width of the button at the bar's end, with its space.
 const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
@@ -25,7 +25,7 @@ const MORE: f32 = measure::BUTTON + 2.0 * measure::GAP;
 /// Translates words; tests use longer ones.
 type Translate = fn(&'static str) -> &'static str;
 
-/// Takes the top 40 points of `ui`.
+/// Shows the bar in the top 40 points of `ui`.
 pub fn options_bar(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let frame = egui::Frame::new().fill(Tokens::of(ui).panel);
     Panel::top("options bar").exact_size(measure::OPTIONS_BAR).resizable(false).frame(frame).show(ui, |ui| {

@@ -17,7 +17,7 @@ pub(super) enum BarPlace {
 /// One setting of a tool.
 pub(super) struct Setting {
     pub(super) place: BarPlace,
-    /// Before the control; empty for none.
+    /// The words before the control; empty for none.
     pub(super) label: &'static str,
     pub(super) control: Control,
     /// Whether a line separates it from the setting before.

@@ -9,7 +9,7 @@ use super::*;
 use crate::panels::Numbers;
 use crate::theme::{self, Theme};
 
-/// German translations, which are as long as words get, or longer.
+/// German translations: at least as long as any words that the bar may have to show.
 fn german(words: &'static str) -> &'static str {
     match words {
         "Along" => "Entlang",
@@ -114,7 +114,7 @@ fn sessions() -> Vec<Session> {
 
 #[test]
 fn long_words_are_never_cut_and_never_overlap() {
-    // Beside the column in the two window sizes of the design, and in the smallest window.
+    // The bar beside the right column in the two window sizes of the design, and in the smallest window.
     for (wide, window) in [(1000.0, 1280.0), (1584.0, 1920.0), (960.0, 960.0)] {
         for session in sessions() {
             for say in [german as Translate, |words| words] {

@@ -1,4 +1,4 @@
-//! The progress of rendering, with the last frame beside it.
+//! The part of the render sheet that shows the progress of rendering, with a picture of the last frame beside it.
 
 use egui::{Align2, Color32, Rect, Role, Sense, TextureHandle, Ui, WidgetInfo, pos2, vec2};
 use impasto_editor_model::render_settings::{Outcome, RenderProgress, Stage};
@@ -12,7 +12,7 @@ const PICTURE: egui::Vec2 = egui::Vec2::new(240.0, 135.0);
 const BAR: f32 = 8.0;
 const LINE: f32 = 20.0;
 
-/// The card under the settings.
+/// Shows the progress as a card under the settings.
 pub(super) fn card(ui: &mut Ui, progress: &RenderProgress, picture: Option<&TextureHandle>) {
     let tokens = Tokens::of(ui);
     let (card, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());

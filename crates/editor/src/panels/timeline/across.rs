@@ -1,4 +1,5 @@
-//! The scale of a ruler, and what the strip's ruler and the lanes' ruler have in common.
+//! What the timeline's two rulers, of the strip and of the lanes, have in common: the scale from frames to points, the
+//! scrubbing and the drawing.
 
 use egui::{Align2, Pos2, Rect, Response, Role, Shape, Ui, WidgetInfo, accesskit, pos2, vec2};
 use impasto_editor_model::timeline::TimelineEvent;
@@ -57,7 +58,8 @@ impl FrameScale {
     }
 }
 
-/// A press or a drag shows the frame under the pointer and pauses playback meanwhile; screen readers can set it.
+/// Lets a press or a drag on a ruler show the frame under the pointer; playback pauses meanwhile. Screen readers can
+/// set the frame too.
 pub(in crate::panels) fn scrub(
     ui: &Ui,
     response: &Response,
@@ -108,7 +110,7 @@ pub(in crate::panels) fn number(ui: &Ui, at: Pos2, align: Align2, frame: f64) {
     ui.painter().text(at, align, format!("{frame}"), type_face::ruler(), Tokens::of(ui).weak);
 }
 
-/// Marks the frames that were dropped.
+/// Draws a bar over each frame that playback has dropped.
 pub(in crate::panels) fn drops(ui: &Ui, across: FrameScale, top: f32, shown: &PanelInput<'_>) {
     let wide = ((across.right - across.left) / across.span() as f32).max(2.0);
     for frame in shown.time.playback.missed() {

@@ -1,4 +1,5 @@
-//! The pointer over the lanes. Its events are handled one by one, so that none is lost when several come in one pass.
+//! Selects and moves keys by the pointer over the timeline's lanes. Its events are handled one by one, so that none is
+//! lost when several come in one pass.
 
 use egui::{Event, Id, PointerButton, Popup, PopupAnchor, Pos2, Rect, Ui};
 use impasto_editor_model::command::ease_name;
@@ -29,7 +30,7 @@ pub(super) struct LaneLayout<'a> {
 impl LaneLayout<'_> {
     fn place(&self, at: Pos2) -> LanePosition {
         let y = at.y - self.top;
-        // Above the first lane counts as the first.
+        // A place above the first lane counts as in the first.
         let lane = (y / self.lane).floor().max(0.0) as usize;
         LanePosition { x_px: f64::from(at.x), y_px: f64::from(y), frame: self.across.place(at.x), lane }
     }
@@ -48,7 +49,8 @@ impl LaneLayout<'_> {
 #[derive(Clone, Debug, Default)]
 struct Memory {
     down: bool,
-    /// What the menu is open for: the keys, whether one was hit (else only the space after it), and where it opens.
+    /// The open menu: the keys that it changes, whether the pointer hit one of them (or only the space behind it), and
+    /// where it opens.
     menu: Option<(Vec<KeyAt>, bool, Pos2)>,
 }
 
@@ -108,7 +110,7 @@ pub(super) fn hand(ui: &mut Ui, layout: &LaneLayout<'_>, shown: &PanelInput<'_>,
     ui.data_mut(|data| data.insert_temp(id, memory));
 }
 
-/// The key that a place between two keys belongs to: the left one.
+/// The left one of the two keys that a place lies between.
 fn between(layout: &LaneLayout<'_>, at: Pos2) -> Option<KeyAt> {
     let place = layout.place(at);
     let lane = layout.lanes.get(place.lane)?;

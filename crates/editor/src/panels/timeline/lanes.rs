@@ -1,4 +1,4 @@
-//! The lanes: names at the left, keys and the curves between them at the right.
+//! Draws the lanes of the timeline: names at the left, keys and the curves between them at the right.
 
 use egui::{
     Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
@@ -23,7 +23,7 @@ const SWING: f32 = 3.0;
 pub(super) struct LaneRow {
     /// The whole row.
     pub(super) rect: Rect,
-    /// Where its name ends.
+    /// X at which its name ends and its keys begin.
     pub(super) names: f32,
     /// Maps frames to the window.
     pub(super) across: FrameScale,

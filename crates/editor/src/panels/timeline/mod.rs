@@ -78,7 +78,7 @@ pub(super) fn lanes(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     });
 }
 
-/// The rows, which scroll. Returns where the first one begins.
+/// Shows the rows, which scroll. Returns the y at which the first one begins.
 fn rows_of(
     ui: &mut Ui,
     lanes: &[timeline::Lane],

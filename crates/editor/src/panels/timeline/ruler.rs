@@ -1,4 +1,5 @@
-//! The ruler over the lanes: labels, the range and its grips, the reference, dropped frames and the playhead.
+//! Draws the timeline's ruler: labels, the grips of the range, and the frames that playback dropped. Over ruler and
+//! lanes it draws the pin of the reference and the playhead.
 
 use egui::{Align2, CursorIcon, Rect, Sense, Ui, pos2, vec2};
 use impasto_editor_model::command::{Command, Time};
@@ -31,7 +32,7 @@ pub(super) fn across(scene: &Scene, rect: Rect) -> FrameScale {
     }
 }
 
-/// Fills the area behind ruler and lanes; the range is lighter.
+/// Fills the area behind the ruler and the lanes; the range of the timeline is lighter.
 pub(super) fn ground(ui: &Ui, rect: Rect, across: FrameScale, scene: &Scene) {
     let tokens = Tokens::of(ui);
     let [first, last] = [scene.timeline.first, scene.timeline.last].map(|frame| across.x(frame as f64));
@@ -42,7 +43,7 @@ pub(super) fn ground(ui: &Ui, rect: Rect, across: FrameScale, scene: &Scene) {
     }
 }
 
-/// The ruler, on which a drag scrubs, with grips at the ends of the range.
+/// The ruler, with grips at the ends of the range. A drag on the ruler scrubs.
 pub(super) fn ruler(
     ui: &mut Ui,
     rect: Rect,
@@ -79,7 +80,7 @@ fn grips(ui: &mut Ui, rect: Rect, across: FrameScale, shown: &PanelInput<'_>, as
     let mut is_gripped = false;
     for (salt, frame, side) in [("first grip", timeline.first, -1.0), ("last grip", timeline.last, 1.0)] {
         let x = across.x(frame as f64);
-        // Outside of the range, so that the first and the last frame can be scrubbed to.
+        // The grips lie outside of the range, so that the first and the last frame can be scrubbed to.
         let at = pos2(x + side * 8.0, rect.bottom() - 8.0);
         if !rect.contains(at) {
             continue;

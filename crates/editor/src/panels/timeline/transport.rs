@@ -1,4 +1,4 @@
-//! The buttons and fields of the timeline: transport and frame at the left, range, rate and loop at the right.
+//! The buttons and fields of the timeline: playback and frame at the left, range, rate and loop at the right.
 
 use egui::{Rect, RichText, Role, Ui, WidgetInfo, accesskit, pos2, vec2};
 use impasto_editor_model::command::{Command, Time};
@@ -54,7 +54,7 @@ pub(in crate::panels) fn transport(ui: &mut Ui, shown: &PanelInput<'_>, asks: &m
     }
 }
 
-/// After the transport, while the lanes are open: the time, Auto key and Set key.
+/// What follows the playback buttons while the lanes are open: the time, Auto key and Set key.
 pub(super) fn keying(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     ui.add_space(8.0);
     let seconds = shown.session.frame / shown.document.scene().timeline.fps;
@@ -144,7 +144,7 @@ pub(in crate::panels) fn looped(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut 
     }
 }
 
-/// How many frames were dropped since playback began, or the rate at which every frame is shown.
+/// Shows how many frames were dropped since playback began. If playback shows every frame, shows its rate instead.
 pub(in crate::panels) fn dropped(ui: &mut Ui, shown: &PanelInput<'_>) {
     let playback = &shown.time.playback;
     let words = match (shown.session.pacing, playback.dropped(), playback.rate()) {

@@ -1,4 +1,4 @@
-//! Which frames the ruler spans: all of them, or those that were zoomed to.
+//! Zooms the timeline: which frames its ruler spans, all of them or those that the user zoomed to.
 
 use egui::{Id, Rect, Ui};
 
@@ -7,15 +7,15 @@ use super::across::FrameScale;
 /// The ruler shows at least this many frames.
 const FEWEST: f64 = 8.0;
 
-/// The first and last visible frame (none for all frames), and the frame that was shown last.
+/// What is remembered between passes: the first and last visible frame (`None` for all frames), and the shown frame.
 #[derive(Clone, Copy, Default)]
 struct VisibleFrames {
     frames: Option<[f64; 2]>,
     shown: f64,
 }
 
-/// `Ctrl` and the wheel zoom about the pointer, `Shift` and the wheel move along, a double click on the ruler shows
-/// all frames. The visible part follows the playhead.
+/// Handles the input of a pass, and returns the visible frames. `Ctrl` and the wheel zoom about the pointer, `Shift`
+/// and the wheel move along, and a double click on the ruler shows all frames. The visible part follows the playhead.
 pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: FrameScale, frame: f64) -> FrameScale {
     let id = Id::unique("frames that are seen");
     let mut seen = ui.data_mut(|data| data.get_temp::<VisibleFrames>(id)).unwrap_or_default();
@@ -33,13 +33,13 @@ pub(super) fn seen(ui: &Ui, area: Rect, ruler: Rect, whole: FrameScale, frame: f
         seen.frames = seen.frames.map(|frames| holding(frames, whole, frame));
     }
     seen.shown = frame;
-    // The range may have changed since the last pass.
+    // The scene's range of frames may have changed since the last pass.
     seen.frames = seen.frames.and_then(|frames| within(frames, whole));
     ui.data_mut(|data| data.insert_temp(id, seen));
     seen.frames.map_or(whole, |[first, last]| FrameScale { first, last, ..whole })
 }
 
-/// The visible frames after a turn of the wheel; none for all of them.
+/// The visible frames after a turn of the wheel; `None` for all of them.
 fn zoomed(whole: FrameScale, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_px: f32) -> Option<[f64; 2]> {
     let [first, last] = frames.unwrap_or([whole.first, whole.last]);
     if !zoom.is_finite() || zoom <= 0.0 || (zoom == 1.0 && along_px == 0.0) {
@@ -55,7 +55,7 @@ fn zoomed(whole: FrameScale, frames: Option<[f64; 2]>, zoom: f64, x: f32, along_
     within([first, first + span], whole)
 }
 
-/// The frames shifted to lie within the whole; none where they span all of it.
+/// The frames shifted to lie within the whole; `None` where they span all of it.
 fn within([first, last]: [f64; 2], whole: FrameScale) -> Option<[f64; 2]> {
     let (all, span) = (whole.last - whole.first, last - first);
     if span >= all * (1.0 - 1e-9) {

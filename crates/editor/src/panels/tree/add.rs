@@ -1,4 +1,4 @@
-//! The menu of what can be added.
+//! The menu beside the scene tree that adds meshes, lights and regions to the scene.
 
 use egui::{Popup, Response, Ui};
 use glam::DVec3;

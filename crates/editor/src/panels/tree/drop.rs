@@ -15,7 +15,7 @@ enum DropTarget<'a> {
     Before(&'a Item),
     After(&'a Item),
     Onto(&'a Item),
-    /// On no item's row: below all rows, or on the canvas.
+    /// On no item's row: below all rows, or on the row of the canvas.
     Off,
 }
 

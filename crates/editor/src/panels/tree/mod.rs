@@ -1,4 +1,5 @@
-//! The scene tree: camera, lights, objects with their regions and child objects, regions without an object, canvas.
+//! The scene tree, in which the user finds, selects, renames and moves the parts of a scene. Its rows are camera,
+//! lights, objects with their regions and child objects, regions without an object, and canvas.
 
 mod add;
 mod drop;
@@ -130,7 +131,7 @@ fn show_row(
     let answer = if can_hide { drawn.show(ui) } else { drawn.show_bare(ui) };
     let rect = answer.response.rect;
     if drawn.selected && active_changed {
-        // With a row above and below, so that it is clear of the list's faded edges.
+        // With some space above and below, so that the row is clear of the list's faded edges.
         ui.scroll_to_rect(rect.expand2(vec2(0.0, 1.5 * measure::TREE_ROW)), None);
     }
     let Some(item) = &row.item else {

@@ -1,4 +1,4 @@
-//! The rows of the scene tree.
+//! Lists the rows of the scene tree: which there are, in which order, and what each shows.
 
 use egui::Color32;
 use impasto_editor_model::{Document, Item};
@@ -9,13 +9,13 @@ use crate::icons;
 use crate::panels::column_state::ColumnState;
 use crate::widgets::RowMark;
 
-/// Objects start open where the tree then has at most about this many rows.
+/// Objects start open if the whole tree has at most about this many rows.
 const ROWS_OPEN_AT_FIRST: usize = 20;
 
 /// One row of the scene tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TreeLine {
-    /// What it stands for; none for the canvas.
+    /// What it stands for; `None` for the canvas.
     pub(super) item: Option<Item>,
     /// What it shows.
     pub(super) name: String,
@@ -23,9 +23,9 @@ pub(super) struct TreeLine {
     pub(super) kind: &'static str,
     /// What stands before the name.
     pub(super) mark: RowMark,
-    /// How deep it lies.
+    /// How many rows it lies under; 0 at the top level.
     pub(super) depth: usize,
-    /// Whether it is open, for a row with rows under it.
+    /// Whether the rows under it are shown; `None` if there are none.
     pub(super) expanded: Option<bool>,
     /// Words at its right end.
     pub(super) note: String,
@@ -170,7 +170,7 @@ fn shown_color(own: Option<Color>, index: usize) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// *4 guides*, or the base direction where there are none.
+/// How many guides a region has, as *4 guides*; without guides, its base direction.
 fn note_of(region: &Region) -> String {
     match region.guides.len() {
         0 => {}

@@ -14,13 +14,14 @@ pub struct CombPreviewStroke {
     pub angle_rad: f32,
     /// Its length on the screen.
     pub length_px: f32,
-    /// Whether it has a head: then it turns by up to 180 degrees, else by up to 90.
+    /// Whether it has a head. If so, a comb turns it by up to 180 degrees, else by up to 90.
     pub directed: bool,
 }
 
 impl CombPreviewStroke {
-    /// The angle that a comb would give it: a blend of its own and the comb's. At distance d from the middle of a ring of
-    /// radius r, the comb's share is strength · (1 − (d/r)²)², or strength if it is even. None outside the ring.
+    /// The angle that a comb would give it: a blend of its own and the comb's. At distance d from the middle of a ring
+    /// of radius r, the comb's share is strength · (1 − (d/r)²)²; an even comb's share is its strength. `None` outside
+    /// the ring.
     fn combed_rad(&self, comb: &Comb) -> Option<f32> {
         let near = 1.0 - (self.at_px - comb.at_px).length_squared() / (comb.radius_px * comb.radius_px);
         if near <= 0.0 {
@@ -46,7 +47,7 @@ pub struct Comb {
     pub angle_rad: f32,
     /// How far strokes at the centre follow it, 0..=1.
     pub strength: f32,
-    /// Whether all strokes in the ring follow alike; if not, less towards its rim.
+    /// Whether all strokes in the ring follow it alike. If not, they follow it less towards the rim.
     pub even: bool,
 }
 

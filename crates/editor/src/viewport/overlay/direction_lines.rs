@@ -1,4 +1,5 @@
-//! Draws short lines along the strokes, plain, in their regions' colours, or by how far each direction can be trusted.
+//! Draws the overlay of directions: short lines along the strokes. They are plain, have their regions' colours, or
+//! show how far each direction can be trusted.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use glam::DVec2;
@@ -36,7 +37,8 @@ pub enum DirectionInk {
     Plain,
     /// In the colour of its region.
     Region(Color32),
-    /// By trust, κ in 0..=1; 0 where the reference does not see the surface. Shown by pattern as well as by colour.
+    /// By trust, κ in 0..=1; 0 where the reference does not see the surface. The line's pattern shows it as well as
+    /// its colour.
     Trust(f32),
 }
 

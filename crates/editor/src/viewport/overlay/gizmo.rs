@@ -1,4 +1,4 @@
-//! Draws the handles that move, turn and scale.
+//! Draws the gizmo over the picture: the handles that move, turn and scale what is selected.
 
 use egui::{Color32, Pos2, Shape, Stroke};
 use glam::DVec2;

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::ink::{self, EDGE, Ink, OVER_PAINT};
 use super::{Sheet, Sight};
 
-/// Radius of a handle, points; the pointer grips it from up to 12 away.
+/// Radius of a handle, points. The pointer grips a handle from up to 12 points away.
 const HANDLE: f32 = 5.0;
 
 /// The visible parts of a guide, in points from the upper left corner of the picture.
@@ -38,8 +38,8 @@ pub enum CurvePart {
 }
 
 impl GuideCurve {
-    /// The visible parts of a guide: where its surface faces the eye and nothing is in front. `line` and `handles` are
-    /// pairs of place and surface normal, world space.
+    /// The visible parts of a guide: where its surface faces the eye and nothing is in front. Each item of `line` and
+    /// `handles` is a place and the surface normal there, world space.
     pub fn seen(line: &[[DVec3; 2]], handles: &[[DVec3; 2]], sight: &Sight<'_>) -> Self {
         let seen = |[at, normal]: &[DVec3; 2]| {
             sight.view.project(*at).filter(|at_px| at_px.is_finite() && sight.sees(*at, *normal))

@@ -1,11 +1,11 @@
-//! Lines and words that are visible on any paint: light over dark.
+//! Draws the overlay's lines and words so that they are visible on any paint: light over dark.
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, Vec2, pos2};
 
 pub(super) const WHITE: Color32 = Color32::WHITE;
-/// The dark edge of marks.
+/// The dark edge of what is drawn over paint.
 pub(super) const EDGE: Color32 = Color32::from_rgb(0x14, 0x17, 0x20);
-/// Marks over paint have the dark theme's colours in both themes.
+/// What is drawn over paint has the dark theme's colours in both themes.
 pub(super) use crate::theme::DARK as OVER_PAINT;
 
 pub(super) fn black(share: f32) -> Color32 {

@@ -10,7 +10,7 @@ use crate::theme::type_face;
 /// The box that stands in for a mesh that was not found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MissingMesh {
-    /// Its object.
+    /// The name of the object.
     pub name: String,
     /// Its corners, world space: bits 0, 1 and 2 of an index choose the least or greatest X, Y and Z in the object's
     /// own axes.

@@ -7,7 +7,7 @@ use super::Sheet;
 use super::ink::{self, OVER_PAINT};
 use crate::theme::type_face;
 
-/// If two keys are closer than this, points, all are drawn smaller.
+/// If two neighbouring keys are closer than this, in points, all keys are drawn smaller.
 const CROWDED: f32 = 16.0;
 /// The space that a number needs, points.
 const NUMBER: Vec2 = vec2(28.0, 16.0);
@@ -21,7 +21,7 @@ pub struct MotionPath {
     pub keys: Vec<(f64, DVec3)>,
 }
 
-/// Draws a dotted path with a mark and a number for each key.
+/// Draws a dotted path with a diamond for each key, and with the frame numbers of as many keys as there is room for.
 pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     let points: Vec<Option<Pos2>> = path.places.iter().map(|&place| sheet.project(place)).collect();
     for run in points.split(Option::is_none).filter(|run| run.len() > 1) {
@@ -48,8 +48,8 @@ pub fn motion_path(sheet: &Sheet<'_>, path: &MotionPath) {
     }
 }
 
-/// Indices of the keys that show their number: first the ends, then in order the others, as long as no two numbers
-/// overlap.
+/// Indices of the keys that show their number. The first and the last key are tried first, then the others in order; a
+/// key whose number would overlap another is left out.
 fn numbered(places: &[Pos2]) -> Vec<usize> {
     let last = places.len().saturating_sub(1);
     let mut chosen: Vec<usize> = Vec::new();

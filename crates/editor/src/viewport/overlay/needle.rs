@@ -1,4 +1,4 @@
-//! Draws the needle in a tool's ring, and the label beside it.
+//! Draws the needle in a tool's ring, which shows the direction at the pointer, and the label beside the ring.
 
 use egui::{Color32, Stroke, pos2, vec2};
 use glam::DVec2;
@@ -8,8 +8,9 @@ use super::Sheet;
 use super::ink::{self, Ink};
 use crate::theme::type_face;
 
-/// How far a needle with a head, or without one, reaches behind the centre and in front of it, in radii of the ring.
+/// How far a needle with a head reaches behind the centre and in front of it, in radii of the ring.
 const HEADED: [f32; 2] = [0.5, 1.5];
+/// How far a needle without a head reaches behind the centre and in front of it, in radii of the ring.
 const HEADLESS: [f32; 2] = [1.0, 1.0];
 
 /// Draws the needle of a ring of this radius.

@@ -1,4 +1,4 @@
-//! Draws the outline of the selected object, and its ghosts at other keys.
+//! Draws the outline of the selected object, and its ghosts: the outlines that it has at other keys.
 
 use egui::Pos2;
 use glam::DVec2;
@@ -11,7 +11,7 @@ use crate::viewport::surface_map::SurfaceMap;
 /// The outline of the visible part of an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// In points from the upper left corner of the picture.
+    /// Closed or open lines, in points from the upper left corner of the picture.
     lines: Vec<Vec<DVec2>>,
 }
 
@@ -32,7 +32,7 @@ impl Outline {
     }
 }
 
-/// Draws an outline 2 points wide, and that of a ghost 1 point wide.
+/// Draws an outline, 2 points wide; that of a ghost is 1 point wide.
 pub fn outline(sheet: &Sheet<'_>, outline: &Outline, ghost: bool) {
     let ink = if ghost {
         Ink::new(1.0, ink::white(0.55), (2.0, ink::black(0.25)))

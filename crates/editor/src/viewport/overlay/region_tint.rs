@@ -18,11 +18,12 @@ const FILL: f32 = 0.45;
 pub struct RegionTint {
     name: String,
     colour: Color32,
-    /// Runs of cells: row, first column, and the column after the last.
+    /// Runs of cells side by side: row, first column, and the column after the last.
     runs: Vec<[usize; 3]>,
     edge: Outline,
     cells_per_point: f64,
-    /// The place in its cells that is nearest to their mean, points; its name is drawn there.
+    /// Where its name is drawn, points: in the middle of its cells or, if that is outside them, at the nearest place in
+    /// them.
     middle_px: DVec2,
 }
 

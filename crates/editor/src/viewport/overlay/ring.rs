@@ -1,4 +1,4 @@
-//! Draws the ring of a tool.
+//! Draws the ring round the pointer that shows how far a brush tool reaches on the surface.
 
 use egui::{Color32, Pos2};
 use glam::DVec2;

@@ -7,7 +7,8 @@ use super::ink;
 /// Opacity of the veil.
 const VEIL: f32 = 0.66;
 
-/// Draws the veil outside the shot and the border around it. `background` is the viewport's, without a picture.
+/// Draws the veil outside the shot and the border around it. `background` is the colour of the viewport where it shows
+/// no picture.
 pub fn shot_border(painter: &Painter, viewport: Rect, shot: Rect, background: Color32) {
     let veil = background.gamma_multiply(VEIL);
     let above = Rect::from_min_max(viewport.min, egui::pos2(viewport.max.x, shot.min.y));

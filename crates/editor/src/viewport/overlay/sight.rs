@@ -1,12 +1,14 @@
-//! Tests by rays whether points of surfaces are visible.
+//! Tests by rays whether points of surfaces are visible, so that what lies behind a surface is not drawn over the
+//! picture.
 
 use glam::{DAffine3, DVec3};
 use impasto_editor_model::picking::{Picker, View};
 
-/// A point that is this share of its distance behind the surface that its ray meets still counts as visible.
+/// A point still counts as visible if a surface lies in front of it by at most this share of its distance.
 const LEEWAY: f64 = 2e-3;
 
-/// Tests whether points of surfaces are visible, by one ray each: for the few points of guides and marks.
+/// Tests whether points of surfaces are visible, by one ray for each point. Meant for few points, such as those of
+/// guides.
 #[derive(Clone, Copy)]
 pub struct Sight<'a> {
     /// The surfaces.
@@ -20,7 +22,7 @@ pub struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    /// Whether a point faces the eye and nothing is in front of it. The normal is in world space; zero faces every eye.
+    /// Whether a point faces the eye and nothing is in front of it. A zero normal counts as facing the eye.
     pub fn sees(&self, position_in_world: DVec3, normal_in_world: DVec3) -> bool {
         let Some(at_px) = self.view.project(position_in_world) else { return false };
         let ray = self.view.ray(at_px);

@@ -11,13 +11,14 @@ use super::{Sheet, Sight};
 pub struct SingularPoint {
     /// Its place, world space.
     pub position_in_world: DVec3,
-    /// Normal for the visibility test, unit.
+    /// Unit normal of the surface there, for the visibility test.
     pub normal_in_world: DVec3,
     /// How many turns the strokes make on a small loop around it, such as +½, +1 or −½.
     pub index: f32,
 }
 
-/// Draws the visible points: circles where the index is positive (strokes go round), else triangles (strokes part).
+/// Draws the visible points: a circle where the index is positive (strokes go round), a triangle where it is negative
+/// (strokes part).
 pub fn singular_points(sheet: &Sheet<'_>, points: &[SingularPoint], sight: &Sight<'_>) {
     for point in points.iter().filter(|point| sight.sees(point.position_in_world, point.normal_in_world)) {
         let Some(at) = sheet.project(point.position_in_world) else { continue };

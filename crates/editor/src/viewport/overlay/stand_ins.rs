@@ -1,4 +1,4 @@
-//! Draws marks for suns and the shot camera, which have no surface.
+//! Draws lines and icons for suns and the shot camera, which have no surface of their own.
 
 use egui::{Align2, Color32, Stroke};
 use glam::DVec3;
@@ -8,7 +8,7 @@ use super::ink::{self, OVER_PAINT};
 use crate::icons;
 use crate::theme::type_face;
 
-/// A mark for something that has no surface.
+/// What is drawn for something that has no surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StandIn {
     /// A parallel light: a line along its direction. The renderer draws its icon.
@@ -27,7 +27,7 @@ pub enum StandIn {
     },
 }
 
-/// Draws the marks, each with whether it is selected.
+/// Draws the stand-ins. The flag beside each says whether it is selected.
 pub fn stand_ins(sheet: &Sheet<'_>, all: &[(StandIn, bool)]) {
     for &(stand_in, selected) in all {
         let colour = if selected { OVER_PAINT.accent_text } else { ink::WHITE };

@@ -74,8 +74,8 @@ impl NumberField<'_> {
         (done, cancelled)
     }
 
-    /// Resets the value on a double click, whose second click lands in the text field that the first one opened.
-    /// Returns whether it did.
+    /// Resets the value to its default on a double click, and returns whether there was one. The first click opens the
+    /// text field, so the second one lands there.
     pub(super) fn is_double_clicked(&mut self, ui: &Ui, id: egui::Id, frame: Rect) -> bool {
         let Some(default) = self.default else { return false };
         let is_here = ui.input(|input| {
@@ -100,7 +100,7 @@ impl NumberField<'_> {
         }
     }
 
-    /// What may be typed: *0 to 1*.
+    /// Which numbers may be typed, in words: *0 to 1*.
     fn limits_in_words(&self) -> String {
         let (least, most) = (*self.limits.start(), *self.limits.end());
         let unit = self.unit;

@@ -1,4 +1,5 @@
-//! The icons, drawn by code: ink in the first channel, the disc under it in the second.
+//! Draws the icons of lights by code. In the texture, the first channel is an icon's ink, the second the disc under
+//! it.
 
 use glam::Vec2;
 
@@ -11,7 +12,7 @@ pub(super) const COUNT: u32 = 3;
 /// Half the width of a line, in halves of the icon's side.
 const LINE: f32 = 0.055;
 
-/// Radius of the disc.
+/// Radius of the disc, in halves of the icon's side.
 const DISC: f32 = 0.94;
 
 /// Distance of a point to the drawn shape; negative inside. Points are in −1..1 both ways, Y up.
@@ -19,7 +20,7 @@ type Outline = fn(Vec2) -> f32;
 
 const ICONS: [Outline; COUNT as usize] = [sun, bulb, dome];
 
-/// For each level, finest first, the texels of all icons one after the other; rows from the bottom.
+/// The mipmap levels, finest first. Each holds the texels of all icons one after the other, rows from the bottom.
 pub(super) fn levels() -> Vec<Vec<u8>> {
     let mut side = SIDE;
     let mut levels = Vec::new();

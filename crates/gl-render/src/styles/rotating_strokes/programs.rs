@@ -48,7 +48,7 @@ pub(super) const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES
 
 pub(super) const DETAIL: ProgramSource<'static> = ProgramSource::screen(
     "rotating_strokes/detail.frag",
-    &[&["reference_color", "depth_and_id", "glint", "px_scale", "block_px"]],
+    &[&["reference_color", "depth_and_id", "glint", "normal", "px_scale", "view_from_world", "block_px"]],
 );
 
 pub(super) const SPREAD: ProgramSource<'static> =

@@ -1,16 +1,17 @@
-//! The paper: a tile that repeats, with clouds of pulp, random fibres, and fine grain (tooth).
+//! Makes the texture of the paper: a tile that repeats, with clouds of pulp, random fibres, and fine grain (tooth).
 
 use impasto_core::hash;
 use impasto_core::presence::smoothstep;
 
-/// Side of the tile in texels; one texel a pixel at the scene's size.
+/// Side of the tile in texels. At the scene's own size, a texel covers one pixel.
 pub(super) const SIDE: u32 = 512;
 
 /// Fibres in a tile: how many, and how long they are in texels.
 const FIBRES: u32 = 1100;
 const LENGTH: [f32; 2] = [14.0, 90.0];
 
-/// Clouds, fibres and tooth, each centred on 128; four bytes a texel, bottom row first.
+/// The tile, four bytes a texel, bottom row first. The first three channels are clouds, fibres and tooth, each with a
+/// mean of 128.
 pub(super) fn tile() -> Vec<u8> {
     let side = SIDE as usize;
     let noise = |at: usize| {

@@ -1,11 +1,11 @@
-//! The shader programs of the style.
+//! The shader programs of the ink style, for each of its two rules.
 
 use crate::body_program::BodyProgram;
 use crate::gl::{GlError, Gpu, Program, ProgramSource, ShaderFile};
 use crate::lens::{LENS_UNIFORMS, VIEW_LENS_UNIFORMS};
 use crate::shader_files::{SHARED, SUMI_E};
 
-/// The shader files that the style's own may include.
+/// The files that the style's shaders may include.
 const FILES: &[&[ShaderFile]] = &[SHARED, SUMI_E];
 
 /// The programs of the source's five passes. Bodies are drawn without the noise that displaces them.

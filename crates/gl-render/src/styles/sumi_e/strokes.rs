@@ -1,4 +1,5 @@
-//! Strokes of ink: finds the ink of each, then draws a billboard for each, one layer after the other.
+//! Draws strokes of ink: first finds the ink of every stroke, then draws a billboard for each, one layer after the
+//! other.
 
 use glam::Vec3;
 use impasto_core::{brush, color};
@@ -13,7 +14,7 @@ use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::StyleInput;
 use crate::watch::Watch;
 
-/// The caller is asked whether to stop after this many strokes.
+/// After this many strokes, the caller is asked whether to stop.
 const PIECE: u32 = 4096;
 
 /// Draws the strokes of a frame.
@@ -112,7 +113,8 @@ impl InkStrokes {
         self.buffers.draw(bound, run, true)
     }
 
-    /// Linear colour and alpha of every stroke of the last frame, then its place and how dark it is, eight floats each.
+    /// For every stroke of the last frame, eight floats: linear colour, alpha, its centre in pixels, how dark it is,
+    /// and one that is unused.
     pub(super) fn read_resolved(&self) -> Vec<[f32; 8]> {
         let mut resolved = self.buffers.read_resolved();
         for stroke in &mut resolved {

@@ -1,4 +1,4 @@
-//! The targets of the passes, for either rule.
+//! The targets that the passes of the ink style draw into, for each of its two rules.
 
 use std::rc::Rc;
 

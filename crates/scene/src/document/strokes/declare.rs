@@ -83,7 +83,7 @@ macro_rules! stroke_numbers {
         #[derive(Clone, Debug, PartialEq)]
         pub struct ResolvedStrokes {
             /// The layers, in the order of [`crate::presets::LayerKind::ALL`].
-            pub layers: [ResolvedLayer; 6],
+            pub layers: [ResolvedLayer; 7],
             $($(#[doc = $form_effect])+ pub $form_resolved: f32,)+
             $($(#[doc = $color_effect])+ pub $color_resolved: f32,)+
             /// How paint ends at its body's border.
@@ -108,7 +108,7 @@ macro_rules! stroke_numbers {
 
         impl ResolvedStrokes {
             /// A preset's values, with any colour allowed, on layer 0.
-            pub(crate) fn new(layers: [ResolvedLayer; 6], numbers: PresetNumbers, edges: Edges) -> Self {
+            pub(crate) fn new(layers: [ResolvedLayer; 7], numbers: PresetNumbers, edges: Edges) -> Self {
                 Self {
                     layers,
                     $($form_resolved: $form_kind::of_preset(numbers.$form),)+

@@ -1,19 +1,20 @@
-//! Ends a text before an error in its brackets, so that everything before it can be read.
+//! Saves the readable part of a broken scene: ends its text before an error in the brackets, so that everything before
+//! the error can be read.
 
 /// A text that was ended early.
 pub(super) struct Cut {
     /// The text before the error, with every bracket closed.
     pub(super) text: String,
-    /// Offset up to which it was read, bytes.
+    /// Offset in the whole text up to which it was read, bytes.
     pub(super) read_to: usize,
-    /// About how many objects come after it.
+    /// About how many objects are in the text that was cut off.
     pub(super) objects_behind: usize,
 }
 
 /// A bracket that is open.
 struct Open {
     byte: u8,
-    /// Behind the bracket, or behind its last comma.
+    /// Where the item that is read now begins: behind the bracket, or behind the last comma in it.
     item_start: usize,
     /// Whether it holds `name: value` pairs.
     has_fields: bool,

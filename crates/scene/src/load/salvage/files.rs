@@ -15,10 +15,10 @@ use crate::locate::Located;
 use crate::mesh_file::{Material, MeshFile, Texture};
 use crate::problem::{Problem, Severity};
 
-/// The most files among which a missing one is searched.
+/// Missing files are not searched for if the scene's folder and those below it hold more entries than this.
 const MOST_ENTRIES: usize = 4000;
 
-/// How many folders deep it is searched for.
+/// Missing files are searched for in folders at most this deep below the scene's folder.
 const DEEPEST: usize = 4;
 
 type Read<T> = Result<(Arc<T>, Vec<Problem>), Problem>;
@@ -30,7 +30,7 @@ pub(super) struct FileCache<'a> {
     meshes: BTreeMap<String, Read<MeshFile>>,
     textures: BTreeMap<String, Read<Texture>>,
     brushes: BTreeMap<String, Read<Texture>>,
-    /// The files in the scene's folder and below, by path from there; none before they are looked for.
+    /// The files in the scene's folder and below, as paths relative to it; `None` until they are first needed.
     nearby: Option<Vec<PathBuf>>,
 }
 
@@ -54,7 +54,7 @@ impl<'a> FileCache<'a> {
         Self { path, options, meshes, textures, brushes, nearby: None }
     }
 
-    /// Reads what a scene names.
+    /// Reads the files that a scene names.
     pub(super) fn read(&mut self, scene: &Scene, located: &Located) -> Found {
         let mut found = Found::default();
         let (path, folders) = (self.path, &self.options.folders);
@@ -138,8 +138,8 @@ impl<'a> FileCache<'a> {
         as_scene_problem(problem, self.path, place)
     }
 
-    /// A fix that names the only file of that name in the scene's folder or below, or else the only one of nearly that
-    /// name.
+    /// A fix for a file that was not found, if exactly one file in the scene's folder or below has its name, or, where
+    /// none has, exactly one has nearly its name.
     fn nearby_fix(&mut self, name: &str, fields: &[String], located: &Located) -> Option<Fix> {
         let plain = name.trim().replace('\\', "/");
         let wanted = Path::new(&plain).file_name()?.to_str()?.to_lowercase();
@@ -187,7 +187,8 @@ fn mesh(path: &Path, name: &str, options: &LoadOptions) -> Read<MeshFile> {
     })
 }
 
-/// The files of a folder and of those in it, by path from there, in order. Links are not followed.
+/// The files in a folder and in the folders below it, as paths relative to it, sorted; none if there are too many.
+/// Links are not followed.
 fn files_below(root: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut open = vec![(PathBuf::new(), 0)];

@@ -1,4 +1,5 @@
-//! Fixes for losses: the text of a button, and the edits of the file's text.
+//! Fixes for losses, the parts of a scene file that could not be read. A fix is the text of a button, and edits of the
+//! file's text.
 
 use std::ops::Range;
 
@@ -18,7 +19,8 @@ pub struct Fix {
     pub(super) edits: Vec<(Range<usize>, String)>,
 }
 
-/// A text with fixes applied. Fixes of another text are skipped where they do not fit.
+/// A text with fixes applied. An edit is skipped if its range is not in the text (the fix was found in another text),
+/// or if it overlaps a later edit.
 pub fn mended(text: &str, fixes: &[&Fix]) -> String {
     let mut edits: Vec<&(Range<usize>, String)> = fixes.iter().flat_map(|fix| &fix.edits).collect();
     edits.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));

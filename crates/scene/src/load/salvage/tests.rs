@@ -52,7 +52,7 @@ fn names(salvaged: &Salvaged) -> Vec<&str> {
     salvaged.loaded.scene.objects.iter().map(|object| object.name.as_str()).collect()
 }
 
-/// Applies all fixes and checks that the scene then has no losses.
+/// Applies all fixes and reads the scene again.
 fn all_fixed(salvaged: &Salvaged, path: &Path) -> Salvaged {
     let fixes: Vec<&Fix> = salvaged.losses.iter().filter_map(|loss| loss.fix.as_ref()).collect();
     salvage_text(path, &mended(&salvaged.text, &fixes), &LoadOptions::default()).expect("opens")
@@ -86,7 +86,7 @@ fn an_unknown_field_is_left_out_and_one_near_it_is_a_certain_fix() {
     let fixed = all_fixed(&salvaged, &folder.path());
     assert_eq!(fixed.loaded.scene.strokes.width_px, Some(9.0));
     assert_eq!(fixed.losses.len(), 1);
-    // When the right field is already present, the fix does not write it twice.
+    // When the right field is already present, there is no fix: it would write the field twice.
     let text = scene("", "  strokes: (widht_px: 9, width_px: 10),");
     assert_eq!(folder.read(&text).losses[0].fix, None);
 }
@@ -111,7 +111,7 @@ fn a_box_stands_in_for_a_mesh_and_all_else_of_the_object_is_kept() {
     assert_eq!((fixes[1].verb.as_str(), fixes[1].is_certain), ("Use leaf.obj", true));
     let fixed = mended(&salvaged.text, &[&fixes[1]]);
     assert!(fixed.contains(r#"(name: "more", mesh: "meshes/leaf.obj")"#), "{fixed}");
-    // With two files of that name no fix is certain.
+    // With two files of that name there is no fix.
     fs::write(folder.0.path().join("leaf.obj.obj"), "").expect("written");
     fs::create_dir(folder.0.path().join("other")).expect("made");
     fs::write(folder.0.path().join("other/leaf.obj"), CUBE).expect("written");

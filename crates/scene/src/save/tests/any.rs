@@ -1,4 +1,5 @@
-//! A proptest strategy for random scenes, in which every field can differ from its default.
+//! Makes random scenes, in which every field can differ from its default, for the test that a saved scene reads back
+//! equal.
 
 use proptest::prelude::*;
 

@@ -1,0 +1,196 @@
+//! Where the camera of a new scene stands, so that the model and the beginning of its shadow fill the picture.
+
+use glam::{DMat3, DVec3};
+
+use super::stance::Stance;
+use super::{SIZE_PX, round_at, round_to, significant};
+use crate::built_in_mesh;
+use crate::document::{Camera, CameraKey, Ease, Lens, Object, ObjectKey, Scale};
+use crate::mesh_file::MeshFile;
+
+/// Vertical field of view, degrees: narrow enough not to distort forms.
+const FOV_Y_DEG: f64 = 35.0;
+
+/// Share of the picture that stays free at each border.
+const MARGIN: f64 = 0.1;
+
+/// Size of the backdrop over the diagonal of the mesh, so that it fills the picture.
+const BACKDROP_SCALE: f64 = 3.0;
+
+/// How far the shadow on the floor reaches towards the right of the picture, over the height of what casts it; this share of it is
+/// framed with the model. The end of a long shadow may leave the picture.
+const SHADOW_SLOPE: f64 = 1.2;
+const FRAMED_SHADOW: f64 = 0.3;
+
+/// A camera pose that frames a mesh.
+#[derive(Debug)]
+pub(super) struct View {
+    eye: DVec3,
+    target: DVec3,
+    near: f64,
+    far: f64,
+    pub axes: Axes,
+    /// The middle of the mesh's underside, world space, and the diagonal of its bounds.
+    foot: DVec3,
+    size: f64,
+}
+
+/// The camera's axes in world space, unit vectors.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Axes {
+    right: DVec3,
+    up: DVec3,
+    /// From the target to the eye.
+    pub back: DVec3,
+}
+
+impl Axes {
+    pub fn looking_from(back: DVec3) -> Self {
+        let back = back.normalize();
+        let right = DVec3::Y.cross(back).normalize();
+        Self { right, up: back.cross(right), back }
+    }
+
+    /// World space to camera space, without translation.
+    fn to_camera(self, vector: DVec3) -> DVec3 {
+        DVec3::new(self.right.dot(vector), self.up.dot(vector), self.back.dot(vector))
+    }
+
+    /// Camera space to world space, without translation.
+    pub fn to_world(self, vector: DVec3) -> DVec3 {
+        self.right * vector.x + self.up * vector.y + self.back * vector.z
+    }
+}
+
+impl View {
+    /// The view of a mesh that stands so. With `may_turn` an open mesh that would show its back is seen from the side that shows the
+    /// most of its front.
+    pub fn of(mesh: &MeshFile, stance: Stance, may_turn: bool) -> Self {
+        let turn = stance.up.y_up_from_file();
+        let points: Vec<DVec3> = used_points(mesh).map(|point| turn * point).collect();
+        let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = if points.is_empty() { (DVec3::ZERO, DVec3::ZERO) } else { (low, high) };
+        let center = (low + high) / 2.0;
+        // A mesh that is one point still gets a camera.
+        let size = (high - low).length();
+        let size = if size > 0.0 && size.is_finite() { size } else { 1.0 };
+        let axes = Axes::looking_from(if may_turn { facing(mesh, turn, stance.view) } else { stance.view });
+        let along_floor = (axes.right - DVec3::Y * axes.right.y).normalize_or_zero();
+        let shadow = |point: &DVec3| {
+            let rise = point.y - low.y;
+            *point - DVec3::Y * rise + along_floor * (rise * SHADOW_SLOPE * FRAMED_SHADOW)
+        };
+        let has_floor = axes.back.y > 0.0;
+        let framed = points.iter().copied().chain(points.iter().filter(|_| has_floor).map(shadow));
+        let framing = Framing::of(framed.map(|point| axes.to_camera(point - center) / size));
+        let round = |point: DVec3| round_to(center + point * size, size * 1e-4);
+        let eye_in_camera = framing.eye;
+        let target_in_camera = eye_in_camera.with_z(0.0);
+        Self {
+            eye: round(axes.to_world(eye_in_camera)),
+            target: round(axes.to_world(target_in_camera)),
+            near: significant(framing.nearest * size * 0.5),
+            far: significant((framing.farthest + BACKDROP_SCALE) * size * 2.0),
+            axes,
+            foot: DVec3::new(center.x, low.y, center.z),
+            size,
+        }
+    }
+
+    pub fn camera(&self) -> Camera {
+        Camera {
+            lens: Lens::Perspective { fov_y_deg: FOV_Y_DEG, near: self.near, far: self.far },
+            keys: vec![CameraKey {
+                frame: 0.0,
+                eye: self.eye.to_array(),
+                target: self.target.to_array(),
+                roll_deg: 0.0,
+                fov_y_deg: None,
+                ease: Ease::default(),
+            }],
+        }
+    }
+
+    /// A floor under the mesh and a wall behind it, turned to the eye.
+    pub fn backdrop(&self, name: &str) -> Object {
+        let yaw_deg = self.axes.back.x.atan2(self.axes.back.z).to_degrees();
+        // A little below, so that a flat mesh lies on it.
+        let below = self.foot - DVec3::Y * (0.002 * self.size);
+        Object {
+            scale: Scale([significant(BACKDROP_SCALE * self.size); 3]),
+            keys: vec![ObjectKey {
+                translation: round_to(below, self.size * 1e-4).to_array(),
+                rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
+                ..ObjectKey::at(0.0)
+            }],
+            ..Object::new(name, built_in_mesh::BACKDROP)
+        }
+    }
+}
+
+/// The direction from the mesh to the eye: `usual`, unless the mesh is open and would show its back there.
+fn facing(mesh: &MeshFile, turn: DMat3, usual: DVec3) -> DVec3 {
+    let mut area_vector = DVec3::ZERO;
+    let mut area = 0.0;
+    for triangle in 0..mesh.mesh.triangles.len() {
+        let [a, b, c] = mesh.mesh.corners(triangle).map(|corner| turn * corner.as_dvec3());
+        let normal = (b - a).cross(c - a);
+        area_vector += normal;
+        area += normal.length();
+    }
+    let openness = area_vector / area;
+    let is_open = openness.length() > 0.25;
+    if !is_open || openness.dot(usual) > 0.0 {
+        return usual;
+    }
+    let signs = [1.0, -1.0];
+    let sides = signs.iter().flat_map(|&x| signs.map(|z| DVec3::new(x, 1.0, z)));
+    let from_below = signs.iter().flat_map(|&x| signs.map(|z| DVec3::new(x, -1.0, z)));
+    let views = sides.chain(from_below).map(|sign| usual * sign);
+    views.fold(usual, |best, view| if view.dot(openness) > best.dot(openness) + 1e-6 { view } else { best })
+}
+
+pub(super) fn used_points(mesh: &MeshFile) -> impl Iterator<Item = DVec3> {
+    mesh.mesh.triangles.iter().flatten().map(|&vertex| mesh.mesh.positions[vertex as usize].as_dvec3())
+}
+
+/// The nearest eye that sees all points inside the margin. In camera space, from the mesh's centre, in lengths of its
+/// diagonal.
+#[derive(Debug)]
+struct Framing {
+    eye: DVec3,
+    /// Least and greatest depth of a point.
+    nearest: f64,
+    farthest: f64,
+}
+
+impl Framing {
+    /// A point is inside where |x − eye.x| ≤ t·(eye.z − z), with t the slope of the picture's border less the margin.
+    /// So the maxima of x + t·z and −x + t·z over all points give the nearest eye; likewise for y.
+    fn of(points: impl Iterator<Item = DVec3>) -> Self {
+        let slope_y = (FOV_Y_DEG.to_radians() / 2.0).tan() * (1.0 - 2.0 * MARGIN);
+        let slope_x = slope_y * f64::from(SIZE_PX.0) / f64::from(SIZE_PX.1);
+        let mut reach = [f64::NEG_INFINITY; 4];
+        let mut depth = (f64::INFINITY, f64::NEG_INFINITY);
+        for point in points {
+            let reaches = [
+                point.x + slope_x * point.z,
+                -point.x + slope_x * point.z,
+                point.y + slope_y * point.z,
+                -point.y + slope_y * point.z,
+            ];
+            reach = std::array::from_fn(|side| reach[side].max(reaches[side]));
+            depth = (depth.0.min(point.z), depth.1.max(point.z));
+        }
+        if !depth.0.is_finite() {
+            (reach, depth) = ([0.0; 4], (0.0, 0.0));
+        }
+        let [right, left, top, bottom] = reach;
+        let distance = ((right + left) / (2.0 * slope_x)).max((top + bottom) / (2.0 * slope_y));
+        // A mesh that is almost a point is seen from a small distance.
+        let distance = distance.max(depth.1 + 0.05);
+        let eye = DVec3::new((right - left) / 2.0, (top - bottom) / 2.0, distance);
+        Self { eye, nearest: distance - depth.1, farthest: distance - depth.0 }
+    }
+}

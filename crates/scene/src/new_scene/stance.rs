@@ -1,0 +1,326 @@
+//! How a model of unknown make stands: which of its axes points up, and from which side it is best seen.
+
+use glam::{DMat3, DVec3};
+use impasto_core::sampling::{self, Surface};
+
+use crate::document::Up;
+use crate::mesh_file::MeshFile;
+
+/// Samples of a model's surface that judge how it stands.
+const SAMPLES: usize = 1500;
+
+/// The lowest part of a model that may carry it, as a share of its height.
+const FOOT: f64 = 0.025;
+
+/// A sample has a mirror image where another lies this close to it, in spacings.
+const MIRRORED_WITHIN: f64 = 1.3;
+
+/// A plane mirrors the model where more than this share of the samples have a mirror image.
+const MIRRORED: f64 = 0.8;
+
+/// Three quarters from the front, slightly from above.
+const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
+
+/// How far the eye of the best view is above the model's middle, over its distance on the floor.
+const RISE: f64 = 0.26;
+
+/// An axis is surely up when its score is this much above the next best.
+const SURE: f64 = 0.25;
+
+/// How a model stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stance {
+    /// Which axis of the file points up.
+    pub up: Up,
+    /// From the model to the eye, the model standing upright.
+    pub view: DVec3,
+    /// Whether another axis could as well be up.
+    pub up_is_unsure: bool,
+}
+
+/// From which side a model is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ViewFrom {
+    /// Three quarters from the front, which is the side with the most form.
+    #[default]
+    Auto,
+    /// From +Z of the upright model.
+    Front,
+    /// From −Z.
+    Back,
+    /// From −X.
+    Left,
+    /// From +X.
+    Right,
+    /// From +Z, +X and a little above.
+    ThreeQuarter,
+    /// From above.
+    Top,
+}
+
+/// Samples of a model, in the axes of its file.
+pub(super) struct Samples {
+    points: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    spacing: f64,
+}
+
+impl Samples {
+    pub fn of(mesh: &MeshFile) -> Self {
+        let surface = Surface::new(&mesh.mesh, |_| true);
+        let particles = sampling::progressive(&surface, SAMPLES, 1);
+        Self {
+            points: particles.iter().map(|particle| particle.position.as_dvec3()).collect(),
+            normals: particles.iter().map(|particle| particle.normal.as_dvec3()).collect(),
+            spacing: sampling::hexagonal_spacing(surface.area(), particles.len().max(1)),
+        }
+    }
+
+    fn turned(&self, turn: DMat3) -> Self {
+        let turned = |vectors: &[DVec3]| vectors.iter().map(|&vector| turn * vector).collect();
+        Self { points: turned(&self.points), normals: turned(&self.normals), spacing: self.spacing }
+    }
+
+    /// How the model stands, where the user has not said it.
+    pub fn stance(&self, up: Option<Up>, view: ViewFrom) -> Stance {
+        let (found, up_is_unsure) = match up {
+            Some(up) => (up, false),
+            // A flat thing has no feet: it stays as it is.
+            None if self.is_flat() => (Up::Y, false),
+            None => self.upright(),
+        };
+        let upright = self.turned(found.y_up_from_file());
+        let usual = || if self.points.is_empty() { USUAL_VIEW } else { upright.best_view() };
+        let view = view.direction().unwrap_or_else(usual);
+        Stance { up: found, view, up_is_unsure }
+    }
+
+    /// Whether it has hardly any extent along one of its axes.
+    fn is_flat(&self) -> bool {
+        let [low, high] = self.bounds();
+        let size = high - low;
+        self.points.is_empty() || size.min_element() < 0.02 * size.max_element()
+    }
+
+    /// The axis that most likely points up, and whether another is almost as likely.
+    fn upright(&self) -> (Up, bool) {
+        // Most files have Y up, then Z. The others need a clear reason.
+        let habits =
+            [(Up::Y, 0.6), (Up::Z, 0.1), (Up::X, -0.5), (Up::NegX, -0.5), (Up::NegY, -0.7), (Up::NegZ, -0.7)];
+        let mirrors = self.mirrors();
+        let mut scores = habits.map(|(up, habit)| {
+            let turn = up.y_up_from_file();
+            let stands = self.turned(turn).stands();
+            // A plane that mirrors a living thing or a vehicle is upright.
+            let in_file = turn.transpose() * DVec3::Y;
+            let lies_in_mirror =
+                |axis: usize| mirrors[axis] > MIRRORED && in_file.to_array()[axis].abs() < 0.5;
+            let mirrored = if (0..3).any(lies_in_mirror) { 0.5 } else { 0.0 };
+            (up, habit + stands + mirrored)
+        });
+        scores.sort_by(|a, b| b.1.total_cmp(&a.1));
+        (scores[0].0, scores[0].1 - scores[1].1 < SURE)
+    }
+
+    /// How well the samples stand on their lowest part: flat feet, a wide support, the middle above it. 0 to about 2.
+    fn stands(&self) -> f64 {
+        let low = self.points.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
+        let high = self.points.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
+        let foot = low + FOOT * (high - low) + 0.3 * self.spacing;
+        let on_floor = |point: &DVec3| [point.x, point.z];
+        let standing = self.points.iter().zip(&self.normals).filter(|(point, _)| point.y <= foot);
+        let flat = standing.clone().filter(|(_, normal)| normal.y < -0.9).count() as f64;
+        let support = hull(standing.map(|(point, _)| on_floor(point)).collect());
+        let shadow = hull(self.points.iter().map(on_floor).collect());
+        let middle = self.points.iter().sum::<DVec3>() / self.points.len().max(1) as f64;
+        let stable = if inside(&support, on_floor(&middle)) { 0.3 } else { 0.0 };
+        let share = area(&support) / area(&shadow).max(f64::MIN_POSITIVE);
+        let flat = (20.0 * flat / self.points.len().max(1) as f64).min(1.0);
+        let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
+        0.5 * flat + 0.3 * finite(share).min(1.0) + stable
+    }
+
+    /// For each axis, the share of samples whose mirror image across the middle plane lies on the surface too.
+    fn mirrors(&self) -> [f64; 3] {
+        let [low, high] = self.bounds();
+        let middle = (low + high) / 2.0;
+        let reach_sq = (MIRRORED_WITHIN * self.spacing).powi(2);
+        std::array::from_fn(|axis| {
+            let mirrored = |point: &&DVec3| {
+                let mut image = **point;
+                image[axis] = 2.0 * middle[axis] - image[axis];
+                self.points.iter().any(|other| other.distance_squared(image) < reach_sq)
+            };
+            self.points.iter().filter(mirrored).count() as f64 / self.points.len().max(1) as f64
+        })
+    }
+
+    /// The three-quarter view that shows the most small form; of an object that mirrors, along its mirror plane.
+    fn best_view(&self) -> DVec3 {
+        let (bent, lean) = (self.bent(), self.lean());
+        let mirrors = self.mirrors();
+        let [x, z] = [mirrors[0], mirrors[2]];
+        // The plane that mirrors much better than the other tells which axis points forward.
+        let along_z = x > MIRRORED && x > z + 0.06;
+        let along_x = z > MIRRORED && z > x + 0.06;
+        let [low, high] = self.bounds();
+        let size = high - low;
+        // A thing without a mirror plane was probably modelled to be seen from +Z.
+        let front = if along_x || along_z { 1.06 } else { 1.3 };
+        let mut best = (f64::NEG_INFINITY, USUAL_VIEW);
+        for forward in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_X] {
+            if (along_z && forward.x != 0.0) || (along_x && forward.z != 0.0) {
+                continue;
+            }
+            for side in [1.0, -1.0] {
+                let right = DVec3::Y.cross(forward);
+                // A long thing is seen more from its side.
+                let length = forward.abs().dot(size) / right.abs().dot(size).max(f64::MIN_POSITIVE);
+                let yaw = (29.0 + (60.0 * (length - 1.0)).clamp(0.0, 34.0)).to_radians();
+                let level = forward * yaw.cos() + right * (side * yaw.sin());
+                let view = level + DVec3::Y * RISE;
+                let seen = self.form_seen(view.normalize(), &bent);
+                // Heads are carried high and forward. Of equal views the usual one: +Z is the front of most files.
+                let ahead = 1.0 + 0.35 * lean.dot(forward).clamp(-1.0, 1.0);
+                let usual = ahead
+                    * if forward == DVec3::Z { front } else { 1.0 }
+                    * if side > 0.0 { 1.03 } else { 1.0 };
+                if seen * usual > best.0 {
+                    best = (seen * usual, view);
+                }
+            }
+        }
+        best.1
+    }
+
+    /// Least and greatest corner of the box round the samples.
+    fn bounds(&self) -> [DVec3; 2] {
+        let low = self.points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        [low, self.points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max)]
+    }
+
+    /// How far the upper third lies from the middle of the whole, level, over half the model's level extent.
+    fn lean(&self) -> DVec3 {
+        let [low, high] = self.bounds();
+        let middle = (low + high) / 2.0;
+        let (mut sum, mut count) = (DVec3::ZERO, 0.0);
+        for point in self.points.iter().filter(|point| point.y > low.y + 0.67 * (high.y - low.y)) {
+            sum += *point - middle;
+            count += 1.0;
+        }
+        let reach = 0.5 * (high.x - low.x).max(high.z - low.z);
+        let lean = (sum / f64::max(count, 1.0) / reach).with_y(0.0);
+        if lean.is_finite() { lean } else { DVec3::ZERO }
+    }
+
+    /// How much the surface bends at each sample: the mean of 1 − n·n' over the samples near it.
+    fn bent(&self) -> Vec<f64> {
+        let reach_sq = (2.5 * self.spacing).powi(2);
+        let of = |(at, normal): (&DVec3, &DVec3)| {
+            let near = self
+                .points
+                .iter()
+                .zip(&self.normals)
+                .filter(|(other, _)| at.distance_squared(**other) < reach_sq);
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (_, other) in near {
+                sum += 1.0 - normal.dot(*other);
+                count += 1.0;
+            }
+            sum / f64::max(count, 1.0)
+        };
+        self.points.iter().zip(&self.normals).map(of).collect()
+    }
+
+    /// How much bent surface faces an eye in this direction and is not hidden, each sample hiding those close behind it.
+    fn form_seen(&self, towards_eye: DVec3, bent: &[f64]) -> f64 {
+        let right = DVec3::Y.cross(towards_eye).normalize_or(DVec3::X);
+        let up = towards_eye.cross(right);
+        let cell = 1.5 * self.spacing;
+        let at = |point: &DVec3| {
+            [(right.dot(*point) / cell).floor() as i64, (up.dot(*point) / cell).floor() as i64]
+        };
+        let mut foremost = std::collections::HashMap::new();
+        for point in &self.points {
+            let depth = foremost.entry(at(point)).or_insert(f64::NEG_INFINITY);
+            *depth = f64::max(*depth, towards_eye.dot(*point));
+        }
+        let seen = |(point, normal): (&DVec3, &DVec3)| {
+            let shows = towards_eye.dot(*point) > foremost[&at(point)] - 2.0 * cell;
+            if shows { normal.dot(towards_eye).max(0.0) } else { 0.0 }
+        };
+        self.points
+            .iter()
+            .zip(&self.normals)
+            .zip(bent)
+            .map(|(sample, bent)| seen(sample) * (0.05 + bent))
+            .sum()
+    }
+}
+
+impl ViewFrom {
+    /// All, with their names on the command line.
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("auto", Self::Auto),
+        ("front", Self::Front),
+        ("back", Self::Back),
+        ("left", Self::Left),
+        ("right", Self::Right),
+        ("three-quarter", Self::ThreeQuarter),
+        ("top", Self::Top),
+    ];
+
+    /// From the upright model to the eye.
+    fn direction(self) -> Option<DVec3> {
+        match self {
+            Self::Auto => None,
+            Self::Front => Some(DVec3::new(0.0, 0.16, 1.0)),
+            Self::Back => Some(DVec3::new(0.0, 0.16, -1.0)),
+            Self::Left => Some(DVec3::new(-1.0, 0.16, 0.0)),
+            Self::Right => Some(DVec3::new(1.0, 0.16, 0.0)),
+            Self::ThreeQuarter => Some(USUAL_VIEW),
+            Self::Top => Some(DVec3::new(0.0, 1.0, 0.18)),
+        }
+    }
+}
+
+/// The convex hull, counter-clockwise (Andrew's monotone chain).
+fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let mut chain: Vec<[f64; 2]> = Vec::new();
+    let half = |chain: &mut Vec<[f64; 2]>, from: usize, point: [f64; 2]| {
+        while chain.len() >= from + 2 && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0 {
+            chain.pop();
+        }
+        chain.push(point);
+    };
+    for &point in &points {
+        half(&mut chain, 0, point);
+    }
+    let lower = chain.len() - 1;
+    for &point in points.iter().rev().skip(1) {
+        half(&mut chain, lower, point);
+    }
+    chain.pop();
+    chain
+}
+
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+fn edges(hull: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+    hull.iter().zip(hull.iter().cycle().skip(1)).map(|(&from, &to)| (from, to))
+}
+
+fn area(hull: &[[f64; 2]]) -> f64 {
+    edges(hull).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>() / 2.0
+}
+
+fn inside(hull: &[[f64; 2]], point: [f64; 2]) -> bool {
+    hull.len() >= 3 && edges(hull).all(|(a, b)| turn(a, b, point) >= 0.0)
+}
