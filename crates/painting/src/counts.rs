@@ -10,9 +10,8 @@ use impasto_scene::presets::LayerKind;
 use crate::body::BodySurface;
 use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
-use crate::parts::{BodyParts, Cap};
+use crate::parts::{BodyParts, Cap, fit_of};
 use crate::regions::BodyRegions;
-use crate::stroke::fit_of;
 
 const LAYERS: usize = LayerKind::ALL.len();
 

@@ -6,6 +6,7 @@ use impasto_core::form_size::FormSize;
 use impasto_core::parts::{Part, parts};
 use impasto_core::sampling::Surface;
 use impasto_scene::document::Direction;
+use impasto_scene::presets::LayerKind;
 
 use crate::references::BodyReference;
 
@@ -100,6 +101,14 @@ impl Cap {
         // A soft minimum: sizes do not change abruptly over the surface.
         let share = (1.0 + (capped[1] / most_px).powi(4)).powf(-0.25);
         capped.map(|side| side * (1.0 - fit * (1.0 - share)))
+    }
+}
+
+/// How far the strokes of a layer fit the form. The underpainting and the scumble are there to be broad.
+pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
+    match kind {
+        LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour => 0.0,
+        LayerKind::Body | LayerKind::Form | LayerKind::Accents | LayerKind::Lights => fit,
     }
 }
 

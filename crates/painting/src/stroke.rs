@@ -17,6 +17,7 @@ use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::frame_options::{Rotation, StrokeColors};
 use crate::order::OrderEntry;
 use crate::painting_view::{CoatView, PaintingView};
+use crate::parts::fit_of;
 use crate::presence_bound::LEAST_COUNTED_FADE;
 use crate::traits::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
@@ -237,14 +238,6 @@ fn small_enough(kind: LayerKind, share: f32) -> f32 {
     match kind {
         LayerKind::Form | LayerKind::Accents => smoothstep((share - 0.5) / 0.4).max(0.02),
         _ => 1.0,
-    }
-}
-
-/// How far the strokes of a layer fit the form. The underpainting and the scumble are there to be broad.
-pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
-    match kind {
-        LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour => 0.0,
-        LayerKind::Body | LayerKind::Form | LayerKind::Accents | LayerKind::Lights => fit,
     }
 }
 
