@@ -1,10 +1,9 @@
 //! How large a surface's form is at each place: how far one can go from there before the surface turns away.
 
-use std::collections::HashMap;
-
 use glam::Vec3;
 use rayon::prelude::*;
 
+use crate::hash;
 use crate::sampling::{self, Surface, hexagonal_spacing};
 
 /// At most this many samples measure a surface: their distances are looked at in pairs.
@@ -23,12 +22,12 @@ const LEAST_SHARE: f32 = 0.2;
 /// The first radius that is looked at, in spacings of the samples: less is too few samples to judge by.
 const FIRST_RADIUS: f32 = 2.5;
 
-/// Radii that are looked at: each is this many times the last.
-const RADIUS_STEP: f32 = 1.189_207_1;
-const RADII: usize = 40;
+/// How many radii are looked at. Their squares, in squares of the first, are 1, 1.5, 2, 3, 4, 6, 8 and so on: the exponent of a
+/// floating-point number and the first bit after it.
+const RADII: usize = 24;
 
-/// The deviation of the Gaussian that smooths the measure, in spacings; samples are looked for in cells of twice that.
-const SMOOTHING: f32 = 1.2;
+/// Samples no farther than this smooth the measure, in spacings.
+const SMOOTHING_RADIUS: f32 = 2.7;
 
 /// The size of the form all over a surface, measured at samples of it.
 ///
@@ -38,123 +37,169 @@ const SMOOTHING: f32 = 1.2;
 /// plate is as large as it looks.
 #[derive(Clone, Debug, Default)]
 pub struct FormSize {
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    /// ln of the size, model units.
-    size_ln: Vec<f32>,
-    /// The samples in each cell of a grid.
-    cells: HashMap<[i32; 3], Vec<u32>>,
-    cell: f32,
-    deviation: f32,
+    /// In the order of their buckets.
+    samples: Vec<Sample>,
+    /// Where the samples of each bucket begin, and the end of the last. A bucket holds the cells of a grid that have its hash.
+    starts: Vec<u32>,
+    smoothing_radius: f32,
     least: f32,
 }
+
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    position: Vec3,
+    normal: Vec3,
+    /// ln of the size, model units.
+    size_ln: f32,
+}
+
+/// The samples' positions and normals, an array for each axis: pairs are looked at in wide registers.
+struct Axes([Vec<f32>; 6]);
 
 impl FormSize {
     /// Measures a surface; the same for the same surface and seed.
     pub fn of(surface: &Surface<'_>, seed: u32) -> Self {
-        let samples = sampling::progressive(surface, MOST_SAMPLES, seed);
-        let positions: Vec<Vec3> = samples.iter().map(|sample| sample.position).collect();
-        let normals: Vec<Vec3> = samples.iter().map(|sample| sample.normal).collect();
-        let spacing = hexagonal_spacing(surface.area(), samples.len().max(1)) as f32;
-        if samples.is_empty() || !(spacing.is_finite() && spacing > 0.0) {
+        let points = sampling::progressive(surface, MOST_SAMPLES, seed);
+        let spacing = hexagonal_spacing(surface.area(), points.len().max(1)) as f32;
+        if points.is_empty() || !(spacing.is_finite() && spacing > 0.0) {
             return Self::default();
         }
-        let density = (samples.len() as f64 / surface.area()) as f32;
-        let size = |at: &Vec3, normal: &Vec3| size_at(*at, *normal, &positions, &normals, [spacing, density]);
-        let size_ln: Vec<f32> =
-            positions.par_iter().zip(&normals).map(|(at, normal)| size(at, normal).ln()).collect();
-        let deviation = SMOOTHING * spacing;
-        let cell = 2.0 * deviation;
-        let mut cells: HashMap<[i32; 3], Vec<u32>> = HashMap::new();
-        for (index, at) in positions.iter().enumerate() {
-            cells.entry(cell_of(*at, cell)).or_default().push(index as u32);
-        }
-        let mut field = Self { positions, normals, size_ln, cells, cell, deviation, least: 0.0 };
-        field.size_ln = field
-            .positions
+        let density = (points.len() as f64 / surface.area()) as f32;
+        let axes = Axes::new(&points);
+        let mut samples: Vec<Sample> = points
             .par_iter()
-            .zip(&field.normals)
-            .map(|(&at, &normal)| field.at(at, normal).ln())
+            .map_init(
+                || vec![0.0; points.len()],
+                |beyond, point| {
+                    let (position, normal) = (point.position, point.normal);
+                    axes.distances_over_form(position, normal, FIRST_RADIUS * spacing, beyond);
+                    Sample { position, normal, size_ln: size_from(beyond, FIRST_RADIUS * spacing, density).ln() }
+                },
+            )
             .collect();
-        field.least = field.size_ln.iter().fold(f32::INFINITY, |least, &size| least.min(size)).exp();
+        let smoothing_radius = SMOOTHING_RADIUS * spacing;
+        let buckets = samples.len().next_power_of_two();
+        let bucket = |sample: &Sample| bucket_of(cell_of(sample.position, smoothing_radius), buckets);
+        samples.sort_by_cached_key(bucket);
+        let mut starts = vec![0; buckets + 1];
+        for sample in &samples {
+            starts[bucket(sample) + 1] += 1;
+        }
+        for index in 0..buckets {
+            starts[index + 1] += starts[index];
+        }
+        let mut field = Self { samples, starts, smoothing_radius, least: 0.0 };
+        let smooth: Vec<f32> =
+            field.samples.par_iter().map(|sample| field.at(sample.position, sample.normal).ln()).collect();
+        for (sample, smooth) in field.samples.iter_mut().zip(smooth) {
+            sample.size_ln = smooth;
+        }
+        field.least = field.samples.iter().fold(f32::INFINITY, |least, sample| least.min(sample.size_ln)).exp();
         field
     }
 
     /// The size of the form at a point of the surface with this unit normal, model units; infinite on a surface without area.
     pub fn at(&self, position: Vec3, normal: Vec3) -> f32 {
-        let middle = cell_of(position, self.cell);
+        if self.samples.is_empty() {
+            return f32::INFINITY;
+        }
+        let radius_sq = self.smoothing_radius * self.smoothing_radius;
         let (mut sum, mut weights) = (0.0, 0.0);
-        let mut nearest = (f32::INFINITY, f32::INFINITY);
-        for index in 0..27 {
-            let offset = [index % 3 - 1, index / 3 % 3 - 1, index / 9 - 1];
-            let Some(cell) =
-                self.cells.get(&std::array::from_fn(|axis| middle[axis].wrapping_add(offset[axis])))
-            else {
-                continue;
-            };
-            for &sample in cell {
-                let sample = sample as usize;
-                let agreement = normal.dot(self.normals[sample]);
-                let distance_sq = position.distance_squared(self.positions[sample]);
-                if distance_sq < nearest.0 {
-                    nearest = (distance_sq, self.size_ln[sample]);
-                }
-                if agreement > 0.0 {
-                    let weight = agreement * (-0.5 * distance_sq / (self.deviation * self.deviation)).exp();
-                    sum += weight * self.size_ln[sample];
+        for bucket in self.buckets_round(position) {
+            let [start, end] = [self.starts[bucket], self.starts[bucket + 1]];
+            for sample in &self.samples[start as usize..end as usize] {
+                let near = 1.0 - position.distance_squared(sample.position) / radius_sq;
+                if near > 0.0 {
+                    // A sample that faces away counts only where there is no other.
+                    let weight = near * near * near * normal.dot(sample.normal).max(1e-4);
+                    sum += weight * sample.size_ln;
                     weights += weight;
                 }
             }
         }
-        if weights > 1e-6 { (sum / weights).exp() } else { nearest.1.exp() }
+        // A shell too small for a sample is as small as anything.
+        if weights > 0.0 { (sum / weights).exp() } else { self.least }
     }
 
     /// The least size anywhere, model units.
     pub fn least(&self) -> f32 {
-        if self.positions.is_empty() { f32::INFINITY } else { self.least }
+        if self.samples.is_empty() { f32::INFINITY } else { self.least }
+    }
+
+    /// The buckets of the two by two by two cells that hold all samples within the smoothing radius, each once.
+    fn buckets_round(&self, position: Vec3) -> impl Iterator<Item = usize> {
+        let buckets = self.starts.len() - 1;
+        let corner = cell_of(position - 0.5 * CELL * self.smoothing_radius, self.smoothing_radius);
+        let all: [usize; 8] = std::array::from_fn(|index| {
+            let cell = std::array::from_fn(|axis| corner[axis].wrapping_add(index as i32 >> axis & 1));
+            bucket_of(cell, buckets)
+        });
+        (0..all.len()).filter(move |&index| !all[..index].contains(&all[index])).map(move |index| all[index])
     }
 }
 
-fn cell_of(at: Vec3, cell: f32) -> [i32; 3] {
-    // A cast saturates, so a far point has a cell too.
-    (at / cell).floor().to_array().map(|coordinate| coordinate as i32)
+impl Axes {
+    fn new(points: &[sampling::Particle]) -> Self {
+        let axis = |axis: usize| {
+            let of = |point: &sampling::Particle| {
+                if axis < 3 { point.position.to_array()[axis] } else { point.normal.to_array()[axis - 3] }
+            };
+            points.iter().map(of).collect()
+        };
+        Self(std::array::from_fn(axis))
+    }
+
+    /// For each sample the square of its distance in squares of `unit`, infinite where it lies on another form.
+    fn distances_over_form(&self, at: Vec3, normal: Vec3, unit: f32, beyond: &mut [f32]) {
+        let [x, y, z, normal_x, normal_y, normal_z] = self.0.each_ref().map(|axis| &axis[..beyond.len()]);
+        let per_unit_sq = 1.0 / (unit * unit);
+        for (other, beyond) in beyond.iter_mut().enumerate() {
+            let away = Vec3::new(x[other], y[other], z[other]) - at;
+            let distance_sq = away.length_squared();
+            let rise = normal.dot(away);
+            let agreement = normal.dot(Vec3::new(normal_x[other], normal_y[other], normal_z[other]));
+            let same = agreement >= LEAST_COSINE && rise * rise <= MOST_RISE * MOST_RISE * distance_sq;
+            *beyond = if same { distance_sq * per_unit_sq } else { f32::INFINITY };
+        }
+    }
 }
 
-/// The size of the form at one sample; the samples have this spacing, and this many lie on a unit of area.
-fn size_at(
-    at: Vec3,
-    normal: Vec3,
-    positions: &[Vec3],
-    normals: &[Vec3],
-    [spacing, density]: [f32; 2],
-) -> f32 {
-    let first = FIRST_RADIUS * spacing;
-    let first_sq = first * first;
-    let per_step = 1.0 / (2.0 * RADIUS_STEP.ln());
+/// A cell's side, in smoothing radii.
+const CELL: f32 = 2.0;
+
+fn cell_of(at: Vec3, smoothing_radius: f32) -> [i32; 3] {
+    // A cast saturates, so a far point has a cell too.
+    (at / (CELL * smoothing_radius)).floor().to_array().map(|coordinate| coordinate as i32)
+}
+
+/// `buckets` is a power of two.
+fn bucket_of(cell: [i32; 3], buckets: usize) -> usize {
+    let [x, y, z] = cell.map(|coordinate| coordinate as u32);
+    hash::combine(hash::combine(x, y), z) as usize & (buckets - 1)
+}
+
+/// The size of the form round a sample, from the squares of the distances to those on the same form, in squares of the first
+/// radius; as many samples as `density` says lie on a unit of area.
+fn size_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
     // How many samples of the form lie between one radius and the next.
     let mut counts = [0u32; RADII];
-    for (other, &there) in positions.iter().zip(normals) {
-        let away = *other - at;
-        let distance_sq = away.length_squared();
-        let rise = normal.dot(away);
-        if there.dot(normal) < LEAST_COSINE || rise * rise > MOST_RISE * MOST_RISE * distance_sq {
-            continue;
-        }
-        let beyond = distance_sq / first_sq;
-        let step = if beyond <= 1.0 { 0 } else { (beyond.ln() * per_step).ceil() as usize };
+    let first = 1f32.to_bits() >> 22;
+    for &beyond in beyond {
+        // The next radius above: the bits of a positive number grow with it.
+        let step = (beyond.max(1.0).to_bits().wrapping_sub(1) >> 22).wrapping_add(1).saturating_sub(first) as usize;
         if step < RADII {
             counts[step] += 1;
         }
     }
     let mut covered = 0;
-    let mut radius = first;
-    for count in counts {
+    let mut radius = first_radius;
+    for (step, count) in counts.iter().enumerate() {
         covered += count;
+        radius = first_radius * f32::from_bits((first + step as u32) << 22).sqrt();
         let covered_area = covered as f32 / density;
         if covered_area < LEAST_SHARE * std::f32::consts::PI * radius * radius {
             return (covered_area / (LEAST_SHARE * std::f32::consts::PI)).sqrt();
         }
-        radius *= RADIUS_STEP;
     }
     radius
 }

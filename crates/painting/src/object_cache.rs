@@ -289,15 +289,7 @@ impl CoatCache {
         surface: &ObjectSurface,
         combed: Option<Combed>,
     ) -> Coat {
-        let trait_inputs = TraitInputs::new(
-            self.posed().clone(),
-            context.name_hash(object.index, kind),
-            object.regions,
-            object.used,
-            context.rules,
-            &surface.parts,
-            object.references,
-        );
+        let trait_inputs = TraitInputs::new(context, object, kind, self.posed().clone(), &surface.parts);
         let trait_inputs = Arc::new(trait_inputs);
         let CoatTraits { traits, stray_rad } =
             self.traits.resize(Arc::clone(&trait_inputs), |inputs, before| inputs.traits(before)).clone();

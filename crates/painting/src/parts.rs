@@ -4,6 +4,7 @@ use glam::DVec3;
 use impasto_core::ScreenMap;
 use impasto_core::form_size::FormSize;
 use impasto_core::parts::{Part, parts};
+use impasto_core::presence::smoothstep;
 use impasto_core::sampling::Surface;
 use impasto_scene::document::Direction;
 use impasto_scene::presets::LayerKind;
@@ -21,6 +22,9 @@ const LEAST_CAP_PX: f64 = 3.0;
 /// many pixels.
 const FORM_SHARE: f32 = 0.105;
 const LEAST_FITTED_PX: f32 = 4.0;
+
+/// The seed of the samples that measure the form: the same for all bodies, so that equal meshes have equal strokes.
+const FORM_SEED: u32 = 0x0f02_2a1e;
 
 /// Strokes stay at least this much longer than wide.
 const LEAST_ASPECT: f32 = 1.2;
@@ -52,11 +56,9 @@ pub(crate) struct BodyParts {
 pub(crate) struct Cap {
     length_px: f32,
     width_px: f32,
+    /// Pixels per model unit.
     px_per_unit: f32,
 }
-
-/// The seed of the samples that measure the form: the same for all bodies, so that equal meshes have equal strokes.
-const FORM_SEED: u32 = 0x0f02_2a1e;
 
 impl BodyParts {
     pub(crate) fn of(surface: &Surface<'_>) -> Self {
@@ -109,6 +111,15 @@ pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
     match kind {
         LayerKind::Underpainting | LayerKind::Scumble | LayerKind::Contour => 0.0,
         LayerKind::Body | LayerKind::Form | LayerKind::Accents | LayerKind::Lights => fit,
+    }
+}
+
+/// How much of a layer of small strokes is wanted where the form has shrunk them to this share of their size: where the body
+/// layer's are small, they add nothing.
+pub(crate) fn small_enough(kind: LayerKind, share: f32) -> f32 {
+    match kind {
+        LayerKind::Form | LayerKind::Accents => smoothstep((share - 0.5) / 0.4).max(0.02),
+        _ => 1.0,
     }
 }
 

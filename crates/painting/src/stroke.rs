@@ -17,7 +17,7 @@ use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::frame_options::{Rotation, StrokeColors};
 use crate::order::OrderEntry;
 use crate::painting_view::{CoatView, PaintingView};
-use crate::parts::fit_of;
+use crate::parts::{fit_of, small_enough};
 use crate::presence_bound::LEAST_COUNTED_FADE;
 use crate::traits::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
@@ -73,7 +73,7 @@ impl PaintingView<'_> {
         let cap = self.painting.bodies[coat.object].caps[part];
         let grown = coat_view.growth(index, self.painting, self.px_scale);
         let size_px = [layer.length_px, layer.width_px];
-        let form = coat.traits.form[index];
+        let form = coat.traits.form.get(index).copied().unwrap_or(f32::INFINITY);
         let size_px = cap.fitted(size_px, form, fit_of(coat.kind, strokes.fit));
         // A stroke that is smaller than its layer's carries less paint, mixed less boldly.
         let boldness = (size_px[1] / layer.width_px).clamp(0.2, 1.0).sqrt();
@@ -229,15 +229,6 @@ fn mapped(map: PixelMap2, flat: Outline, px_scale: f64) -> Outline {
         length_px: along.length() as f32,
         width_px: width as f32,
         skew: (across.dot(axis) / width) as f32,
-    }
-}
-
-/// How much of a layer of small strokes is wanted where the form has shrunk them to this share of their size: where the body
-/// layer's are small, they add nothing.
-fn small_enough(kind: LayerKind, share: f32) -> f32 {
-    match kind {
-        LayerKind::Form | LayerKind::Accents => smoothstep((share - 0.5) / 0.4).max(0.02),
-        _ => 1.0,
     }
 }
 

@@ -6,11 +6,12 @@ use glam::DVec3;
 use impasto_core::hash;
 use impasto_core::noise;
 use impasto_scene::document::Direction;
+use impasto_scene::presets::LayerKind;
 use rayon::prelude::*;
 
+use crate::context::{Context, ObjectInputs};
 use crate::particles::Particles;
-use crate::parts::{BodyParts, px_per_unit};
-use crate::references::BodyReferences;
+use crate::parts::{BodyParts, fit_of, px_per_unit};
 use crate::regions::{BodyRegions, RegionRule};
 
 /// A particle has several random numbers: which of them is used for what.
@@ -53,6 +54,8 @@ pub(crate) struct TraitInputs {
     parts: Arc<BodyParts>,
     /// Hash of the object's name, the scene's seed and the layer.
     name_hash: u32,
+    /// Whether any stroke fits the form.
+    fits: bool,
     /// For each part, pixels of a picture 720 high per model unit, at the reference pose.
     scales: Vec<f64>,
     /// By rule; default where no particle of the body has the rule.
@@ -91,7 +94,7 @@ pub(crate) struct Traits {
     dabbed: Vec<u16>,
     /// Slow noise of each particle: of hue and value, and of how firm edges are.
     pub(crate) drift: Vec<[f32; 2]>,
-    /// The size of the form at each particle, model units.
+    /// The size of the form at each particle, model units; empty where no stroke fits the form.
     pub(crate) form: Vec<f32>,
 }
 
@@ -136,7 +139,7 @@ impl PartialEq for TraitInputs {
     fn eq(&self, other: &Self) -> bool {
         self.particles.same_order(&other.particles)
             && Arc::ptr_eq(&self.parts, &other.parts)
-            && self.name_hash == other.name_hash
+            && (self.name_hash, self.fits) == (other.name_hash, other.fits)
             && self.scales == other.scales
             && self.rules == other.rules
             && self.second_of_part_rad == other.second_of_part_rad
@@ -154,18 +157,17 @@ fn second_rad(direction: &Direction) -> Option<f64> {
 
 impl TraitInputs {
     pub(crate) fn new(
+        context: &Context<'_>,
+        object: ObjectInputs<'_>,
+        kind: LayerKind,
         particles: Particles,
-        name_hash: u32,
-        regions: &Arc<BodyRegions>,
-        used: &[u16],
-        rules: &[RegionRule],
         parts: &Arc<BodyParts>,
-        references: &BodyReferences,
     ) -> Self {
-        let own = references.own();
+        let rules = context.rules;
+        let own = object.references.own();
         let scale = 720.0 / f64::from(own.size_px[1]);
         let mut of_rule = vec![TraitRule::default(); rules.len()];
-        for &rule in used {
+        for &rule in object.used.iter() {
             let RegionRule { direction, strokes, .. } = &rules[usize::from(rule)];
             let family = match direction {
                 // The field finds the curvature; where there is no field, the automatic direction stands in.
@@ -177,8 +179,9 @@ impl TraitInputs {
         }
         Self {
             particles,
-            regions: Arc::clone(regions),
-            name_hash,
+            regions: Arc::clone(object.regions),
+            name_hash: context.name_hash(object.index, kind),
+            fits: object.used.iter().any(|&rule| fit_of(kind, rules[usize::from(rule)].strokes.fit) > 0.0),
             scales: parts.parts.iter().map(|part| px_per_unit(&own.map, part) * scale).collect(),
             rules: of_rule,
             second_of_part_rad: parts.directions(own).iter().map(second_rad).collect(),
@@ -208,11 +211,13 @@ impl TraitInputs {
             let regions = self.particles.par_range(from..count).map(|particle| self.regions.of(&particle));
             dabbed.par_extend(regions);
         }
-        let sizes = (from..count).into_par_iter().map(|index| {
-            let particle = self.particles.at_rest(index);
-            self.parts.form.at(particle.position, particle.normal)
-        });
-        form.par_extend(sizes);
+        if self.fits {
+            let sizes = (from..count).into_par_iter().map(|index| {
+                let particle = self.particles.at_rest(index);
+                self.parts.form.at(particle.position, particle.normal)
+            });
+            form.par_extend(sizes);
+        }
         drift.resize(count, [0.0; 2]);
         stray_rad.resize(count, 0.0);
         let traits = Traits {

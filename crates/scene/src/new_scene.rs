@@ -156,7 +156,18 @@ pub fn empty() -> Scene {
         fov_y_deg: None,
         ease: Ease::default(),
     };
-    let light = |name: &str, kind, hex: &str, intensity| Light {
+    let from_sun = round_to(Axes::looking_from(eye - target).to_world(DVec3::new(0.6, -0.75, -0.55)), 1e-3);
+    let sun = Light { direction: Some(from_sun.to_array()), ..light("sun", LightKind::Sun, "#fff1dc", 2.2) };
+    Scene {
+        camera: Camera { lens: Lens::default(), keys: vec![key] },
+        lights: vec![sun, light("sky", LightKind::Ambient, "#b9c8dc", 0.6)],
+        ..bare()
+    }
+}
+
+/// A light of this colour that comes from nowhere yet.
+fn light(name: &str, kind: LightKind, hex: &str, intensity: f64) -> Light {
+    Light {
         name: name.to_owned(),
         kind,
         direction: None,
@@ -164,13 +175,6 @@ pub fn empty() -> Scene {
         color: Color::from_hex(hex).unwrap_or_default(),
         ground: None,
         intensity,
-    };
-    let from_sun = round_to(Axes::looking_from(eye - target).to_world(DVec3::new(0.6, -0.75, -0.55)), 1e-3);
-    let sun = Light { direction: Some(from_sun.to_array()), ..light("sun", LightKind::Sun, "#fff1dc", 2.2) };
-    Scene {
-        camera: Camera { lens: Lens::default(), keys: vec![key] },
-        lights: vec![sun, light("sky", LightKind::Ambient, "#b9c8dc", 0.6)],
-        ..bare()
     }
 }
 

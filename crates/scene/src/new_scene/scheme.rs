@@ -5,7 +5,7 @@ use impasto_core::color::{linear_from_srgb, oklab_from_linear, srgb_from_linear}
 use impasto_core::hash;
 
 use super::framing::Axes;
-use super::{round_to, significant};
+use super::{light, round_to, significant};
 use crate::document::{Color, Light, LightKind};
 use crate::mesh_file::{Material, MeshFile, Texture};
 use glam::DVec3;
@@ -135,23 +135,16 @@ impl Scheme {
     /// The lights, for a camera with these axes.
     pub fn lights(&self, axes: Axes) -> Vec<Light> {
         let from_sun = round_to(axes.to_world(DVec3::new(0.80, -0.56, -0.20)), 1e-3);
-        let light = |name: &str, kind, hex: &str, intensity: f64| Light {
-            name: name.to_owned(),
-            kind,
-            direction: None,
-            position: None,
-            color: Color::from_hex(hex).unwrap_or_default(),
-            ground: None,
-            intensity: significant(intensity),
-        };
         let sun = Light {
             direction: Some(from_sun.to_array()),
-            ..light("sun", LightKind::Sun, "#fff0dc", self.light * KEY)
+            ..light("sun", LightKind::Sun, "#fff0dc", significant(self.light * KEY))
         };
         let sky = self.light * SKY;
         let bounce = of_luminance([0.6, 0.06, 60.0], BOUNCE / SKY);
-        let fill =
-            Light { ground: Some(srgb(bounce)), ..light("sky", LightKind::Ambient, "#cfdcf2", sky * 1.35) };
+        let fill = Light {
+            ground: Some(srgb(bounce)),
+            ..light("sky", LightKind::Ambient, "#cfdcf2", significant(sky * 1.35))
+        };
         vec![sun, fill]
     }
 }

@@ -83,8 +83,8 @@ const ACCENTS: Layer = Layer {
 
 const CONTOUR: Layer = Layer {
     brushes: &[("rigger", 3), ("round", 2)],
-    size_px: [38.0, 4.5],
-    coverage: 1.8,
+    size_px: [50.0, 4.5],
+    coverage: 1.2,
     opacity: 0.88,
     thickness: 0.12,
     dryness: 0.16,
@@ -160,7 +160,7 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { brushes: &[("dry", 4), ("flat", 2)], dryness: 0.34, thickness: 0.3, ..FORM },
             Layer { coverage: 1.6, dryness: 0.58, thickness: 0.3, ..SCUMBLE },
             Layer { brushes: &[("rigger", 2), ("dry", 3)], thickness: 0.3, ..ACCENTS },
-            Layer { brushes: &[("rigger", 2), ("dry", 1)], coverage: 1.6, dryness: 0.3, ..CONTOUR },
+            Layer { brushes: &[("rigger", 2), ("dry", 1)], coverage: 1.1, dryness: 0.3, ..CONTOUR },
             Layer { brushes: &[("dry", 1), ("round", 1)], thickness: 0.7, ..LIGHTS },
         ],
         overrun_px: 4.0,
@@ -182,7 +182,7 @@ pub(super) const PRESETS: [Preset; 6] = [
             Layer { opacity: 1.0, thickness: 0.08, dryness: 0.05, pickup: 0.0, ..FORM },
             Layer { coverage: 0.25, thickness: 0.05, pickup: 0.0, ..SCUMBLE },
             Layer { opacity: 1.0, thickness: 0.08, pickup: 0.0, ..ACCENTS },
-            Layer { coverage: 1.7, opacity: 1.0, thickness: 0.05, pickup: 0.0, ..CONTOUR },
+            Layer { coverage: 1.1, opacity: 1.0, thickness: 0.05, pickup: 0.0, ..CONTOUR },
             Layer { opacity: 1.0, thickness: 0.12, pickup: 0.0, ..LIGHTS },
         ],
         overrun_px: 1.5,
