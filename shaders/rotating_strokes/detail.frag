@@ -15,6 +15,8 @@ out vec4 detail;                     // change of colour 0..1, outline 0..1, hig
 const vec2 CHANGE = vec2(0.004, 0.034);
 // How fast the surface turns, radians per pixel of the scene's own size: a ball of 100 px radius turns by 0.01 in its middle.
 const vec2 TURN = vec2(0.012, 0.050);
+// A leap of the depth within a body, as a share of the depth: no outline below the first, an outline above the second.
+const vec2 LEAP = vec2(0.01, 0.03);
 // The most detail that a turn alone makes.
 const float TURN_SHARE = 1.0;
 
@@ -67,7 +69,15 @@ void main() {
         ivec2 outward = (ivec2(index & 1, index >> 1) * 2 - 1) * rim_px;
         vec2 there = texelFetch(depth_and_id, clamp(at + outward, ivec2(0), last), 0).xy;
         // A border with something in front of the body is not its outline.
-        if (there.y != front.y && (there.y == 0.0 || there.x > front.x)) outline += 0.5;
+        if (there.y != front.y) {
+            if (there.y == 0.0 || there.x > front.x) outline += 0.5;
+            continue;
+        }
+        // A part of the body stands before another: the depth leaps away from where it was going.
+        float depth = texelFetch(depth_and_id, at, 0).x;
+        vec2 before = texelFetch(depth_and_id, clamp(at - outward, ivec2(0), last), 0).xy;
+        float leap = there.x - depth - (before.y == front.y ? max(depth - before.x, 0.0) : 0.0);
+        outline += 0.5 * smoothstep(LEAP.x, LEAP.y, leap / depth);
     }
     detail = vec4(detail.r / count, min(outline, 1.0), detail.b / count, front.y + 0.1 * count);
 }

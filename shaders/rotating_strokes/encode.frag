@@ -4,7 +4,7 @@
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
 #ifndef DRAFT
-uniform sampler2D height;            // of the paint, in brush thicknesses
+uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
 uniform sampler2D soft_height;       // half the size
 uniform sampler2D canvas;            // one tile: height, its slope in x and in y, around the middle value
 uniform vec3 to_light;               // unit, in the picture's space
@@ -22,6 +22,14 @@ out vec4 encoded;
 
 const float THICKNESS_PX = 1.6;      // of paint of height 1
 const float WEAVE_PX = 0.09;
+#ifndef DRAFT
+// How far wet paint of one colour runs together, over these distances, pixels of the scene's own size; colours that differ by this
+// much (square roots of linear values) keep apart; and how much of its relief is left.
+const float MELT = 0.85;
+const vec2 MELT_PX = vec2(2.2, 4.5);
+const float SAME = 0.05;
+const float MELTED_RELIEF = 0.45;
+#endif
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 vec4 toned_ground(ivec2 at) {
@@ -39,8 +47,35 @@ vec4 toned_ground(ivec2 at) {
 }
 
 #ifndef DRAFT
+// Wet paint of nearly one colour runs together, where it differs more its edges stay. A speck runs into what is round it.
+// rgb, and how much of the surroundings has the same colour, 0..1.
+vec4 melted(vec3 color, float wet) {
+    // Square roots stand in for encoded values.
+    vec3 own = sqrt(max(color, 0.0));
+    vec3 same_sum = own;
+    vec3 sum = vec3(0.0);
+    vec2 weights = vec2(1.0, 1e-4);
+    vec2 texel = 1.0 / vec2(textureSize(picture, 0));
+    for (int index = 0; index < 8; index++) {
+        float angle = 1.57079633 * (float(index & 3) + 0.5 * float(index >> 2)) + 0.4;
+        vec2 offset = vec2(cos(angle), sin(angle)) * finish.w * (index < 4 ? MELT_PX.x : MELT_PX.y);
+        vec4 there = textureLod(picture, (gl_FragCoord.xy + offset) * texel, 0.0);
+        vec3 root = sqrt(max(there.rgb, 0.0) / max(there.a, 1e-4));
+        vec3 away = (root - own) / SAME;
+        float same = there.a * exp(-dot(away, away));
+        same_sum += same * root;
+        sum += there.a * root;
+        weights += vec2(same, there.a);
+    }
+    float same = (weights.x - 1.0) / 8.0;
+    float alone = (1.0 - smoothstep(0.04, 0.16, same)) * weights.y / 8.0;
+    vec3 mixed = mix(same_sum / weights.x, sum / weights.y, alone);
+    vec3 root = mix(own, mixed, MELT * wet);
+    return vec4(root * root, same);
+}
+
 // How the light of the room falls on the paint's surface.
-vec3 in_room_light(vec3 color) {
+vec3 in_room_light(vec3 color, float relief) {
     vec2 texel = 1.0 / vec2(textureSize(height, 0));
     vec2 at = gl_FragCoord.xy * texel;
     float step_px = max(0.6 * finish.w, 0.5);
@@ -53,7 +88,7 @@ vec3 in_room_light(vec3 color) {
     float wide = textureLod(soft_height, at, 0.0).r;
     vec2 slope = vec2(right_above + right_below - left_above - left_below,
                       right_above + left_above - right_below - left_below) / (4.0 * step_px) * finish.w;
-    slope *= THICKNESS_PX * finish.x;
+    slope *= THICKNESS_PX * relief;
     vec2 tile = canvas_origin + canvas_axes.xy * gl_FragCoord.x + canvas_axes.zw * gl_FragCoord.y;
     vec3 weave = texture(canvas, tile).rgb - 0.5;
     // Thick paint fills the weave.
@@ -65,10 +100,10 @@ vec3 in_room_light(vec3 color) {
     float shade = clamp(dot(n, to_light) / to_light.z, 0.25, 1.9);
     vec3 halfway = normalize(to_light + vec3(0.0, 0.0, 1.0));
     float shine = max(pow(max(dot(n, halfway), 0.0), 42.0) - pow(halfway.z, 42.0), 0.0);
-    float furrow = clamp(THICKNESS_PX * (wide - mean), 0.0, 1.0) * min(finish.x, 1.0);
+    float furrow = clamp(THICKNESS_PX * (wide - mean), 0.0, 1.0) * min(relief, 1.0);
     color *= (1.0 + 0.62 * (shade - 1.0)) * (1.0 - 0.28 * furrow);
     float value = clamp(dot(color, LUMINANCE), 0.0, 1.0);
-    return color + 0.09 * min(finish.x, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
+    return color + 0.09 * min(relief, 2.0) * shine * (0.35 + 0.65 * sqrt(value));
 }
 #endif
 
@@ -87,7 +122,14 @@ void main() {
     vec4 both = laid + (1.0 - laid.a) * below;
     vec3 straight = both.rgb / max(both.a, 1e-6);
 #ifndef DRAFT
-    if (finish.x > 0.0 || finish.y > 0.0) straight = in_room_light(straight);
+    float relief = finish.x;
+    float wet = texelFetch(height, at, 0).g;
+    if (wet > 0.02) {
+        vec4 mixed = melted(straight, wet);
+        straight = mixed.rgb;
+        relief *= mix(1.0, MELTED_RELIEF, wet * smoothstep(0.3, 0.9, mixed.a));
+    }
+    if (finish.x > 0.0 || finish.y > 0.0) straight = in_room_light(straight, relief);
 #endif
     vec3 display = srgb_from_linear(clamp(straight, 0.0, 1.0));
     if (finish.z > 0.0) display = varnished(display);

@@ -48,7 +48,7 @@ float planes(float lightness) {
 vec3 graded(vec3 lab, vec3 wide, int kind) {
     if (kind == UNDERPAINTING) {
         // Pulled towards earth colours.
-        return vec3(0.20 + 0.66 * (lab.x - 0.10), lab.yz * 0.62 + vec2(0.014, 0.022));
+        return vec3(0.14 + 0.78 * (lab.x - 0.10), lab.yz * 0.78 + vec2(0.009, 0.014));
     }
     if (kind == ACCENTS) lab = wide + (lab - wide) * 1.45;
     if (kind == LIGHTS) lab.x += 0.043;

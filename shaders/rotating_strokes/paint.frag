@@ -9,7 +9,7 @@ flat in vec3 half_mixed;
 flat in vec4 picked_up;
 flat in vec4 mark;
 flat in vec4 body;
-flat in vec3 own;
+flat in vec4 own;
 #ifdef SHAPED
 flat in vec4 form;
 flat in float leaning;
@@ -22,7 +22,7 @@ uniform float orthographic;
 
 layout(location = 0) out vec4 over;
 #ifndef DRAFT
-layout(location = 1) out vec4 height;
+layout(location = 1) out vec4 height; // and how wet the paint is
 #endif
 
 // As in `core::brush`.
@@ -87,6 +87,6 @@ void main() {
     alpha *= body.x;
     over = vec4(color * alpha, alpha);
 #ifndef DRAFT
-    height = vec4(texel.g * HEIGHT_SCALE * body.y * alpha, 0.0, 0.0, 0.8 * alpha);
+    height = vec4(texel.g * HEIGHT_SCALE * body.y, 0.8 * own.w, 0.0, 0.8) * alpha;
 #endif
 }

@@ -29,7 +29,7 @@ flat out vec3 half_mixed;        // what the other paint in the brush adds
 flat out vec4 picked_up;         // colour from below and how much of it
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
-flat out vec3 own;               // depth and id of the body; how much of the stroke's length is there
+flat out vec4 own;               // depth and id of the body, how much of the stroke's length is there, how wet its paint is
 #ifdef SHAPED
 flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
 flat out float leaning;          // skew
@@ -38,6 +38,8 @@ flat out float leaning;          // skew
 const float MARGIN = 1.0 / 0.84;
 // How fast the mark of a fading stroke ends, as in the fragment shader.
 const float STEEPNESS = 4.0;
+// Paint that picks up this much from below, or more, runs together with its neighbours as far as it can.
+const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
@@ -147,6 +149,6 @@ void main() {
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, flip);
-    own = vec3(place.z, float(marks.y), extent);
+    own = vec4(place.z, float(marks.y), extent, min(pickup / WET_PICKUP, 1.0));
     gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -34,11 +34,20 @@ const float BLUR[7] = float[7](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25);
 // A line is drawn for where its body ends within this many pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
 
+// The depth of the stroke's own plane this far from its centre.
+float plane_depth(vec2 offset_px) {
+    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
+    float slant = max(abs(n.z), 0.2);
+    return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (n.z < 0.0 ? -slant : slant);
+}
+
+// As in `detail.frag`.
+const vec2 LEAP = vec2(0.01, 0.03);
+
 // How much of the centre is visible: taps around it, each compared with the depth of the stroke's own plane there.
 float seen(mat2 turn) {
-    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float unit = units_per_px(place.z);
-    float slant = max(abs(n.z), 0.2);
+    float slant = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.2);
     float radius_px = clamp(0.28 * sqrt(size.x * size.y), max(3.0, 7.0 * px_scale), 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
     float sum = 0.0;
@@ -57,7 +66,7 @@ float seen(mat2 turn) {
         vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * ring_px;
         vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
         vec2 there = surface_at(tap_px);
-        float own = place.z + dot(n.xy, tap_px - place.xy) * unit / (n.z < 0.0 ? -slant : slant);
+        float own = plane_depth(tap_px - place.xy);
         float hidden = there.y == 0.0 ? 0.0 : smoothstep(bias, 3.0 * bias, own - there.x);
         sum += 1.0 - hidden;
     }
@@ -105,7 +114,7 @@ float wanted(vec3 detail) {
     if (kind == LIGHTS) return smoothstep(0.03, 0.15, detail.b);
     // Edges are lost in places.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
-    float inside = kind == FORM ? 1.3 * detail.r - 0.09 : 1.3 * detail.r - 0.25;
+    float inside = kind == FORM ? max(1.3 * detail.r - 0.09, smoothstep(0.04, 0.18, detail.r)) : 1.3 * detail.r - 0.25;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
@@ -126,7 +135,10 @@ vec4 outline_near(vec2 own) {
             vec2 near = mix(1.0 - part, part, vec2(step));
             vec2 there = surface_at(floor(at) + vec2(step) + 0.5);
             float farther = there.y == 0.0 ? 1.0 : smoothstep(-bias, bias, there.x - own.x);
-            past += there.y == own.y ? 0.0 : near.x * near.y * farther;
+            // A part of the body may stand before another.
+            vec2 offset_px = floor(at) + vec2(step) + 0.5 - place.xy;
+            float leap = (there.x - max(plane_depth(offset_px), own.x)) / own.x;
+            past += near.x * near.y * (there.y == own.y ? smoothstep(LEAP.x, LEAP.y, leap) : farther);
             hidden += near.x * near.y * smoothstep(bias, 3.0 * bias, there.y == 0.0 ? 0.0 : own.x - there.x);
         }
         sum += vec4(vec3(offset, 1.0) * past, hidden);

@@ -10,7 +10,7 @@ use impasto_scene::presets::LayerKind;
 use crate::body::BodySurface;
 use crate::context::{Context, ObjectInputs};
 use crate::particle_count::{self, Sighting};
-use crate::parts::{BodyParts, Cap, fit_of, small_enough};
+use crate::parts::{BodyParts, Cap, fit_of, wanted_where_small};
 use crate::regions::BodyRegions;
 
 const LAYERS: usize = LayerKind::ALL.len();
@@ -87,7 +87,7 @@ impl CountInputs {
                         let [length_px, width_px, coverage] = self.layers[usize::from(rule)][kind];
                         let fit = fit_of(LayerKind::ALL[kind], self.fits[usize::from(rule)]);
                         let [length, width] = cap.fitted([length_px, width_px], form, fit);
-                        let wanted = coverage * small_enough(LayerKind::ALL[kind], width / width_px);
+                        let wanted = coverage * wanted_where_small(LayerKind::ALL[kind], width / width_px);
                         *densest = densest.max(wanted / (length * width));
                     }
                 }

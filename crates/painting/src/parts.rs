@@ -20,8 +20,8 @@ const LEAST_CAP_PX: f64 = 3.0;
 
 /// A stroke that fits the form is at most this share of the form's size wide, the less the more it has to shrink, and at least this
 /// many pixels.
-const FORM_SHARE: f32 = 0.105;
-const LEAST_FITTED_PX: f32 = 4.0;
+const FORM_SHARE: f32 = 0.13;
+const LEAST_FITTED_PX: f32 = 10.0;
 
 /// The seed of the samples that measure the form: the same for all bodies, so that equal meshes have equal strokes.
 const FORM_SEED: u32 = 0x0f02_2a1e;
@@ -114,10 +114,11 @@ pub(crate) fn fit_of(kind: LayerKind, fit: f32) -> f32 {
     }
 }
 
-/// How much of a layer of small strokes is wanted where the form has shrunk them to this share of their size: where the body
-/// layer's are small, they add nothing.
-pub(crate) fn small_enough(kind: LayerKind, share: f32) -> f32 {
+/// How much of a layer is wanted where the form has shrunk its strokes to this share of their size: many small ones would hide what
+/// lies below, and where those of the body layer are small, the layers of small strokes add nothing.
+pub(crate) fn wanted_where_small(kind: LayerKind, share: f32) -> f32 {
     match kind {
+        LayerKind::Body => 1.0 - 0.4 * (1.0 - share).clamp(0.0, 1.0),
         LayerKind::Form | LayerKind::Accents => smoothstep((share - 0.5) / 0.4).max(0.02),
         _ => 1.0,
     }

@@ -17,7 +17,7 @@ use crate::frame::{Mixing, Paint, Stroke, StrokeSource};
 use crate::frame_options::{Rotation, StrokeColors};
 use crate::order::OrderEntry;
 use crate::painting_view::{CoatView, PaintingView};
-use crate::parts::{fit_of, small_enough};
+use crate::parts::{fit_of, wanted_where_small};
 use crate::presence_bound::LEAST_COUNTED_FADE;
 use crate::traits::{
     BEND, BOW, DRYNESS_JITTER, LENGTH_JITTER, SIZE_JITTER, THICKNESS_JITTER, USUAL_JITTER_DEG, WIDTH_JITTER,
@@ -77,14 +77,14 @@ impl PaintingView<'_> {
         let size_px = cap.fitted(size_px, form, fit_of(coat.kind, strokes.fit));
         // A stroke that is smaller than its layer's carries less paint, mixed less boldly.
         let boldness = (size_px[1] / layer.width_px).clamp(0.2, 1.0).sqrt();
-        let small = small_enough(coat.kind, size_px[1] / layer.width_px);
+        let wanted = wanted_where_small(coat.kind, size_px[1] / layer.width_px);
         let size_px = size_px.map(|side| side * grown);
         let patches = if coat.kind == LayerKind::Scumble { patch(drift[1]) } else { 1.0 };
         let supply_ln = match (&coat_view.shown, &coat.sampled.polygons) {
             (Some(shown), Some(polygons)) if polygons.is_shown(shown, index) => WHOLE,
             (Some(_), _) => return None,
             _ => {
-                let wanted_per_px = layer.coverage * patches * small / (size_px[0] * size_px[1]);
+                let wanted_per_px = layer.coverage * patches * wanted / (size_px[0] * size_px[1]);
                 self.supply_ln(coat_view, index, solved.area_px, wanted_per_px)
             }
         };

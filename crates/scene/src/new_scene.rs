@@ -124,9 +124,9 @@ fn ground_regions(backdrop: &str, seed: u32) -> Vec<Region> {
         scale: Some(1.6),
         angle_jitter_deg: Some(jitter_deg),
         swing_deg: Some(2.0),
-        color_jitter: Some(0.45),
+        color_jitter: Some(0.35),
         grading: Some(0.5),
-        layers: [("body", None, 0.22), ("scumble", None, 0.12), ("contour", Some(0.0), 0.0)]
+        layers: [("body", None, 0.22), ("form", None, 0.12), ("scumble", None, 0.12), ("accents", None, 0.12), ("contour", Some(0.0), 0.0)]
             .map(|(name, coverage, thickness)| LayerSettings {
                 name: name.to_owned(),
                 coverage,

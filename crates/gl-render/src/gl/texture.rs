@@ -11,6 +11,7 @@ pub(crate) enum Format {
     /// sRGB encoded colour that is decoded when it is read.
     SrgbAlpha8,
     R16F,
+    Rg16F,
     Rg32F,
     Rgba16F,
     Rgba32F,
@@ -24,6 +25,7 @@ impl Format {
             Format::Rgba8 => (glow::RGBA8, glow::RGBA, glow::UNSIGNED_BYTE),
             Format::SrgbAlpha8 => (glow::SRGB8_ALPHA8, glow::RGBA, glow::UNSIGNED_BYTE),
             Format::R16F => (glow::R16F, glow::RED, glow::HALF_FLOAT),
+            Format::Rg16F => (glow::RG16F, glow::RG, glow::HALF_FLOAT),
             Format::Rg32F => (glow::RG32F, glow::RG, glow::FLOAT),
             Format::Rgba16F => (glow::RGBA16F, glow::RGBA, glow::HALF_FLOAT),
             Format::Rgba32F => (glow::RGBA32F, glow::RGBA, glow::FLOAT),

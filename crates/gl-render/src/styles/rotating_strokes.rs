@@ -59,6 +59,7 @@ struct Targets {
     detail: [Rc<Texture>; 2],
     detail_passes: [Framebuffer; 2],
     paint: Rc<Texture>,
+    /// Height of the paint, and how wet it is.
     height: Rc<Texture>,
     below: Rc<Texture>,
     soft_height: Rc<Texture>,
@@ -75,7 +76,7 @@ impl Targets {
             Texture::target(gpu, format, size_px, filter).map(Rc::new)
         };
         let paint = target(Format::Rgba16F, size_px, Filter::Nearest)?;
-        let height = target(Format::R16F, size_px, Filter::LinearInLevel)?;
+        let height = target(Format::Rg16F, size_px, Filter::LinearInLevel)?;
         let below = target(Format::Rgba16F, size_px, Filter::Nearest)?;
         let half = size_px.map(|side| side.div_ceil(2));
         let soft_height = target(Format::R16F, half, Filter::LinearInLevel)?;

@@ -17,7 +17,7 @@ const NO_COLOR: [f32; 3] = [0.8; 3];
 const BODY_LIGHT: f64 = 0.52;
 const MOST_BODY_LIGHT: f64 = 0.66;
 const FLOOR_LIGHT: f64 = 0.15;
-const PALE_FLOOR_LIGHT: f64 = 0.42;
+const PALE_FLOOR_LIGHT: f64 = 0.28;
 
 /// Exposure of the reference render; `lighting.glsl` has the same number.
 const EXPOSURE: f64 = 0.62;

@@ -12,6 +12,9 @@ const SAMPLES: usize = 1500;
 /// The lowest part of a model that may carry it, as a share of its height.
 const FOOT: f64 = 0.025;
 
+/// What stands on less than the square of this share of its height would topple.
+const LEAST_SUPPORT: f64 = 0.06;
+
 /// A sample has a mirror image where another lies this close to it, in spacings.
 const MIRRORED_WITHIN: f64 = 1.3;
 
@@ -21,8 +24,9 @@ const MIRRORED: f64 = 0.8;
 /// Three quarters from the front, slightly from above.
 const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 
-/// How far the eye of the best view is above the model's middle, over its distance on the floor.
-const RISE: f64 = 0.26;
+/// How far the eye of the best view is above the model's middle, over its distance on the floor: of a model that is 0.6 times as
+/// high as it is wide, and of one that is 1.6 times as high. One looks down on low things, and a tall one is looked in the face.
+const RISES: [f64; 2] = [0.46, 0.20];
 
 /// An axis is surely up when its score is this much above the next best.
 const SURE: f64 = 0.25;
@@ -122,7 +126,7 @@ impl Samples {
         (scores[0].0, scores[0].1 - scores[1].1 < SURE)
     }
 
-    /// How well the samples stand on their lowest part: flat feet, a wide support, the middle above it. 0 to about 2.
+    /// How well the samples stand on their lowest part: flat feet, a wide support, the middle above it; not on a point. −0.5 to 1.1.
     fn stands(&self) -> f64 {
         let low = self.points.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
         let high = self.points.iter().map(|point| point.y).fold(f64::NEG_INFINITY, f64::max);
@@ -137,7 +141,8 @@ impl Samples {
         let share = area(&support) / area(&shadow).max(f64::MIN_POSITIVE);
         let flat = (20.0 * flat / self.points.len().max(1) as f64).min(1.0);
         let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
-        0.5 * flat + 0.3 * finite(share).min(1.0) + stable
+        let topples = area(&support).sqrt() < LEAST_SUPPORT * (high - low) && flat < 0.1;
+        0.5 * flat + 0.3 * finite(share).min(1.0) + stable - if topples { 0.5 } else { 0.0 }
     }
 
     /// For each axis, the share of samples whose mirror image across the middle plane lies on the surface too.
@@ -167,6 +172,8 @@ impl Samples {
         let size = high - low;
         // A thing without a mirror plane was probably modelled to be seen from +Z.
         let front = if along_x || along_z { 1.06 } else { 1.3 };
+        let tall = (size.y / size.x.max(size.z).max(f64::MIN_POSITIVE) - 0.6).clamp(0.0, 1.0);
+        let rise = RISES[0] + (RISES[1] - RISES[0]) * tall;
         let mut best = (f64::NEG_INFINITY, USUAL_VIEW);
         for forward in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_X] {
             if (along_z && forward.x != 0.0) || (along_x && forward.z != 0.0) {
@@ -178,7 +185,7 @@ impl Samples {
                 let length = forward.abs().dot(size) / right.abs().dot(size).max(f64::MIN_POSITIVE);
                 let yaw = (29.0 + (60.0 * (length - 1.0)).clamp(0.0, 34.0)).to_radians();
                 let level = forward * yaw.cos() + right * (side * yaw.sin());
-                let view = level + DVec3::Y * RISE;
+                let view = level + DVec3::Y * rise;
                 let seen = self.form_seen(view.normalize(), &bent);
                 // Heads are carried high and forward. Of equal views the usual one: +Z is the front of most files.
                 let ahead = 1.0 + 0.35 * lean.dot(forward).clamp(-1.0, 1.0);

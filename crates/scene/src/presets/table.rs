@@ -29,7 +29,7 @@ struct Layer {
 const UNDERPAINTING: Layer = Layer {
     brushes: &[("flat", 6), ("dry", 1)],
     size_px: [130.0, 42.0],
-    coverage: 4.0,
+    coverage: 2.8,
     opacity: 0.86,
     thickness: 0.10,
     dryness: 0.07,
@@ -62,7 +62,7 @@ const FORM: Layer = Layer {
 const SCUMBLE: Layer = Layer {
     brushes: &[("dry", 6), ("fan", 1)],
     size_px: [86.0, 23.0],
-    coverage: 0.9,
+    coverage: 0.5,
     opacity: 0.70,
     thickness: 0.45,
     dryness: 0.50,
@@ -73,7 +73,7 @@ const SCUMBLE: Layer = Layer {
 const ACCENTS: Layer = Layer {
     brushes: &[("round", 5), ("filbert", 3), ("rigger", 2)],
     size_px: [17.0, 5.0],
-    coverage: 0.45,
+    coverage: 0.26,
     opacity: 0.92,
     thickness: 0.65,
     dryness: 0.08,
@@ -157,7 +157,7 @@ pub(super) const PRESETS: [Preset; 6] = [
                 pickup: 0.05,
                 ..BODY
             },
-            Layer { brushes: &[("dry", 4), ("flat", 2)], dryness: 0.34, thickness: 0.3, ..FORM },
+            Layer { brushes: &[("dry", 4), ("flat", 2)], coverage: 1.4, dryness: 0.34, thickness: 0.3, ..FORM },
             Layer { coverage: 1.6, dryness: 0.58, thickness: 0.3, ..SCUMBLE },
             Layer { brushes: &[("rigger", 2), ("dry", 3)], thickness: 0.3, ..ACCENTS },
             Layer { brushes: &[("rigger", 2), ("dry", 1)], coverage: 1.1, dryness: 0.3, ..CONTOUR },
