@@ -526,5 +526,5 @@ fn a_model_is_placed_as_the_command_says_and_a_scene_is_not() {
     assert_ne!(written(&["--view", "left"]), written(&["--view", "right"]));
     let output = folder.run(&["render", "scene.ron", "--up", "z", "-o", "x.png"]);
     let told = words(&output.stderr);
-    assert!(code(&output) != 0 && told.contains("--up and --view place a model"), "{told}");
+    assert!(code(&output) != 0 && told.contains("--up, --view and --ground place a model"), "{told}");
 }

@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use impasto_measure::Metric;
 use impasto_scene::document::{Style, Up};
-use impasto_scene::new_scene::{Placing, ViewFrom};
+use impasto_scene::new_scene::{Ground, Placing, ViewFrom};
 
 use crate::failure::Failure;
 
@@ -76,6 +76,9 @@ pub(crate) struct PlacingArguments {
     /// From which side a model is seen; auto takes three quarters from the side with the most form.
     #[arg(long, value_name = "SIDE", value_parser = named(&ViewFrom::ALL))]
     view: Option<ViewFrom>,
+    /// What a model stands on: a floor and a wall, a patch of floor, or nothing.
+    #[arg(long, value_name = "GROUND", value_parser = named(&Ground::ALL))]
+    ground: Option<Ground>,
 }
 
 /// What `--up` may name.
@@ -109,15 +112,16 @@ impl PlacingArguments {
     /// The placing of this file, which must be a model where anything is stated.
     pub(crate) fn of(self, scene: &std::path::Path) -> Result<Placing, Failure> {
         let is_scene = scene.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron"));
-        if is_scene && (self.up.is_some() || self.view.is_some()) {
-            let words = "--up and --view place a model; in a scene, change `up` of the object or the camera";
+        if is_scene && (self.up.is_some() || self.view.is_some() || self.ground.is_some()) {
+            let words =
+                "--up, --view and --ground place a model; in a scene, change its objects and its camera";
             return Err(Failure::Usage(words.to_owned()));
         }
         let up = match self.up {
             Some(UpChoice::Stated(up)) => Some(up),
             Some(UpChoice::FoundOut) | None => None,
         };
-        Ok(Placing { up, view: self.view.unwrap_or_default() })
+        Ok(Placing { up, view: self.view.unwrap_or_default(), ground: self.ground.unwrap_or_default() })
     }
 }
 

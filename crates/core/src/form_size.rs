@@ -33,7 +33,7 @@ const SMOOTHING_RADIUS: f32 = 2.7;
 ///
 /// Around a point, the samples within a radius R whose normals agree with the point's cover the area that the form still has there.
 /// On a plane that is the whole disc; past the end of the form it falls behind. The size is the R at which it covers a fifth of the
-/// disc: 3.2 widths of a flat strip, the radius of a sphere, 2.8 radii of a long cylinder. Both sides of a plate count by themselves, so a thin
+/// disc: 3.2 widths of a flat strip, the radius of a sphere, 2.9 radii of a long cylinder. Both sides of a plate count by themselves, so a thin
 /// plate is as large as it looks.
 #[derive(Clone, Debug, Default)]
 pub struct FormSize {
@@ -73,7 +73,11 @@ impl FormSize {
                 |beyond, point| {
                     let (position, normal) = (point.position, point.normal);
                     axes.distances_over_form(position, normal, FIRST_RADIUS * spacing, beyond);
-                    Sample { position, normal, size_ln: size_from(beyond, FIRST_RADIUS * spacing, density).ln() }
+                    Sample {
+                        position,
+                        normal,
+                        size_ln: size_ln_from(beyond, FIRST_RADIUS * spacing, density),
+                    }
                 },
             )
             .collect();
@@ -94,7 +98,8 @@ impl FormSize {
         for (sample, smooth) in field.samples.iter_mut().zip(smooth) {
             sample.size_ln = smooth;
         }
-        field.least = field.samples.iter().fold(f32::INFINITY, |least, sample| least.min(sample.size_ln)).exp();
+        field.least =
+            field.samples.iter().fold(f32::INFINITY, |least, sample| least.min(sample.size_ln)).exp();
         field
     }
 
@@ -178,30 +183,37 @@ fn bucket_of(cell: [i32; 3], buckets: usize) -> usize {
     hash::combine(hash::combine(x, y), z) as usize & (buckets - 1)
 }
 
-/// The size of the form round a sample, from the squares of the distances to those on the same form, in squares of the first
+/// ln of the size of the form round a sample, from the squares of the distances to those on the same form, in squares of the first
 /// radius; as many samples as `density` says lie on a unit of area.
-fn size_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
+fn size_ln_from(beyond: &[f32], first_radius: f32, density: f32) -> f32 {
     // How many samples of the form lie between one radius and the next.
     let mut counts = [0u32; RADII];
     let first = 1f32.to_bits() >> 22;
     for &beyond in beyond {
         // The next radius above: the bits of a positive number grow with it.
-        let step = (beyond.max(1.0).to_bits().wrapping_sub(1) >> 22).wrapping_add(1).saturating_sub(first) as usize;
+        let step =
+            (beyond.max(1.0).to_bits().wrapping_sub(1) >> 22).wrapping_add(1).saturating_sub(first) as usize;
         if step < RADII {
             counts[step] += 1;
         }
     }
+    // ln of the radius, and of how much of a fifth of the disc is covered there.
+    let mut last: Option<[f32; 2]> = None;
     let mut covered = 0;
-    let mut radius = first_radius;
     for (step, count) in counts.iter().enumerate() {
         covered += count;
-        radius = first_radius * f32::from_bits((first + step as u32) << 22).sqrt();
-        let covered_area = covered as f32 / density;
-        if covered_area < LEAST_SHARE * std::f32::consts::PI * radius * radius {
-            return (covered_area / (LEAST_SHARE * std::f32::consts::PI)).sqrt();
+        let radius_sq = first_radius * first_radius * f32::from_bits((first + step as u32) << 22);
+        let fill_ln = (covered as f32 / (density * LEAST_SHARE * std::f32::consts::PI * radius_sq)).ln();
+        let radius_ln = 0.5 * radius_sq.ln();
+        if fill_ln < 0.0 {
+            // Between this radius and the last, or as far below the first as its samples make a disc.
+            let [last_radius_ln, last_fill_ln] = last.unwrap_or([radius_ln + 0.5 * fill_ln, 0.0]);
+            let part = if last.is_some() { last_fill_ln / (last_fill_ln - fill_ln) } else { 0.0 };
+            return last_radius_ln + part * (radius_ln - last_radius_ln);
         }
+        last = Some([radius_ln, fill_ln]);
     }
-    radius
+    last.map_or(0.0, |[radius_ln, _]| radius_ln)
 }
 
 #[cfg(test)]
@@ -256,8 +268,7 @@ mod tests {
         let mesh = turned(&rod, 48);
         let size = FormSize::of(&Surface::new(&mesh, |_| true), 7);
         let found = size.at(Vec3::X * 0.5, Vec3::X);
-        // Radii are looked at in steps of a fifth.
-        assert!((found / 0.5 / 2.8 - 1.0).abs() < 0.11, "{found}");
+        assert!((found / 0.5 / 2.9 - 1.0).abs() < 0.06, "{found}");
     }
 
     #[test]

@@ -43,7 +43,7 @@ impl Painting {
                 .zip(poses.iter().zip(shapes))
                 .zip(&scene.objects)
                 .map(|((body, (&pose, shape)), object)| FrameBody {
-                    is_backdrop: object.mesh == built_in_mesh::BACKDROP,
+                    is_backdrop: built_in_mesh::ALL.contains(&object.mesh.as_str()),
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: shape.morph as f32,

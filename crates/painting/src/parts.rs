@@ -169,13 +169,16 @@ mod tests {
             assert!((found[0] - length).abs() < 0.02 * length, "{found:?}, not {length}");
             assert!((found[0] / found[1] - 3.0).abs() < 1e-4, "{found:?}");
         };
-        // A form 100 units large suits strokes far wider than these, one of 10 units suits 10.5 px: so much narrower that they
-        // shrink a little further, to 10.5 √(10.5 / 25).
+        // A form 100 units large suits strokes far wider than these, one of 15 units suits 19.5 px: so much narrower that they
+        // shrink a little further, to a soft minimum with 19.5 √(19.5 / 25).
         close(cap.fitted([75.0, 25.0], 100.0, 1.0), 75.0);
-        close(cap.fitted([75.0, 25.0], 10.0, 1.0), 20.4);
-        close(cap.fitted([75.0, 25.0], 10.0, 0.5), 47.7);
+        close(cap.fitted([75.0, 25.0], 15.0, 1.0), 49.1);
+        close(cap.fitted([75.0, 25.0], 15.0, 0.5), 62.05);
         assert_eq!(cap.fitted([75.0, 25.0], 5.0, 0.0), [75.0, 25.0]);
         assert_eq!(cap.fitted([75.0, 25.0], f32::INFINITY, 1.0), [75.0, 25.0]);
-        close(cap.fitted([75.0, 25.0], 1e-9, 1.0), 3.0 * LEAST_FITTED_PX);
+        close(
+            cap.fitted([75.0, 25.0], 1e-9, 1.0),
+            3.0 * LEAST_FITTED_PX * (1.0f32 + 0.4f32.powi(4)).powf(-0.25),
+        );
     }
 }

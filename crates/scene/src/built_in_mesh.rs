@@ -14,7 +14,13 @@ pub const PREFIX: &str = "impasto:";
 /// −0.28, the wall 1.3 high.
 pub const BACKDROP: &str = "impasto:backdrop";
 
-/// The backdrop's groups: the floor up to its bend, and what rises.
+/// A patch of floor with an uneven border: a disc of radius about 1 at height 0.
+pub const PATCH: &str = "impasto:patch";
+
+/// The names of all built-in meshes.
+pub const ALL: [&str; 2] = [BACKDROP, PATCH];
+
+/// The groups of the backdrop, and of the patch, which is a floor: the floor up to its bend, and what rises.
 pub const FLOOR: &str = "floor";
 /// See [`FLOOR`].
 pub const WALL: &str = "wall";
@@ -32,16 +38,50 @@ const ALONG: [usize; 3] = [16, 10, 14];
 
 /// The built-in mesh of this name, if there is one.
 pub fn of_name(name: &str) -> Option<MeshFile> {
-    (name == BACKDROP).then(|| MeshFile {
-        mesh: backdrop(),
-        groups: vec![FLOOR.to_owned(), WALL.to_owned()],
-        materials: vec![Material {
-            name: "backdrop".to_owned(),
-            color: [0.42, 0.40, 0.35],
-            texture: None,
-            gloss: 0.0,
-        }],
-    })
+    let (mesh, groups): (TriangleMesh, &[&str]) = match name {
+        BACKDROP => (backdrop(), &[FLOOR, WALL]),
+        PATCH => (patch(), &[FLOOR]),
+        _ => return None,
+    };
+    let material =
+        Material { name: "ground".to_owned(), color: [0.42, 0.40, 0.35], texture: None, gloss: 0.0 };
+    let groups = groups.iter().map(|&group| group.to_owned()).collect();
+    Some(MeshFile { mesh, groups, materials: vec![material] })
+}
+
+/// Rings of quads round a middle, the outermost uneven.
+fn patch() -> TriangleMesh {
+    const RINGS: u32 = 8;
+    const AROUND: u32 = 64;
+    let mut mesh = TriangleMesh::default();
+    for ring in 0..=RINGS {
+        for step in 0..AROUND {
+            let angle = std::f32::consts::TAU * step as f32 / AROUND as f32;
+            // Waves that come round to where they began.
+            let uneven = 0.05 * (3.0 * angle + 0.7).sin()
+                + 0.035 * (5.0 * angle + 2.0).sin()
+                + 0.02 * (11.0 * angle).sin();
+            let at = Vec2::from_angle(angle) * (ring as f32 / RINGS as f32) * (1.0 + uneven);
+            mesh.positions.push(Vec3::new(at.x, 0.0, at.y));
+            mesh.normals.push(Vec3::Y);
+            mesh.uvs.push(at * 0.5 + 0.5);
+        }
+    }
+    for ring in 0..RINGS {
+        for step in 0..AROUND {
+            let at = |ring: u32, step: u32| ring * AROUND + step % AROUND;
+            let [a, b, c, d] =
+                [at(ring, step), at(ring, step + 1), at(ring + 1, step + 1), at(ring + 1, step)];
+            let quad: &[[u32; 3]] = if ring == 0 { &[[a, c, d]] } else { &[[a, b, c], [a, c, d]] };
+            for &triangle in quad {
+                mesh.triangles.push(triangle);
+                mesh.polygon_of_triangle.push(ring * AROUND + step);
+                mesh.group_of_triangle.push(0);
+                mesh.material_of_triangle.push(0);
+            }
+        }
+    }
+    mesh
 }
 
 /// Height, depth and normal along the profile, from the front of the floor to the top of the wall.
@@ -91,6 +131,18 @@ fn backdrop() -> TriangleMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_patch_faces_up_and_is_about_as_large_as_a_disc() {
+        let mesh = of_name(PATCH).unwrap().mesh;
+        let across = |triangle| {
+            let [a, b, c] = mesh.corners(triangle);
+            (b - a).cross(c - a)
+        };
+        assert!((0..mesh.triangles.len()).all(|triangle| across(triangle).y > 0.0));
+        let area: f32 = (0..mesh.triangles.len()).map(|triangle| across(triangle).y / 2.0).sum();
+        assert!((area / std::f32::consts::PI - 1.0).abs() < 0.02, "{area}");
+    }
 
     #[test]
     fn the_backdrop_faces_up_and_forward() {

@@ -243,7 +243,7 @@ fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFi
                 scene,
                 None,
                 message,
-                format!("the only one is {:?}", built_in_mesh::BACKDROP),
+                format!("there are {:?} and {:?}", built_in_mesh::ALL[0], built_in_mesh::ALL[1]),
             )])
         };
         return built_in_mesh::of_name(name).map(|mesh| (mesh, Vec::new())).ok_or_else(unknown);

@@ -2,6 +2,7 @@
 
 mod add;
 mod framing;
+mod ground;
 mod scheme;
 mod stance;
 
@@ -9,10 +10,9 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use crate::built_in_mesh;
 use crate::document::{
-    Camera, CameraKey, Color, Direction, Ease, LayerSettings, Lens, Light, LightKind, MaterialOverride,
-    Object, Reference, Region, Scene, Selector, StrokeSettings, Timeline, Up,
+    Camera, CameraKey, Color, Ease, Lens, Light, LightKind, MaterialOverride, Object, Reference, Scene,
+    StrokeSettings, Timeline, Up,
 };
 use crate::mesh_file::MeshFile;
 use framing::{Axes, View};
@@ -20,18 +20,14 @@ use scheme::Scheme;
 use stance::Samples;
 
 pub use add::{REGION_COLORS, add_mesh, regions_of};
+pub use ground::Ground;
 pub use stance::ViewFrom;
-
-const BACKDROP_NAME: &str = "backdrop";
 
 /// Width and height in pixels.
 const SIZE_PX: (u32, u32) = (1280, 720);
 
 /// A model with more groups than this keeps one colour.
 const MOST_COLORED_GROUPS: usize = 12;
-
-/// The wall's strokes lean by one of these angles, degrees.
-const WALL_DEG: [f64; 6] = [-38.0, -24.0, -14.0, 16.0, 27.0, 40.0];
 
 /// How a model is placed in its new scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,6 +36,8 @@ pub struct Placing {
     pub up: Option<Up>,
     /// From which side it is seen.
     pub view: ViewFrom,
+    /// What it stands on.
+    pub ground: Ground,
 }
 
 /// A new scene for a model.
@@ -68,26 +66,20 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     for object in &mut objects {
         object.up = stance.up;
     }
-    let mut regions = Vec::new();
-    if view.axes.back.y > 0.0 {
-        let is_taken = |name: &str| objects.iter().any(|object| object.name == name);
-        let backdrop_name = ["backdrop", "wall", "the backdrop"].into_iter().find(|name| !is_taken(name));
-        let backdrop_name = backdrop_name.unwrap_or(BACKDROP_NAME);
-        objects.push(Object {
-            material: Some(MaterialOverride { color: Some(scheme.ground), ..Default::default() }),
-            ..view.backdrop(backdrop_name)
-        });
-        regions = ground_regions(backdrop_name, name_hash);
-    }
+    let taken: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
+    // A floor would hide a model that is seen from below.
+    let ground = if view.axes.back.y > 0.0 { placing.ground } else { Ground::Plain };
+    let laid = ground.lay(&view, &scheme, &taken, name_hash);
+    objects.extend(laid.object);
     let scene = Scene {
         seed: name_hash % 1000,
-        background: scheme.background(),
+        background: laid.background,
         camera: view.camera(),
-        lights: scheme.lights(view.axes),
+        lights: scheme.lights(view.axes, view.light_goes),
         objects,
         // Smaller strokes than usual: an unknown model may have much fine detail.
         strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
-        regions,
+        regions: laid.regions,
         ..bare()
     };
     NewScene { scene, up_is_unsure: stance.up_is_unsure }
@@ -116,33 +108,6 @@ fn objects_of(name: &str, mesh_name: &str, mesh: &MeshFile, scheme: &Scheme) -> 
         objects.push(colored(object, Scheme::of_group(body, index)));
     }
     objects
-}
-
-/// The regions of floor and wall: large quiet strokes in one family, level on the floor, leaning on the wall as the seed says.
-fn ground_regions(backdrop: &str, seed: u32) -> Vec<Region> {
-    let quiet = |jitter_deg: f64| StrokeSettings {
-        scale: Some(1.6),
-        angle_jitter_deg: Some(jitter_deg),
-        swing_deg: Some(2.0),
-        color_jitter: Some(0.35),
-        grading: Some(0.5),
-        layers: [("body", None, 0.22), ("form", None, 0.12), ("scumble", None, 0.12), ("accents", None, 0.12), ("contour", Some(0.0), 0.0)]
-            .map(|(name, coverage, thickness)| LayerSettings {
-                name: name.to_owned(),
-                coverage,
-                thickness: Some(thickness),
-                ..Default::default()
-            })
-            .into(),
-        ..Default::default()
-    };
-    let region = |(group, angle_deg, jitter_deg): (&str, f64, f64)| Region {
-        direction: Direction::Angle(angle_deg),
-        strokes: quiet(jitter_deg),
-        ..Region::new(format!("{backdrop} {group}"), Selector::Group(backdrop.to_owned(), group.to_owned()))
-    };
-    let wall_deg = WALL_DEG[(seed >> 8) as usize % WALL_DEG.len()];
-    [(built_in_mesh::WALL, wall_deg, 5.0), (built_in_mesh::FLOOR, 0.0, 3.0)].map(region).into()
 }
 
 /// A scene with a camera, a sun and a sky, but no objects. An object about 1 high at the origin fills its picture.

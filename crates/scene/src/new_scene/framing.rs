@@ -17,7 +17,11 @@ const MARGIN: f64 = 0.1;
 /// Size of the backdrop over the diagonal of the mesh, so that it fills the picture.
 const BACKDROP_SCALE: f64 = 3.0;
 
-/// How far the shadow on the floor reaches towards the right of the picture, over the height of what casts it; this share of it is
+/// Size of a patch of floor over the diagonal of the mesh, and how far its middle lies to the side where the shadow falls.
+const PATCH_SCALE: f64 = 0.52;
+const PATCH_SHIFT: f64 = 0.14;
+
+/// How far the shadow on the floor reaches to that side, over the height of what casts it; this share of it is
 /// framed with the model. The end of a long shadow may leave the picture.
 const SHADOW_SLOPE: f64 = 1.2;
 const FRAMED_SHADOW: f64 = 0.3;
@@ -33,6 +37,7 @@ pub(super) struct View {
     /// The middle of the mesh's underside, world space, and the diagonal of its bounds.
     foot: DVec3,
     size: f64,
+    pub light_goes: f64,
 }
 
 /// The camera's axes in world space, unit vectors.
@@ -54,6 +59,13 @@ impl Axes {
     /// World space to camera space, without translation.
     fn to_camera(self, vector: DVec3) -> DVec3 {
         DVec3::new(self.right.dot(vector), self.up.dot(vector), self.back.dot(vector))
+    }
+
+    /// How far along the gaze the lower border of the picture meets the floor, from an eye at this height over it; infinite where it
+    /// does not.
+    fn floor_depth(self, eye_height: f64) -> f64 {
+        let fall = self.back.y + (FOV_Y_DEG.to_radians() / 2.0).tan() * self.up.y;
+        if fall > 0.0 && eye_height > 0.0 { eye_height / fall } else { f64::INFINITY }
     }
 
     /// Camera space to world space, without translation.
@@ -79,7 +91,7 @@ impl View {
         let along_floor = (axes.right - DVec3::Y * axes.right.y).normalize_or_zero();
         let shadow = |point: &DVec3| {
             let rise = point.y - low.y;
-            *point - DVec3::Y * rise + along_floor * (rise * SHADOW_SLOPE * FRAMED_SHADOW)
+            *point - DVec3::Y * rise + along_floor * (stance.light_goes * rise * SHADOW_SLOPE * FRAMED_SHADOW)
         };
         let has_floor = axes.back.y > 0.0;
         let framed = points.iter().copied().chain(points.iter().filter(|_| has_floor).map(shadow));
@@ -87,14 +99,17 @@ impl View {
         let round = |point: DVec3| round_to(center + point * size, size * 1e-4);
         let eye_in_camera = framing.eye;
         let target_in_camera = eye_in_camera.with_z(0.0);
+        let eye_height = axes.to_world(eye_in_camera).y + (center.y - low.y) / size;
+        let nearest = framing.nearest.min(axes.floor_depth(eye_height));
         Self {
             eye: round(axes.to_world(eye_in_camera)),
             target: round(axes.to_world(target_in_camera)),
-            near: significant(framing.nearest * size * 0.5),
+            near: significant(nearest * size * 0.5),
             far: significant((framing.farthest + BACKDROP_SCALE) * size * 2.0),
             axes,
             foot: DVec3::new(center.x, low.y, center.z),
             size,
+            light_goes: stance.light_goes,
         }
     }
 
@@ -114,17 +129,28 @@ impl View {
 
     /// A floor under the mesh and a wall behind it, turned to the eye.
     pub fn backdrop(&self, name: &str) -> Object {
+        self.under_the_mesh(Object::new(name, built_in_mesh::BACKDROP), BACKDROP_SCALE, 0.0)
+    }
+
+    /// A round piece of floor under the mesh and its shadow.
+    pub fn patch(&self, name: &str) -> Object {
+        self.under_the_mesh(Object::new(name, built_in_mesh::PATCH), PATCH_SCALE, PATCH_SHIFT)
+    }
+
+    /// Both numbers in diagonals of the mesh; `shift` is to the side where the light goes.
+    fn under_the_mesh(&self, object: Object, scale: f64, shift: f64) -> Object {
         let yaw_deg = self.axes.back.x.atan2(self.axes.back.z).to_degrees();
+        let right = self.axes.right.with_y(0.0).normalize_or_zero();
         // A little below, so that a flat mesh lies on it.
-        let below = self.foot - DVec3::Y * (0.002 * self.size);
+        let at = self.foot - DVec3::Y * (0.002 * self.size) + right * (shift * self.light_goes * self.size);
         Object {
-            scale: Scale([significant(BACKDROP_SCALE * self.size); 3]),
+            scale: Scale([significant(scale * self.size); 3]),
             keys: vec![ObjectKey {
-                translation: round_to(below, self.size * 1e-4).to_array(),
+                translation: round_to(at, self.size * 1e-4).to_array(),
                 rotation_deg: [0.0, round_at(yaw_deg, -1), 0.0],
                 ..ObjectKey::at(0.0)
             }],
-            ..Object::new(name, built_in_mesh::BACKDROP)
+            ..object
         }
     }
 }

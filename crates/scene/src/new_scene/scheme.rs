@@ -132,9 +132,15 @@ impl Scheme {
         srgb(self.ground.0.map(|channel| linear_from_srgb(channel) * reflected as f32))
     }
 
-    /// The lights, for a camera with these axes.
-    pub fn lights(&self, axes: Axes) -> Vec<Light> {
-        let from_sun = round_to(axes.to_world(DVec3::new(0.80, -0.56, -0.20)), 1e-3);
+    /// A ground without light and strokes: the floor, lit.
+    pub fn plain_ground(&self) -> Color {
+        let reflected = EXPOSURE * self.light * (0.58 * KEY + SKY);
+        srgb(self.ground.0.map(|channel| (linear_from_srgb(channel) * reflected as f32).min(0.8)))
+    }
+
+    /// The lights, for a camera with these axes; the sun's goes to the right (1) or to the left (−1).
+    pub fn lights(&self, axes: Axes, light_goes: f64) -> Vec<Light> {
+        let from_sun = round_to(axes.to_world(from_sun(light_goes)), 1e-3);
         let sun = Light {
             direction: Some(from_sun.to_array()),
             ..light("sun", LightKind::Sun, "#fff0dc", significant(self.light * KEY))
@@ -147,6 +153,11 @@ impl Scheme {
         };
         vec![sun, fill]
     }
+}
+
+/// The direction of the sun's light in the camera's axes.
+pub(super) fn from_sun(light_goes: f64) -> DVec3 {
+    DVec3::new(0.75 * light_goes, -0.56, -0.34)
 }
 
 /// Whether no face has a colour that somebody chose.

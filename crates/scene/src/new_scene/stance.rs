@@ -3,6 +3,8 @@
 use glam::{DMat3, DVec3};
 use impasto_core::sampling::{self, Surface};
 
+use super::framing::Axes;
+use super::scheme;
 use crate::document::Up;
 use crate::mesh_file::MeshFile;
 
@@ -28,6 +30,9 @@ const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 /// high as it is wide, and of one that is 1.6 times as high. One looks down on low things, and a tall one is looked in the face.
 const RISES: [f64; 2] = [0.46, 0.20];
 
+/// Where less than this share of what faces the eye is lit from the left, the light comes from the right, if that shows more.
+const LEAST_LIT: f64 = 0.36;
+
 /// An axis is surely up when its score is this much above the next best.
 const SURE: f64 = 0.25;
 
@@ -40,6 +45,8 @@ pub(super) struct Stance {
     pub view: DVec3,
     /// Whether another axis could as well be up.
     pub up_is_unsure: bool,
+    /// To which side of the picture the light goes: 1 to the right, as usual, or −1.
+    pub light_goes: f64,
 }
 
 /// From which side a model is seen.
@@ -96,7 +103,29 @@ impl Samples {
         let upright = self.turned(found.y_up_from_file());
         let usual = || if self.points.is_empty() { USUAL_VIEW } else { upright.best_view() };
         let view = view.direction().unwrap_or_else(usual);
-        Stance { up: found, view, up_is_unsure }
+        let light_goes = if upright.lit_share(view, 1.0) < LEAST_LIT
+            && upright.lit_share(view, -1.0) > upright.lit_share(view, 1.0)
+        {
+            -1.0
+        } else {
+            1.0
+        };
+        Stance { up: found, view, up_is_unsure, light_goes }
+    }
+
+    /// How much of what faces the eye is lit by a light that goes to this side.
+    fn lit_share(&self, view: DVec3, light_goes: f64) -> f64 {
+        let axes = Axes::looking_from(view);
+        let to_light = -axes.to_world(scheme::from_sun(light_goes)).normalize();
+        let (mut lit, mut seen) = (0.0, 0.0);
+        for normal in &self.normals {
+            let facing = normal.dot(axes.back).max(0.0);
+            seen += facing;
+            if normal.dot(to_light) > 0.15 {
+                lit += facing;
+            }
+        }
+        if seen > 0.0 { lit / seen } else { 1.0 }
     }
 
     /// Whether it has hardly any extent along one of its axes.

@@ -297,7 +297,7 @@ fn up_and_view_are_as_the_user_says() {
         (ViewFrom::Top, DVec3::Y),
     ];
     for (view, side) in sides {
-        let placing = Placing { up: Some(Up::Y), view };
+        let placing = Placing { up: Some(Up::Y), view, ..Placing::default() };
         let key = for_mesh(Path::new("x.obj"), &animal, placing).scene.camera.keys[0].clone();
         let back = (DVec3::from(key.eye) - DVec3::from(key.target)).normalize();
         assert!(back.dot(side) > 0.9, "{view:?}: {back}");

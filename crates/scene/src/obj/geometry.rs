@@ -12,6 +12,9 @@ use super::text::Findings;
 /// Models that are smaller than this are scaled to a size of 1: their areas would vanish in single precision.
 const LEAST_EXTENT: f64 = 1e-6;
 
+/// And so are models that are larger than this: a floor for them would leave the limits of a scene.
+const MOST_EXTENT: f64 = 1e7;
+
 /// The vertices, one for each triple of indices that a corner has; and the corners of the faces, face by face.
 #[derive(Debug)]
 pub(super) struct Geometry {
@@ -63,8 +66,9 @@ pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Re
         mesh.face_arities.iter().scan(0, sum).collect()
     };
     let positions = mesh.positions.as_chunks_mut::<3>().0;
-    if let Some(extent) = enlarge_tiny(positions) {
-        let message = format!("the model is only {extent:e} across, too small for single precision");
+    if let Some(extent) = rescale_extreme(positions) {
+        let what = if extent < 1.0 { "small for single precision" } else { "large for a scene" };
+        let message = format!("the model is {extent:e} across, too {what}");
         let place = checked.faces.first().map_or(0, |face| face.offset as usize);
         findings.warning(place, message, "it is scaled to a size of 1; export it in other units");
     }
@@ -73,12 +77,13 @@ pub(super) fn read(checked: &mut Checked<'_>, findings: &mut Findings<'_>) -> Re
     Ok(Geometry { positions, uvs, normals, corners: mesh.indices, ends })
 }
 
-/// Scales up a model whose areas would vanish, and returns how large it was. `None` if the model is large enough.
-fn enlarge_tiny(positions: &mut [[f64; 3]]) -> Option<f64> {
+/// Scales a model whose areas would vanish, or for which no floor is large enough, to a size of 1, and returns how large it was.
+/// `None` if it is neither.
+fn rescale_extreme(positions: &mut [[f64; 3]]) -> Option<f64> {
     let points = positions.iter().map(|&at| DVec3::from_array(at));
     let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(low, high), at| (low.min(at), high.max(at)));
     let extent = (high - low).max_element();
-    let is_tiny = extent > 0.0 && extent < LEAST_EXTENT;
-    is_tiny.then(|| positions.as_flattened_mut().iter_mut().for_each(|value| *value /= extent))?;
+    let is_extreme = extent > 0.0 && !(LEAST_EXTENT..=MOST_EXTENT).contains(&extent) && extent.is_finite();
+    is_extreme.then(|| positions.as_flattened_mut().iter_mut().for_each(|value| *value /= extent))?;
     Some(extent)
 }

@@ -51,7 +51,7 @@ const BODY: Layer = Layer {
 const FORM: Layer = Layer {
     brushes: &[("filbert", 6), ("flat", 3), ("round", 2)],
     size_px: [33.0, 10.0],
-    coverage: 1.2,
+    coverage: 1.45,
     opacity: 0.95,
     thickness: 0.62,
     dryness: 0.14,
@@ -157,7 +157,13 @@ pub(super) const PRESETS: [Preset; 6] = [
                 pickup: 0.05,
                 ..BODY
             },
-            Layer { brushes: &[("dry", 4), ("flat", 2)], coverage: 1.4, dryness: 0.34, thickness: 0.3, ..FORM },
+            Layer {
+                brushes: &[("dry", 4), ("flat", 2)],
+                coverage: 1.4,
+                dryness: 0.34,
+                thickness: 0.3,
+                ..FORM
+            },
             Layer { coverage: 1.6, dryness: 0.58, thickness: 0.3, ..SCUMBLE },
             Layer { brushes: &[("rigger", 2), ("dry", 3)], thickness: 0.3, ..ACCENTS },
             Layer { brushes: &[("rigger", 2), ("dry", 1)], coverage: 1.1, dryness: 0.3, ..CONTOUR },
