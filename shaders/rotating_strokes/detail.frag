@@ -9,10 +9,12 @@ uniform float px_scale;              // output pixels per pixel of the scene's o
 uniform mat4 view_from_world;
 uniform int block_px;                // side of a block
 
-out vec4 detail;                     // change of colour 0..1, outline 0..1, highlight 0..1, body id and share
+out vec4 detail;                     // change of colour or turn, outline 0..1, highlight 0..1, body id and share
 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
+// An edge of colour is narrow, and weighs more than a turn that goes on for long.
+const float EDGE = 2.6;
 // How fast the surface turns, radians per pixel of the scene's own size: a ball of 100 px radius turns by 0.01 in its middle.
 const vec2 TURN = vec2(0.012, 0.050);
 // A leap of the depth within a body, as a share of the depth: no outline below the first, an outline above the second.
@@ -63,7 +65,7 @@ void main() {
         // Near the outline every surface turns fast in the picture: what counts is how fast it turns along itself.
         turn *= clamp((mat3(view_from_world) * facing).z, 0.0, 1.0);
         float of_form = TURN_SHARE * clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
-        detail.r += max(of_color, of_form);
+        detail.r += max(EDGE * of_color, of_form);
         detail.b += min(texelFetch(glint, at, 0).r, 1.0);
         if (index == 4) continue;
         ivec2 outward = (ivec2(index & 1, index >> 1) * 2 - 1) * rim_px;

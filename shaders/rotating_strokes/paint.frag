@@ -10,6 +10,7 @@ flat in vec4 picked_up;
 flat in vec4 mark;
 flat in vec4 body;
 flat in vec4 own;
+flat in vec4 plane;
 #ifdef SHAPED
 flat in vec4 form;
 flat in float leaning;
@@ -52,6 +53,13 @@ float past_body(vec2 here, float tint) {
     return on_own;
 }
 
+// How much paint lies here on the stroke's own body: all near the stroke's plane, none far off it, as past a crease.
+float on_plane(float depth) {
+    float px_per_unit = 1.0 / (units_per_px_at_1 * mix(own.x, 1.0, orthographic));
+    float off_px = (depth - own.x) * px_per_unit - plane.z - dot(plane.xy, from_center_px);
+    return 1.0 - smoothstep(plane.w, 2.0 * plane.w, abs(off_px));
+}
+
 void main() {
     vec2 quad_at = mark_at;
     float level = mark.y;
@@ -73,6 +81,7 @@ void main() {
     if (body.z < FREE) {
         vec2 here = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).xy;
         if (here.y != own.y) alpha *= past_body(here, tint);
+        else if (here.y != 0.0) alpha *= on_plane(here.x);
     }
     vec3 color = max(paint.rgb + half_mixed * tint, 0.0);
 #ifdef DRAFT

@@ -16,10 +16,14 @@ layout(location = 8) in vec2 shape;          // taper, bend in radians
 #endif
 
 uniform vec2 size_px;
+uniform mat4 view_from_world;
+uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
+uniform float orthographic;
 uniform float mark_rows;         // texels across a mark
 uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
 #ifndef DRAFT
 uniform sampler2D below;         // the picture before this layer, premultiplied
+uniform sampler2D depth_and_id;
 #endif
 
 out vec2 mark_at;                // of the mark; of a shaped stroke px along and across it
@@ -30,6 +34,8 @@ flat out vec4 picked_up;         // colour from below and how much of it
 flat out vec4 mark;              // its number, level of detail, half its soft edge, bow
 flat out vec4 body;              // opacity, thickness, overrun in px, sign of the flip
 flat out vec4 own;               // depth and id of the body, how much of the stroke's length is there, how wet its paint is
+flat out vec4 plane;             // of the stroke, in px: its depth's slope along x and y, the depth of its middle less the stroke's own,
+                                 // how far paint may lie off it
 #ifdef SHAPED
 flat out vec4 form;              // half its quad's length (0 where it has no shape) and width in px, taper, bend per px
 flat out float leaning;          // skew
@@ -43,13 +49,14 @@ const float WET_PICKUP = 0.25;
 const float BYTE = 1.0 / 255.0;
 
 #ifndef DRAFT
-// The mean colour below (not premultiplied), and its alpha.
+// The mean colour below on the stroke's own body (not premultiplied), and its alpha.
 vec4 paint_below(vec2 center_px, float spread_px) {
     vec4 sum = vec4(0.0);
     for (int index = 0; index < 5; index++) {
         vec2 offset = index == 4 ? vec2(0.0) : vec2(index & 1, index >> 1) * 2.0 - 1.0;
         ivec2 texel = ivec2(clamp(center_px + offset * spread_px, vec2(0.0), size_px - 1.0));
-        sum += texelFetch(below, texel, 0);
+        // No colour of one body is smeared over another.
+        if (texelFetch(depth_and_id, texel, 0).y == float(marks.y)) sum += texelFetch(below, texel, 0);
     }
     return vec4(sum.rgb / max(sum.a, 1e-4), sum.a / 5.0);
 }
@@ -81,6 +88,16 @@ vec4 painted_part(float least, float level, float bow, float flip) {
     vec2 across = part.zw + vec2(min(shift.x, shift.y), max(shift.x, shift.y));
     if (flip < 0.0) across = 1.0 - across.yx;
     return clamp(vec4(part.xy, across), 0.0, 1.0);
+}
+
+// The plane that the stroke lies on. Paint that leaves it, past a crease, ends there; lines along a border follow the border.
+vec4 plane_of_stroke(vec2 center_px) {
+    vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
+    float slant = max(abs(n.z), 0.05);
+    vec2 slope = n.xy / (n.z < 0.0 ? -slant : slant);
+    // A surface that is seen at a slant leaves the plane sooner, by less of itself.
+    float may_leave_px = fitted.w != 0.0 ? 1e9 : (0.06 * size.x + 2.0) * max(0.35 / slant, 1.0);
+    return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
 }
 
 void main() {
@@ -149,6 +166,7 @@ void main() {
     mark = vec4(float(marks.w & 65535u), level, soft, normal_and_bow.w);
     float fat = 0.55 + 0.75 * clamp(fitted.z, 0.0, 1.0) / 0.7;
     body = vec4(opacity, thickness * fat, reach.x, flip);
+    plane = plane_of_stroke(center_px);
     own = vec4(place.z, float(marks.y), extent, min(pickup / WET_PICKUP, 1.0));
     gl_Position = vec4((center_px + from_center_px) / size_px * 2.0 - 1.0, 0.0, 1.0);
 }

@@ -218,6 +218,60 @@ fn extreme_settings_still_give_a_picture() {
     }
 }
 
+/// The standard deviation of luma after its mean over a few pixels is taken away, where the picture shows the body's inside.
+fn roughness(rgba8: &[u8], width: usize, inside: impl Fn(usize, usize) -> bool) -> f64 {
+    let luma = |x: usize, y: usize| f64::from(rgba8[(y * width + x) * 4 + 1]);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (x, y) in (4..rgba8.len() / 4 / width - 4).flat_map(|y| (4..width - 4).map(move |x| (x, y))) {
+        if inside(x, y) {
+            let mean = (0..81).map(|at| luma(x + at % 9 - 4, y + at / 9 - 4)).sum::<f64>() / 81.0;
+            sum += (luma(x, y) - mean).powi(2);
+            count += 1.0;
+        }
+    }
+    assert!(count > 1000.0);
+    f64::sqrt(sum / count)
+}
+
+#[test]
+fn wet_paint_of_one_value_runs_together_and_keeps_its_outline() {
+    let mut renderer = renderer(Driver::Egl);
+    let size_px = [640, 360];
+    let mut picture = |pickup: &str| {
+        let layers = ["underpainting", "body", "form", "scumble", "accents", "contour", "lights"]
+            .map(|name| format!("(name: \"{name}\", pickup: {pickup})"))
+            .join(", ");
+        let layers = format!("[{layers}]");
+        let frame = scenes::painting_with("apple", &[("strokes.layers", &layers), ("style.weave", "0")])
+            .at(0.0, &options(size_px));
+        let picture = renderer.render(&frame).unwrap().rgba8;
+        (picture, renderer.read_reference().body_id)
+    };
+    let (wet, ids) = picture("0.25");
+    let (dry, _) = picture("0");
+    let (width, height) = (size_px[0] as usize, size_px[1] as usize);
+    // Rows of ids count from below.
+    let id = |x: usize, y: usize| ids[(height - 1 - y) * width + x];
+    let fruit = id(width / 2, height / 2);
+    let deep = |x: usize, y: usize| (0..9).all(|at| id(x + at % 3 * 12 - 12, y + at / 3 * 12 - 12) == fruit);
+    let inside =
+        |x: usize, y: usize| (16..width - 16).contains(&x) && (16..height - 16).contains(&y) && deep(x, y);
+    let [of_wet, of_dry] = [&wet, &dry].map(|picture| roughness(picture, width, inside));
+    println!("wet {of_wet:.2}, dry {of_dry:.2}");
+    assert!(of_wet < 0.88 * of_dry, "wet {of_wet}, dry {of_dry}");
+    let border = |x: usize, y: usize| {
+        (16..width - 16).contains(&x) && (16..height - 16).contains(&y) && id(x - 1, y) != id(x + 1, y)
+    };
+    let step = |picture: &[u8]| {
+        let at = |x: usize, y: usize| f64::from(picture[(y * width + x) * 4]);
+        let borders =
+            (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| border(x, y));
+        let steps: Vec<f64> = borders.map(|(x, y)| (at(x + 4, y) - at(x - 4, y)).abs()).collect();
+        steps.iter().sum::<f64>() / steps.len() as f64
+    };
+    assert!(step(&wet) > 0.9 * step(&dry), "{} {}", step(&wet), step(&dry));
+}
+
 /// The colours of the pixels after the picture was reduced to `small` by averaging.
 fn reduced(renderer: &mut Renderer, painting: &Painting, size_px: [u32; 2], small: [u32; 2]) -> Vec<f64> {
     let picture = renderer.render(&painting.at(0.0, &options(size_px))).unwrap();

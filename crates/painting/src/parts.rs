@@ -38,8 +38,8 @@ const BACKDROP_SHARE: f64 = 0.9;
 const BACKDROP_THICKNESS: f64 = 0.2;
 const BACKDROP_FACING: f64 = 0.6;
 
-/// The angles of the two crossing families of strokes on a backdrop, degrees.
-const BACKDROP_FAMILIES_DEG: (f64, f64) = (-58.0, 4.0);
+/// The angle of the strokes on a backdrop, degrees: almost level, so that they do not draw attention.
+const BACKDROP_DEG: f64 = 8.0;
 
 /// The parts of a body.
 #[derive(Debug)]
@@ -142,8 +142,7 @@ fn direction_of(part: &Part, reference: &BodyReference) -> Direction {
         && second * scale >= BACKDROP_SHARE * f64::from(size_px[0].min(size_px[1]));
     let faces = part.axes[2].dot(gaze.normalize_or_zero()).abs() > BACKDROP_FACING;
     if fills && faces && least < BACKDROP_THICKNESS * second {
-        let (first, second) = BACKDROP_FAMILIES_DEG;
-        return Direction::Crossing(first, second);
+        return Direction::Angle(BACKDROP_DEG);
     }
     if longest > LONG * second { Direction::Along(part.axes[0].to_array()) } else { Direction::Up }
 }

@@ -60,8 +60,6 @@ pub(crate) struct TraitInputs {
     scales: Vec<f64>,
     /// By rule; default where no particle of the body has the rule.
     rules: Vec<TraitRule>,
-    /// For each part, what the second of two crossing families adds where its rule is automatic, radians.
-    second_of_part_rad: Vec<Option<f64>>,
 }
 
 /// The part of a rule that traits depend on.
@@ -69,18 +67,8 @@ pub(crate) struct TraitInputs {
 struct TraitRule {
     angle_jitter_rad: f32,
     swing_rad: f32,
-    family: Family,
-}
-
-/// How many families of strokes a rule has.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum Family {
-    /// One or two, as the part's automatic direction says.
-    #[default]
-    OfPart,
-    One,
-    /// Two that cross: the angle between them, radians.
-    Two(f64),
+    /// What the second of two crossing families adds, radians, where there are two.
+    second_rad: Option<f64>,
 }
 
 /// The traits that pictures need, of particles in progressive order.
@@ -142,7 +130,6 @@ impl PartialEq for TraitInputs {
             && (self.name_hash, self.fits) == (other.name_hash, other.fits)
             && self.scales == other.scales
             && self.rules == other.rules
-            && self.second_of_part_rad == other.second_of_part_rad
             && (Arc::ptr_eq(&self.regions, &other.regions) || self.regions == other.regions)
     }
 }
@@ -169,13 +156,9 @@ impl TraitInputs {
         let mut of_rule = vec![TraitRule::default(); rules.len()];
         for &rule in object.used.iter() {
             let RegionRule { direction, strokes, .. } = &rules[usize::from(rule)];
-            let family = match direction {
-                // The field finds the curvature; where there is no field, the automatic direction stands in.
-                Direction::Auto | Direction::Curvature(_) => Family::OfPart,
-                stated => second_rad(stated).map_or(Family::One, Family::Two),
-            };
             let (angle_jitter_rad, swing_rad) = (strokes.angle_jitter_rad, strokes.swing_rad);
-            of_rule[usize::from(rule)] = TraitRule { angle_jitter_rad, swing_rad, family };
+            let second_rad = second_rad(direction);
+            of_rule[usize::from(rule)] = TraitRule { angle_jitter_rad, swing_rad, second_rad };
         }
         Self {
             particles,
@@ -184,7 +167,6 @@ impl TraitInputs {
             fits: object.used.iter().any(|&rule| fit_of(kind, rules[usize::from(rule)].strokes.fit) > 0.0),
             scales: parts.parts.iter().map(|part| px_per_unit(&own.map, part) * scale).collect(),
             rules: of_rule,
-            second_of_part_rad: parts.directions(own).iter().map(second_rad).collect(),
             parts: Arc::clone(parts),
         }
     }
@@ -249,7 +231,7 @@ impl TraitInputs {
             let scaled = position * scale;
             at[0][index] = scaled / SWING_PX;
             at[1][index] = scaled / EDGE_PX;
-            at[2][index] = position * (scale / self.cycle_px(rule, part));
+            at[2][index] = position * (scale / self.cycle_px(rule));
             swings[index] = rule.swing_rad > 0.0;
         }
         let mut noise = [[0.0f32; CHUNK]; 3];
@@ -266,25 +248,16 @@ impl TraitInputs {
         }
     }
 
-    /// What the second of two crossing families adds, where there are two.
-    fn second_rad(&self, rule: TraitRule, part: usize) -> Option<f64> {
-        match rule.family {
-            Family::OfPart => self.second_of_part_rad[part],
-            Family::One => None,
-            Family::Two(turned) => Some(turned),
-        }
-    }
-
     /// The length of one cycle of the swing, pixels of a picture 720 high.
-    fn cycle_px(&self, rule: TraitRule, part: usize) -> f64 {
-        if self.second_rad(rule, part).is_some() { CROSSING_SWING_PX } else { SWING_PX }
+    fn cycle_px(&self, rule: TraitRule) -> f64 {
+        if rule.second_rad.is_some() { CROSSING_SWING_PX } else { SWING_PX }
     }
 
     /// What chance and slow noise add to a particle's base angle, radians.
     fn stray_rad(&self, traits: &Traits, particle: usize, swing_noise: f32) -> f64 {
         let bits = traits.bits(particle);
         let rule = self.rules[usize::from(traits.region(particle))];
-        let second = self.second_rad(rule, traits.part(particle));
+        let second = rule.second_rad;
         let normal = |which: u32| f64::from(hash::normal(hash::combine(bits, which)));
         let (swing, jitter) = if second.is_some() { (CROSSING_SWING, CROSSING_JITTER) } else { (1.0, 1.0) };
         let jitter_rad = f64::from(rule.angle_jitter_rad);

@@ -26,6 +26,9 @@ pub use stance::ViewFrom;
 /// Width and height in pixels.
 const SIZE_PX: (u32, u32) = (1280, 720);
 
+/// A model without colours shines a little, as glazed clay does.
+const GLOSS: f64 = 0.15;
+
 /// A model with more groups than this keeps one colour.
 const MOST_COLORED_GROUPS: usize = 12;
 
@@ -88,7 +91,7 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
 /// The model as one object, or as one for each group where these have no colours yet.
 fn objects_of(name: &str, mesh_name: &str, mesh: &MeshFile, scheme: &Scheme) -> Vec<Object> {
     let colored = |object: Object, color: Color| Object {
-        material: Some(MaterialOverride { color: Some(color), ..Default::default() }),
+        material: Some(MaterialOverride { color: Some(color), gloss: Some(GLOSS), ..Default::default() }),
         ..object
     };
     let whole = Object::new(name, mesh_name);

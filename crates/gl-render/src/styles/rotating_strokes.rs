@@ -235,6 +235,7 @@ impl RotatingStrokes {
         let mut bound = lens
             .set(program.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
+            .set("view_from_world", frame.view.view_from_world)
             .set("mark_rows", brush::SIZE[1] as f32)
             .texture("brush_marks", &marks.texture)
             .texture("mark_bounds", &marks.bounds)

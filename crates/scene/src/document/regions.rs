@@ -112,7 +112,7 @@ pub struct Dab {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Direction {
-    /// As a painter would begin: along the longest axis of each part, in two crossing families on flat backdrops.
+    /// As a painter would begin: along the longest axis of each part, almost level on flat backdrops.
     /// Guides overrule it wherever they reach.
     #[default]
     Auto,

@@ -28,7 +28,7 @@ const USUAL_VIEW: DVec3 = DVec3::new(0.5, 0.27, 0.9);
 
 /// How far the eye of the best view is above the model's middle, over its distance on the floor: of a model that is 0.6 times as
 /// high as it is wide, and of one that is 1.6 times as high. One looks down on low things, and a tall one is looked in the face.
-const RISES: [f64; 2] = [0.46, 0.20];
+const RISES: [f64; 2] = [0.38, 0.18];
 
 /// Where less than this share of what faces the eye is lit from the left, the light comes from the right, if that shows more.
 const LEAST_LIT: f64 = 0.36;

@@ -1,10 +1,12 @@
 //! Tests of new scenes: framing, backdrop, light, names and regions.
 
-use glam::{DMat4, DVec4, Vec3};
+use glam::{DMat4, DVec4, Quat, Vec3};
 use impasto_core::TriangleMesh;
 
 use super::framing::used_points;
 use super::*;
+use crate::built_in_mesh;
+use crate::document::{Direction, Selector};
 use crate::motion::camera_at;
 
 /// A box between two corners, wound outwards; with `open`, only its face at the lowest z, which faces −Z.
@@ -277,6 +279,72 @@ fn on_screen_turned(scene: &Scene, animal: &MeshFile) -> bool {
     };
     let [feet, head] = [animal.mesh.positions[0], animal.mesh.positions[46]];
     height(head) > height(feet)
+}
+
+#[test]
+fn a_model_stands_on_the_ground_that_is_asked_for() {
+    let mesh = box_between(Vec3::NEG_ONE, Vec3::ONE, false);
+    let on = |ground| for_mesh(Path::new("x.obj"), &mesh, Placing { ground, ..Placing::default() }).scene;
+    let [backdrop, vignette, plain] = [Ground::Backdrop, Ground::Vignette, Ground::Plain].map(on);
+    assert_eq!((vignette.objects[1].mesh.as_str(), plain.objects.len()), (built_in_mesh::PATCH, 1));
+    assert_eq!((backdrop.regions.len(), vignette.regions.len(), plain.regions.len()), (2, 1, 0));
+    assert_eq!(vignette.background, plain.background);
+    assert_ne!(vignette.background, backdrop.background);
+    for scene in [backdrop, vignette, plain] {
+        assert_eq!(crate::check::check(&scene), vec![], "{:?}", scene.objects[0].name);
+    }
+}
+
+#[test]
+fn low_models_are_seen_from_higher_up_than_tall_ones_and_see_their_floor() {
+    let rise = |height: f32| {
+        let mesh = box_between(Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, height, 1.0), false);
+        let scene = placed(Path::new("x.obj"), &mesh);
+        let key = &scene.camera.keys[0];
+        let back = DVec3::from(key.eye) - DVec3::from(key.target);
+        // The lower border of the picture shows the floor: the near plane does not cut it off.
+        let gaze = -back.normalize();
+        let up = gaze.cross(DVec3::Y).cross(gaze).normalize();
+        let ray = gaze - up * 17.5f64.to_radians().tan();
+        let Lens::Perspective { near, .. } = scene.camera.lens else { panic!("a perspective lens") };
+        let floor = scene.objects[1].keys[0].translation[1];
+        let depth = (key.eye[1] - floor) / -ray.y;
+        assert!(near < depth, "height {height}: near {near}, floor at {depth}");
+        back.y / back.with_y(0.0).length()
+    };
+    assert!(
+        rise(0.05) > 0.4 && rise(2.0) < 0.4 && rise(4.0) < 0.25,
+        "{} {} {}",
+        rise(0.05),
+        rise(2.0),
+        rise(4.0)
+    );
+}
+
+#[test]
+fn the_light_comes_from_the_side_that_shows_more() {
+    // A slab whose broad side looks to the right of the picture, and its mirror image.
+    let light = |yaw_deg: f32| {
+        let slab = box_between(Vec3::new(-1.0, 0.0, -0.1), Vec3::new(1.0, 1.0, 0.1), false);
+        let turn = Quat::from_rotation_y(yaw_deg.to_radians());
+        let mut mesh = turned(&slab, |at| turn * at);
+        // Each face has its own corners, so that normals are those of the faces.
+        let corners: Vec<Vec3> = mesh
+            .mesh
+            .triangles
+            .iter()
+            .flatten()
+            .map(|&corner| mesh.mesh.positions[corner as usize])
+            .collect();
+        mesh.mesh.normals =
+            corners.chunks(3).flat_map(|of| [(of[1] - of[0]).cross(of[2] - of[0]).normalize(); 3]).collect();
+        mesh.mesh.triangles =
+            (0..corners.len() as u32 / 3).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
+        mesh.mesh.positions = corners;
+        let placing = Placing { up: Some(Up::Y), view: ViewFrom::Front, ..Placing::default() };
+        for_mesh(Path::new("x.obj"), &mesh, placing).scene.lights[0].direction.unwrap()[0]
+    };
+    assert!(light(50.0) < 0.0 && light(-50.0) > 0.0 && light(0.0) > 0.0);
 }
 
 #[test]

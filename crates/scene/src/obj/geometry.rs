@@ -87,3 +87,20 @@ fn rescale_extreme(positions: &mut [[f64; 3]]) -> Option<f64> {
     is_extreme.then(|| positions.as_flattened_mut().iter_mut().for_each(|value| *value /= extent))?;
     Some(extent)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extreme_models_are_scaled_to_a_size_of_1_and_others_stay() {
+        for (size, is_scaled) in [(1e-9, true), (1e-3, false), (1e6, false), (1e9, true)] {
+            let mut positions = [[0.0, 0.0, 0.0], [size, 0.25 * size, 0.0]];
+            let extent = rescale_extreme(&mut positions);
+            assert_eq!(extent.is_some(), is_scaled, "{size:e}");
+            let expected = if is_scaled { [1.0, 0.25, 0.0] } else { [size, 0.25 * size, 0.0] };
+            assert_eq!(positions[1], expected);
+        }
+        assert_eq!(rescale_extreme(&mut []), None);
+    }
+}

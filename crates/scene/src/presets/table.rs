@@ -51,7 +51,7 @@ const BODY: Layer = Layer {
 const FORM: Layer = Layer {
     brushes: &[("filbert", 6), ("flat", 3), ("round", 2)],
     size_px: [33.0, 10.0],
-    coverage: 1.45,
+    coverage: 1.35,
     opacity: 0.95,
     thickness: 0.62,
     dryness: 0.14,
@@ -73,7 +73,7 @@ const SCUMBLE: Layer = Layer {
 const ACCENTS: Layer = Layer {
     brushes: &[("round", 5), ("filbert", 3), ("rigger", 2)],
     size_px: [17.0, 5.0],
-    coverage: 0.26,
+    coverage: 0.2,
     opacity: 0.92,
     thickness: 0.65,
     dryness: 0.08,
