@@ -17,7 +17,7 @@ use impasto_tests::{gestures, shapes};
 use crate::bench::Bench;
 use crate::table::{Figure, Row, Spread, Unit, one_line, shown, shown_count};
 
-/// Particles of the combed body.
+/// Particles of the apple that `combed` combs; `edits` also measures half as many.
 const PARTICLES: u64 = 50_000;
 
 /// Number of pictures of a moving view.
@@ -145,7 +145,7 @@ pub fn edits(bench: &mut Bench) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Measures pictures of `still_life` while its camera moves, in sizes of a viewport.
+/// Measures how long pictures of `still_life` take while its camera moves, at usual sizes of a viewport.
 pub fn pictures(bench: &mut Bench) -> anyhow::Result<()> {
     let painting: Painting = Preparer::default().prepare(Arc::new(shipped("still_life")))?;
     let camera = motion::camera_at(painting.scene(), 0.0);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! arguments ─▶ parts ─▶ each: inputs ─▶ equal answers? ─▶ race: rounds in which all take turns ─▶ rows
-//!                                                            │ peers that are programs wait for their rounds
+//!                                                            │ (a peer that is a separate program waits for its turn)
 //! rows ─▶ table on stdout (text or JSON), plots under out/bench/, results of this machine, docs/performance.md
 //! ```
 

@@ -1,5 +1,6 @@
 // Four corners of a stroke: a billboard of constant size on the screen, turned in pixels.
 #include "shared/oklab.glsl"
+#include "rotating_strokes/layers.glsl"
 #ifdef SHAPED
 #include "shared/stroke_shape.glsl"
 #endif
@@ -19,6 +20,7 @@ uniform vec2 size_px;
 uniform mat4 view_from_world;
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
 uniform float orthographic;
+uniform int kind;                // layer of paint
 uniform float mark_rows;         // texels across a mark
 uniform sampler2D mark_bounds;   // a row for each mark: the box around all texels with more paint than a given amount
 #ifndef DRAFT
@@ -90,13 +92,15 @@ vec4 painted_part(float least, float level, float bow, float flip) {
     return clamp(vec4(part.xy, across), 0.0, 1.0);
 }
 
-// The plane that the stroke lies on. Paint that leaves it, past a crease, ends there; lines along a border follow the border.
+// The plane that the stroke lies on. Paint that leaves it, past a crease, ends there; but the underpainting covers all, and lines
+// follow the border that they lie along.
 vec4 plane_of_stroke(vec2 center_px) {
     vec3 n = mat3(view_from_world) * normal_and_bow.xyz;
     float slant = max(abs(n.z), 0.05);
     vec2 slope = n.xy / (n.z < 0.0 ? -slant : slant);
     // A surface that is seen at a slant leaves the plane sooner, by less of itself.
-    float may_leave_px = fitted.w != 0.0 ? 1e9 : (0.06 * size.x + 2.0) * max(0.35 / slant, 1.0);
+    bool goes_on = kind == UNDERPAINTING || kind == CONTOUR;
+    float may_leave_px = goes_on ? 1e9 : (0.06 * size.x + 2.0) * max(0.35 / slant, 1.0);
     return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
 }
 

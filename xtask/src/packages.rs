@@ -1,5 +1,5 @@
-//! Makes sure that the system has what rendering and the tests need: looks for the libraries and programs themselves,
-//! and installs the packages of those that are missing with apt-get, where that exists.
+//! Makes sure that the system has what rendering and the tests need. It looks for the files of libraries and programs, not
+//! for installed packages. If some are missing, it installs their packages with apt-get, where the system has it.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -70,7 +70,7 @@ pub const RENDERING: &[Need] = &[EGL, MESA];
 const TESTS: &[Need] = &[EGL, MESA, OSMESA];
 
 /// What the tests of the editor's window need: the libraries that winit loads, a virtual display, and a program that
-/// sends it input. Xvfb writes its picture to a file (`-fbdir`).
+/// sends it input. No program for screenshots is needed: Xvfb writes its screen to a file (`-fbdir`).
 const WINDOW_TESTS: &[Need] = &[
     library("the X11 library", "libx11-6", &["libX11.so.6"]),
     library("the bridge from X11 to XCB", "libx11-xcb1", &["libX11-xcb.so.1"]),

@@ -1,4 +1,4 @@
-//! Simple bodies with texture coordinates, for materials that noise moves: a ball, a floor and a mushroom cloud.
+//! Simple bodies with texture coordinates, made to be displaced by noise: a ball, a floor and a mushroom cloud.
 
 use std::f64::consts::{PI, TAU};
 

@@ -144,7 +144,7 @@ fn body(mesh: &mut PolyMesh, shape: &Shape) {
 
 const FIN: Look = Look { group: "fins", material: "fin" };
 
-/// The fins that stand in the plane z = 0: the tail, the long fin on the back, and the one under the belly.
+/// The fins that stand in the plane z = 0: the tail, the long fin on the back, and the anal fin below.
 fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
     const TAIL: [usize; 2] = [20, 12];
     mesh.blade(
@@ -184,7 +184,7 @@ fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
             let along = 0.64 + 0.18 * t;
             let height = 0.10 * (PI * (0.15 + 0.75 * t)).sin() * (1.0 - 0.4 * t);
             let foot = -shape.belly.height_at(along) + 0.012;
-            // Rows must run up, so the first row is the free edge.
+            // Rows go upwards, and this fin hangs down: its first row is the free edge, its last one is at the body.
             let down = 1.0 - up;
             flat_fin(
                 [along * LENGTH + 0.06 * down, foot - down * height, 0.0],
@@ -196,16 +196,16 @@ fn middle_fins(mesh: &mut PolyMesh, shape: &Shape) {
     );
 }
 
-/// The front and the back point of a fin at a place of its middle plane. The fin is thinner towards its edges, and
-/// its rays are shallow ridges. `out` is how far the place is from the root and `aside` how far to the side, both
-/// 0..=1; `rays` is the phase of the rays.
+/// The two surface points of a fin, on its +Z and on its −Z side, round a point of the plane between them. The fin gets thinner
+/// towards its edges and has shallow ridges, its rays. `out` runs from the root (0) to the free edge (1), `aside` from the
+/// fin's centre line (0) to either edge (1); `rays` is the phase of the ridges, radians.
 fn flat_fin(middle: [f64; 3], [out, aside, rays]: [f64; 3], thickness: f64) -> [DVec3; 2] {
     let thick = thickness * (1.0 - 0.7 * out) * (1.0 - 0.5 * aside) * (1.0 + 0.12 * rays.sin());
     let middle = DVec3::from_array(middle);
     [middle + DVec3::Z * thick, middle - DVec3::Z * thick]
 }
 
-/// The breast fin and the smaller belly fin of one side (`side` +1: +Z), spread outwards and back.
+/// The pectoral fin and the smaller pelvic fin of one side, pointing outwards and back. `side` is +1 for +Z, −1 for −Z.
 fn paired_fins(mesh: &mut PolyMesh, shape: &Shape, side: f64) {
     let fins = [([8, 5], 0.27, -0.42, [0.20, 0.085]), ([6, 4], 0.45, -0.86, [0.12, 0.055])];
     for (cells, along, level, [length, width]) in fins {

@@ -26,7 +26,8 @@ pub struct BakedParticles {
     pub along: [Vec<f32>; 3],
     /// Second column of N': x, y, z.
     pub across: [Vec<f32>; 3],
-    /// 1 keeps the stroke flat on the picture, 0 lets its direction follow the surface; empty when all are 1.
+    /// 1: the stroke only turns with its surroundings, as if it lay flat on the picture. 0: its direction is also foreshortened
+    /// with the surface. Empty when all are 1.
     pub flatness: Vec<f32>,
 }
 
@@ -87,7 +88,8 @@ impl BakedParticles {
         self.flatness.clear();
         for array in self.vectors_mut().into_iter().flatten() {
             if array.is_empty() {
-                // Fresh zeroed memory: its pages are first touched by the threads that fill them.
+                // The system gives zeroed memory without writing to it, so the threads that fill it touch its pages first, side by
+                // side. `resize` would write all the zeros here.
                 *array = vec![0.0; count];
             } else {
                 array.truncate(count);
@@ -152,8 +154,9 @@ fn vector(arrays: &[Vec<f32>; 3], particle: usize) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| f64::from(arrays[axis][particle])))
 }
 
-/// Projects every particle and turns its stroke. The angle is φ, that of the rotation nearest to A = J N', or with
-/// flatness F < 1 `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
+/// Projects every particle and finds its stroke's angle. With flatness 1 that is φ, the angle of the rotation nearest to
+/// A = J N'. With flatness 0 it is the direction of A e₁, the first column of A. With a flatness F between, the two unit vectors are
+/// blended: `arg(F·e^{iφ} + (1 − F)·A e₁/|A e₁|)`. The result depends on the inputs alone, not on the threads.
 pub fn solve(particles: &BakedParticles, map: &ScreenMap, solved: &mut SolvedParticles) {
     let count = particles.len();
     for array in
@@ -204,8 +207,8 @@ struct Output<'a> {
     area_px: &'a mut [f32],
 }
 
-/// One task: the particles from `first` on, as many as the output holds. With `WRAPPED`, their flatness is read;
-/// without, it is 1.
+/// One task: the particles from `first` on, as many as the output holds. `WRAPPED` says that some strokes follow the surface, so
+/// that flatness has to be read; otherwise it is 1 for all.
 struct Chunk<'a, const WRAPPED: bool> {
     particles: &'a BakedParticles,
     first: usize,

@@ -58,9 +58,9 @@ pub struct ViewportInput<'a> {
 /// The right half of a comparison.
 #[derive(Clone, Copy)]
 pub struct Now<'a> {
-    /// The camera at this frame, not widened.
+    /// The camera at the frame that is shown, before it is widened to the viewport.
     pub camera: &'a CameraPose,
-    /// This frame.
+    /// The frame that is shown.
     pub frame: f64,
     /// The note beside its title, such as *apple turned −86°*.
     pub note: &'a str,
@@ -71,7 +71,7 @@ pub struct Now<'a> {
 /// How the view that is shown differs from the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Badge {
-    /// Not at all: the shot camera at this frame, which is the reference's.
+    /// It does not differ: the shot camera, at the reference's frame.
     Reference(f64),
     /// Another frame, through the shot camera.
     Turned {
@@ -106,7 +106,7 @@ pub struct ViewportEvents {
     pub look: Option<CameraChoice>,
     /// Whether *Recapture* was pressed: take the frame that is shown as the reference.
     pub recapture: bool,
-    /// How far the axis ball was dragged, points: this orbits the view.
+    /// How far the axis ball was dragged, in points. This orbits the view.
     pub orbit_px: DVec2,
     /// Whether the pointer is on the picture.
     pub hovered: bool,

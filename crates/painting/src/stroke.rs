@@ -73,7 +73,7 @@ impl PaintingView<'_> {
         let cap = self.painting.bodies[coat.object].caps[part];
         let grown = coat_view.growth(index, self.painting, self.px_scale);
         let size_px = [layer.length_px, layer.width_px];
-        let form = coat.traits.form.get(index).copied().unwrap_or(f32::INFINITY);
+        let form = coat.traits.form(index);
         let size_px = cap.fitted(size_px, form, fit_of(coat.kind, strokes.fit));
         // A stroke that is smaller than its layer's carries less paint, mixed less boldly.
         let boldness = (size_px[1] / layer.width_px).clamp(0.2, 1.0).sqrt();

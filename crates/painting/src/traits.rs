@@ -1,6 +1,7 @@
 //! Traits: what is fixed for a particle besides its direction: its region, its random numbers, its slow noise.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use glam::DVec3;
 use impasto_core::hash;
@@ -82,8 +83,41 @@ pub(crate) struct Traits {
     dabbed: Vec<u16>,
     /// Slow noise of each particle: of hue and value, and of how firm edges are.
     pub(crate) drift: Vec<[f32; 2]>,
-    /// The size of the form at each particle, model units; empty where no stroke fits the form.
-    pub(crate) form: Vec<f32>,
+    /// The size of the form at each particle; empty where no stroke fits the form.
+    form: FormMemo,
+}
+
+/// The size of the form at each particle, model units, found when it is first asked for: few of all particles are ever seen.
+#[derive(Default)]
+struct FormMemo(Vec<AtomicU32>);
+
+impl FormMemo {
+    fn new(count: usize) -> Self {
+        Self((0..count).map(|_| AtomicU32::new(Self::UNKNOWN)).collect())
+    }
+
+    /// No size has these bits.
+    const UNKNOWN: u32 = 0;
+
+    fn at(&self, particle: usize, find: impl FnOnce() -> f32) -> f32 {
+        // Without stroke to fit, no form is too small.
+        let Some(known) = self.0.get(particle) else { return f32::INFINITY };
+        // Two threads that ask at once find the same.
+        let bits = known.load(Ordering::Relaxed);
+        if bits != Self::UNKNOWN {
+            return f32::from_bits(bits);
+        }
+        let found = find();
+        known.store(found.to_bits(), Ordering::Relaxed);
+        found
+    }
+}
+
+impl Clone for FormMemo {
+    fn clone(&self) -> Self {
+        let copy = |size: &AtomicU32| AtomicU32::new(size.load(Ordering::Relaxed));
+        Self(self.0.iter().map(copy).collect())
+    }
 }
 
 /// All traits of a coat's particles.
@@ -108,6 +142,15 @@ impl Traits {
     #[inline]
     pub(crate) fn part(&self, particle: usize) -> usize {
         self.parts.of_triangle[self.particles.triangle(particle)] as usize
+    }
+
+    /// The size of the form at a particle, model units; infinite where no stroke fits the form.
+    #[inline]
+    pub(crate) fn form(&self, particle: usize) -> f32 {
+        self.form.at(particle, || {
+            let at_rest = self.particles.at_rest(particle);
+            self.parts.form.at(at_rest.position, at_rest.normal)
+        })
     }
 
     /// Random bits of a particle, the same whatever is edited.
@@ -174,31 +217,22 @@ impl TraitInputs {
     /// The traits of all particles. `before` was made from equal inputs: it is shortened or extended.
     pub(crate) fn traits(&self, before: Option<CoatTraits>) -> CoatTraits {
         let count = self.particles.len();
-        let (mut dabbed, mut drift, mut form, mut stray_rad) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut dabbed, mut drift, mut stray_rad) = (Vec::new(), Vec::new(), Vec::new());
         if let Some(before) = before {
             if before.traits.drift.len() == count {
                 return before;
             }
             let traits = Arc::unwrap_or_clone(before.traits);
-            (dabbed, drift, form) = (traits.dabbed, traits.drift, traits.form);
+            (dabbed, drift) = (traits.dabbed, traits.drift);
             stray_rad = Arc::unwrap_or_clone(before.stray_rad);
         }
         dabbed.truncate(count);
         drift.truncate(count);
-        form.truncate(count);
         stray_rad.truncate(count);
         let from = drift.len();
         if self.regions.has_dabs() {
             let regions = self.particles.par_range(from..count).map(|particle| self.regions.of(&particle));
             dabbed.par_extend(regions);
-        }
-        if self.fits {
-            let sizes = (from..count).into_par_iter().map(|index| {
-                let particle = self.particles.at_rest(index);
-                self.parts.form.at(particle.position, particle.normal)
-            });
-            form.par_extend(sizes);
         }
         drift.resize(count, [0.0; 2]);
         stray_rad.resize(count, 0.0);
@@ -209,13 +243,13 @@ impl TraitInputs {
             name_hash: self.name_hash,
             dabbed,
             drift: Vec::new(),
-            form: Vec::new(),
+            form: FormMemo::new(if self.fits { count } else { 0 }),
         };
         let chunks = drift[from..].par_chunks_mut(CHUNK).zip(stray_rad[from..].par_chunks_mut(CHUNK));
         chunks.enumerate().for_each(|(chunk, (drift, stray_rad))| {
             self.fill_noise(&traits, from + chunk * CHUNK, drift, stray_rad);
         });
-        CoatTraits { traits: Arc::new(Traits { drift, form, ..traits }), stray_rad: Arc::new(stray_rad) }
+        CoatTraits { traits: Arc::new(Traits { drift, ..traits }), stray_rad: Arc::new(stray_rad) }
     }
 
     /// Computes the slow noise and the stray angles of the particles from `first` on; `traits` have no noise yet.

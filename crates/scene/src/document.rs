@@ -316,7 +316,8 @@ impl Up {
 pub struct Object {
     /// Unique; strokes take their looks from it, so a renamed object is painted anew.
     pub name: String,
-    /// Path of the mesh, relative to the scene file.
+    /// Path of the mesh, relative to the scene file; or a built-in one, `impasto:backdrop` (a floor and a wall) or `impasto:patch`
+    /// (a round piece of floor).
     pub mesh: String,
     /// The only group of the mesh that is used; left out, the whole mesh.
     #[serde(default, skip_serializing_if = "is_default")]

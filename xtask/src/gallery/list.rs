@@ -242,6 +242,23 @@ pub(super) const PICTURES: &[Picture] = &[
         ],
     ),
     sweep("paint_swing", JUG, 3, &[&[("strokes.swing_deg", "0")], &[], &[("strokes.swing_deg", "25")]]),
+    Picture {
+        name: "paint_fit",
+        view: View::Scene { scene: "still_life", frame: 0, crop: Some([400, 20, 270, 300]) },
+        own_size: false,
+        columns: 3,
+        panels: &[&[("strokes.fit", "0")], &[("strokes.fit", "0.5")], &[]],
+    },
+    sweep(
+        "paint_contour_layer",
+        FRUIT,
+        3,
+        &[
+            &[("strokes.layers", "[(name: \"contour\", coverage: 0)]")],
+            &[],
+            &[("strokes.layers", "[(name: \"contour\", coverage: 4)]")],
+        ],
+    ),
     // The contour is set in the apple's region, because that region states a contour of its own. The direction is an
     // angle here, because strokes that run up would lie along most of the outline anyway.
     sweep(

@@ -51,7 +51,7 @@ fn lightness(point: DVec3, outward: DVec3) -> f64 {
     if group(point) == "tail" {
         return 0.26 + mottle + 0.7 * smoothstep(-0.2, 0.5, outward.x);
     }
-    // Dark along the back and the nape, warm on the flanks.
+    // Dark along the back and the nape, a middle tone on the flanks.
     let flank = 0.34 + 0.10 * smoothstep(0.9, 0.68, y) - 0.24 * smoothstep(0.55, 0.98, outward.y);
     // Pale below: belly, inside of the legs, throat.
     let under = smoothstep(0.15, -0.75, outward.y) * smoothstep(0.50, 0.62, y);
@@ -63,7 +63,7 @@ fn lightness(point: DVec3, outward: DVec3) -> f64 {
         * smoothstep(-0.50, -0.56, x)
         * smoothstep(0.97, 0.90, y);
 
-    // Shins darker than thighs; muzzle pale round the nose, a pale ring round the eye.
+    // Dark: the shins and the bridge of the nose. Pale: the muzzle, the chin and round the eyes.
     let shin = 0.14 * smoothstep(0.50, 0.20, y) * smoothstep(-0.3, 0.6, outward.x);
     let in_head = smoothstep(1.46, 1.50, x + 0.7 * y);
     let bridge = 0.16 * in_head * smoothstep(0.5, 0.9, outward.y) * smoothstep(0.70, 0.78, x);

@@ -1,8 +1,8 @@
 //! The panels round the viewport. Each is a function that shows a [`PanelInput`] and gives what the user asks for as a
 //! list of [`Ask`]; no panel changes the document or the session itself.
 //!
-//! Each bar takes its strip off the `Ui` that it is handed, so the order of the calls lays out the window: top bar,
-//! status line, strip, right column, options bar, rail; the rest is the viewport.
+//! Each bar cuts its own space off the `Ui` that it is given, so the order of the calls decides the layout: top bar, status
+//! line, `strip`, right column, options bar, rail. What is left is the viewport.
 
 mod areas;
 pub mod ask_close;
@@ -67,7 +67,7 @@ pub struct PanelInput<'a> {
 }
 
 impl PanelInput<'_> {
-    /// The keys as menus and tooltips write them.
+    /// The key bindings in use; menus and tooltips take the texts of shortcuts from them.
     pub fn keymap(&self) -> Keymap {
         Keymap { preset: self.keys, ..Keymap::default() }
     }
@@ -104,7 +104,7 @@ impl PanelInput<'_> {
         }
     }
 
-    /// Asks for a session that differs from this one by a change.
+    /// Copies the session, applies the change to the copy, and asks for it to be used.
     fn session_with(&self, change: impl FnOnce(&mut Session)) -> Ask {
         let mut session = self.session.clone();
         change(&mut session);
@@ -132,7 +132,8 @@ pub struct Numbers<'a> {
 pub enum Ask {
     /// Carry out this command, as one entry of the history.
     Do(Command),
-    /// As `Do`, but commands with the same text here within a second make one entry (the wheel over a field).
+    /// As `Do`, but commands that follow each other within a second and have the same text (the second value) become one
+    /// entry of the history, as while the wheel turns over a number.
     DoMerged(Command, String),
     /// Show the document as this command would leave it (while a slider is dragged). `Do` or `EndPreview` follows.
     Preview(Command),
@@ -140,11 +141,11 @@ pub enum Ask {
     EndPreview,
     /// Select this.
     Select(Selection),
-    /// Ask for a mesh file and give it to this object.
+    /// Let the user choose a mesh file, and give it to this object.
     ChooseMesh(String),
     /// Repair a problem of the document, or read the document again.
     Mend(Mend),
-    /// Ask for a file, and write a copy of the scene there.
+    /// Let the user choose a file, and write a copy of the scene there.
     SaveCopy,
     /// Carry out this action, as its key would.
     Act(Action),
@@ -156,7 +157,7 @@ pub enum Ask {
     Open(PathBuf),
     /// Put these words on the clipboard.
     Copy(String),
-    /// Ask whether this frame becomes the reference.
+    /// Ask the user whether the frame with this number is to become the reference.
     Recapture(i64),
     /// Stop this work in the background.
     StopWork(work::WorkKind),

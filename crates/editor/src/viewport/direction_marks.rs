@@ -9,7 +9,7 @@ use impasto_scene::motion::CameraPose;
 use super::overlay::{DirectionInk, DirectionMark};
 use super::{Framing, surface_map::SurfaceMap};
 
-/// Lines are at least this far apart, points.
+/// Lines are at least this many points apart.
 const APART: f64 = 20.0;
 /// At most this many lines are shown.
 const MOST: usize = 600;

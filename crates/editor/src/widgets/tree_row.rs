@@ -25,15 +25,15 @@ pub struct TreeRow<'a> {
     pub spoken: &'a str,
     /// What stands before the name.
     pub mark: RowMark,
-    /// How many rows it lies under; 0 at the top level.
+    /// How deep it is nested: its number of ancestors, 0 at the top level.
     pub depth: usize,
-    /// Whether the rows under it are shown; `None` if there are none.
+    /// Whether its children are shown; `None` if it has none.
     pub expanded: Option<bool>,
     /// Whether it is selected.
     pub selected: bool,
     /// Words at its right end.
     pub note: &'a str,
-    /// Whether it has keys, which a small ochre diamond at its end shows.
+    /// Whether it has animation keys; a small ochre diamond at the right shows it.
     pub keyed: bool,
     /// Whether it is hidden: its eye is shut.
     pub hidden: bool,
@@ -55,8 +55,8 @@ pub struct RowResponse {
 }
 
 impl TreeRow<'_> {
-    /// Draws it. The eye and the lock show while the pointer is on the row, while the row is selected, and while they
-    /// are shut.
+    /// Draws it. The eye and the lock both show if the pointer is on the row or the row is selected. Otherwise each shows only
+    /// while it is shut.
     pub fn show(&self, ui: &mut Ui) -> RowResponse {
         self.draw(ui, true)
     }

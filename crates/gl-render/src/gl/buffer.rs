@@ -76,7 +76,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Reads the first `bytes` bytes back; the buffer's whole room if it has fewer.
+    /// Reads back the first `bytes` bytes, or the whole buffer if it is smaller.
     pub(crate) fn read(&self, bytes: usize) -> Vec<u8> {
         let mut contents = vec![0; bytes.min(self.capacity)];
         let gl = self.gpu.gl();

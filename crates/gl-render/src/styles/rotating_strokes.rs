@@ -236,6 +236,7 @@ impl RotatingStrokes {
             .set(program.bind(), &["size_px", "orthographic"])
             .set("units_per_px_at_1", 1.0 / lens.px_per_unit_at_1)
             .set("view_from_world", frame.view.view_from_world)
+            .set("kind", layer.kind as i32)
             .set("mark_rows", brush::SIZE[1] as f32)
             .texture("brush_marks", &marks.texture)
             .texture("mark_bounds", &marks.bounds)

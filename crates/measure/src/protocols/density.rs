@@ -1,4 +1,5 @@
-//! Measures M14, density: on the largest object while the camera zooms in, and with its strokes on a tilted sheet.
+//! Measures M14, the density of strokes: on the largest object while the camera zooms in, and on a tilted flat sheet that is
+//! painted with the same settings.
 
 use std::sync::Arc;
 
@@ -27,15 +28,15 @@ const SHEET_PX: u32 = 2048;
 /// Strokes are counted within this share of the sheet's sides: near its border, strokes from beyond it are missing.
 const WINDOW: f64 = 0.85;
 
-/// If more strokes than this are wanted per particle, particles run out: fewer strokes show than are wanted, even with
-/// every rank.
+/// Above this many wanted strokes per particle, particles run out: even when every particle shows its stroke, fewer show than
+/// are wanted.
 const RUN_OUT: f64 = 0.82;
 
 /// The strokes of an object in one view.
 struct ObjectDensity {
     /// Strokes shown over strokes wanted.
     density: f64,
-    /// Strokes wanted per particle: nine tenths of the strokes have at most this number.
+    /// Strokes wanted per particle: the 90th percentile over the strokes.
     demand: f64,
     strokes: usize,
     pixels: usize,

@@ -70,7 +70,7 @@ layer_numbers! {
     thickness: 0.0..=MAX_THICKNESS,
     /// How much of its mark the brush leaves out.
     dryness: 0.0..=1.0,
-    /// How much wet paint a stroke takes up from below.
+    /// How wet the paint is: how much a stroke takes up from below, and how far it runs together with paint of its colour.
     pickup: 0.0..=1.0,
 }
 

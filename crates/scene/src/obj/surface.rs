@@ -34,11 +34,11 @@ type Distinct<const N: usize> = IndexSet<[u32; N], RandomState>;
 /// Unusual faces that [`Builder`] met.
 #[derive(Debug, Default)]
 pub(super) struct Oddities {
-    /// Faces without any area, and the number of the first.
+    /// How many faces have no area, and the index of the first.
     pub flat_faces: (usize, u32),
-    /// Faces that could not be cut with care, and the number of the first.
+    /// How many faces could only be cut roughly, and the index of the first.
     pub rough_faces: (usize, u32),
-    /// Faces with over 1,000 corners, and the number of the first.
+    /// How many faces have over 1,000 corners, and the index of the first.
     pub large_faces: (usize, u32),
 }
 
@@ -65,6 +65,7 @@ struct Triangle {
 pub(super) struct Builder<'a> {
     geometry: &'a Geometry,
     triangles: Vec<Triangle>,
+    /// Cutting a polygon with care takes tests of its corners against each other; this many more may be made.
     tests_left: u64,
     pub odd: Oddities,
 }
@@ -98,7 +99,8 @@ impl<'a> Builder<'a> {
             .map(|part| empty().cut(part * share..((part + 1) * share).min(count), &spent))
             .collect();
         if spent.into_inner() >= polygon::MAX_TESTS {
-            // Which polygons are then cut without tests depends on those before them, so all are cut again in order.
+            // The tests are used up. Which polygons must do without them depends on the polygons before, so all are cut again in
+            // order.
             return empty().cut(0..count, &AtomicU64::new(0));
         }
         let mut whole = empty();
@@ -110,8 +112,8 @@ impl<'a> Builder<'a> {
         whole
     }
 
-    /// Cuts a range of the faces; stops once all cores together have `spent` too many tests. A range of all faces never
-    /// stops: it goes on without tests.
+    /// Cuts a range of the faces. A part of the faces stops when all cores together have `spent` too many tests, because
+    /// [`Self::new`] then starts again. A range of all faces goes on to the end, without tests.
     fn cut(mut self, faces: Range<usize>, spent: &AtomicU64) -> Self {
         self.triangles.reserve(faces.len());
         let ends = &self.geometry.ends;
@@ -179,7 +181,7 @@ impl<'a> Builder<'a> {
         let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
         let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
         let mut vertices = Distinct::with_capacity_and_hasher(positions.len(), RandomState::default());
-        // The number that each vertex of the file got last.
+        // The latest number of each vertex of the file. A vertex gets several where made normals differ.
         let mut last: Vec<u32> = vec![NONE; positions.len()];
         let mut number = |vertex: u32, made: Option<Vec3>| {
             let vertex = vertex as usize;
@@ -275,7 +277,8 @@ struct Around {
     place_of_vertex: Vec<u32>,
     /// Where the triangles of each place begin in `list`, and a last entry for its end.
     first: Vec<u32>,
-    /// For each of them, three times the triangle's number, plus the number of its corner at the place.
+    /// The triangles of all places, place by place: three times the triangle's number, plus which corner (0 to 2) is at the
+    /// place.
     list: Vec<u32>,
     /// Unit normals of the triangles.
     normals: Vec<DVec3>,

@@ -29,7 +29,7 @@ struct Layer {
 const UNDERPAINTING: Layer = Layer {
     brushes: &[("flat", 6), ("dry", 1)],
     size_px: [130.0, 42.0],
-    coverage: 2.8,
+    coverage: 3.8,
     opacity: 0.86,
     thickness: 0.10,
     dryness: 0.07,

@@ -79,6 +79,7 @@ const RESOLVE: ProgramSource<'static> = ProgramSource {
 const PAINT_UNIFORMS: &[&str] = &[
     "size_px",
     "view_from_world",
+    "kind",
     "mark_rows",
     "mark_bounds",
     "brush_marks",
