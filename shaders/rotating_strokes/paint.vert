@@ -100,7 +100,7 @@ vec4 plane_of_stroke(vec2 center_px) {
     vec2 slope = n.xy / (n.z < 0.0 ? -slant : slant);
     // A surface that is seen at a slant leaves the plane sooner, by less of itself.
     bool goes_on = kind == UNDERPAINTING || kind == CONTOUR;
-    float may_leave_px = goes_on ? 1e9 : (0.06 * size.x + 2.0) * max(0.35 / slant, 1.0);
+    float may_leave_px = goes_on ? 1e9 : (0.07 * size.x + 2.5) * max(0.7 / slant, 1.0);
     return vec4(slope, dot(slope, center_px - place.xy), may_leave_px);
 }
 

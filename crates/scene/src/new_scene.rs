@@ -1,6 +1,7 @@
 //! New scenes: for a bare mesh, upright, lit from one side, framed with its shadow before a quiet ground; and an empty one.
 
 mod add;
+mod axes;
 mod framing;
 mod ground;
 mod scheme;
@@ -15,7 +16,8 @@ use crate::document::{
     StrokeSettings, Timeline, Up,
 };
 use crate::mesh_file::MeshFile;
-use framing::{Axes, View};
+use axes::Axes;
+use framing::View;
 use scheme::Scheme;
 use stance::Samples;
 

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::axes::Axes;
 use super::stance::Stance;
 use super::{SIZE_PX, round_at, round_to, significant};
 use crate::built_in_mesh;
@@ -40,40 +41,6 @@ pub(super) struct View {
     pub light_goes: f64,
 }
 
-/// The camera's axes in world space, unit vectors.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Axes {
-    right: DVec3,
-    up: DVec3,
-    /// From the target to the eye.
-    pub back: DVec3,
-}
-
-impl Axes {
-    pub fn looking_from(back: DVec3) -> Self {
-        let back = back.normalize();
-        let right = DVec3::Y.cross(back).normalize();
-        Self { right, up: back.cross(right), back }
-    }
-
-    /// World space to camera space, without translation.
-    fn to_camera(self, vector: DVec3) -> DVec3 {
-        DVec3::new(self.right.dot(vector), self.up.dot(vector), self.back.dot(vector))
-    }
-
-    /// How far along the gaze the lower border of the picture meets the floor, from an eye at this height over it; infinite where it
-    /// does not.
-    fn floor_depth(self, eye_height: f64) -> f64 {
-        let fall = self.back.y + (FOV_Y_DEG.to_radians() / 2.0).tan() * self.up.y;
-        if fall > 0.0 && eye_height > 0.0 { eye_height / fall } else { f64::INFINITY }
-    }
-
-    /// Camera space to world space, without translation.
-    pub fn to_world(self, vector: DVec3) -> DVec3 {
-        self.right * vector.x + self.up * vector.y + self.back * vector.z
-    }
-}
-
 impl View {
     /// The view of a mesh that stands so. With `may_turn` an open mesh that would show its back is seen from the side that shows the
     /// most of its front.
@@ -100,7 +67,7 @@ impl View {
         let eye_in_camera = framing.eye;
         let target_in_camera = eye_in_camera.with_z(0.0);
         let eye_height = axes.to_world(eye_in_camera).y + (center.y - low.y) / size;
-        let nearest = framing.nearest.min(axes.floor_depth(eye_height));
+        let nearest = framing.nearest.min(floor_depth(axes, eye_height));
         Self {
             eye: round(axes.to_world(eye_in_camera)),
             target: round(axes.to_world(target_in_camera)),
@@ -153,6 +120,13 @@ impl View {
             ..object
         }
     }
+}
+
+/// How far along the gaze the lower border of the picture meets the floor, from an eye at this height over it; infinite where it
+/// does not.
+fn floor_depth(axes: Axes, eye_height: f64) -> f64 {
+    let fall = axes.back.y + (FOV_Y_DEG.to_radians() / 2.0).tan() * axes.up.y;
+    if fall > 0.0 && eye_height > 0.0 { eye_height / fall } else { f64::INFINITY }
 }
 
 /// The direction from the mesh to the eye: `usual`, unless the mesh is open and would show its back there.

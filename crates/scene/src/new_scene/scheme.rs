@@ -4,7 +4,7 @@
 use impasto_core::color::{linear_from_srgb, oklab_from_linear, srgb_from_linear};
 use impasto_core::hash;
 
-use super::framing::Axes;
+use super::axes::Axes;
 use super::{light, round_to, significant};
 use crate::document::{Color, Light, LightKind};
 use crate::mesh_file::{Material, MeshFile, Texture};

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use impasto_core::sampling::{self, Surface};
 
-use super::framing::Axes;
+use super::axes::Axes;
 use super::scheme;
 use crate::document::Up;
 use crate::mesh_file::MeshFile;
