@@ -14,7 +14,7 @@ out vec4 detail;                     // change of colour or turn, outline 0..1, 
 // Change of Oklab per pixel of the scene's own size: no detail below the first, full detail above the second.
 const vec2 CHANGE = vec2(0.004, 0.034);
 // An edge of colour is narrow, and weighs more than a turn that goes on for long.
-const float EDGE = 2.6;
+const float EDGE = 1.6;
 // How fast the surface turns, radians per pixel of the scene's own size: a ball of 100 px radius turns by 0.01 in its middle.
 const vec2 TURN = vec2(0.012, 0.050);
 // A leap of the depth within a body, as a share of the depth: no outline below the first, an outline above the second.

@@ -114,7 +114,7 @@ float wanted(vec3 detail) {
     if (kind == LIGHTS) return smoothstep(0.03, 0.15, detail.b);
     // Edges are lost in places.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
-    float inside = kind == FORM ? 1.3 * detail.r - 0.09 : 0.6 * detail.r - 0.2;
+    float inside = kind == FORM ? detail.r - 0.05 : 0.6 * detail.r - 0.2;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
 }
 
