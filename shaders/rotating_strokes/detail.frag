@@ -19,8 +19,6 @@ const float EDGE = 1.6;
 const vec2 TURN = vec2(0.012, 0.050);
 // A leap of the depth within a body, as a share of the depth: no outline below the first, an outline above the second.
 const vec2 LEAP = vec2(0.01, 0.03);
-// The most detail that a turn alone makes.
-const float TURN_SHARE = 1.0;
 
 void main() {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
@@ -64,7 +62,7 @@ void main() {
         float of_color = clamp((change - CHANGE.x) / (CHANGE.y - CHANGE.x), 0.0, 1.0);
         // Near the outline every surface turns fast in the picture: what counts is how fast it turns along itself.
         turn *= clamp((mat3(view_from_world) * facing).z, 0.0, 1.0);
-        float of_form = TURN_SHARE * clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
+        float of_form = clamp((turn - TURN.x) / (TURN.y - TURN.x), 0.0, 1.0);
         detail.r += max(EDGE * of_color, of_form);
         detail.b += min(texelFetch(glint, at, 0).r, 1.0);
         if (index == 4) continue;

@@ -206,9 +206,7 @@ fn m5_and_m7_see_random_angles_and_a_shower_door() {
     let (next, ..) = correspondences(30.0, 31.0);
     let ours = warp_error(&now, &then, &next);
     let random = warp_error(&random_now, &random_then, &next);
-    println!("M5 {ours:?} {random:?}");
-    // Small strokes cover the speckles; random angles hardly change those.
-    assert!(ours.pixels > 5000 && ours.error <= 0.35 * random.error, "{ours:?} {random:?}");
+    assert!(ours.pixels > 5000 && ours.error <= 0.25 * random.error, "{ours:?} {random:?}");
     assert!(ours.error < warp_error(&now, &then, &correspondences(30.0, 30.0).0).error, "motion must matter");
 
     let (correspondences, ids, ids_later) = correspondences(30.0, 42.0);

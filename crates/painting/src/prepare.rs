@@ -73,7 +73,8 @@ impl Preparer {
         let inputs = surface_inputs(&loaded)?;
         let mut caches = self.take_caches(scene);
         build(&loaded, &mut caches, &inputs);
-        let plain = plain(&loaded, &caches);
+        let views = sample_views(scene);
+        let plain = plain(&loaded, &caches, &views);
         clock.lap("surfaces");
         let brushes = self.brushes(&loaded, &plain.rules);
         clock.lap("brushes");
@@ -81,7 +82,6 @@ impl Preparer {
             return self.given_up(scene, caches);
         }
         let Painting { rules, references, reference_shapes, solver, .. } = &plain;
-        let views = sample_views(scene);
         let paper = presets::is_paper(scene);
         let context = Context {
             scene,
@@ -176,7 +176,7 @@ impl Preparer {
         let inputs = surface_inputs(loaded)?;
         let mut caches = self.take_caches(&loaded.scene);
         build(loaded, &mut caches, &inputs);
-        let plain = plain(loaded, &caches).in_style(Style::Reference);
+        let plain = plain(loaded, &caches, &sample_views(&loaded.scene)).in_style(Style::Reference);
         self.put_back(&loaded.scene, caches);
         Ok(plain)
     }
@@ -217,7 +217,11 @@ fn build(loaded: &LoadedScene, caches: &mut [ObjectCache], inputs: &[SurfaceInpu
 }
 
 /// A painting without particles, of objects whose surfaces are built.
-fn plain(loaded: &Arc<LoadedScene>, caches: &[ObjectCache]) -> Painting {
+fn plain(
+    loaded: &Arc<LoadedScene>,
+    caches: &[ObjectCache],
+    views: &[(PictureView, Vec<DAffine3>)],
+) -> Painting {
     let scene = &loaded.scene;
     let style = scene.style.settings().preparation();
     let rules = regions::rules(scene);
@@ -233,7 +237,6 @@ fn plain(loaded: &Arc<LoadedScene>, caches: &[ObjectCache]) -> Painting {
         regions: Arc::default(),
     });
     let bounds: Vec<_> = caches.iter().map(ObjectCache::bounds).collect();
-    let views = sample_views(scene);
     let noises: Vec<Option<Arc<BodyNoise>>> = caches.iter().map(ObjectCache::noise).collect();
     let reference_shapes = shapes(scene, &noises, motion::referred_to(scene, &scene.reference).1);
     Painting {

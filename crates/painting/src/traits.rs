@@ -100,7 +100,7 @@ impl FormMemo {
     const UNKNOWN: u32 = 0;
 
     fn at(&self, particle: usize, find: impl FnOnce() -> f32) -> f32 {
-        // Without stroke to fit, no form is too small.
+        // Where no stroke fits the form, any form is large enough.
         let Some(known) = self.0.get(particle) else { return f32::INFINITY };
         // Two threads that ask at once find the same.
         let bits = known.load(Ordering::Relaxed);

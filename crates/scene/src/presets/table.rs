@@ -51,7 +51,7 @@ const BODY: Layer = Layer {
 const FORM: Layer = Layer {
     brushes: &[("filbert", 6), ("flat", 3), ("round", 2)],
     size_px: [33.0, 10.0],
-    coverage: 1.35,
+    coverage: 1.25,
     opacity: 0.95,
     thickness: 0.62,
     dryness: 0.14,
