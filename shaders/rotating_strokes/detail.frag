@@ -3,6 +3,7 @@
 #include "shared/oklab.glsl"
 uniform sampler2D reference_color;
 uniform sampler2D depth_and_id;
+#include "rotating_strokes/surface.glsl"
 uniform sampler2D glint;
 uniform sampler2D normal;            // and gloss
 uniform float px_scale;              // output pixels per pixel of the scene's own size
@@ -23,7 +24,7 @@ const vec2 LEAP = vec2(0.01, 0.03);
 void main() {
     ivec2 last = textureSize(depth_and_id, 0) - 1;
     ivec2 block = ivec2(gl_FragCoord.xy) * block_px;
-    // A block belongs to the body that stands foremost in it, by its share of five taps: a thin thing fades in and out.
+    // A block belongs to the body that stands foremost in it, by its share of sixteen taps: a thin thing fades in and out.
     ivec2 taps[5];
     vec2 front = vec2(0.0);
     for (int index = 0; index < 5; index++) {
@@ -32,6 +33,14 @@ void main() {
         vec2 there = texelFetch(depth_and_id, taps[index], 0).xy;
         if (there.y != 0.0 && (front.y == 0.0 || there.x < front.x)) front = there;
     }
+    float share = 0.0;
+    vec2 shares[16];
+    for (int index = 0; index < 16; index++) {
+        shares[index] = surface_at(vec2(block) + (vec2(index & 3, index >> 2) + 0.5) * (0.25 * float(block_px)));
+        vec2 there = shares[index];
+        if (there.y != 0.0 && (front.y == 0.0 || there.x < front.x)) front = there;
+    }
+    for (int index = 0; index < 16; index++) share += shares[index].y == front.y ? 0.0625 : 0.0;
     detail = vec4(0.0);
     if (front.y == 0.0) return;
     int reach_px = max(int(round(2.0 * px_scale)), 1);
@@ -79,5 +88,5 @@ void main() {
         float leap = there.x - depth - (before.y == front.y ? max(depth - before.x, 0.0) : 0.0);
         outline += 0.5 * smoothstep(LEAP.x, LEAP.y, leap / depth);
     }
-    detail = vec4(detail.r / count, min(outline, 1.0), detail.b / count, front.y + 0.1 * count);
+    detail = vec4(detail.r / max(count, 1.0), min(outline, 1.0), detail.b / max(count, 1.0), front.y + 0.499 * share);
 }

@@ -4,6 +4,7 @@
 uniform sampler2D picture;           // premultiplied, display-linear
 uniform sampler2D reference_color;   // alpha 1 where a body is
 #ifndef DRAFT
+uniform sampler2D surface;           // depth, body id and half the share of the pixel that shows something else
 uniform sampler2D height;            // of the paint, in brush thicknesses, and how wet it is
 uniform sampler2D soft_height;       // half the size
 uniform sampler2D canvas;            // one tile: height, its slope in x and in y, around the middle value
@@ -47,6 +48,26 @@ vec4 toned_ground(ivec2 at) {
 }
 
 #ifndef DRAFT
+// The paint of a pixel. Where a body ends, of its neighbours too: the layers of paint, each of which ends a little elsewhere, leave
+// steps there.
+vec4 paint_at(ivec2 at) {
+    ivec2 last = textureSize(surface, 0) - 1;
+    float id = texelFetch(surface, at, 0).y;
+    float border = fract(id);
+    for (int index = 0; index < 4; index++) {
+        ivec2 offset = (index & 2) == 0 ? ivec2(2 * (index & 1) - 1, 0) : ivec2(0, 2 * (index & 1) - 1);
+        border += abs(texelFetch(surface, clamp(at + offset, ivec2(0), last), 0).y - id);
+    }
+    if (border == 0.0) return texelFetch(picture, at, 0);
+    vec4 sum = vec4(0.0);
+    for (int index = 0; index < 9; index++) {
+        ivec2 offset = ivec2(index % 3, index / 3) - 1;
+        ivec2 there = clamp(at + offset, ivec2(0), last);
+        sum += texelFetch(picture, there, 0) * float((2 - abs(offset.x)) * (2 - abs(offset.y)));
+    }
+    return sum / 16.0;
+}
+
 // Wet paint of nearly one colour runs together, where it differs more its edges stay. A speck runs into what is round it.
 // rgb, and how much of the surroundings has the same colour, 0..1.
 vec4 melted(vec3 color, float wet) {
@@ -117,7 +138,11 @@ vec3 varnished(vec3 color) {
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
+#ifdef DRAFT
     vec4 laid = texelFetch(picture, at, 0);
+#else
+    vec4 laid = paint_at(at);
+#endif
     vec4 below = toned_ground(at);
     vec4 both = laid + (1.0 - laid.a) * below;
     vec3 straight = both.rgb / max(both.a, 1e-6);

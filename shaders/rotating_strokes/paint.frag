@@ -17,7 +17,7 @@ flat in float leaning;
 #endif
 
 uniform sampler2DArray brush_marks; // paint, height, tint
-uniform sampler2D depth_and_id;
+uniform sampler2D surface;       // depth, body id and half the share that shows something else
 uniform float units_per_px_at_1; // world units per pixel at depth 1; at any depth where parallel
 uniform float orthographic;
 
@@ -32,23 +32,23 @@ const float HEIGHT_SCALE = 1.5;
 const float FREE = 1e6;
 const float STEEPNESS = 4.0;
 
-vec2 surface_at(vec2 at_px) {
-    ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
-    return texelFetch(depth_and_id, texel, 0).xy;
+// The body that the middle of a pixel shows.
+float body_at(vec2 at_px) {
+    ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(surface, 0) - 1);
+    return floor(texelFetch(surface, texel, 0).y);
 }
 
-// How much paint lies past the stroke's own body: ragged, because hairs with more paint run further.
-float past_body(vec2 here, float tint) {
+// How much paint lies past the stroke's own body, over which it reaches this far: ragged, because hairs with more paint run further.
+float past_body(vec2 here, float reach_px) {
     float bias = 2.0 * units_per_px_at_1 * mix(own.x, 1.0, orthographic);
     float away_px = length(from_center_px);
     vec2 inward = -from_center_px / max(away_px, 1e-3);
-    float reach_px = body.z * (1.0 + 0.7 * tint);
     // No paint goes over a body in front of the stroke; a little goes over the background and over bodies behind.
     if (here.y != 0.0 && here.x < own.x - bias) reach_px = 0.35;
     float on_own = 0.0;
     for (int index = 0; index < 4; index++) {
         float back_px = clamp(reach_px + (float(index) - 1.5) * 0.7, 0.0, away_px);
-        on_own += surface_at(gl_FragCoord.xy + inward * back_px).y == own.y ? 0.25 : 0.0;
+        on_own += body_at(gl_FragCoord.xy + inward * back_px) == own.y ? 0.25 : 0.0;
     }
     return on_own;
 }
@@ -58,6 +58,17 @@ float on_plane(float depth) {
     float px_per_unit = 1.0 / (units_per_px_at_1 * mix(own.x, 1.0, orthographic));
     float off_px = (depth - own.x) * px_per_unit - plane.z - dot(plane.xy, from_center_px);
     return 1.0 - smoothstep(plane.w, 2.0 * plane.w, abs(off_px));
+}
+
+// How much paint lies in this pixel.
+float laid(float tint) {
+    vec2 here = texelFetch(surface, ivec2(gl_FragCoord.xy), 0).xy;
+    float others = 2.0 * fract(here.y);
+    float reach_px = body.z * (1.0 + 0.7 * tint);
+    if (floor(here.y) != own.y) return past_body(vec2(here.x, floor(here.y)), reach_px);
+    // Where something else shows in a part of the pixel, paint covers that part if it reaches over it.
+    float whole = 1.0 - others * (1.0 - clamp(reach_px, 0.0, 1.0));
+    return here.y == 0.0 ? whole : whole * on_plane(here.x);
 }
 
 void main() {
@@ -78,11 +89,7 @@ void main() {
     float alpha = smoothstep(paint.a - mark.z, paint.a + mark.z, texel.r - STEEPNESS * past_end);
     if (alpha <= 0.0) discard;
     float tint = texel.b * 2.0 - 1.0;
-    if (body.z < FREE) {
-        vec2 here = texelFetch(depth_and_id, ivec2(gl_FragCoord.xy), 0).xy;
-        if (here.y != own.y) alpha *= past_body(here, tint);
-        else if (here.y != 0.0) alpha *= on_plane(here.x);
-    }
+    if (body.z < FREE) alpha *= laid(tint);
     vec3 color = max(paint.rgb + half_mixed * tint, 0.0);
 #ifdef DRAFT
     // Drafts have no lit relief: this imitates what light does to the bristle marks.

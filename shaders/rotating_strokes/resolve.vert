@@ -28,8 +28,21 @@ const float LEAST = 0.25;
 const float LEAST = 0.004;
 #endif
 
-// Standard deviation of the Gaussian over which colours are averaged, in widths of the stroke.
+// How thin the body is: below the first a stroke has the colour that is seen, above the second that of its own place. Single
+// pixels of a thin body are light and dark by chance.
+const vec2 THIN = vec2(0.01, 0.14);
+
+// Standard deviation of the Gaussian over which colours are averaged, in widths of the stroke. It is never less than this, since
+// single pixels change by chance.
+const float LEAST_BLUR_PX = 1.1;
 const float BLUR[7] = float[7](0.33, 0.20, 0.20, 0.22, 0.30, 0.60, 0.25);
+
+// How far highlights are spread over their body, as in `RotatingStrokes`, pixels of the scene's own size.
+const float SPREAD_PX = 16.0;
+// The strokes of a highlight lie round its peak, this share as far from it as their particles, which may be at most this far
+// away, pixels of the scene's own size. As particles pass, strokes take turns: they fade over the second half of the way.
+const float GATHERED = 0.3;
+const float GATHER_PX = 34.0;
 
 // A line is drawn for where its body ends within this many pixels of the scene's own size.
 const float OUTLINE_PX = 20.0;
@@ -41,36 +54,51 @@ float plane_depth(vec2 offset_px) {
     return place.z + dot(n.xy, offset_px) * units_per_px(place.z) / (n.z < 0.0 ? -slant : slant);
 }
 
+// A stroke that other bodies hide in part is there as a whole while more than this share of it is to be seen.
+const float WHOLE = 0.75;
+
 // As in `detail.frag`.
 const vec2 LEAP = vec2(0.01, 0.03);
 
-// How much of the centre is visible: taps around it, each compared with the depth of the stroke's own plane there.
+// How much of a tap something hides that stands before the stroke's own plane there.
+float hidden_at(vec2 offset_px, float bias, bool by_own) {
+    vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
+    vec2 there = surface_at(tap_px);
+    if (there.y == 0.0 || (there.y == float(marks.y)) != by_own) return 0.0;
+    return smoothstep(bias, 3.0 * bias, plane_depth(tap_px - place.xy) - there.x);
+}
+
+// How much of the stroke is there, by what hides it. Another body hides it only as a whole: where it covers a part, the paint pass
+// ends the paint. Its own body may bend round behind itself, so there what hides its middle counts.
 float seen(mat2 turn) {
     float unit = units_per_px(place.z);
     float slant = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.2);
     float radius_px = clamp(0.28 * sqrt(size.x * size.y), max(3.0, 7.0 * px_scale), 14.0 * max(px_scale, 1.0));
     float bias = unit * (2.5 + 0.5 * radius_px / slant);
-    float sum = 0.0;
 #ifdef DRAFT
-    // Every other ring, and the centre.
+    // Every other ring, and the middle.
     const int STEP = 2;
-    const int TAPS = 9;
+    const int RING = 9;
+    const ivec2 GRID = ivec2(3, 2);
 #else
     const int STEP = 1;
-    const int TAPS = 17;
+    const int RING = 17;
+    const ivec2 GRID = ivec2(5, 3);
 #endif
-    for (int tap = 0; tap < TAPS; tap++) {
+    float by_own = 0.0;
+    for (int tap = 0; tap < RING; tap++) {
         int index = tap * STEP;
         float angle = (float(index) + (index < 8 ? 0.0 : 0.5)) * 0.78539816;
         float ring_px = index < 8 ? radius_px : index < 16 ? 0.55 * radius_px : 0.0;
-        vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * ring_px;
-        vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
-        vec2 there = surface_at(tap_px);
-        float own = plane_depth(tap_px - place.xy);
-        float hidden = there.y == 0.0 ? 0.0 : smoothstep(bias, 3.0 * bias, own - there.x);
-        sum += 1.0 - hidden;
+        by_own += hidden_at(turn * vec2(cos(angle), sin(angle)) * ring_px, bias, true);
     }
-    return sum / float(TAPS);
+    float by_others = 0.0;
+    for (int tap = 0; tap < GRID.x * GRID.y; tap++) {
+        vec2 share = (vec2(tap % GRID.x, tap / GRID.x) + 0.5) / vec2(GRID) - 0.5;
+        by_others += hidden_at(turn * (share * size.xy), bias, false);
+    }
+    float visible = 1.0 - by_others / float(GRID.x * GRID.y);
+    return (1.0 - by_own / float(RING)) * smoothstep(0.0, WHOLE, visible);
 }
 
 vec3 albedo_of(uint albedo_bytes) {
@@ -80,8 +108,8 @@ vec3 albedo_of(uint albedo_bytes) {
     return mix(high, encoded / 12.92, lessThanEqual(encoded, vec3(0.04045)));
 }
 
-// The colour where the body does not show at the stroke: its albedo, lit.
-vec3 color_of_hidden() {
+// The colour of the stroke's own place: its albedo, lit.
+vec3 color_of_own() {
     vec3 albedo = albedo_of(marks.z);
     if ((marks.z >> 24) == 0u) return albedo;
     LitPoint point;
@@ -111,11 +139,28 @@ float fullness(float lightness, float grading) {
 
 // How much a layer of small strokes is wanted here, 0..1.
 float wanted(vec3 detail) {
-    if (kind == LIGHTS) return smoothstep(0.03, 0.15, detail.b);
+    if (kind == LIGHTS) return smoothstep(0.01, 0.30, detail.b);
     // Edges are lost in places.
     float rim = min(1.4 * detail.g, 1.0) * clamp(0.55 * (0.6 + 0.5 * reach.z), 0.0, 1.0);
     float inside = kind == FORM ? detail.r - 0.05 : 0.6 * detail.r - 0.2;
     return clamp(max(inside, 0.0) + rim, 0.0, 1.0);
+}
+
+// The peak of the highlight that this place belongs to: up the slope of the smooth highlights of its body, in steps that take one
+// Gaussian spot to its middle.
+vec2 peak_px(float id) {
+    vec2 at_px = place.xy;
+    float reach_px = SPREAD_PX * px_scale;
+    for (int step = 0; step < 4; step++) {
+        vec4 glints = vec4(
+            detail_at(at_px + vec2(block_px, 0.0), id).b, detail_at(at_px - vec2(block_px, 0.0), id).b,
+            detail_at(at_px + vec2(0.0, block_px), id).b, detail_at(at_px - vec2(0.0, block_px), id).b
+        );
+        vec4 logs = log(max(glints, 1e-4));
+        vec2 up = vec2(logs.x - logs.y, logs.z - logs.w) * (reach_px * reach_px / (2.0 * block_px));
+        at_px += up * min(1.0, reach_px / max(length(up), 1e-4));
+    }
+    return at_px;
 }
 
 // Where the body ends nearby: the direction of its end, the share of the surroundings that lies past it, and the share that
@@ -191,7 +236,13 @@ void main() {
     float turned = 0.0;
     vec2 moved = vec2(0.0);
     float there = presence(size.w + (kind == BODY ? log(MOST_FULL) : 0.0));
-    if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
+    if (kind == LIGHTS && there > LEAST) {
+        vec2 to_peak = peak_px(own.y) - place.xy;
+        moved = to_peak * (1.0 - GATHERED);
+        float gather_px = GATHER_PX * px_scale;
+        there *= 1.0 - smoothstep(0.5 * gather_px, gather_px, length(to_peak));
+        there = without_last(there * wanted(detail_at(place.xy + to_peak, own.y)));
+    } else if (small && there > LEAST) there = without_last(there * wanted(detail_at(place.xy, own.y)));
     if (kind == CONTOUR && there > LEAST) {
         if (detail_at(place.xy, own.y).g < 0.01) return;
         outline = outline_near(own);
@@ -203,10 +254,13 @@ void main() {
     if (there > LEAST && kind != CONTOUR) there *= seen(turn);
     if (there <= LEAST) return;
 
-    float across_px = max(BLUR[kind] * size.y, 1.4 * min(px_scale, 1.0));
+    float across_px = max(BLUR[kind] * size.y, clamp(1.4 * px_scale, LEAST_BLUR_PX, 1.4));
     mat2 blur_px = mat2(clamp(0.16 * size.x, across_px, 2.5 * across_px), 0.0, 0.0, across_px);
-    vec4 found = own_color(place.xy, own.y, turn * blur_px);
-    vec3 lab = oklab_from_linear(found.w > 0.0 ? found.rgb : color_of_hidden());
+    vec4 found = own_color(kind == LIGHTS ? place.xy + moved : place.xy, own.y, turn * blur_px);
+    // A highlight is in the picture only.
+    float known = kind == LIGHTS ? 1.0 : found.w * (1.0 - smoothstep(THIN.x, THIN.y, thinness(place.xy, own)));
+    vec3 color = known == 1.0 ? found.rgb : mix(color_of_own(), found.rgb, known);
+    vec3 lab = oklab_from_linear(color);
     Mixing mixing = mixing_of(bytes.y);
     if (kind == BODY) {
         there *= presence(size.w + log(fullness(lab.x, mixing.grading))) / presence(size.w + log(MOST_FULL));
@@ -218,7 +272,7 @@ void main() {
         fitted = vec4(place.xy + moved + turn[0] * shift(turn, own), lab.x, turned);
         return;
     }
-    vec3 wide = kind == ACCENTS ? wide_mean(place.xy, own.y, lab) : lab;
+    vec3 wide = kind == ACCENTS ? mix(lab, wide_mean(place.xy, own.y, lab), known) : lab;
     lab = mixed(lab, wide, kind, mixing, uvec2(marks.x, floatBitsToUint(reach.y)));
 #ifdef DRAFT
     there = max(there - LEAST, 0.0) / (1.0 - LEAST);

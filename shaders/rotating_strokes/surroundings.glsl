@@ -5,18 +5,21 @@ uniform sampler2D depth_and_id;
 uniform sampler2D detail;        // in blocks: change of colour, outline, highlight, body id and half its share
 uniform float block_px;          // side of a block
 
+// Depth and body id of the pixel at a place.
 vec2 surface_at(vec2 at_px) {
     ivec2 texel = clamp(ivec2(floor(at_px)), ivec2(0), textureSize(depth_and_id, 0) - 1);
     return texelFetch(depth_and_id, texel, 0).xy;
 }
+
+// How far around a stroke it matters whether its body is thin.
+const float AROUND_PX = 8.0;
 
 // Colour interpolated between those of four pixels that show the body; w says how many do. The plain render has hard edges, and
 // a tap on a single pixel would jump at them.
 vec4 own_color_at(vec2 at_px, float id) {
 #ifdef DRAFT
     ivec2 nearest = clamp(ivec2(at_px), ivec2(0), textureSize(reference_color, 0) - 1);
-    bool is_own = texelFetch(depth_and_id, nearest, 0).y == id;
-    return is_own ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
+    return texelFetch(depth_and_id, nearest, 0).y == id ? vec4(texelFetch(reference_color, nearest, 0).rgb, 1.0) : vec4(0.0);
 #endif
     vec2 at = at_px - 0.5;
     ivec2 corner = ivec2(floor(at));
@@ -39,27 +42,50 @@ vec2 direction(int index, int count) {
     return vec2(cos(angle), sin(angle));
 }
 
+// Whether the stroke's own body does not show at a place, because it has ended there.
+float is_past(vec2 at_px, vec2 own) {
+    vec2 there = surface_at(at_px);
+    return there.y != own.y && (there.y == 0.0 || there.x > own.x) ? 1.0 : 0.0;
+}
+
+// How thin the stroke's own body is, 0..1: in how many directions it ends nearby on both sides.
+float thinness(vec2 center_px, vec2 own) {
+    float sum = 0.0;
+    for (int index = 0; index < 12; index++) {
+        float angle = 0.52359878 * float(index % 6);
+        vec2 offset_px = vec2(cos(angle), sin(angle)) * (index < 6 ? AROUND_PX : 0.55 * AROUND_PX);
+        sum += is_past(center_px + offset_px, own) * is_past(center_px - offset_px, own);
+    }
+    return sum / 12.0;
+}
+
 // Mean colour on the stroke's own body: a Gaussian with this standard deviation, on two rings and the centre, longer along the
-// stroke, so that a shadow that sweeps over it takes several frames; wider where the centre is hidden. w is 0 where the body
-// was not found.
+// stroke, so that a shadow that sweeps over it takes several frames. The less of the body is found there, the more a wider
+// surrounding counts. w is how much of the colour is known, 0..1.
 vec4 own_color(vec2 center_px, float id, mat2 sigma_px) {
-    vec4 sum = vec4(0.0);
 #ifdef DRAFT
     const int TAPS = 6;
 #else
     const int TAPS = 12;
 #endif
-    for (int widening = 0; widening < 3 && sum.a < 0.2; widening++) {
-        sum = own_color_at(center_px, id) * 0.7;
+    // What a body that is everywhere gives, and what is enough.
+    const float FULL = 0.7 + 6.0 * 0.60 + float(TAPS - 6) * 0.17;
+    const float ENOUGH = 0.25 * FULL;
+    vec4 sum = vec4(0.0);
+    float need = 1.0;
+    for (int widening = 0; widening < 3 && need > 0.0; widening++) {
+        vec4 found = own_color_at(center_px, id) * 0.7;
         for (int index = 0; index < TAPS; index++) {
             float radius = index < 6 ? 1.0 : 1.9;
             float angle = 1.0471976 * (float(index) + (index < 6 ? 0.0 : 0.5));
             vec2 tap_px = center_px + sigma_px * vec2(cos(angle), sin(angle)) * radius;
-            sum += own_color_at(tap_px, id) * (index < 6 ? 0.60 : 0.17);
+            found += own_color_at(tap_px, id) * (index < 6 ? 0.60 : 0.17);
         }
+        sum += found * need;
+        need = clamp(1.0 - sum.a / ENOUGH, 0.0, 1.0);
         sigma_px = sigma_px * 2.2;
     }
-    return sum.a > 1e-3 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
+    return vec4(sum.rgb / max(sum.a, 1e-4), clamp(sum.a / (0.2 * ENOUGH), 0.0, 1.0));
 }
 
 // The mean colour of the wider surroundings on the stroke's own body, Oklab.

@@ -37,3 +37,4 @@ mod shipped_scenes;
 mod steadiness;
 mod sumi_e;
 mod warm_prepare;
+mod whole_shot;

@@ -29,7 +29,8 @@ cargo xtask <command>
   layers                      every arrow between crates is one that ARCHITECTURE.md allows
   tidy                        long files, empty names, half a technique, big pictures, unfinished work
   gallery [NAME …]            render the pictures of the README and the docs into docs/pictures/
-  measure [SCENE …]           measure the shipped scenes and write the table of docs/techniques/rotating_strokes.md
+  measure [--shots] [SCENE …] measure the shipped scenes and write the table of docs/techniques/rotating_strokes.md;
+                              with --shots every frame of their shots, for docs/steadiness.md
   same [--keep]               pictures and strokes are, byte for byte, those of the last `same --keep`
   bench [-- …]                the benchmarks of bench/
   meshes                      write the meshes of scenes/meshes/ anew";
@@ -58,6 +59,7 @@ fn run(arguments: &[String]) -> anyhow::Result<()> {
         match (command.as_str(), flag.as_str()) {
             ("test" | "demo", "--no-install") => install = Install::PrintOnly,
             ("same", "--keep") => keep = true,
+            ("measure", "--shots") => {}
             ("gallery" | "measure", name) if !name.starts_with('-') => {}
             _ => bail!("`{command}` does not know `{flag}`\n{USAGE}"),
         }

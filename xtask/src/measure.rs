@@ -1,5 +1,6 @@
-//! `cargo xtask measure`: measures the shipped scenes and writes the table of docs/techniques/rotating_strokes.md anew.
-//! With names, only those scenes are measured; the others keep what was last measured of them (in `out/measure`).
+//! `cargo xtask measure`: measures the shipped scenes and writes the table of docs/techniques/rotating_strokes.md anew; with
+//! `--shots`, measures every frame of their shots and writes the table of docs/steadiness.md. With names, only those scenes are
+//! measured; the others keep what was last measured of them (in `out/measure` and `out/shots`).
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -10,7 +11,25 @@ use serde_json::Value;
 
 use crate::steps::{Profile, build, step};
 
-const PAGE: &str = "docs/techniques/rotating_strokes.md";
+/// A page with a table of what was measured.
+struct Page {
+    path: &'static str,
+    /// Where reports are kept.
+    folder: &'static str,
+    metrics: &'static str,
+    columns: &'static [Column],
+}
+
+const METRICS: Page = Page {
+    path: "docs/techniques/rotating_strokes.md",
+    folder: "out/measure",
+    metrics: "M1,M2,M3,M4,M5,M6,M7,M8,M9,M10,M11,M12,M13,M14",
+    columns: &COLUMNS,
+};
+
+const SHOTS: Page =
+    Page { path: "docs/steadiness.md", folder: "out/shots", metrics: "M15,M16,M17", columns: &OF_SHOTS };
+
 const BEGIN: &str = "<!-- measured:begin -->";
 const END: &str = "<!-- measured:end -->";
 
@@ -109,8 +128,34 @@ const COLUMNS: [Column; 13] = [
     Column { head: "M13 bytes", metric: "M13", ours: &[cell("bytes that differ", "value")], baseline: None },
 ];
 
-/// Measures and writes the table.
-pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
+const OF_SHOTS: [Column; 5] = [
+    Column {
+        head: "M15 chatter of all strokes %",
+        metric: "M15",
+        ours: &[cell("all strokes", "value")],
+        baseline: None,
+    },
+    Column { head: "worst layer %", metric: "M15", ours: &[cell("worst layer", "value")], baseline: None },
+    Column { head: "M16 steps", metric: "M16", ours: &[cell("strokes that step", "value")], baseline: None },
+    Column {
+        head: "of highlights %, frames they live",
+        metric: "M16",
+        ours: &[cell("steps of highlights", "value"), cell("frames that", "median")],
+        baseline: None,
+    },
+    Column {
+        head: "M17 flicker, p99.9, pixels above 6 %",
+        metric: "M17",
+        ours: &[cell("99.9 %", "value"), cell("pixels above", "value")],
+        baseline: None,
+    },
+];
+
+/// Measures and writes a table.
+pub fn run(root: &Path, arguments: &[String]) -> anyhow::Result<()> {
+    let (flags, only): (Vec<String>, Vec<String>) =
+        arguments.iter().cloned().partition(|argument| argument == "--shots");
+    let shown = if flags.is_empty() { &METRICS } else { &SHOTS };
     let mut scenes: Vec<String> = std::fs::read_dir(root.join("scenes"))?
         .filter_map(|entry| entry.ok()?.file_name().to_str()?.strip_suffix(".ron").map(str::to_owned))
         .collect();
@@ -119,13 +164,13 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
         bail!("there is no scene `{unknown}`; known are {}", scenes.join(", "));
     }
     let impasto = step("build", || build(root, Profile::Release))?;
-    let folder = root.join("out/measure");
+    let folder = root.join(shown.folder);
     std::fs::create_dir_all(&folder)?;
     for scene in scenes.iter().filter(|scene| only.is_empty() || only.contains(scene)) {
         step(scene, || {
             let output = Command::new(&impasto)
                 .current_dir(root)
-                .args(["measure", "--json", &format!("scenes/{scene}.ron")])
+                .args(["measure", "--json", "--only", shown.metrics, &format!("scenes/{scene}.ron")])
                 .stderr(Stdio::null())
                 .output()
                 .context("impasto measure")?;
@@ -142,31 +187,32 @@ pub fn run(root: &Path, only: &[String]) -> anyhow::Result<()> {
             reports.push((scene.as_str(), serde_json::from_str(&text)?));
         }
     }
-    let page = root.join(PAGE);
+    let page = root.join(shown.path);
     let text = std::fs::read_to_string(&page)?;
-    std::fs::write(&page, replaced(&text, &table(&reports)?)?)?;
-    println!("{PAGE}: {} scenes", reports.len());
+    let table = table(&reports, shown.columns)?;
+    std::fs::write(&page, replaced(&text, &table).with_context(|| format!("in {}", shown.path))?)?;
+    println!("{}: {} scenes", shown.path, reports.len());
     Ok(())
 }
 
 fn replaced(page: &str, table: &str) -> anyhow::Result<String> {
-    let missing = || format!("{PAGE} has no {BEGIN} … {END}");
+    let missing = || format!("there is no {BEGIN} … {END}");
     let (before, rest) = page.split_once(BEGIN).with_context(missing)?;
     let (_, after) = rest.split_once(END).with_context(missing)?;
     Ok(format!("{before}{BEGIN}\n{table}{END}{after}"))
 }
 
-fn table(reports: &[(&str, Value)]) -> anyhow::Result<String> {
+fn table(reports: &[(&str, Value)], columns: &[Column]) -> anyhow::Result<String> {
     let mut text = String::from("| scene |");
-    for column in &COLUMNS {
+    for column in columns {
         write!(text, " {} |", column.head)?;
     }
     text.push_str("\n|---|");
-    text.push_str(&"---|".repeat(COLUMNS.len()));
+    text.push_str(&"---|".repeat(columns.len()));
     text.push('\n');
     for (scene, report) in reports {
         write!(text, "| {scene} |")?;
-        for column in &COLUMNS {
+        for column in columns {
             write!(text, " {} |", column.of(report))?;
         }
         text.push('\n');

@@ -31,6 +31,7 @@ const ALL: &[&[ShaderFile]] =
 /// What every style may include.
 pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/screen.vert",
+    "shared/place.frag",
     "shared/encode.glsl",
     "shared/encode.frag",
     "shared/lens.glsl",
@@ -45,7 +46,6 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
 pub(crate) const NOISE_DISPLACE: &[ShaderFile] = shader_files![
     "noise_displace/look.vert",
     "noise_displace/look.frag",
-    "noise_displace/place.frag",
     "noise_displace/background.frag",
     "noise_displace/gather.frag",
     "noise_displace/spread.frag",
@@ -72,6 +72,8 @@ pub(crate) const LIGHT_BILLBOARDS: &[ShaderFile] =
 /// Brush strokes.
 pub(crate) const ROTATING_STROKES: &[ShaderFile] = shader_files![
     "rotating_strokes/layers.glsl",
+    "rotating_strokes/surface.glsl",
+    "rotating_strokes/borders.frag",
     "rotating_strokes/surroundings.glsl",
     "rotating_strokes/mixing.glsl",
     "rotating_strokes/resolve.vert",

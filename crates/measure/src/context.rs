@@ -12,6 +12,7 @@ use impasto_scene::motion::{self, CameraPose};
 
 use crate::options::{MeasureError, MeasureOptions};
 use crate::plane::Plane;
+use crate::protocols::WholeShot;
 use crate::strokes::{StrokesByKey, strokes_by_key};
 use crate::versions::SceneVersion;
 
@@ -44,6 +45,7 @@ pub struct MeasureContext<'a> {
     preparer: Preparer,
     paintings: HashMap<SceneVersion, Rc<Painting>>,
     drawn: HashMap<(SceneVersion, RotationKey, u64), Rc<DrawnFrame>>,
+    whole_shot: Option<Rc<WholeShot>>,
 }
 
 /// A [`Rotation`] as a number, for the keys of cached frames.
@@ -76,6 +78,7 @@ impl<'a> MeasureContext<'a> {
             preparer: Preparer::default(),
             paintings: HashMap::new(),
             drawn: HashMap::new(),
+            whole_shot: None,
         })
     }
 
@@ -144,14 +147,39 @@ impl<'a> MeasureContext<'a> {
         frame: f64,
         rotation: Rotation,
     ) -> Result<Rc<DrawnFrame>, MeasureError> {
-        let key = (version, rotation_key(rotation), frame.to_bits());
-        if let Some(drawn) = self.drawn.get(&key) {
+        let drawn = self.drawn_once(version, frame, rotation)?;
+        self.drawn.insert((version, rotation_key(rotation), frame.to_bits()), Rc::clone(&drawn));
+        Ok(drawn)
+    }
+
+    /// A drawn frame of the shot that is not kept: a whole shot's would not fit.
+    ///
+    /// # Errors
+    /// As [`MeasureContext::drawn_frame`].
+    pub fn drawn_once(
+        &mut self,
+        version: SceneVersion,
+        frame: f64,
+        rotation: Rotation,
+    ) -> Result<Rc<DrawnFrame>, MeasureError> {
+        if let Some(drawn) = self.drawn.get(&(version, rotation_key(rotation), frame.to_bits())) {
             return Ok(Rc::clone(drawn));
         }
         let painting = self.painting(version)?;
-        let drawn = Rc::new(self.draw(painting.at(frame, &self.frame_options(rotation)))?);
-        self.drawn.insert(key, Rc::clone(&drawn));
-        Ok(drawn)
+        Ok(Rc::new(self.draw(painting.at(frame, &self.frame_options(rotation)))?))
+    }
+
+    /// What a pass over every frame of the shot found; taken once.
+    ///
+    /// # Errors
+    /// As [`MeasureContext::drawn_frame`].
+    pub fn whole_shot(&mut self) -> Result<Rc<WholeShot>, MeasureError> {
+        if let Some(shot) = &self.whole_shot {
+            return Ok(Rc::clone(shot));
+        }
+        let shot = Rc::new(WholeShot::of(self)?);
+        self.whole_shot = Some(Rc::clone(&shot));
+        Ok(shot)
     }
 
     /// The reference pose in this version, drawn as another camera sees it.

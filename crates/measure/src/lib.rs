@@ -1,4 +1,4 @@
-//! Measures how steady a painting is, by the metrics M1 to M14 ([`Metric`] lists them).
+//! Measures how steady a painting is, by the metrics M1 to M17 ([`Metric`] lists them).
 //!
 //! ```text
 //! pictures, strokes ─▶ formulas on plain data     plane, strokes, popping, warp, shower_door, coverage, ...
@@ -7,12 +7,14 @@
 //! ```
 
 pub mod cameras;
+pub mod chatter;
 pub mod context;
 pub mod correlation;
 pub mod coverage;
 pub mod density;
 pub mod figures;
 pub mod flatness;
+pub mod flicker;
 pub mod jitter;
 mod metric;
 mod options;
@@ -26,6 +28,7 @@ pub mod reveal;
 pub mod roll;
 pub mod sheet;
 pub mod shower_door;
+pub mod steps;
 pub mod strokes;
 pub mod truth;
 pub mod turning;

@@ -1,4 +1,4 @@
-//! The metrics of `impasto measure`, M1 to M14: their names and titles.
+//! The metrics of `impasto measure`, M1 to M17: their names and titles.
 
 use std::fmt;
 use std::str::FromStr;
@@ -36,11 +36,17 @@ pub enum Metric {
     M13,
     /// Density.
     M14,
+    /// Chatter: strokes whose lightness goes to and fro.
+    M15,
+    /// Steps: strokes that come or go within a frame where they are seen.
+    M16,
+    /// Flicker of the picture along the motion.
+    M17,
 }
 
 impl Metric {
     /// All, in order.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 17] = [
         Self::M1,
         Self::M2,
         Self::M3,
@@ -55,6 +61,9 @@ impl Metric {
         Self::M12,
         Self::M13,
         Self::M14,
+        Self::M15,
+        Self::M16,
+        Self::M17,
     ];
 
     /// What it measures, in a few words.
@@ -74,6 +83,9 @@ impl Metric {
             Self::M12 => "speed",
             Self::M13 => "loop and replay",
             Self::M14 => "density",
+            Self::M15 => "chatter",
+            Self::M16 => "steps",
+            Self::M17 => "flicker",
         }
     }
 }
@@ -98,7 +110,7 @@ impl FromStr for Metric {
         Self::ALL
             .into_iter()
             .find(|metric| metric.to_string().eq_ignore_ascii_case(wanted))
-            .ok_or_else(|| format!("{wanted:?} is no metric; they are M1 to M14"))
+            .ok_or_else(|| format!("{wanted:?} is no metric; they are M1 to M17"))
     }
 }
 
@@ -111,6 +123,6 @@ mod tests {
         for metric in Metric::ALL {
             assert_eq!(metric.to_string().to_lowercase().parse(), Ok(metric));
         }
-        assert!("M15".parse::<Metric>().is_err());
+        assert!("M18".parse::<Metric>().is_err());
     }
 }

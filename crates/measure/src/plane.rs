@@ -65,6 +65,35 @@ impl Plane {
         }
     }
 
+    /// Blurred by a Gaussian of this deviation, each pixel among those of its own body.
+    pub fn blurred_within(&self, body_ids: &[u32], sigma_px: f64) -> Self {
+        let weights = gaussian(sigma_px);
+        let [width, height] = self.size_px.map(|side| side as i64);
+        let reach = weights.len() as i64 / 2;
+        let mut values = self.values.clone();
+        values.par_chunks_mut(self.size_px[0].max(1)).enumerate().for_each(|(y, row)| {
+            for (x, value) in row.iter_mut().enumerate() {
+                let own = body_ids[y * self.size_px[0] + x];
+                let (mut sum, mut norm) = (0.0, 0.0);
+                for (dy, of_row) in (-reach..=reach).zip(&weights) {
+                    for (dx, of_column) in (-reach..=reach).zip(&weights) {
+                        let (tap_x, tap_y) = (x as i64 + dx, y as i64 + dy);
+                        if !(0..width).contains(&tap_x) || !(0..height).contains(&tap_y) {
+                            continue;
+                        }
+                        let tap = (tap_y * width + tap_x) as usize;
+                        if body_ids[tap] == own {
+                            sum += of_row * of_column * self.values[tap];
+                            norm += of_row * of_column;
+                        }
+                    }
+                }
+                *value = sum / norm;
+            }
+        });
+        Self { size_px: self.size_px, values }
+    }
+
     /// Blurred by a Gaussian of this deviation; pixels beyond the border count as 0.
     pub fn blurred(&self, sigma_px: f64) -> Self {
         let weights = gaussian(sigma_px);

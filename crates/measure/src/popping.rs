@@ -58,7 +58,7 @@ pub fn popping(before: &StrokesByKey, after: &StrokesByKey, size_px: [u32; 2]) -
     found
 }
 
-fn touches_border(stroke: &MeasuredStroke, margin_px: f64, size_px: [u32; 2]) -> bool {
+pub(crate) fn touches_border(stroke: &MeasuredStroke, margin_px: f64, size_px: [u32; 2]) -> bool {
     let (sin, cos) = stroke.angle_rad.sin_cos();
     let half = |along: f64, across: f64| {
         0.5 * QUAD * (along.abs() * stroke.length_px + across.abs() * stroke.width_px) + margin_px + 1.0
@@ -71,7 +71,7 @@ fn touches_border(stroke: &MeasuredStroke, margin_px: f64, size_px: [u32; 2]) ->
 }
 
 /// The largest distance that a stroke has moved, of all strokes that are in both frames.
-fn displacement_px(before: &StrokesByKey, after: &StrokesByKey) -> f64 {
+pub(crate) fn displacement_px(before: &StrokesByKey, after: &StrokesByKey) -> f64 {
     let moved = before.iter().filter_map(|(key, then)| {
         let now = after.get(key)?;
         Some(displacement(then, now))
@@ -120,6 +120,8 @@ mod tests {
                 length_px: 10.0,
                 width_px: 4.0,
                 alpha,
+                luma: 0.5,
+                depth: 1.0,
                 presence: alpha,
                 facing: 1.0,
                 region: 0,

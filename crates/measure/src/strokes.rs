@@ -32,6 +32,10 @@ pub struct MeasuredStroke {
     pub width_px: f64,
     /// Alpha as drawn; of a stroke that was not drawn, its presence.
     pub alpha: f64,
+    /// Luma of its colour as encoded, 0..=1, weights of Rec. 709; 0 where it was not drawn.
+    pub luma: f64,
+    /// Distance from the eye along the gaze.
+    pub depth: f64,
     /// Its presence: the alpha if nothing hid it and its layer were wanted in full.
     pub presence: f64,
     /// Cosine between its surface's normal and the direction to the eye.
@@ -66,6 +70,8 @@ pub fn strokes_by_key(frame: &Frame, resolved: &[ResolvedStroke]) -> StrokesByKe
                 length_px: f64::from(stroke.length_px),
                 width_px: f64::from(stroke.width_px),
                 alpha: f64::from(drawn.map_or_else(|| stroke.presence(), |drawn| drawn.alpha)),
+                luma: drawn.map_or(0.0, |drawn| luma(drawn.color_linear)),
+                depth: f64::from(stroke.depth),
                 presence: f64::from(stroke.presence()),
                 facing: f64::from(source.facing),
                 region: source.region,
@@ -74,6 +80,13 @@ pub fn strokes_by_key(frame: &Frame, resolved: &[ResolvedStroke]) -> StrokesByKe
         }
     }
     strokes
+}
+
+/// Luma of a display-linear colour as it is encoded, 0..=1.
+fn luma(color_linear: [f32; 3]) -> f64 {
+    let encoded =
+        color_linear.map(|value| f64::from(impasto_core::color::srgb_from_linear(value.clamp(0.0, 1.0))));
+    0.2126 * encoded[0] + 0.7152 * encoded[1] + 0.0722 * encoded[2]
 }
 
 /// The strokes of one layer.
@@ -87,4 +100,22 @@ pub fn of_layer(
 /// The difference of two angles, degrees in 0..=180.
 pub fn degrees_apart(first_rad: f64, second_rad: f64) -> f64 {
     impasto_core::angle::wrap_pi(first_rad - second_rad).abs().to_degrees()
+}
+
+/// A stroke for tests of measures.
+#[cfg(test)]
+pub(crate) fn a_stroke(center_px: [f64; 2], alpha: f64, luma: f64) -> MeasuredStroke {
+    MeasuredStroke {
+        center_px,
+        particle_px: center_px,
+        angle_rad: 0.0,
+        length_px: 10.0,
+        width_px: 4.0,
+        alpha,
+        luma,
+        depth: 1.0,
+        presence: alpha,
+        facing: 1.0,
+        region: 0,
+    }
 }

@@ -11,7 +11,7 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene. *On a board* means on a smooth canvas: the texture of other canvases stands still on the
+/// A version of a scene. None but the first boils: what changes on purpose is no fault. *On a board* means on a smooth canvas: the texture of other canvases stands still on the
 /// picture by design, which would disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
@@ -63,6 +63,9 @@ impl SceneVersion {
     pub fn of(self, loaded: &LoadedScene, particles: &[usize]) -> LoadedScene {
         let mut version = loaded.clone();
         let scene = &mut version.scene;
+        if self != Self::Unchanged {
+            each_settings(scene, |strokes| strokes.boil = Some(0.0));
+        }
         match self {
             Self::Unchanged => {}
             Self::Board => on_board(scene),

@@ -33,6 +33,7 @@ impl FinishRule {
             ground: toned.then(|| Ground { color: lights::linear(ground.color), hides: ground.opacity }),
             weave: strength(style.weave),
             canvas_from_px: Affine2::IDENTITY,
+            samples: style.samples,
             relief: strength(style.relief),
             to_relief_light: relief_light(scene, reference),
             varnish: strength(style.varnish),

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{Affine2, Mat4, Vec3, Vec4};
 use impasto_core::brush::Mark;
+use impasto_scene::limits::MAX_PIXELS;
 
 mod stroke;
 
@@ -51,6 +52,15 @@ impl Frame {
     /// The background as a premultiplied colour; transparent where there is none.
     pub fn background_premultiplied(&self) -> Vec4 {
         self.background.map_or(Vec4::ZERO, |[r, g, b]| Vec4::new(r, g, b, 1.0))
+    }
+
+    /// How many samples a pixel has, a side, where a texture may have sides of `most_side_px`: one in drafts, and where the
+    /// samples of a very large picture would take too much memory.
+    pub fn samples(&self, most_side_px: u32) -> u32 {
+        let samples = self.finish.samples;
+        let [width, height] = self.size_px.map(|side| u64::from(side) * u64::from(samples));
+        let fits = width.max(height) <= u64::from(most_side_px) && width * height <= MAX_PIXELS;
+        if self.quality == Quality::Exact && fits { samples } else { 1 }
     }
 
     /// Replaces the strokes.
@@ -155,6 +165,8 @@ pub struct Finish {
     pub weave: f32,
     /// From pixels of the picture (at the scene's size, origin in the middle) to pixels of the canvas.
     pub canvas_from_px: Affine2,
+    /// How many samples a pixel of an exact picture has, a side.
+    pub samples: u32,
     /// Height of the paint; 1 is oil.
     pub relief: f32,
     /// Unit vector towards the light on the relief, in the picture's space (X right, Y up, Z towards the eye). The same
@@ -180,6 +192,7 @@ impl Default for Finish {
             ground: None,
             weave: 0.0,
             canvas_from_px: Affine2::IDENTITY,
+            samples: 1,
             relief: 0.0,
             to_relief_light: [0.0, 0.0, 1.0],
             varnish: 0.0,

@@ -10,6 +10,7 @@
 mod at;
 mod bake;
 mod body;
+mod boil;
 mod brushes;
 mod cached;
 mod candidates;

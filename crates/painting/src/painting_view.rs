@@ -9,8 +9,10 @@ use impasto_core::solve::{BakedParticles, Bounds, ParticleView, SolvedParticle, 
 use impasto_core::{ScreenMap, hash};
 use impasto_scene::document::Solver;
 use impasto_scene::motion::{self, CameraPose};
+use impasto_scene::presets::ResolvedStrokes;
 
 use crate::body::{BodyShape, BodySurface, Vertices};
+use crate::boil::Boil;
 use crate::coat::Coat;
 use crate::frame::Quality;
 use crate::frame_options::{FrameOptions, Rotation, StrokeColors};
@@ -33,6 +35,7 @@ pub(crate) struct PaintingView<'a> {
     pub(crate) colors: StrokeColors,
     pub(crate) quality: Quality,
     pub(crate) recall: Option<&'a Recall>,
+    frame: f64,
     /// Random bits of the frame.
     frame_bits: u32,
 }
@@ -104,6 +107,7 @@ impl Painting {
             colors: options.colors,
             quality: options.quality,
             recall: None,
+            frame,
             frame_bits: hash::scramble((frame * 1000.0).round() as i64 as u32),
         }
     }
@@ -153,6 +157,11 @@ impl PaintingView<'_> {
                 (hash::unit(coat.bits(index, self.frame_bits)) * 2.0 - 1.0) * std::f32::consts::PI
             }
         }
+    }
+
+    /// How a region's strokes are laid at this frame; `None` where they do not boil.
+    pub(crate) fn boil(&self, strokes: &ResolvedStrokes) -> Option<Boil> {
+        (strokes.boil > 0.0).then(|| Boil::at(self.frame, strokes.boil, strokes.boil_on))
     }
 
     /// Whether a depth is between the nearest and the farthest that show.

@@ -118,6 +118,14 @@ impl PaintingView<'_> {
         );
         let chance = Chance { bits };
         let size_px = chance.size_px(size_px, strokes.size_jitter).map(|side| side * self.px_scale);
+        let boiled =
+            self.boil(strokes).filter(|_| coat.kind != LayerKind::Underpainting).map(|boil| boil.of(bits));
+        let size_px =
+            boiled.map_or(size_px, |boiled| [size_px[0] * boiled.size[0], size_px[1] * boiled.size[1]]);
+        let angle_rad =
+            boiled.map_or(angle_rad, |boiled| wrap_pi(f64::from(angle_rad + boiled.turn_rad)) as f32);
+        let drift = boiled.map_or(drift, |boiled| [drift[0] + boiled.drift, drift[1]]);
+        let shift_px = boiled.map_or([0.0; 2], |boiled| boiled.shift_px(angle_rad, size_px));
         let flat = Outline { angle_rad, length_px: size_px[0], width_px: size_px[1], skew: 0.0 };
         let Outline { angle_rad, length_px, width_px, skew } = match self.rotation {
             Rotation::Mapped => {
@@ -147,7 +155,8 @@ impl PaintingView<'_> {
         }
         let jitter_share = (strokes.angle_jitter_rad.to_degrees() / USUAL_JITTER_DEG as f32).min(1.0);
         let stroke = Stroke {
-            center_px: [solved.x_px + self.half_px[0], solved.y_px + self.half_px[1]],
+            center_px: [0, 1]
+                .map(|axis| [solved.x_px, solved.y_px][axis] + self.half_px[axis] + shift_px[axis]),
             depth: solved.depth,
             angle_rad,
             length_px,

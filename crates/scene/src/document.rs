@@ -27,7 +27,7 @@ pub use regions::{
     Bend, Dab, Direction, Falloff, Guide, GuideMode, GuidePoint, GuideView, Patch, PatchRef, Region, Seam,
     Seed, Selector, Sense,
 };
-pub use rotating_strokes::{Canvas, RotatingStrokes};
+pub use rotating_strokes::{Canvas, RotatingStrokes, SAMPLES};
 pub(crate) use strokes::PresetNumbers;
 pub use strokes::{InspectorPlace, ResolvedStrokes, STROKE_NUMBERS, Shown, StrokeNumber, StrokeSettings};
 pub use style::Style;

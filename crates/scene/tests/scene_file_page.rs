@@ -161,6 +161,7 @@ fn stroke_numbers() -> String {
             "%" => "share: 1 is 100 %",
             "×" => "factor",
             "u" => "units of the object",
+            "frames" => "frames",
             _ => "share",
         };
         let (field, range) = (row.number.field, range(&row.number.limits));

@@ -241,7 +241,7 @@ const FILES: &[&[ShaderFile]] = &[SHARED, NOISE_DISPLACE];
 
 const PLACE: ProgramSource<'static> = ProgramSource::new(
     "noise_displace/look.vert",
-    Some("noise_displace/place.frag"),
+    Some("shared/place.frag"),
     &[&["view_from_world", "clip_from_view", "body_id"]],
 );
 

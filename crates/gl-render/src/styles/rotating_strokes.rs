@@ -5,6 +5,7 @@
 //! presence and place of each stroke), paint (a billboard per stroke, one layer after the other), soften, encode.
 
 mod canvas;
+mod coverage;
 mod programs;
 
 use std::rc::Rc;
@@ -24,6 +25,7 @@ use crate::palettes::palette_texture;
 use crate::stroke_buffers::StrokeBuffers;
 use crate::style_renderer::{StyleInput, StyleRenderer};
 use crate::watch::Watch;
+use coverage::{Coverage, Covered};
 use programs::{DETAIL, FILES, SOFTEN, SPREAD, StrokePrograms};
 
 /// How much of a body's own colour shows in the toned ground under it.
@@ -41,6 +43,7 @@ const PIECE_PX: f32 = 400_000.0;
 /// Draws brush strokes.
 pub(crate) struct RotatingStrokes {
     gpu: Gpu,
+    coverage: Coverage,
     detail: Program,
     spread: Program,
     soften: Program,
@@ -120,6 +123,7 @@ impl RotatingStrokes {
         let side = canvas::SIDE;
         Ok(Self {
             gpu: gpu.clone(),
+            coverage: Coverage::new(gpu)?,
             detail: Program::new(gpu, FILES, &DETAIL)?,
             spread: Program::new(gpu, FILES, &SPREAD)?,
             soften: Program::new(gpu, FILES, &SOFTEN)?,
@@ -149,12 +153,16 @@ impl RotatingStrokes {
     }
 
     /// Finds where small strokes are wanted. The result is in the first of the two `detail` targets.
-    fn find_detail(&self, input: &StyleInput<'_>, watch: &mut Watch<'_>) -> Result<(), Halt> {
+    fn find_detail(
+        &self,
+        input: &StyleInput<'_>,
+        covered: &Covered,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         let Some(targets) = &self.targets else { return Ok(()) };
         self.gpu.begin_pass(&targets.detail_passes[0], DrawState::default());
-        let bound = self
-            .detail
-            .bind()
+        let bound = covered
+            .set_samples(self.detail.bind())
             .texture("reference_color", &input.reference.color)
             .texture("depth_and_id", &input.reference.depth_and_id)
             .texture("glint", &input.reference.glint)
@@ -207,20 +215,32 @@ impl RotatingStrokes {
     }
 
     /// Lays a layer of paint; in several pieces if the caller may stop.
-    fn paint(&self, input: &StyleInput<'_>, layer: LayerRun, watch: &mut Watch<'_>) -> Result<(), Halt> {
+    fn paint(
+        &self,
+        input: &StyleInput<'_>,
+        covered: &Covered,
+        layer: LayerRun,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Halt> {
         let strokes = strokes_of(input, layer);
         let shaped = strokes.iter().any(Stroke::is_shaped);
         let mut first = layer.first;
         let most_px = if watch.may_stop() { PIECE_PX } else { f32::INFINITY };
         for count in pieces(strokes, most_px) {
-            self.paint_piece(input, LayerRun { first, count, ..layer }, shaped)?;
+            self.paint_piece(input, covered, LayerRun { first, count, ..layer }, shaped)?;
             watch.passed(layer.kind.name())?;
             first += count;
         }
         Ok(())
     }
 
-    fn paint_piece(&self, input: &StyleInput<'_>, layer: LayerRun, has_shape: bool) -> Result<(), GlError> {
+    fn paint_piece(
+        &self,
+        input: &StyleInput<'_>,
+        covered: &Covered,
+        layer: LayerRun,
+        has_shape: bool,
+    ) -> Result<(), GlError> {
         let (Some(targets), Some(marks)) = (&self.targets, self.strokes.marks()) else { return Ok(()) };
         let frame = input.frame;
         let programs = self.programs(frame.quality);
@@ -239,17 +259,19 @@ impl RotatingStrokes {
             .set("kind", layer.kind as i32)
             .set("mark_rows", brush::SIZE[1] as f32)
             .texture("brush_marks", &marks.texture)
-            .texture("mark_bounds", &marks.bounds)
-            .texture("depth_and_id", &input.reference.depth_and_id);
+            .texture("mark_bounds", &marks.bounds);
         if frame.quality == Quality::Exact {
-            bound = bound.texture("below", &targets.below);
+            bound =
+                bound.texture("below", &targets.below).texture("depth_and_id", &input.reference.depth_and_id);
         }
+        bound = covered.set_surface(bound);
         self.strokes.draw(bound, layer, with_shape)
     }
 
     fn encode(
         &self,
         input: &StyleInput<'_>,
+        covered: &Covered,
         output: &Framebuffer,
         watch: &mut Watch<'_>,
     ) -> Result<(), Halt> {
@@ -287,7 +309,8 @@ impl RotatingStrokes {
             .set("wash", wash)
             .set("finish", Vec4::new(finish.relief, finish.weave, finish.varnish, frame.px_scale));
         if frame.quality == Quality::Exact {
-            bound = bound
+            bound = covered
+                .set_surface(bound)
                 .set("tone", tone)
                 .texture("height", &targets.height)
                 .texture("soft_height", &targets.soft_height)
@@ -304,6 +327,7 @@ impl RotatingStrokes {
 impl StyleRenderer for RotatingStrokes {
     fn ready_all(&mut self) -> Result<(), GlError> {
         let gpu = self.gpu.clone();
+        self.coverage.ready_all()?;
         for quality in [Quality::Exact, Quality::Draft] {
             self.ready(quality)?.ready_shaped(&gpu, quality)?;
         }
@@ -330,7 +354,8 @@ impl StyleRenderer for RotatingStrokes {
             programs.ready_shaped(&gpu, frame.quality)?;
         }
         self.strokes.upload_marks(frame)?;
-        self.find_detail(input, watch)?;
+        let covered = self.coverage.draw(input, frame.samples(self.gpu.limits().max_side_px), watch)?;
+        self.find_detail(input, &covered, watch)?;
         self.resolve(input)?;
         watch.passed("resolve")?;
         if let Some(targets) = &self.targets {
@@ -343,9 +368,9 @@ impl StyleRenderer for RotatingStrokes {
             if index > 0 {
                 self.copy_below(input, layer);
             }
-            self.paint(input, layer, watch)?;
+            self.paint(input, &covered, layer, watch)?;
         }
-        self.encode(input, output, watch)
+        self.encode(input, &covered, output, watch)
     }
 
     fn read_resolved(&self) -> Vec<[f32; 8]> {

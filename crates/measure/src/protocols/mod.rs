@@ -14,6 +14,9 @@ mod shower_door;
 mod speed;
 mod turns;
 mod warp;
+mod whole_shot;
+
+pub use whole_shot::WholeShot;
 
 use crate::context::MeasureContext;
 use crate::metric::Metric;
@@ -44,5 +47,8 @@ pub(crate) fn row(
         Metric::M12 => speed::row(context),
         Metric::M13 => replay::row(context),
         Metric::M14 => density::row(context),
+        Metric::M15 => whole_shot::chatter(context, series),
+        Metric::M16 => whole_shot::steps(context, series),
+        Metric::M17 => whole_shot::flicker(context, series),
     }
 }

@@ -20,12 +20,18 @@ usual_fields! {
         pub weave: f64 = 1.0; within 0.0..=MAX_STRENGTH,
         /// What the canvas moves with.
         pub canvas_follows: CanvasFollows = CanvasFollows::Picture,
+        /// Samples a side in each pixel of a picture, 1, 2 or 4: paint ends between pixels, and thin things are steady.
+        /// Drafts have 1.
+        pub samples: u32 = 2,
         /// How much the paint stands up: 0 flat, 1 oil paint.
         pub relief: f64 = 1.0; within 0.0..=MAX_STRENGTH,
         /// Deeper darks and fuller colour: 0 none, 1 thin.
         pub varnish: f64 = 1.0; within 0.0..=MAX_STRENGTH,
     }
 }
+
+/// How many samples a side a pixel may have.
+pub const SAMPLES: [u32; 3] = [1, 2, 4];
 
 /// What is painted on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -56,12 +62,21 @@ impl StyleSettings for RotatingStrokes {
             underpainting: self.underpainting,
             weave: if self.canvas == Canvas::Linen { self.weave } else { 0.0 },
             canvas_follows: self.canvas_follows,
+            samples: self.samples,
             relief: self.relief,
             varnish: self.varnish,
         }
     }
 
     fn rules(&self) -> Vec<SettingRule> {
-        Self::numbers().map(|number| SettingRule::range(number, self)).collect()
+        let mut rules: Vec<_> = Self::numbers().map(|number| SettingRule::range(number, self)).collect();
+        if !SAMPLES.contains(&self.samples) {
+            rules.push(SettingRule::Broken {
+                field: "samples",
+                message: "a pixel has 1, 2 or 4 samples a side",
+                mend: "write samples: 2",
+            });
+        }
+        rules
     }
 }

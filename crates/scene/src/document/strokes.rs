@@ -167,6 +167,18 @@ stroke_numbers! {
             limits: 0.0..=1.0,
             shown: Shown { label: "Size jitter", place: Advanced(4), ..PERCENT },
         }
+        /// Lays the strokes anew as the film runs, each a little elsewhere, as painted films do; 0 keeps them still.
+        boil => boil as plain {
+            usual: 0.0,
+            limits: 0.0..=1.0,
+            shown: Shown { label: "Boil", place: Advanced(12), ..PERCENT },
+        }
+        /// For how many frames strokes hold before they are laid anew: 2 is on twos.
+        boil_on => boil_on as plain {
+            usual: 2.0,
+            limits: 1.0..=1000.0,
+            shown: Shown { label: "Boil on", unit: "frames", drag: 1.0..=12.0, place: Advanced(13), ..PIXELS },
+        }
     }
     color {
         /// How much colours differ from stroke to stroke; 100 % as oil paint is mixed.

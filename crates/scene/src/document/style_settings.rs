@@ -52,6 +52,8 @@ pub struct Preparation {
     pub weave: f64,
     /// What the canvas, or the paper, moves with.
     pub canvas_follows: CanvasFollows,
+    /// How many samples a pixel has, a side.
+    pub samples: u32,
     /// How much the paint stands up; 0 is flat.
     pub relief: f64,
     /// Strength of the varnish; 0 is none.
@@ -126,6 +128,7 @@ impl Default for Preparation {
             underpainting: true,
             weave: 0.0,
             canvas_follows: CanvasFollows::default(),
+            samples: 1,
             relief: 0.0,
             varnish: 0.0,
         }

@@ -95,7 +95,7 @@ const CONTOUR: Layer = Layer {
 const LIGHTS: Layer = Layer {
     brushes: &[("round", 1), ("filbert", 1), ("knife", 1)],
     size_px: [21.0, 8.0],
-    coverage: 0.7,
+    coverage: 0.25,
     opacity: 0.97,
     thickness: 1.35,
     dryness: 0.04,

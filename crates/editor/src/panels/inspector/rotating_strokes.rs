@@ -3,7 +3,7 @@
 
 use egui::Ui;
 use impasto_editor_model::command::{Command, SceneEdit};
-use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, Solver, Style};
+use impasto_scene::document::{Canvas, CanvasFollows, RotatingStrokes, SAMPLES, Solver, Style};
 
 use super::Asker;
 use super::ink;
@@ -63,6 +63,19 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, [shown, stored]: [&Ro
             set(style, format!("{name} {to:.2}"))
         });
     }
+    row(ui, "Samples", |ui| {
+        let words = ["1 × 1", "2 × 2", "4 × 4"];
+        let tip = Tip {
+            name: "Samples",
+            effect: "How finely each pixel looks at where things end. More is steadier and slower.",
+            ..Tip::default()
+        };
+        let chosen = SAMPLES.iter().position(|samples| *samples == shown.samples).unwrap_or(0);
+        if let Some(picked) = pick(ui, tip, &words, chosen) {
+            let style = RotatingStrokes { samples: SAMPLES[picked], ..stored.clone() };
+            asker.ask(set(style, format!("Samples: {}", words[picked])));
+        }
+    });
     let mut underpainting = shown.underpainting;
     if widgets::checkbox(ui, "Underpainting", &mut underpainting).changed() {
         let words = if underpainting { "Underpainting" } else { "No underpainting" };

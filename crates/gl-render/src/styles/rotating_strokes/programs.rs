@@ -48,7 +48,17 @@ pub(super) const FILES: &[&[ShaderFile]] = &[SHARED, REFERENCE, ROTATING_STROKES
 
 pub(super) const DETAIL: ProgramSource<'static> = ProgramSource::screen(
     "rotating_strokes/detail.frag",
-    &[&["reference_color", "depth_and_id", "glint", "normal", "px_scale", "view_from_world", "block_px"]],
+    &[&[
+        "reference_color",
+        "depth_and_id",
+        "fine",
+        "samples",
+        "glint",
+        "normal",
+        "px_scale",
+        "view_from_world",
+        "block_px",
+    ]],
 );
 
 pub(super) const SPREAD: ProgramSource<'static> =
@@ -83,13 +93,13 @@ const PAINT_UNIFORMS: &[&str] = &[
     "mark_rows",
     "mark_bounds",
     "brush_marks",
-    "depth_and_id",
+    "surface",
     "units_per_px_at_1",
     "orthographic",
 ];
 
 const PAINT: ProgramSource<'static> =
-    ProgramSource { uniforms: &[PAINT_UNIFORMS, &["below"]], ..DRAFT_PAINT };
+    ProgramSource { uniforms: &[PAINT_UNIFORMS, &["below", "depth_and_id"]], ..DRAFT_PAINT };
 
 /// Drafts pick up no paint.
 const DRAFT_PAINT: ProgramSource<'static> =
@@ -103,7 +113,7 @@ const ENCODE_UNIFORMS: &[&str] = &["picture", "reference_color", "background", "
 const ENCODE: ProgramSource<'static> = ProgramSource {
     uniforms: &[
         ENCODE_UNIFORMS,
-        &["height", "soft_height", "canvas", "tone", "to_light", "canvas_axes", "canvas_origin"],
+        &["surface", "height", "soft_height", "canvas", "tone", "to_light", "canvas_axes", "canvas_origin"],
     ],
     ..DRAFT_ENCODE
 };

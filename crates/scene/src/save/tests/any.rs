@@ -212,15 +212,17 @@ fn any_style() -> impl Strategy<Value = Style> {
     let solver = prop_oneof![Just(Solver::Tangent), Just(Solver::Horn), Just(Solver::HornExact)];
     let canvas = prop_oneof![Just(Canvas::Linen), Just(Canvas::Board)];
     let follows = prop_oneof![Just(CanvasFollows::Picture), Just(CanvasFollows::Camera)];
-    let numbers = (number(), number(), number());
+    let samples = prop_oneof![Just(1u32), Just(2), Just(4)];
+    let numbers = (samples, number(), number(), number());
     let strokes = (solver, any::<bool>(), canvas, follows, numbers).prop_map(
-        |(solver, underpainting, canvas, canvas_follows, (weave, relief, varnish))| {
+        |(solver, underpainting, canvas, canvas_follows, (samples, weave, relief, varnish))| {
             Style::RotatingStrokes(RotatingStrokes {
                 solver,
                 underpainting,
                 canvas,
                 weave,
                 canvas_follows,
+                samples,
                 relief,
                 varnish,
             })

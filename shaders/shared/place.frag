@@ -1,4 +1,4 @@
-// Depth and body. Only the nearest surface is kept, so that one sees through the body only once.
+// Depth and body of a surface. Only the nearest surface is kept, so that one sees through a glowing body only once.
 in float depth_along_gaze;
 
 uniform float body_id;

@@ -1,0 +1,143 @@
+//! What is where in the picture, with several samples in each pixel: paint ends between pixels, and things that are thinner than
+//! a pixel do not come and go.
+
+use std::rc::Rc;
+
+use crate::body_program::BodyProgram;
+use crate::gl::{
+    Bound, DrawState, Filter, Format, Framebuffer, GlError, Gpu, Halt, Program, ProgramSource, Texture,
+    VertexArray, Vertices,
+};
+use crate::style_renderer::StyleInput;
+use crate::watch::Watch;
+
+use super::programs::FILES;
+
+/// Draws depth and body of every sample.
+pub(super) struct Coverage {
+    gpu: Gpu,
+    place: BodyProgram,
+    borders: Program,
+    screen: VertexArray,
+    targets: Option<Targets>,
+}
+
+struct Targets {
+    fine: Rc<Texture>,
+    surface: Rc<Texture>,
+    fine_pass: Framebuffer,
+    surface_pass: Framebuffer,
+}
+
+/// Depth and body id.
+#[derive(Clone)]
+pub(super) struct Covered {
+    /// Of every sample.
+    fine: Rc<Texture>,
+    /// Of every pixel; the id and half the share of the pixel that shows something else.
+    surface: Rc<Texture>,
+    /// How many samples a pixel has, a side.
+    samples: u32,
+}
+
+impl Covered {
+    /// Sets the uniforms `fine` and `samples`.
+    pub(super) fn set_samples<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
+        bound.texture("fine", &self.fine).set("samples", self.samples as i32)
+    }
+
+    /// Sets the uniform `surface`.
+    pub(super) fn set_surface<'a>(&self, bound: Bound<'a>) -> Bound<'a> {
+        bound.texture("surface", &self.surface)
+    }
+}
+
+impl Coverage {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, GlError> {
+        Ok(Self {
+            gpu: gpu.clone(),
+            place: BodyProgram::new(gpu, FILES, PLACE)?,
+            borders: Program::new(gpu, FILES, &BORDERS)?,
+            screen: VertexArray::empty(gpu)?,
+            targets: None,
+        })
+    }
+
+    /// Creates at once every program that is otherwise created when it is first needed.
+    pub(super) fn ready_all(&mut self) -> Result<(), GlError> {
+        self.place.ready_all()
+    }
+
+    /// Draws `samples` x `samples` samples for each pixel. With one, the reference picture has them already.
+    pub(super) fn draw(
+        &mut self,
+        input: &StyleInput<'_>,
+        samples: u32,
+        watch: &mut Watch<'_>,
+    ) -> Result<Covered, Halt> {
+        let coarse = &input.reference.depth_and_id;
+        if samples == 1 {
+            return Ok(Covered { fine: Rc::clone(coarse), surface: Rc::clone(coarse), samples });
+        }
+        let size_px = input.frame.size_px;
+        let fine_px = size_px.map(|side| side * samples);
+        let targets = match self.targets.take() {
+            Some(targets) if targets.has_sizes(size_px, fine_px) => targets,
+            _ => Targets::new(&self.gpu, size_px, fine_px)?,
+        };
+        let targets = self.targets.insert(targets);
+        self.place.prepare(input.frame)?;
+        let state = DrawState { depth_test: true, clear: Some([0.0; 4]), ..DrawState::default() };
+        self.gpu.begin_pass(&targets.fine_pass, state);
+        let view = &input.frame.view;
+        let visible = input.bodies.iter().enumerate().filter(|(_, drawn)| !drawn.body.hidden);
+        for (index, drawn) in visible {
+            for part in &drawn.mesh.parts {
+                let bound = self
+                    .place
+                    .bind(drawn.body, input.tiles)
+                    .set("view_from_world", view.view_from_world)
+                    .set("clip_from_view", view.clip_from_view)
+                    .set("body_id", (index + 1) as f32);
+                self.gpu.draw(bound, &drawn.mesh.array, part.vertices())?;
+            }
+        }
+        self.gpu.begin_pass(&targets.surface_pass, DrawState::default());
+        let covered =
+            Covered { fine: Rc::clone(&targets.fine), surface: Rc::clone(&targets.surface), samples };
+        let bound = covered.set_samples(self.borders.bind().texture("depth_and_id", coarse));
+        self.gpu.draw(bound, &self.screen, Vertices::Screen)?;
+        watch.passed("coverage")?;
+        Ok(covered)
+    }
+}
+
+impl Targets {
+    fn new(gpu: &Gpu, size_px: [u32; 2], fine_px: [u32; 2]) -> Result<Self, GlError> {
+        let target = |format: Format, size_px: [u32; 2]| {
+            Texture::target(gpu, format, size_px, Filter::Nearest).map(Rc::new)
+        };
+        let fine = target(Format::Rg32F, fine_px)?;
+        let surface = target(Format::Rg32F, size_px)?;
+        let depth = target(Format::Depth32F, fine_px)?;
+        Ok(Self {
+            fine_pass: Framebuffer::new(gpu, &[&fine], Some(&depth))?,
+            surface_pass: Framebuffer::new(gpu, &[&surface], None)?,
+            fine,
+            surface,
+        })
+    }
+
+    fn has_sizes(&self, size_px: [u32; 2], fine_px: [u32; 2]) -> bool {
+        self.surface.size_px() == size_px && self.fine.size_px() == fine_px
+    }
+}
+
+const PLACE: ProgramSource<'static> = ProgramSource::new(
+    "reference/surface.vert",
+    Some("shared/place.frag"),
+    &[&["view_from_world", "clip_from_view", "body_id"]],
+);
+
+const BORDERS: ProgramSource<'static> =
+    ProgramSource::screen("rotating_strokes/borders.frag", &[&["depth_and_id", "fine", "samples"]]);

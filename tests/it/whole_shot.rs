@@ -1,0 +1,212 @@
+//! Tests of what must be steady over a whole shot: chatter, steps and flicker are seen, boil keeps its limits, paint ends between
+//! pixels.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use impasto_gl_render::context::Driver;
+use impasto_gl_render::{ReferencePixels, Renderer};
+use impasto_measure::chatter::Chatter;
+use impasto_measure::flicker::{Along, Flicker};
+use impasto_measure::plane::Plane;
+use impasto_measure::steps::{Shown, Steps};
+use impasto_measure::strokes::{StrokeKey, StrokesByKey, strokes_by_key};
+use impasto_measure::versions::SceneVersion;
+use impasto_measure::warp::{correspondences, warp_error};
+use impasto_painting::frame::{Frame, Stroke};
+use impasto_painting::{FrameOptions, Painting, Rotation, prepare};
+use impasto_scene::document::{Edges, ObjectKey, Scene, Style};
+use impasto_scene::loaded::LoadedScene;
+use impasto_tests::pictures::renderer;
+use impasto_tests::shapes;
+
+const SIZE: [u32; 2] = [320, 180];
+
+/// A ball that turns by a degree a frame.
+fn ball(edit: impl FnOnce(&mut Scene)) -> Arc<LoadedScene> {
+    let mut scene = shapes::scene(vec![shapes::object("sphere", 12_000)]);
+    scene.timeline.last = 90;
+    scene.camera.keys = vec![shapes::camera_key(0.0, [0.0, 0.9, 3.4], [0.0; 3])];
+    let key = |frame: f64, y: f64| ObjectKey { rotation_deg: [12.0, y, 0.0], ..ObjectKey::at(frame) };
+    scene.objects[0].keys = vec![key(0.0, 0.0), key(90.0, 90.0)];
+    edit(&mut scene);
+    shapes::loaded(scene, [shapes::sphere(32, 16)])
+}
+
+fn painted(loaded: &LoadedScene, version: SceneVersion) -> Painting {
+    prepare(Arc::new(version.of(loaded, &[]))).unwrap()
+}
+
+struct Drawn {
+    frame: Frame,
+    luma: Plane,
+    strokes: StrokesByKey,
+    reference: ReferencePixels,
+}
+
+fn drawn(renderer: &mut Renderer, frame: Frame) -> Drawn {
+    let luma = Plane::luma(&renderer.render(&frame).unwrap());
+    let strokes = strokes_by_key(&frame, &renderer.resolved_strokes());
+    Drawn { luma, strokes, reference: renderer.read_reference(), frame }
+}
+
+/// Chatter in percent, steps, and flickering pixels in percent, of eight frames; `fault` may change the frames with odd numbers.
+fn found(painting: &Painting, fault: impl Fn(&mut Frame)) -> [f64; 3] {
+    let mut renderer = renderer(Driver::Egl);
+    let (mut chatter, mut steps, mut flicker) = (Chatter::default(), Steps::default(), Flicker::default());
+    let frames: Vec<Drawn> = (20..28)
+        .map(|number| {
+            let mut frame = painting.at(f64::from(number), &FrameOptions::new(SIZE));
+            if number % 2 == 1 {
+                fault(&mut frame);
+            }
+            drawn(&mut renderer, frame)
+        })
+        .collect();
+    for pair in frames.windows(2) {
+        let [before, after] = [0, 1].map(|at| Shown {
+            strokes: &pair[at].strokes,
+            reference: &pair[at].reference,
+            units_per_px_at_1: 0.003,
+        });
+        steps.add(0.0, before, after, SIZE);
+    }
+    for three in frames.windows(3) {
+        chatter.add(0.0, [0, 1, 2].map(|at| &three[at].strokes), f64::from(SIZE[1]));
+        let [before, after] = [0, 2].map(|at| {
+            let motion = renderer.motion(&three[1].frame, &three[at].frame).unwrap();
+            correspondences(&motion, &three[at].reference)
+        });
+        let lumas = [0, 1, 2].map(|at| three[at].luma.blurred_within(&three[at].reference.body_id, 1.0));
+        flicker.add(0.0, lumas.each_ref(), &Along { before: &before, after: &after });
+    }
+    assert!(chatter.whole().of > 5000 && flicker.pixels > 50_000);
+    let flickering = flicker.flickering as f64 / flicker.pixels as f64;
+    [100.0 * chatter.whole().share(), steps.count(), 100.0 * flickering]
+}
+
+#[test]
+fn chatter_steps_and_flicker_see_what_boils() {
+    let painting = painted(&ball(|_| ()), SceneVersion::Board);
+    let calm = found(&painting, |_| ());
+    assert!(calm[0] < 1.0 && calm[1] == 0.0 && calm[2] < 1.0, "{calm:?}");
+    // Light that comes and goes changes all colours to and fro, but no stroke.
+    let flashing = found(&painting, |frame| {
+        frame.lights.ambient_above *= 1.3;
+        frame.lights.ambient_below *= 1.3;
+        for sun in &mut frame.lights.suns {
+            sun.radiance *= 1.3;
+        }
+    });
+    assert!(flashing[0] > 20.0 && flashing[1] == 0.0 && flashing[2] > 20.0, "{flashing:?}");
+    // Every tenth stroke blinks.
+    let blinking = found(&painting, |frame| {
+        for stroke in frame.strokes.iter_mut().step_by(10) {
+            stroke.facing_fade = 0.0;
+        }
+    });
+    assert!(blinking[1] > 100.0 && blinking[2] > calm[2], "{blinking:?}");
+}
+
+#[test]
+fn fixed_angles_are_clearly_worse_over_several_frames() {
+    // The ball turns in the picture's plane, so its strokes do too.
+    let loaded = ball(|scene| {
+        let key = |frame: f64| ObjectKey { rotation_deg: [0.0, 0.0, frame], ..ObjectKey::at(frame) };
+        scene.objects[0].keys = vec![key(0.0), key(90.0)];
+        scene.strokes.color_jitter = Some(2.0);
+    });
+    let painting = painted(&loaded, SceneVersion::Unlit);
+    let mut renderer = renderer(Driver::Egl);
+    let mut error = |rotation: Rotation| {
+        let options = FrameOptions { rotation, ..FrameOptions::new(SIZE) };
+        let [now, then] = [20.0, 44.0].map(|at| drawn(&mut renderer, painting.at(at, &options)));
+        let motion = renderer.motion(&now.frame, &then.frame).unwrap();
+        let warp = warp_error(&now.luma, &then.luma, &correspondences(&motion, &then.reference));
+        assert!(warp.pixels > 5000);
+        warp.error
+    };
+    let (ours, fixed) = (error(Rotation::On), error(Rotation::Off));
+    assert!(ours <= 0.8 * fixed, "{ours} {fixed}");
+}
+
+fn by_key(painting: &Painting, frame: f64) -> BTreeMap<StrokeKey, Stroke> {
+    let frame = painting.at(frame, &FrameOptions::new(SIZE));
+    let keys = frame.layers.iter().flat_map(|run| {
+        (run.first as usize..(run.first + run.count) as usize).map(move |index| (run.kind, index))
+    });
+    keys.map(|(kind, index)| {
+        let stroke = frame.strokes[index];
+        (StrokeKey { body_id: stroke.body_id, kind, particle: frame.sources[index].particle }, stroke)
+    })
+    .collect()
+}
+
+#[test]
+fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
+    let still = |boil: Option<f64>| {
+        let loaded = ball(|scene| {
+            scene.objects[0].keys.clear();
+            scene.strokes.boil = boil;
+        });
+        prepare(loaded).unwrap()
+    };
+    let (calm, boiling) = (still(None), still(Some(0.6)));
+    let at = |frame: f64| by_key(&boiling, frame);
+    assert_eq!(at(4.0), at(5.0), "a drawing holds for two frames");
+    let (first, second, unmoved) = (at(5.0), at(6.0), by_key(&calm, 6.0));
+    let (mut moved, mut most_px) = (0, 0.0f32);
+    for (key, stroke) in &unmoved {
+        let (Some(before), Some(now)) = (first.get(key), second.get(key)) else { continue };
+        assert_eq!((now.supply_ln, now.facing_fade), (stroke.supply_ln, stroke.facing_fade));
+        let [dx, dy] = [0, 1].map(|axis| now.center_px[axis] - stroke.center_px[axis]);
+        most_px = most_px.max(dx.hypot(dy) / stroke.length_px);
+        moved += usize::from(before.center_px != now.center_px);
+    }
+    assert!(moved > 400 && first.len().abs_diff(unmoved.len()) < unmoved.len() / 20, "{moved}");
+    assert!(most_px > 0.02 && most_px < 0.5, "{most_px}");
+    // Measures leave it out.
+    let measured = painted(
+        &ball(|scene| {
+            scene.objects[0].keys.clear();
+            scene.strokes.boil = Some(0.6);
+        }),
+        SceneVersion::Body,
+    );
+    assert_eq!(by_key(&measured, 5.0), by_key(&measured, 6.0));
+}
+
+#[test]
+fn paint_covers_a_pixel_as_far_as_its_body_does() {
+    let mut renderer = renderer(Driver::Egl);
+    let mut partly_covered = |samples: u32| {
+        let loaded = ball(|scene| {
+            let Style::RotatingStrokes(style) = &mut scene.style else { panic!("strokes are the default") };
+            style.samples = samples;
+            scene.strokes.edges = Some(Edges::Clip);
+        });
+        let frame = prepare(loaded).unwrap().at(0.0, &FrameOptions::new(SIZE));
+        renderer.render(&frame).unwrap();
+        let (alpha, ids) = (renderer.read_paint(), renderer.read_reference().body_id);
+        let inside = alpha.iter().zip(&ids).filter(|(_, id)| **id > 0);
+        let (mut partly, mut whole) = (0, 0);
+        for (paint, _) in inside {
+            if paint[3] < 0.9 { partly += 1 } else { whole += 1 }
+        }
+        assert!(whole > 5000);
+        partly
+    };
+    let [one, two, four] = [1, 2, 4].map(&mut partly_covered);
+    assert!(two > one + 40 && four > one + 40, "{one} {two} {four}");
+}
+
+#[test]
+fn a_picture_that_is_too_large_for_its_samples_has_one() {
+    let loaded = ball(|_| ());
+    let mut frame = prepare(loaded).unwrap().at(0.0, &FrameOptions::new(SIZE));
+    frame.finish.samples = 2;
+    assert_eq!(frame.samples(16_384), 2);
+    assert_eq!(frame.samples(600), 1);
+    frame.size_px = [8192, 8192];
+    assert_eq!(frame.samples(16_384), 1);
+}
