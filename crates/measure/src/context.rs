@@ -12,7 +12,7 @@ use impasto_scene::motion::{self, CameraPose};
 
 use crate::options::{MeasureError, MeasureOptions};
 use crate::plane::Plane;
-use crate::protocols::WholeShot;
+use crate::shot::WholeShot;
 use crate::strokes::{StrokesByKey, strokes_by_key};
 use crate::versions::SceneVersion;
 
@@ -45,7 +45,8 @@ pub struct MeasureContext<'a> {
     preparer: Preparer,
     paintings: HashMap<SceneVersion, Rc<Painting>>,
     drawn: HashMap<(SceneVersion, RotationKey, u64), Rc<DrawnFrame>>,
-    whole_shot: Option<Rc<WholeShot>>,
+    /// What a pass over every frame of the shot found, once it was taken.
+    pub whole_shot: Option<Rc<WholeShot>>,
 }
 
 /// A [`Rotation`] as a number, for the keys of cached frames.
@@ -167,19 +168,6 @@ impl<'a> MeasureContext<'a> {
         }
         let painting = self.painting(version)?;
         Ok(Rc::new(self.draw(painting.at(frame, &self.frame_options(rotation)))?))
-    }
-
-    /// What a pass over every frame of the shot found; taken once.
-    ///
-    /// # Errors
-    /// As [`MeasureContext::drawn_frame`].
-    pub fn whole_shot(&mut self) -> Result<Rc<WholeShot>, MeasureError> {
-        if let Some(shot) = &self.whole_shot {
-            return Ok(Rc::clone(shot));
-        }
-        let shot = Rc::new(WholeShot::of(self)?);
-        self.whole_shot = Some(Rc::clone(&shot));
-        Ok(shot)
     }
 
     /// The reference pose in this version, drawn as another camera sees it.

@@ -27,6 +27,7 @@ pub mod report;
 pub mod reveal;
 pub mod roll;
 pub mod sheet;
+pub mod shot;
 pub mod shower_door;
 pub mod steps;
 pub mod strokes;

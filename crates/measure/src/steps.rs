@@ -79,21 +79,22 @@ impl Steps {
                 self.worst = Some(Place { frame, at_px, stroke: Some(*key), amount: step });
             }
             if key.kind == LayerKind::Lights {
-                self.live(key, alpha(then) > LEAST_ALPHA, alpha(now) > LEAST_ALPHA);
+                self.live(key, ends.map(|stroke| alpha(stroke) > LEAST_ALPHA));
             }
         }
     }
 
-    fn live(&mut self, key: &StrokeKey, was: bool, is: bool) {
-        match (was, is) {
-            (false, true) => _ = self.living.insert(*key, 1),
-            (true, true) => {
+    /// Counts the frames of a highlight; the pair says whether it is there before and after.
+    fn live(&mut self, key: &StrokeKey, there: [bool; 2]) {
+        match there {
+            [false, true] => _ = self.living.insert(*key, 1),
+            [true, true] => {
                 if let Some(frames) = self.living.get_mut(key) {
                     *frames += 1;
                 }
             }
-            (true, false) => self.lives.extend(self.living.remove(key).map(|frames| frames as f64)),
-            (false, false) => {}
+            [true, false] => self.lives.extend(self.living.remove(key).map(|frames| frames as f64)),
+            [false, false] => {}
         }
     }
 

@@ -16,8 +16,6 @@ mod turns;
 mod warp;
 mod whole_shot;
 
-pub use whole_shot::WholeShot;
-
 use crate::context::MeasureContext;
 use crate::metric::Metric;
 use crate::options::MeasureError;

@@ -5,14 +5,15 @@ use std::rc::Rc;
 use impasto_painting::Rotation;
 
 use super::ONE_FRAME;
-use crate::chatter::{Chatter, Place, Share};
+use crate::chatter::{Place, Share};
 use crate::context::{DrawnFrame, MeasureContext};
 use crate::figures::Spread;
-use crate::flicker::{Along, Flicker, SEEN};
+use crate::flicker::{Along, SEEN};
 use crate::metric::Metric;
 use crate::options::MeasureError;
 use crate::report::{Counts, LEAST_STROKES, Reading, Row, Series, Verdict};
-use crate::steps::{Shown, Steps};
+use crate::shot::WholeShot;
+use crate::steps::Shown;
 use crate::versions::SceneVersion;
 use crate::warp::correspondences;
 use impasto_painting::frame::LayerKind;
@@ -24,66 +25,49 @@ const BLUR_PX: f64 = 1.0;
 /// How many of the worst coats are named.
 const NAMED: usize = 3;
 
-/// What one pass over the shot found.
-#[derive(Default)]
-pub struct WholeShot {
-    chatter: Chatter,
-    steps: Steps,
-    flicker: Flicker,
-    frames: usize,
-    steps_by_frame: Vec<(f64, f64)>,
-    chatter_by_frame: Vec<(f64, f64)>,
-    flicker_by_frame: Vec<(f64, f64)>,
-}
-
-impl WholeShot {
-    /// Draws every frame of the shot once and looks at each with its neighbours.
-    ///
-    /// # Errors
-    /// When a frame cannot be prepared or drawn.
-    pub fn of(context: &mut MeasureContext<'_>) -> Result<Self, MeasureError> {
-        let timeline = &context.loaded.scene.timeline;
-        let (first, last) = (timeline.first, timeline.last);
-        let mut found = Self::default();
-        let mut drawn: Vec<Rc<DrawnFrame>> = Vec::new();
-        let height_px = f64::from(context.size_px[1]);
-        for frame in first..=last {
-            let frame = frame as f64;
-            drawn.push(context.drawn_once(SceneVersion::Board, frame, Rotation::On)?);
-            found.frames += 1;
-            if drawn.len() > 3 {
-                drawn.remove(0);
-            }
-            if let [.., before, now] = drawn.as_slice() {
-                let steps = found.steps.count();
-                let [before, now] = [before, now].map(|drawn| shown(drawn));
-                found.steps.add(frame, before, now, context.size_px);
-                found.steps_by_frame.push((frame, found.steps.count() - steps));
-            }
-            let [before, now, after] = drawn.as_slice() else { continue };
-            let middle = frame - 1.0;
-            let chatter = found.chatter.whole();
-            let strokes = [before, now, after].map(|drawn| &drawn.strokes);
-            found.chatter.add(middle, strokes, height_px);
-            let all = found.chatter.whole();
-            let share = (all.found - chatter.found) / (all.of - chatter.of).max(1) as f64;
-            found.chatter_by_frame.push((middle, 100.0 * share));
-            let places = [before, after].map(|other| -> Result<_, MeasureError> {
-                let motion = context.motion(&now.frame, &other.frame)?;
-                Ok(correspondences(&motion, &other.reference))
-            });
-            let [before_at, after_at] = places;
-            let along = Along { before: &before_at?, after: &after_at? };
-            let flickering = (found.flicker.flickering, found.flicker.pixels);
-            let lumas = [before, now, after]
-                .map(|drawn| drawn.luma.blurred_within(&drawn.reference.body_id, BLUR_PX));
-            found.flicker.add(middle, lumas.each_ref(), &along);
-            let pixels = (found.flicker.pixels - flickering.1).max(1);
-            let share = (found.flicker.flickering - flickering.0) as f64 / pixels as f64;
-            found.flicker_by_frame.push((middle, 100.0 * share));
+/// Draws every frame of the shot once and looks at each with its neighbours.
+fn drawn_through(context: &mut MeasureContext<'_>) -> Result<WholeShot, MeasureError> {
+    let timeline = &context.loaded.scene.timeline;
+    let (first, last) = (timeline.first, timeline.last);
+    let mut found = WholeShot::default();
+    let mut drawn: Vec<Rc<DrawnFrame>> = Vec::new();
+    let height_px = f64::from(context.size_px[1]);
+    for frame in first..=last {
+        let frame = frame as f64;
+        drawn.push(context.drawn_once(SceneVersion::Board, frame, Rotation::On)?);
+        found.frames += 1;
+        if drawn.len() > 3 {
+            drawn.remove(0);
         }
-        Ok(found)
+        if let [.., before, now] = drawn.as_slice() {
+            let steps = found.steps.count();
+            let [before, now] = [before, now].map(|drawn| shown(drawn));
+            found.steps.add(frame, before, now, context.size_px);
+            found.steps_by_frame.push((frame, found.steps.count() - steps));
+        }
+        let [before, now, after] = drawn.as_slice() else { continue };
+        let middle = frame - 1.0;
+        let chatter = found.chatter.whole();
+        let strokes = [before, now, after].map(|drawn| &drawn.strokes);
+        found.chatter.add(middle, strokes, height_px);
+        let all = found.chatter.whole();
+        let share = (all.found - chatter.found) / (all.of - chatter.of).max(1) as f64;
+        found.chatter_by_frame.push((middle, 100.0 * share));
+        let places = [before, after].map(|other| -> Result<_, MeasureError> {
+            let motion = context.motion(&now.frame, &other.frame)?;
+            Ok(correspondences(&motion, &other.reference))
+        });
+        let [before_at, after_at] = places;
+        let along = Along { before: &before_at?, after: &after_at? };
+        let flickering = (found.flicker.flickering, found.flicker.pixels);
+        let lumas =
+            [before, now, after].map(|drawn| drawn.luma.blurred_within(&drawn.reference.body_id, BLUR_PX));
+        found.flicker.add(middle, lumas.each_ref(), &along);
+        let pixels = (found.flicker.pixels - flickering.1).max(1);
+        let share = (found.flicker.flickering - flickering.0) as f64 / pixels as f64;
+        found.flicker_by_frame.push((middle, 100.0 * share));
     }
+    Ok(found)
 }
 
 fn shown(drawn: &DrawnFrame) -> Shown<'_> {
@@ -109,7 +93,14 @@ fn place_words(context: &MeasureContext<'_>, place: Place) -> String {
 
 /// `None` where the shot is too short.
 fn whole(context: &mut MeasureContext<'_>) -> Result<Option<Rc<WholeShot>>, MeasureError> {
-    let shot = context.whole_shot()?;
+    let shot = match &context.whole_shot {
+        Some(shot) => Rc::clone(shot),
+        None => {
+            let shot = Rc::new(drawn_through(context)?);
+            context.whole_shot = Some(Rc::clone(&shot));
+            shot
+        }
+    };
     Ok((shot.frames >= 3).then_some(shot))
 }
 

@@ -1,0 +1,24 @@
+//! What a pass over every frame of a shot finds: chatter, steps and flicker, as a whole and frame by frame.
+
+use crate::chatter::Chatter;
+use crate::flicker::Flicker;
+use crate::steps::Steps;
+
+/// What was found on a whole shot.
+#[derive(Clone, Debug, Default)]
+pub struct WholeShot {
+    /// M15.
+    pub chatter: Chatter,
+    /// M16.
+    pub steps: Steps,
+    /// M17.
+    pub flicker: Flicker,
+    /// How many frames were drawn.
+    pub frames: usize,
+    /// Frames, each with its strokes that chatter, percent.
+    pub chatter_by_frame: Vec<(f64, f64)>,
+    /// Frames, each with its number of steps.
+    pub steps_by_frame: Vec<(f64, f64)>,
+    /// Frames, each with its pixels that flicker, percent.
+    pub flicker_by_frame: Vec<(f64, f64)>,
+}
