@@ -1,5 +1,5 @@
 // How a stroke's colour is mixed from the colour under it. Colours are Oklab; an entry of `mixing` that is 0 changes nothing.
-uniform sampler2D palettes;      // a row each: pigments in Oklab, w 1 where there is one
+uniform sampler2D palettes;      // a row each: pigments in Oklab, w how far colours keep to them, 0 past the last
 
 const uint ANY_COLOR = 255u;
 
@@ -79,7 +79,8 @@ vec3 from_palette(vec3 lab, uint palette) {
         sum += texelFetch(palettes, ivec2(index, int(palette)), 0).yz * share;
         weight += share;
     }
-    return vec3(lab.x, sum / max(weight, 1e-6));
+    float mix_in = texelFetch(palettes, ivec2(0, int(palette)), 0).w;
+    return vec3(lab.x, mix(lab.yz, sum / max(weight, 1e-6), mix_in));
 }
 
 // `wide` is the mean over a wider neighbourhood, `drift` slow noise over the surface.

@@ -60,7 +60,7 @@ const float WHOLE = 0.75;
 // As in `detail.frag`.
 const vec2 LEAP = vec2(0.01, 0.03);
 
-// How much of a tap something hides that stands before the stroke's own plane there.
+// How much of a tap is hidden by the stroke's own body, or by others, where that stands before the stroke's own plane.
 float hidden_at(vec2 offset_px, float bias, bool by_own) {
     vec2 tap_px = clamp(place.xy + offset_px, vec2(0.5), size_px - 0.5);
     vec2 there = surface_at(tap_px);
@@ -69,7 +69,8 @@ float hidden_at(vec2 offset_px, float bias, bool by_own) {
 }
 
 // How much of the stroke is there, by what hides it. Another body hides it only as a whole: where it covers a part, the paint pass
-// ends the paint. Its own body may bend round behind itself, so there what hides its middle counts.
+// ends the paint. Its own body may bend round behind itself, so there what hides its middle counts; and so it does for all that
+// hides a stroke whose paint ends nowhere.
 float seen(mat2 turn) {
     float unit = units_per_px(place.z);
     float slant = max(abs((mat3(view_from_world) * normal_and_bow.xyz).z), 0.2);
@@ -90,7 +91,9 @@ float seen(mat2 turn) {
         int index = tap * STEP;
         float angle = (float(index) + (index < 8 ? 0.0 : 0.5)) * 0.78539816;
         float ring_px = index < 8 ? radius_px : index < 16 ? 0.55 * radius_px : 0.0;
-        by_own += hidden_at(turn * vec2(cos(angle), sin(angle)) * ring_px, bias, true);
+        vec2 offset_px = turn * vec2(cos(angle), sin(angle)) * ring_px;
+        by_own += hidden_at(offset_px, bias, true);
+        if (reach.x >= FREE) by_own += hidden_at(offset_px, bias, false);
     }
     float by_others = 0.0;
     for (int tap = 0; tap < GRID.x * GRID.y; tap++) {

@@ -11,7 +11,7 @@ uniform mat4 view_from_world;
 uniform sampler2D depth_and_id;
 uniform sampler2D shares;        // of each body: how much of its ink is laid
 uniform sampler2D soft;          // silhouette, interior, seal red, body
-uniform sampler2D pigments;      // a row for each palette, display values, w 1 where there is one
+uniform sampler2D pigments;      // a row for each palette, display values, w how far strokes keep to them, 0 past the last
 uniform vec3 ink;
 uniform vec3 seal;
 uniform int kind;                // layer of paint
@@ -104,11 +104,13 @@ vec3 ink_round(vec2 along) {
 
 vec3 pigment_of(float red) {
     uint palette = bytes.y >> 24;
-    if (palette == ANY_COLOR) return mix(ink, seal, red);
+    vec3 bare = mix(ink, seal, red);
+    if (palette == ANY_COLOR) return bare;
     int count = 0;
     while (count < textureSize(pigments, 0).x && texelFetch(pigments, ivec2(count, int(palette)), 0).w > 0.0) count++;
     int chosen = int(scramble(marks.x ^ 77u) % uint(max(count, 1)));
-    return count > 0 ? texelFetch(pigments, ivec2(chosen, int(palette)), 0).rgb : ink;
+    vec4 pigment = texelFetch(pigments, ivec2(chosen, int(palette)), 0);
+    return count > 0 ? mix(bare, pigment.rgb, pigment.w) : ink;
 }
 
 void main() {

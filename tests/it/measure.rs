@@ -14,6 +14,8 @@
 //! - M12: speed.
 //! - M13: the same frame is the same picture.
 //! - M14: density of strokes.
+//!
+//! M15 to M17, over whole shots, are in `whole_shot.rs`.
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_6;

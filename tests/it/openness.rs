@@ -21,15 +21,8 @@ fn light_in_a_canyon(renderer: &mut Renderer, half_width: f64) -> f64 {
     scene.style = Style::Reference;
     scene.strokes.layers = shapes::body_layer_alone();
     scene.camera.lens = Lens::Orthographic { height: HEIGHT, near: 0.1, far: 20.0 };
-    scene.lights = vec![Light {
-        name: "sky".to_owned(),
-        kind: LightKind::Ambient,
-        direction: None,
-        position: None,
-        color: Color::white(),
-        ground: Some(Color::white()),
-        intensity: 1.0,
-    }];
+    scene.lights =
+        vec![Light { ground: Some(Color::white()), intensity: 1.0, ..Light::new("sky", LightKind::Ambient) }];
     const BLOCK: f64 = 0.4;
     let beside = half_width * RADIUS + BLOCK;
     scene.objects[0].keys = vec![ObjectKey { scale: 1.5, ..ObjectKey::at(0.0) }];

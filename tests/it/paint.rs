@@ -282,13 +282,10 @@ fn paint_ends_at_a_crease() {
     let mut scene = shapes::scene(vec![shapes::object("cube", 6000)]);
     scene.camera.keys[0] = shapes::camera_key(0.0, [0.0, 3.6, 4.4], [0.0; 3]);
     scene.lights = vec![Light {
-        name: "sun".to_owned(),
-        kind: LightKind::Sun,
         direction: Some([0.0, -1.0, -0.12]),
-        position: None,
         color: Color::default(),
-        ground: None,
         intensity: 2.0,
+        ..Light::new("sun", LightKind::Sun)
     }];
     scene.regions[0].direction = Direction::Angle(90.0);
     (scene.strokes.length_px, scene.strokes.width_px) = (Some(160.0), Some(24.0));

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 
 use impasto_painting::{Frame, FrameOptions, Painting, PrepareError, PrepareOptions, Preparer, prepare};
 use impasto_scene::document::{
-    Bend, Color, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector,
-    Solver, Style,
+    Bend, Dab, Direction, Ease, Edges, Light, LightKind, ObjectKey, Region, Scene, Seam, Selector, Solver,
+    Style,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_tests::gestures::{camera, drag};
@@ -87,13 +87,9 @@ fn edits() -> Vec<Edit> {
         }),
         edit("light", |scene| {
             scene.lights.push(Light {
-                name: "sun".into(),
-                kind: LightKind::Sun,
                 direction: Some([0.3, -1.0, -0.2]),
-                position: None,
-                color: Color::white(),
-                ground: None,
                 intensity: 2.0,
+                ..Light::new("sun", LightKind::Sun)
             });
         }),
         edit("finish", |scene| {

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use impasto_core::presence;
 use impasto_gl_render::context::Driver;
 use impasto_gl_render::{ReferencePixels, Renderer};
 use impasto_measure::chatter::Chatter;
@@ -13,9 +14,12 @@ use impasto_measure::steps::{Shown, Steps};
 use impasto_measure::strokes::{StrokeKey, StrokesByKey, strokes_by_key};
 use impasto_measure::versions::SceneVersion;
 use impasto_measure::warp::{correspondences, warp_error};
+use impasto_painting::frame::LayerKind;
 use impasto_painting::frame::{Frame, Stroke};
 use impasto_painting::{FrameOptions, Painting, Rotation, prepare};
-use impasto_scene::document::{Edges, ObjectKey, Scene, Style};
+use impasto_scene::document::{
+    BackgroundKey, Color, Ease, Edges, Light, LightKey, LightKind, ObjectKey, Scene, StrokesKey, Style,
+};
 use impasto_scene::loaded::LoadedScene;
 use impasto_tests::pictures::renderer;
 use impasto_tests::shapes;
@@ -174,6 +178,73 @@ fn boil_lays_strokes_anew_on_twos_and_lets_none_come_or_go() {
         SceneVersion::Body,
     );
     assert_eq!(by_key(&measured, 5.0), by_key(&measured, 6.0));
+}
+
+#[test]
+fn keys_of_strokes_let_them_come_and_go_by_rank_and_none_pops() {
+    let loaded = ball(|scene| {
+        scene.objects[0].keys.clear();
+        scene.objects[0].particles = None;
+        let small = StrokesKey { size: 0.5, ..StrokesKey::at(24.0) };
+        scene.strokes.keys = vec![StrokesKey { ease: Ease::Smooth, ..StrokesKey::at(0.0) }, small];
+    });
+    let painting = prepare(loaded).unwrap();
+    let frames: Vec<_> = (0..=24).map(|frame| by_key(&painting, f64::from(frame))).collect();
+    let presence = |strokes: &BTreeMap<StrokeKey, Stroke>, key: &StrokeKey| {
+        strokes.get(key).map_or(0.0, |stroke| stroke.presence())
+    };
+    let mut largest_step = 0.0f32;
+    for pair in frames.windows(2) {
+        for key in pair[0].keys().chain(pair[1].keys()) {
+            largest_step = largest_step.max((presence(&pair[1], key) - presence(&pair[0], key)).abs());
+        }
+    }
+    assert!(largest_step < 0.35, "{largest_step}");
+    // Half as long and half as wide: four times as many, and no place has fewer than it wants.
+    let bodies = |strokes: &BTreeMap<StrokeKey, Stroke>| -> f32 {
+        let of_body = strokes.iter().filter(|(key, _)| key.kind == LayerKind::Body);
+        of_body.map(|(_, stroke)| presence::of_supply(stroke.supply_ln)).sum()
+    };
+    let times = bodies(&frames[24]) / bodies(&frames[0]);
+    assert!((times - 4.0).abs() < 0.4, "{times}");
+    let (key, before) = frames[0].iter().find(|(key, _)| frames[24].contains_key(key)).unwrap();
+    assert_eq!(frames[24][key].angle_rad, before.angle_rad);
+}
+
+#[test]
+fn light_background_and_palette_follow_their_keys() {
+    let loaded = ball(|scene| {
+        let hot = LightKey { intensity: Some(8.0), ..LightKey::at(10.0) };
+        let sun = Light { direction: Some([0.0, -1.0, 0.0]), ..Light::new("sun", LightKind::Sun) };
+        scene.lights =
+            vec![Light { keys: vec![LightKey::at(0.0), hot], ..sun }, Light::new("sky", LightKind::Ambient)];
+        let key = |frame, color| BackgroundKey { frame, color, ease: Ease::Linear };
+        scene.background_keys = vec![key(0.0, Color([0.0; 3])), key(10.0, Color::white())];
+        scene.strokes.palette = Some(vec![Color([1.0, 0.0, 0.0])]);
+        scene.strokes.keys =
+            vec![StrokesKey { palette_mix: 0.0, ..StrokesKey::at(0.0) }, StrokesKey::at(10.0)];
+    });
+    let painting = prepare(loaded).unwrap();
+    let at = |frame: f64| painting.at(frame, &FrameOptions::new(SIZE));
+    let [start, middle] = [at(0.0), at(5.0)];
+    let sun = |frame: &Frame| frame.lights.suns[0].radiance.x;
+    assert!((sun(&middle) / sun(&start) - 4.5).abs() < 1e-5);
+    assert_eq!(start.background, Some([0.0; 3]));
+    assert!((middle.background.unwrap()[1] - 0.5).abs() < 1e-5);
+    assert_eq!((start.palettes[0].mix, middle.palettes[0].mix), (0.0, 0.5));
+    // The picture follows: red paint comes with the palette.
+    let redness = |frame: &Frame| {
+        let picture = renderer(Driver::Egl).render(frame).unwrap();
+        let [mut red, mut green] = [0.0, 0.0];
+        for pixel in picture.rgba8.chunks_exact(4) {
+            red += f64::from(pixel[0]);
+            green += f64::from(pixel[1]);
+        }
+        red / green
+    };
+    let same = Frame { lights: start.lights.clone(), background: start.background, ..at(10.0) };
+    let [bare, painted] = [&start, &same].map(redness);
+    assert!(painted > 1.15 * bare, "{bare} {painted}");
 }
 
 #[test]

@@ -136,6 +136,7 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         size: (640, 360),
         seed: 7,
         background: Color::default(),
+        background_keys: Vec::new(),
         timeline: Timeline { fps: 24.0, first: 0, last: 0 },
         reference: Reference::Frame(0),
         further_references: Vec::new(),

@@ -107,6 +107,7 @@ pub(crate) fn head(scene: &Scene) -> Scene {
         size: scene.size,
         seed: scene.seed,
         background: scene.background,
+        background_keys: scene.background_keys.clone(),
         timeline: scene.timeline.clone(),
         reference: scene.reference.clone(),
         further_references: scene.further_references.clone(),

@@ -3,6 +3,7 @@
 mod arrange;
 mod direction;
 mod edit;
+mod keys;
 mod region;
 mod scene;
 mod time;
@@ -13,9 +14,10 @@ use impasto_scene::loaded::LoadedScene;
 pub use arrange::{Arrange, PoseField, Shift};
 pub use direction::{Directions, Gesture, GuideSettings, RegionTarget};
 pub use edit::Edit;
+pub use keys::{KeyOf, KeyedValue, set_light, strokes_at};
 pub use region::{Regions, StrokeChange, StrokesOf};
 pub use scene::SceneEdit;
-pub use time::{KeyOf, Pose, Time, ease_name};
+pub use time::{Pose, Time, ease_name};
 
 use crate::refusal::Refusal;
 use crate::selection::Selection;

@@ -454,7 +454,7 @@ impl Editor {
         if self.document.scene().objects.is_empty() {
             return "Drop an OBJ or a scene anywhere in the window".to_owned();
         }
-        let light = self.active_light().map(|(light, _)| light.name.clone());
+        let light = self.active_light().map(|place| place.light.name);
         let object = || Some(self.document.shown().scene.objects[self.active_object()?].name.clone());
         let object = light.or_else(object);
         let object = object.as_deref().unwrap_or("an object");

@@ -67,7 +67,13 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         3 => Item::Guide(of_guide.0.clone(), of_guide.1),
         _ => Item::Object(object.clone()),
     };
-    let key_of = if other % 3 == 0 { KeyOf::Camera } else { KeyOf::Object(object.clone()) };
+    let key_of = match other % 6 {
+        0 => KeyOf::Camera,
+        1 => KeyOf::Light(light.clone()),
+        2 => KeyOf::Background,
+        3 => KeyOf::Strokes(StrokesOf::Region(region.clone())),
+        _ => KeyOf::Object(object.clone()),
+    };
     let frame = f64::from(other % 24);
     let of = if other % 5 == 0 { StrokesOf::Scene } else { StrokesOf::Region(region.clone()) };
     let field = &STROKE_NUMBERS[usize::from(other) % STROKE_NUMBERS.len()];

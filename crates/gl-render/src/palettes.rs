@@ -7,8 +7,11 @@ use crate::gl::{Format, GlError, Gpu, Texture};
 /// Texels in a row: the most pigments that a palette has.
 const PIGMENTS: usize = 16;
 
+/// Alpha of a palette that nothing keeps to; 0 would mean that there is no pigment.
+const LEAST_MIX: f32 = 1e-3;
+
 /// A texture with a row for each palette of a frame, or one empty row if it has none. `encode` converts the linear
-/// colours. Alpha is 1 for a pigment and 0 past the last one.
+/// colours. Alpha is how far colours keep to the palette, and 0 past the last pigment.
 pub(crate) fn palette_texture(
     gpu: &Gpu,
     frame: &Frame,
@@ -16,9 +19,10 @@ pub(crate) fn palette_texture(
 ) -> Result<Texture, GlError> {
     let mut texels: Vec<[f32; 4]> = Vec::new();
     for palette in frame.palettes.iter() {
-        texels.extend(palette.iter().take(PIGMENTS).map(|&linear| {
+        let mix = palette.mix.clamp(LEAST_MIX, 1.0);
+        texels.extend(palette.pigments.iter().take(PIGMENTS).map(|&linear| {
             let [a, b, c] = encode(linear);
-            [a, b, c, 1.0]
+            [a, b, c, mix]
         }));
         texels.resize(texels.len().next_multiple_of(PIGMENTS), [0.0; 4]);
     }

@@ -108,25 +108,13 @@ pub fn of_moving_bodies(before: &StrokesByKey, after: &StrokesByKey) -> [Strokes
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::strokes::a_stroke;
     use impasto_painting::frame::LayerKind;
 
     fn strokes(alphas: &[(u32, f64, [f64; 2])]) -> StrokesByKey {
         let stroke = |&(particle, alpha, center_px): &(u32, f64, [f64; 2])| {
             let key = StrokeKey { body_id: 1, kind: LayerKind::Body, particle };
-            let seen = MeasuredStroke {
-                center_px,
-                particle_px: center_px,
-                angle_rad: 0.0,
-                length_px: 10.0,
-                width_px: 4.0,
-                alpha,
-                luma: 0.5,
-                depth: 1.0,
-                presence: alpha,
-                facing: 1.0,
-                region: 0,
-            };
-            (key, seen)
+            (key, a_stroke(center_px, alpha, 0.5))
         };
         alphas.iter().map(stroke).collect()
     }

@@ -11,8 +11,8 @@ use impasto_scene::presets::{LayerKind, PAPER_PRESET};
 
 use crate::cameras;
 
-/// A version of a scene. None but the first boils: what changes on purpose is no fault. *On a board* means on a smooth canvas: the texture of other canvases stands still on the
-/// picture by design, which would disturb measurements.
+/// A version of a scene. None but the first boils: what changes on purpose is no fault. *On a board* means on a smooth canvas: the
+/// texture of other canvases stands still on the picture by design, which would disturb measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SceneVersion {
     /// The scene as it is.
@@ -31,7 +31,7 @@ pub enum SceneVersion {
     NoContour(TurnSolver),
     /// The body layer alone, with everything that the scene states for it.
     Body,
-    /// As `Body`, but with strokes of one size: no random variation.
+    /// As `Body`, but with strokes of one size: no random variation, and none over time.
     EqualSizes,
     /// As `NoContour`, but without random turns and without second directions; objects as in `Orbit`.
     NoChance(TurnSolver),
@@ -91,6 +91,7 @@ impl SceneVersion {
             Self::EqualSizes => {
                 body_alone(scene);
                 each_settings(scene, |strokes| strokes.size_jitter = Some(0.0));
+                each_settings(scene, |strokes| strokes.keys.clear());
             }
             Self::NoChance(solver) => {
                 body_alone(scene);

@@ -35,8 +35,8 @@ impl Painting {
             size_px: options.size_px,
             px_scale: self.px_scale(options),
             view: view.frame_view(),
-            background: (!options.transparent).then(|| lights::linear(scene.background)),
-            lights: lights::resolve(scene, self.shadow_bounds),
+            background: (!options.transparent).then(|| lights::linear(motion::background_at(scene, frame))),
+            lights: lights::resolve(scene, frame, self.shadow_bounds),
             bodies: self
                 .bodies
                 .iter()
@@ -55,7 +55,7 @@ impl Painting {
             sources: Vec::new(),
             layers: Vec::new(),
             brushes: Arc::clone(&self.brushes),
-            palettes: Arc::clone(&self.palettes),
+            palettes: self.palettes_at(frame),
             finish: self.finish.at(&view, f64::from(options.shot_height_px())),
             style: self.style.clone(),
             quality: options.quality,

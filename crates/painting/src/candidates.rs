@@ -81,7 +81,7 @@ impl PaintingView<'_> {
         let (mut most_reach_px, mut most_per_area) = (0.0f32, 0.0f32);
         for &rule in coat.coat.used.iter() {
             let Some(bound) = &coat.presence_bounds[usize::from(rule)] else { continue };
-            let follows = self.painting.rules[usize::from(rule)].strokes.size_follow > 0.0;
+            let follows = self.strokes_of(rule).size_follow > 0.0;
             let most_growth = if follows { MOST_GROWTH } else { 1.0 };
             most_reach_px = most_reach_px.max(bound.reach_px * most_growth);
             most_per_area =
@@ -132,7 +132,7 @@ impl PaintingView<'_> {
         let &Candidate { entry, ref solved, region, part, .. } = candidate;
         let (coat, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
         let Some(bound) = &coat.presence_bounds[usize::from(region)] else { return false };
-        let reach = bound.reach_px * coat.growth(index, self.painting, self.px_scale);
+        let reach = bound.reach_px * coat.growth(index, self);
         solved.area_px > 0.0
             && solved.area_px * bound.most_per_area[part] > index as f32
             && self.is_between(solved.depth)

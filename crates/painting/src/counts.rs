@@ -21,8 +21,8 @@ pub(crate) struct CountInputs {
     regions: Arc<BodyRegions>,
     caps: Vec<Cap>,
     sightings: Vec<Sighting>,
-    /// For each rule and layer its length, its width and its coverage.
-    layers: Vec<[[f32; 3]; LAYERS]>,
+    /// For each rule, at each moment of its keys: the length, the width and the coverage of each layer.
+    layers: Vec<Vec<[[f32; 3]; LAYERS]>>,
     /// For each rule how far strokes fit the form.
     fits: Vec<f32>,
     left_out: [bool; LAYERS],
@@ -45,15 +45,21 @@ impl PartialEq for CountInputs {
 
 impl CountInputs {
     pub(crate) fn new(context: &Context<'_>, object: ObjectInputs<'_>, surface: Arc<BodySurface>) -> Self {
-        let mut layers = vec![[[0.0; 3]; LAYERS]; context.rules.len()];
+        let mut layers = vec![Vec::new(); context.rules.len()];
         for &rule in object.used.iter() {
-            layers[usize::from(rule)] = LayerKind::ALL.map(|kind| {
-                let layer = context.rules[usize::from(rule)].strokes.layer_of(kind);
-                [layer.length_px, layer.width_px, layer.coverage]
-            });
+            let strokes = &context.rules[usize::from(rule)].strokes;
+            let at = |frame: f64| {
+                let strokes = strokes.at(frame);
+                LayerKind::ALL.map(|kind| {
+                    let layer = strokes.layer_of(kind);
+                    [layer.length_px, layer.width_px, layer.coverage]
+                })
+            };
+            layers[usize::from(rule)] = strokes.moments().into_iter().map(at).collect();
         }
         let has_no_paint = |kind: LayerKind| {
-            object.used.iter().all(|&rule| layers[usize::from(rule)][kind as usize][2] <= 0.0)
+            let mut moments = object.used.iter().flat_map(|&rule| &layers[usize::from(rule)]);
+            moments.all(|layers| layers[kind as usize][2] <= 0.0)
         };
         let left_out = LayerKind::ALL.map(|kind| {
             kind == LayerKind::Underpainting && !context.underpainting
@@ -81,14 +87,17 @@ impl CountInputs {
                 let form = parts.form.at(center.as_vec3(), normal.as_vec3());
                 let mut densest = [0.0f32; LAYERS];
                 for rule in self.regions.on_triangle(surface.mesh(), triangle) {
+                    let moments = &self.layers[usize::from(rule)];
                     for (kind, densest) in
                         densest.iter_mut().enumerate().filter(|(kind, _)| !self.left_out[*kind])
                     {
-                        let [length_px, width_px, coverage] = self.layers[usize::from(rule)][kind];
                         let fit = fit_of(LayerKind::ALL[kind], self.fits[usize::from(rule)]);
-                        let [length, width] = cap.fitted([length_px, width_px], form, fit);
-                        let wanted = coverage * wanted_where_small(LayerKind::ALL[kind], width / width_px);
-                        *densest = densest.max(wanted / (length * width));
+                        for [length_px, width_px, coverage] in moments.iter().map(|layers| layers[kind]) {
+                            let [length, width] = cap.fitted([length_px, width_px], form, fit);
+                            let wanted =
+                                coverage * wanted_where_small(LayerKind::ALL[kind], width / width_px);
+                            *densest = densest.max(wanted / (length * width));
+                        }
                     }
                 }
                 std::array::from_fn(|kind| densest[kind] * most_wanted(LayerKind::ALL[kind]))

@@ -2,7 +2,7 @@
 
 use glam::{Affine2, DAffine3, DMat2, DVec2, DVec3};
 use impasto_scene::document::{CanvasFollows, Preparation, Scene};
-use impasto_scene::presets;
+use impasto_scene::{motion, presets};
 
 use crate::frame::{Finish, Ground};
 use crate::lights;
@@ -73,9 +73,10 @@ impl FinishRule {
     }
 }
 
-/// Direction to the first sun in the reference camera's own axes, raised to [`LEAST_HEIGHT`] if it is lower.
+/// Direction to the first sun of the reference, in its camera's own axes, raised to [`LEAST_HEIGHT`] if it is lower.
 fn relief_light(scene: &Scene, reference: &PictureView) -> [f32; 3] {
-    let lights = lights::resolve(scene, (glam::Vec3::ZERO, 1.0));
+    let (_, frame) = motion::referred_to(scene, &scene.reference);
+    let lights = lights::resolve(scene, frame, (glam::Vec3::ZERO, 1.0));
     let view = reference.pose.view_from_world();
     let seen = lights.suns.first().map(|sun| view.transform_vector3(sun.to_light.as_dvec3()));
     let flat = seen.map(|light| light.truncate()).filter(|flat| flat.length() > 1e-3);

@@ -38,14 +38,23 @@ pub struct Frame {
     pub layers: Vec<LayerRun>,
     /// The marks of all brushes; shared between frames.
     pub brushes: Arc<Brushes>,
-    /// Pigments of each palette, linear Rec. 709; at most 16 a palette.
-    pub palettes: Arc<Vec<Vec<[f32; 3]>>>,
+    /// The palettes that strokes are mixed from.
+    pub palettes: Arc<Vec<Palette>>,
     /// Canvas, relief and varnish.
     pub finish: Finish,
     /// How to draw, with the settings of that style.
     pub style: Style,
     /// Exact, or a quick draft.
     pub quality: Quality,
+}
+
+/// The pigments that strokes are mixed from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Palette {
+    /// Linear Rec. 709; at least one, at most 16.
+    pub pigments: Vec<[f32; 3]>,
+    /// How far colours keep to them, 0..=1.
+    pub mix: f32,
 }
 
 impl Frame {

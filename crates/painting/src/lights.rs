@@ -3,6 +3,7 @@
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::color::linear_from_srgb;
 use impasto_scene::document::{Color, LightKind, Scene};
+use impasto_scene::motion;
 
 use crate::frame::{FrameLights, PointLight, SunLight};
 
@@ -15,9 +16,9 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
     Vec3::from(linear(color)) * intensity as f32
 }
 
-/// The lights of a scene. If it names none, they are a warm sun from the upper left front, cool light from above, and
+/// The lights of a scene at a frame. If it names none, they are a warm sun from the upper left front, cool light from above, and
 /// warm light from below.
-pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights {
+pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
     let mut lights = FrameLights { shadow_bounds, ..Default::default() };
     if scene.lights.is_empty() {
         lights.suns.push(SunLight {
@@ -28,7 +29,7 @@ pub(crate) fn resolve(scene: &Scene, shadow_bounds: (Vec3, f32)) -> FrameLights 
         lights.ambient_below = Vec3::new(0.50, 0.36, 0.24) * 0.45;
         return lights;
     }
-    for light in &scene.lights {
+    for light in scene.lights.iter().map(|light| motion::light_at(light, frame)) {
         let radiance = radiance(light.color, light.intensity);
         match light.kind {
             LightKind::Sun => lights.suns.push(SunLight {

@@ -14,7 +14,7 @@ use crate::body::{BodyNoise, BodyShape, BodySurface};
 use crate::coat::Coat;
 use crate::field::BodyField;
 use crate::finish::FinishRule;
-use crate::frame::Brushes;
+use crate::frame::{ANY_COLOR, Brushes, Palette};
 use crate::order::PaintingOrder;
 use crate::particles::Particles;
 use crate::parts::Cap;
@@ -31,8 +31,8 @@ pub struct Painting {
     /// By object, then in the order of the layers.
     pub(crate) coats: Vec<Arc<Coat>>,
     pub(crate) rules: Arc<Vec<RegionRule>>,
-    /// Linear Rec. 709.
-    pub(crate) palettes: Arc<Vec<Vec<[f32; 3]>>>,
+    /// As they are without keys.
+    pub(crate) palettes: Arc<Vec<Palette>>,
     /// Index of each rule's palette, or [`crate::frame::ANY_COLOR`].
     pub(crate) palette_of_rule: Vec<u8>,
     pub(crate) brushes: Arc<Brushes>,
@@ -68,6 +68,20 @@ pub(crate) struct PreparedBody {
 }
 
 impl Painting {
+    /// The palettes at a frame; shared with the frames before where no key changes them.
+    pub(crate) fn palettes_at(&self, frame: f64) -> Arc<Vec<Palette>> {
+        if self.rules.iter().all(|rule| rule.strokes.keys.is_empty()) {
+            return Arc::clone(&self.palettes);
+        }
+        let mut palettes = Vec::clone(&self.palettes);
+        for (rule, &index) in
+            self.rules.iter().zip(&self.palette_of_rule).filter(|(_, index)| **index != ANY_COLOR)
+        {
+            palettes[usize::from(index)].mix = rule.strokes.at(frame).palette_mix;
+        }
+        Arc::new(palettes)
+    }
+
     /// The scene that was prepared.
     pub fn scene(&self) -> &Scene {
         &self.loaded.scene

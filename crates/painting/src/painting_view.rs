@@ -36,6 +36,8 @@ pub(crate) struct PaintingView<'a> {
     pub(crate) quality: Quality,
     pub(crate) recall: Option<&'a Recall>,
     frame: f64,
+    /// For each rule, the strokes at this frame.
+    pub(crate) strokes_of_rule: Vec<Cow<'a, ResolvedStrokes>>,
     /// Random bits of the frame.
     frame_bits: u32,
 }
@@ -96,10 +98,9 @@ impl Painting {
             .map(|(world_from_model, shape)| PosedBody { world_from_model, shape, vertices: OnceCell::new() })
             .collect();
         let px_scale = self.px_scale(options);
-        let coats = self.coats.iter().filter(|coat| wanted(coat));
-        PaintingView {
+        let mut painting_view = PaintingView {
             painting: self,
-            coats: coats.map(|coat| self.coat_view(coat, &view, &bodies[coat.object], px_scale)).collect(),
+            coats: Vec::new(),
             half_px: options.size_px.map(|side| side as f32 * 0.5),
             px_scale,
             near_far: view.frame_view().near_far,
@@ -108,42 +109,43 @@ impl Painting {
             quality: options.quality,
             recall: None,
             frame,
+            strokes_of_rule: self.rules.iter().map(|rule| rule.strokes.at(frame)).collect(),
             frame_bits: hash::scramble((frame * 1000.0).round() as i64 as u32),
-        }
-    }
-
-    fn coat_view<'a>(
-        &'a self,
-        coat: &'a Coat,
-        view: &PictureView,
-        body: &PosedBody,
-        px_scale: f32,
-    ) -> CoatView<'a> {
-        let world_from_model = body.world_from_model;
-        let map = view.screen_map(world_from_model);
-        let baked = match body.moved_vertices(&coat.surface, &self.reference_shapes[coat.object]) {
-            Some([before, now]) => Cow::Owned(coat.deformed(before, now)),
-            None => Cow::Borrowed(&coat.baked.baked),
         };
-        let wanted_per_px =
-            self.rules.last().map_or(0.0, |rule| f64::from(rule.strokes.body().wanted_per_px()));
-        let shown = coat
-            .sampled
-            .polygons
-            .as_ref()
-            .map(|polygons| polygons.shown(&map, wanted_per_px / f64::from(px_scale * px_scale)));
-        let clip_views = (self.solver == Solver::HornExact).then(|| {
-            let reference = self.references.own();
-            (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
-        });
-        let presence_bounds = self.presence_bounds(coat, px_scale, shown.is_some());
-        let particle_view = ParticleView::new(&map);
-        CoatView { coat, baked, map, particle_view, world_from_model, shown, clip_views, presence_bounds }
+        let coats = self.coats.iter().filter(|coat| wanted(coat));
+        painting_view.coats =
+            coats.map(|coat| painting_view.coat_view(coat, &view, &bodies[coat.object])).collect();
+        painting_view
     }
 
     /// The factor from pixels at the scene's own size to pixels of a picture.
     pub(crate) fn px_scale(&self, options: &FrameOptions) -> f32 {
         if options.keep_stroke_px { 1.0 } else { options.shot_height_px() / self.scene().size.1 as f32 }
+    }
+}
+
+impl<'a> PaintingView<'a> {
+    fn coat_view(&self, coat: &'a Coat, view: &PictureView, body: &PosedBody) -> CoatView<'a> {
+        let world_from_model = body.world_from_model;
+        let map = view.screen_map(world_from_model);
+        let baked = match body.moved_vertices(&coat.surface, &self.painting.reference_shapes[coat.object]) {
+            Some([before, now]) => Cow::Owned(coat.deformed(before, now)),
+            None => Cow::Borrowed(&coat.baked.baked),
+        };
+        let wanted_per_px =
+            self.strokes_of_rule.last().map_or(0.0, |strokes| f64::from(strokes.body().wanted_per_px()));
+        let shown =
+            coat.sampled.polygons.as_ref().map(|polygons| {
+                polygons.shown(&map, wanted_per_px / f64::from(self.px_scale * self.px_scale))
+            });
+        let clip_views = (self.painting.solver == Solver::HornExact).then(|| {
+            let reference = self.painting.references.own();
+            (reference.view.clip_view(reference.poses[coat.object]), view.clip_view(world_from_model))
+        });
+        let presence_bounds =
+            self.painting.presence_bounds(coat, &self.strokes_of_rule, self.px_scale, shown.is_some());
+        let particle_view = ParticleView::new(&map);
+        CoatView { coat, baked, map, particle_view, world_from_model, shown, clip_views, presence_bounds }
     }
 }
 
@@ -157,6 +159,11 @@ impl PaintingView<'_> {
                 (hash::unit(coat.bits(index, self.frame_bits)) * 2.0 - 1.0) * std::f32::consts::PI
             }
         }
+    }
+
+    /// The strokes of a rule at this frame.
+    pub(crate) fn strokes_of(&self, rule: u16) -> &ResolvedStrokes {
+        &self.strokes_of_rule[usize::from(rule)]
     }
 
     /// How a region's strokes are laid at this frame; `None` where they do not boil.
@@ -210,19 +217,19 @@ impl CoatView<'_> {
 
     /// The factor on a stroke's stated size where it follows the size of its surface: m^γ. m is the pixels per unit of
     /// surface now over those in the reference picture, γ the region's `size_follow`.
-    pub(crate) fn growth(&self, index: usize, painting: &Painting, px_scale: f32) -> f32 {
-        let region = usize::from(self.coat.traits.region(index));
-        let follow = painting.rules[region].strokes.size_follow;
+    pub(crate) fn growth(&self, index: usize, view: &PaintingView<'_>) -> f32 {
+        let region = self.coat.traits.region(index);
+        let follow = view.strokes_of(region).size_follow;
         if follow <= 0.0 {
             return 1.0;
         }
         let scale = |map: &ScreenMap, at: DVec3, near: f64| {
             map.row_x.truncate().length() / map.row_w.dot(at.extend(1.0)).max(near)
         };
-        let reference = self.coat.lift_sources.references.of_rule(region);
+        let reference = self.coat.lift_sources.references.of_rule(usize::from(region));
         let before = scale(&reference.map, self.coat.baked.baked.position_of(index), reference.near);
         let now = scale(&self.map, self.baked.position_of(index), 1e-9);
-        let grown = (now / before / f64::from(px_scale)).powf(f64::from(follow));
+        let grown = (now / before / f64::from(view.px_scale)).powf(f64::from(follow));
         if grown.is_finite() {
             grown.clamp(1.0 / f64::from(MOST_GROWTH), f64::from(MOST_GROWTH)) as f32
         } else {

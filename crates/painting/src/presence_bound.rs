@@ -1,12 +1,14 @@
 //! A cheap upper bound on a stroke's presence: most strokes are absent, and it rules them out before they are computed.
 
+use std::borrow::Cow;
+
 use impasto_core::presence;
+use impasto_scene::presets::ResolvedStrokes;
 
 use crate::coat::Coat;
 use crate::counts::most_wanted;
 use crate::painting::Painting;
 use crate::parts::Cap;
-use crate::regions::RegionRule;
 
 /// Strokes fade near a body's outline, and more strokes make up for that; a fade below this counts as this.
 pub(crate) const LEAST_COUNTED_FADE: f32 = 0.3;
@@ -24,33 +26,28 @@ pub(crate) struct PresenceBound {
 }
 
 impl Painting {
-    /// For each rule; `None` where it paints nothing on this coat. `by_polygon` where the paper's rule decides what
+    /// For each rule, with the strokes that it has now; `None` where it paints nothing on this coat. `by_polygon` where the paper's rule decides what
     /// shows.
-    pub(crate) fn presence_bounds(
-        &self,
-        coat: &Coat,
-        px_scale: f32,
-        by_polygon: bool,
-    ) -> Vec<Option<PresenceBound>> {
+    pub(crate) fn presence_bounds(&self, coat: &Coat, by_polygon: bool) -> Vec<Option<PresenceBound>> {
         let body = &self.bodies[coat.object];
         let regions = &self.scene().regions;
         let most =
             f64::from(most_wanted(coat.kind) / LEAST_COUNTED_FADE) / f64::from(presence::ABSENT_LN).exp();
-        let bound = |(index, rule): (usize, &RegionRule)| {
-            let layer = rule.strokes.layer_of(coat.kind);
+        let bound = |(index, strokes): (usize, &Cow<'_, ResolvedStrokes>)| {
+            let layer = strokes.layer_of(coat.kind);
             let is_hidden = body.hidden || regions.get(index).is_some_and(|region| region.hidden);
             if is_hidden || layer.coverage <= 0.0 {
                 return None;
             }
             let of_part = |cap: &Cap| {
                 let size_px = [layer.length_px, layer.width_px];
-                let [length, width] = cap.fitted(size_px, body.least_form, rule.strokes.fit);
+                let [length, width] = cap.fitted(size_px, body.least_form, strokes.fit);
                 let wanted_per_px = f64::from(layer.coverage / (length * width));
                 (wanted_per_px * coat.sampled.area * most * LEEWAY / f64::from(px_scale * px_scale)) as f32
             };
-            let by_index = !by_polygon && rule.strokes.size_follow <= 0.0;
+            let by_index = !by_polygon && strokes.size_follow <= 0.0;
             Some(PresenceBound {
-                reach_px: (layer.length_px + layer.width_px * (1.0 + rule.strokes.taper.abs())) * px_scale,
+                reach_px: (layer.length_px + layer.width_px * (1.0 + strokes.taper.abs())) * px_scale,
                 most_per_area: body
                     .caps
                     .iter()
@@ -58,6 +55,6 @@ impl Painting {
                     .collect(),
             })
         };
-        self.rules.iter().enumerate().map(bound).collect()
+        strokes_of_rule.iter().enumerate().map(bound).collect()
     }
 }

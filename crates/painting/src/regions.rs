@@ -8,12 +8,12 @@ use impasto_core::direction::guide::{Falloff as GuideFalloff, Guide as SurfaceGu
 use impasto_core::flood::flooded;
 use impasto_core::sampling::Particle;
 use impasto_scene::document::{
-    Dab, Direction, Falloff, Guide, GuideMode, PatchRef, Scene, Seam, Selector, Sense,
+    Dab, Direction, Falloff, Guide, GuideMode, PatchRef, Scene, Seam, Selector, Sense, StrokesKey,
 };
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::presets::{self, ResolvedStrokes};
 
-use crate::frame::ANY_COLOR;
+use crate::frame::{ANY_COLOR, Palette};
 use crate::lights::linear;
 
 /// A dab touches a surface only where the cosine between their normals is above this.
@@ -95,19 +95,23 @@ fn surface_guide(guide: &Guide) -> Option<SurfaceGuide> {
 }
 
 /// The palettes of all rules in linear light, and for each rule the index of its palette ([`ANY_COLOR`] if it has
-/// none).
-pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Vec<[f32; 3]>>, Vec<u8>) {
-    let mut palettes: Vec<Vec<[f32; 3]>> = Vec::new();
+/// none). Equal palettes are one, unless keys of strokes change how far they are kept to.
+pub(crate) fn palettes(rules: &[RegionRule]) -> (Vec<Palette>, Vec<u8>) {
+    let mut palettes: Vec<Palette> = Vec::new();
+    let mut keys: Vec<&[StrokesKey]> = Vec::new();
     let of_rule = rules
         .iter()
         .map(|rule| {
-            let palette: Vec<[f32; 3]> = rule.strokes.palette.iter().map(|&color| linear(color)).collect();
-            if palette.is_empty() {
+            let pigments: Vec<[f32; 3]> = rule.strokes.palette.iter().map(|&color| linear(color)).collect();
+            if pigments.is_empty() {
                 return ANY_COLOR;
             }
-            let known = palettes.iter().position(|other| *other == palette);
+            let palette = Palette { pigments, mix: 1.0 };
+            let mut known = palettes.iter().zip(&keys);
+            let known = known.position(|(other, keys)| *other == palette && *keys == rule.strokes.keys);
             let index = known.unwrap_or_else(|| {
                 palettes.push(palette);
+                keys.push(&rule.strokes.keys);
                 palettes.len() - 1
             });
             // A byte cannot number more palettes: rules with a further one get the last number.

@@ -65,13 +65,13 @@ impl PaintingView<'_> {
         let &Candidate { entry, place, ref solved, region, part, bits, drift, .. } = candidate;
         let (coat_view, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
         let coat = coat_view.coat;
-        let strokes = &self.painting.rules[region as usize].strokes;
+        let strokes = self.strokes_of(region);
         let layer = strokes.layer_of(coat.kind);
         if layer.coverage <= 0.0 {
             return None;
         }
         let cap = self.painting.bodies[coat.object].caps[part];
-        let grown = coat_view.growth(index, self.painting, self.px_scale);
+        let grown = coat_view.growth(index, self);
         let size_px = [layer.length_px, layer.width_px];
         let form = coat.traits.form(index);
         let size_px = cap.fitted(size_px, form, fit_of(coat.kind, strokes.fit));

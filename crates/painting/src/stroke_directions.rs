@@ -196,7 +196,7 @@ impl PaintingView<'_> {
         let (position, normal) = (coat.baked.position_of(index), coat.baked.normal_of(index));
         let jacobian = coat.map.jacobian(position);
         let region = coat.coat.traits.region(index);
-        let contour = self.painting.rules[usize::from(region)].strokes.contour;
+        let contour = self.strokes_of(region).contour;
         let facing = facing(jacobian, normal) as f32;
         let lift = match self.painting.solver {
             Solver::Tangent => coat.baked.lift_of(index),

@@ -2,6 +2,7 @@
 //! frames and colours in sRGB, as a person writes them; nothing here is solved or resolved.
 
 mod color;
+mod keys;
 mod noise_displace;
 mod numbers;
 mod paint;
@@ -17,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use self::numbers::usual_fields;
 
 pub use color::Color;
+pub use keys::{BackgroundKey, Key, LightKey, StrokesKey};
 pub use noise_displace::{
     NoiseAlong, NoiseAlpha, NoiseDisplace, NoiseForward, NoiseMix, NoiseNormals, NoiseSpace, SurfaceNoise,
     VertexNoise,
@@ -49,6 +51,9 @@ pub struct Scene {
     /// What is seen where nothing is painted.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background: Color,
+    /// The background over time, frames strictly increasing; then `background` itself is not used.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub background_keys: Vec<BackgroundKey>,
     /// Frames and their rate.
     #[serde(default, skip_serializing_if = "is_default")]
     pub timeline: Timeline,
@@ -231,6 +236,25 @@ pub struct Light {
     /// a sun of 1.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub intensity: f64,
+    /// Its values over time, frames strictly increasing.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub keys: Vec<LightKey>,
+}
+
+impl Light {
+    /// A white light of intensity 1 without keys, from nowhere yet: suns need a direction, point lights a position.
+    pub fn new(name: impl Into<String>, kind: LightKind) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            direction: None,
+            position: None,
+            color: Color::white(),
+            ground: None,
+            intensity: 1.0,
+            keys: Vec::new(),
+        }
+    }
 }
 
 /// What kind of light.

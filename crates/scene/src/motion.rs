@@ -1,10 +1,17 @@
-//! Evaluates keyframes: camera and objects at any frame, as pure functions of the document and the frame.
+//! Evaluates keyframes: camera, objects, lights, strokes and background at any frame, as pure functions of the document and the
+//! frame.
+
+mod span;
+mod values;
 
 use std::collections::HashMap;
 
 use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
 
-use crate::document::{CameraKey, Ease, Lens, Object, ObjectKey, Reference, Scene};
+use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scene};
+use span::Span;
+
+pub use values::{background_at, light_at, stroke_key_at};
 
 /// The camera at one frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +47,7 @@ impl CameraPose {
 /// field of view keeps the one of the key before it. Until a key states one, it is that of the lens.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
-    let span = Span::at(keys, frame, |key| (key.frame, key.ease));
+    let span = Span::at(keys, frame);
     let Some(span) = span else {
         return CameraPose {
             eye: DVec3::Z,
@@ -108,7 +115,7 @@ pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
 /// The morph weight of every object, in the order of the file: 0 is its own mesh, 1 its morph target.
 pub fn morphs_at(scene: &Scene, frame: f64) -> Vec<f64> {
     let weight = |object: &Object| {
-        let span = Span::at(&object.keys, held_frame(scene, object, frame), |key| (key.frame, key.ease));
+        let span = Span::at(&object.keys, held_frame(scene, object, frame));
         let at = |index: usize| object.keys[index].morph;
         span.map_or(0.0, |span| span.mix(at(span.left), at(span.right)))
     };
@@ -187,7 +194,7 @@ fn parents_first(parents: &[Option<usize>]) -> Vec<usize> {
 
 /// The pose that keys give at a frame; the identity without keys.
 fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
-    let Some(span) = Span::at(keys, frame, |key| (key.frame, key.ease)) else {
+    let Some(span) = Span::at(keys, frame) else {
         return DAffine3::IDENTITY;
     };
     let (left, right) = (&keys[span.left], &keys[span.right]);
@@ -198,8 +205,7 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
 
 /// An object's pose at a frame as a key, in its parent's space.
 pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
-    let Some(span) = Span::at(&object.keys, held_frame(scene, object, frame), |key| (key.frame, key.ease))
-    else {
+    let Some(span) = Span::at(&object.keys, held_frame(scene, object, frame)) else {
         return ObjectKey::at(frame);
     };
     let (left, right) = (&object.keys[span.left], &object.keys[span.right]);
@@ -256,43 +262,6 @@ fn sin_cos_deg(angle_deg: f64) -> (f64, f64) {
         (-1.0, 0.0)
     } else {
         wrapped_deg.to_radians().sin_cos()
-    }
-}
-
-/// The two keys round a frame, and the weight of the second after easing.
-struct Span {
-    left: usize,
-    right: usize,
-    /// 0 at the left key, 1 at the right one.
-    share: f64,
-}
-
-impl Span {
-    /// The span at a frame; `None` without keys. `frame_and_ease` gives the frame and the ease of a key.
-    fn at<K>(keys: &[K], frame: f64, frame_and_ease: impl Fn(&K) -> (f64, Ease)) -> Option<Self> {
-        let last = keys.len().checked_sub(1)?;
-        let right = keys.partition_point(|key| frame_and_ease(key).0 <= frame);
-        if right == 0 || right > last {
-            let still = right.min(last);
-            return Some(Self { left: still, right: still, share: 0.0 });
-        }
-        let (left_frame, ease) = frame_and_ease(&keys[right - 1]);
-        let t = (frame - left_frame) / (frame_and_ease(&keys[right]).0 - left_frame);
-        let share = match ease {
-            Ease::Step => 0.0,
-            Ease::Linear => t,
-            Ease::Smooth => t * t * (3.0 - 2.0 * t),
-        };
-        Some(Self { left: right - 1, right, share })
-    }
-
-    /// A value between that of the left key and that of the right one; exactly `left` at share 0.
-    fn mix(&self, left: f64, right: f64) -> f64 {
-        left + (right - left) * self.share
-    }
-
-    fn mix_vec3(&self, left: [f64; 3], right: [f64; 3]) -> DVec3 {
-        DVec3::from(left) + (DVec3::from(right) - DVec3::from(left)) * self.share
     }
 }
 

@@ -137,15 +137,7 @@ pub fn empty() -> Scene {
 
 /// A light of this colour that comes from nowhere yet.
 fn light(name: &str, kind: LightKind, hex: &str, intensity: f64) -> Light {
-    Light {
-        name: name.to_owned(),
-        kind,
-        direction: None,
-        position: None,
-        color: Color::from_hex(hex).unwrap_or_default(),
-        ground: None,
-        intensity,
-    }
+    Light { color: Color::from_hex(hex).unwrap_or_default(), intensity, ..Light::new(name, kind) }
 }
 
 /// A scene with nothing in it, not even a camera's key.
@@ -155,6 +147,7 @@ fn bare() -> Scene {
         size: SIZE_PX,
         seed: 0,
         background: Color::default(),
+        background_keys: Vec::new(),
         timeline: Timeline::default(),
         reference: Reference::default(),
         further_references: Vec::new(),

@@ -162,6 +162,9 @@ impl ResolvedStrokes {
             self.palette.clone_from(palette);
         }
         self.layer = settings.layer.unwrap_or(self.layer);
+        if !settings.keys.is_empty() {
+            self.keys.clone_from(&settings.keys);
+        }
         for stated in &settings.layers {
             if let Some(kind) = LayerKind::ALL.iter().find(|kind| kind.name() == stated.name) {
                 self.layers[*kind as usize].apply(stated);

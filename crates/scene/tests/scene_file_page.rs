@@ -253,10 +253,13 @@ fn the_page_of_the_scene_file_is_what_is_declared() {
 }
 
 /// Where each struct is in a scene file: the text before its fields, its required fields, and the text after them.
-const PLACES: [(&str, [&str; 3]); 15] = [
+const PLACES: [(&str, [&str; 3]); 18] = [
     ("Timeline", ["timeline: (", "", ")"]),
     ("CameraKey", ["camera: (keys: [(", "frame: 0, eye: (0, 0, 1), target: (0, 0, 0), ", ")])"]),
     ("Lens::Perspective", ["camera: (keys: [], lens: Perspective(", "", "))"]),
+    ("BackgroundKey", ["background_keys: [(", "frame: 0, color: \"#fff\", ", ")]"]),
+    ("LightKey", ["lights: [(name: \"a\", kind: Sun, keys: [(", "frame: 0, ", ")])]"]),
+    ("StrokesKey", ["strokes: (keys: [(", "frame: 0, ", ")])"]),
     ("Light", ["lights: [(", "name: \"a\", kind: Sun, ", ")]"]),
     ("Object", ["objects: [(", "name: \"a\", mesh: \"a.obj\", ", ")]"]),
     ("ObjectKey", ["objects: [(name: \"a\", mesh: \"a.obj\", keys: [(", "frame: 0, ", ")])]"]),

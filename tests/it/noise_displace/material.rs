@@ -120,15 +120,8 @@ fn one_layer_is_the_tint_alone_and_light_changes_nothing() {
     let flat = drawn(sheet(surface.clone()), 5.0, &mut renderer);
     assert!(flat.rgba8.chunks_exact(4).all(|pixel| pixel == [204, 102, 51, 255]), "{:?}", &flat.rgba8[..4]);
     let mut dark = sheet(SurfaceNoise { layer_count: 4, ..surface.clone() });
-    dark.lights = vec![Light {
-        name: "moon".to_owned(),
-        kind: LightKind::Ambient,
-        direction: None,
-        position: None,
-        color: Color([0.1; 3]),
-        ground: None,
-        intensity: 0.1,
-    }];
+    dark.lights =
+        vec![Light { color: Color([0.1; 3]), intensity: 0.1, ..Light::new("moon", LightKind::Ambient) }];
     let lit = drawn(sheet(SurfaceNoise { layer_count: 4, ..surface }), 5.0, &mut renderer);
     assert!(lit == drawn(dark, 5.0, &mut renderer), "light falls on what shines by itself");
 }

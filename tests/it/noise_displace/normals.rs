@@ -48,13 +48,10 @@ fn scene() -> Scene {
         let mut color = [0.0; 3];
         color[index] = 1.0;
         Light {
-            name: format!("sun {index}"),
-            kind: LightKind::Sun,
             direction: Some(travels),
-            position: None,
             color: Color(color),
-            ground: None,
             intensity: 3.0,
+            ..Light::new(format!("sun {index}"), LightKind::Sun)
         }
     };
     scene.lights = suns.into_iter().enumerate().map(sun).collect();

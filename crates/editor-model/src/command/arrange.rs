@@ -4,7 +4,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
-use impasto_scene::document;
 use impasto_scene::document::{
     CameraKey, Dab, Direction, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Patch, Scene,
     Seed, Selector, Up,
@@ -397,14 +396,11 @@ fn add_light(scene: &mut Scene, kind: LightKind, at: DVec3, toward: DVec3) -> Do
     let name = names::unique(wanted, scene.lights.iter().map(|light| light.name.as_str()));
     let round = |vector: DVec3| vector.map(|v| (v * 1e4).round() / 1e4).to_array();
     let light = Light {
-        name: name.clone(),
-        kind,
         direction: (kind == LightKind::Sun)
             .then(|| round((toward - at).normalize_or(DVec3::new(0.4, -0.8, -0.45)))),
         position: (kind == LightKind::Point).then(|| round(at)),
-        color: document::Color::white(),
-        ground: None,
         intensity: if kind == LightKind::Ambient { 0.5 } else { 1.5 },
+        ..Light::new(name.clone(), kind)
     };
     scene.lights.push(light);
     Done::new(format!("Add {name}")).selecting(Selection::only(Item::Light(name)))

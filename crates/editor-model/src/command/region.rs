@@ -105,7 +105,7 @@ impl Regions {
     }
 }
 
-fn settings<'a>(scene: &'a mut Scene, of: &StrokesOf) -> Result<&'a mut StrokeSettings, Refusal> {
+pub(super) fn settings<'a>(scene: &'a mut Scene, of: &StrokesOf) -> Result<&'a mut StrokeSettings, Refusal> {
     match of {
         StrokesOf::Scene => Ok(&mut scene.strokes),
         StrokesOf::Region(name) => Ok(&mut unlocked_region(scene, name)?.strokes),

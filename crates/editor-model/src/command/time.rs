@@ -3,17 +3,9 @@
 use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
 use impasto_scene::motion::{self, CameraPose};
 
-use super::{Done, finite, object_mut, unlocked_object};
+use super::keys::{self, KeyOf, KeyedValue};
+use super::{Done, finite, unlocked_object};
 use crate::refusal::Refusal;
-
-/// The owner of keys.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum KeyOf {
-    /// The shot camera's.
-    Camera,
-    /// An object's.
-    Object(String),
-}
 
 /// A pose to key.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +24,8 @@ pub enum Time {
     /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the
     /// reference, so that there is a motion between the two.
     PoseAtFrame(Pose, f64),
+    /// Sets the value of a light, the background or strokes at a frame.
+    PutValue(KeyedValue, f64),
     /// Moves keys by this many frames; a key that lands on another replaces it.
     MoveKeys(Vec<(KeyOf, f64)>, f64),
     /// Copies keys by this many frames; a copy that lands on another key replaces it.
@@ -47,59 +41,42 @@ pub enum Time {
 }
 
 impl Time {
-    pub(super) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
+    pub(crate) fn edit(&self, scene: &mut Scene) -> Result<Done, Refusal> {
         match self {
             Self::SetKey(of, frame) => {
-                let pose = match of {
-                    KeyOf::Camera => Pose::Camera(motion::camera_at(scene, *frame)),
-                    KeyOf::Object(name) => {
-                        let object = object_mut(&mut scene.clone(), name)?.clone();
-                        Pose::Object(name.clone(), motion::key_at(scene, &object, *frame))
-                    }
-                };
-                put_key(scene, &pose, finite(*frame)?)?;
+                let frame = finite(*frame)?;
+                match KeyedValue::at(scene, of, frame)? {
+                    Some(value) => value.put(scene, frame)?,
+                    None => put_key(scene, &pose_at(scene, of, frame)?, frame)?,
+                }
                 Ok(Done::new(format!("Key {} at {frame}", of.name())))
             }
             Self::PoseAtFrame(pose, frame) => pose_at_frame(scene, pose, finite(*frame)?),
+            Self::PutValue(value, frame) => {
+                value.put(scene, finite(*frame)?)?;
+                Ok(Done::new(format!("Key {} at {frame}", value.of().name())))
+            }
             Self::MoveKeys(keys, by) => {
-                finite(*by)?;
-                for (of, frame) in sorted(keys, *by < 0.0) {
-                    move_key(scene, of, *frame, frame + by)?;
-                }
+                shift(scene, keys, finite(*by)?, false)?;
                 Ok(Done::new(format!("Move {}", counted(keys))))
             }
             Self::CopyKeys(keys, by) => {
-                finite(*by)?;
-                let before = scene.clone();
-                for (of, frame) in keys {
-                    copy_key(scene, &before, of, *frame, frame + by)?;
-                }
+                shift(scene, keys, finite(*by)?, true)?;
                 Ok(Done::new(format!("Copy {}", counted(keys))))
             }
             Self::DeleteKeys(keys) => {
-                for (of, frame) in keys {
-                    delete_key(scene, of, *frame)?;
+                for (of, frames) in keys::by_owner(keys) {
+                    let list = keys::list(scene, of)?;
+                    list.delete(&frames);
+                    if *of == KeyOf::Camera && list.is_bare() {
+                        return Err(Refusal::new("The camera keeps its last key"));
+                    }
                 }
                 Ok(Done::new(format!("Delete {}", counted(keys))))
             }
             Self::SetEase(keys, ease) => {
-                for (of, frame) in keys {
-                    match of {
-                        KeyOf::Camera => {
-                            scene
-                                .camera
-                                .keys
-                                .iter_mut()
-                                .filter(|key| key.frame == *frame)
-                                .for_each(|key| key.ease = *ease);
-                        }
-                        KeyOf::Object(name) => {
-                            let keys = &mut unlocked_object(scene, name)?.keys;
-                            keys.iter_mut()
-                                .filter(|key| key.frame == *frame)
-                                .for_each(|key| key.ease = *ease);
-                        }
-                    }
+                for (of, frames) in keys::by_owner(keys) {
+                    keys::list(scene, of)?.set_ease(&frames, *ease);
                 }
                 Ok(Done::new(format!("Ease: {}", ease_name(*ease))))
             }
@@ -111,16 +88,6 @@ impl Time {
                 scene.timeline.fps = finite(*fps)?;
                 Ok(Done::new(format!("{fps} frames per second")))
             }
-        }
-    }
-}
-
-impl KeyOf {
-    /// What people call it.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Camera => "shot",
-            Self::Object(name) => name,
         }
     }
 }
@@ -138,11 +105,19 @@ fn counted(keys: &[(KeyOf, f64)]) -> String {
     if keys.len() == 1 { "1 key".to_owned() } else { format!("{} keys", keys.len()) }
 }
 
-/// The keys in an order in which they can move one by one without landing on one that has yet to move.
-fn sorted(keys: &[(KeyOf, f64)], ascending: bool) -> Vec<&(KeyOf, f64)> {
-    let mut keys: Vec<_> = keys.iter().collect();
-    keys.sort_by(|a, b| if ascending { a.1.total_cmp(&b.1) } else { b.1.total_cmp(&a.1) });
-    keys
+fn shift(scene: &mut Scene, keys: &[(KeyOf, f64)], by: f64, copies: bool) -> Result<(), Refusal> {
+    for (of, frames) in keys::by_owner(keys) {
+        keys::list(scene, of)?.shift(&frames, by, copies);
+    }
+    Ok(())
+}
+
+/// The pose of the camera or an object at a frame.
+fn pose_at(scene: &Scene, of: &KeyOf, frame: f64) -> Result<Pose, Refusal> {
+    let KeyOf::Object(name) = of else { return Ok(Pose::Camera(motion::camera_at(scene, frame))) };
+    let object = scene.objects.iter().find(|object| object.name == *name);
+    let object = object.ok_or_else(|| Refusal::unknown("object", name))?;
+    Ok(Pose::Object(name.clone(), motion::key_at(scene, object, frame)))
 }
 
 fn pose_at_frame(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<Done, Refusal> {
@@ -161,13 +136,11 @@ fn pose_at_frame(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<Done, Ref
     };
     let mut done = Done::new(format!("Pose {name} at {frame}"));
     if is_alone && frame != reference {
-        let old = match pose {
-            Pose::Camera(_) => Pose::Camera(motion::camera_at(scene, reference)),
-            Pose::Object(name, _) => {
-                let object = object_mut(&mut scene.clone(), name)?.clone();
-                Pose::Object(name.clone(), motion::key_at(scene, &object, reference))
-            }
+        let of = match pose {
+            Pose::Camera(_) => KeyOf::Camera,
+            Pose::Object(name, _) => KeyOf::Object(name.clone()),
         };
+        let old = pose_at(scene, &of, reference)?;
         put_key(scene, &old, reference)?;
         done = done.noting(format!("Also keyed frame {reference}, so that {name} moves from there"));
     }
@@ -195,63 +168,6 @@ fn put_key(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<(), Refusal> {
             let ease = old.as_ref().map_or(Ease::Smooth, |old| old.ease);
             keys.splice(at..at + usize::from(old.is_some()), [ObjectKey { frame, ease, ..pose.clone() }]);
         }
-    }
-    Ok(())
-}
-
-fn move_key(scene: &mut Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Refusal> {
-    match of {
-        KeyOf::Camera => {
-            let keys = &mut scene.camera.keys;
-            let Some(index) = keys.iter().position(|key| key.frame == from) else { return Ok(()) };
-            let key = CameraKey { frame: to, ..keys.remove(index) };
-            keys.retain(|other| other.frame != to);
-            keys.insert(keys.partition_point(|other| other.frame < to), key);
-        }
-        KeyOf::Object(name) => {
-            let keys = &mut unlocked_object(scene, name)?.keys;
-            let Some(index) = keys.iter().position(|key| key.frame == from) else { return Ok(()) };
-            let key = ObjectKey { frame: to, ..keys.remove(index) };
-            keys.retain(|other| other.frame != to);
-            keys.insert(keys.partition_point(|other| other.frame < to), key);
-        }
-    }
-    Ok(())
-}
-
-/// Copies a key of `before`, the scene as it was before the command copied any key.
-fn copy_key(scene: &mut Scene, before: &Scene, of: &KeyOf, from: f64, to: f64) -> Result<(), Refusal> {
-    match of {
-        KeyOf::Camera => {
-            let Some(key) = before.camera.keys.iter().find(|key| key.frame == from) else { return Ok(()) };
-            let keys = &mut scene.camera.keys;
-            keys.retain(|other| other.frame != to);
-            let at = keys.partition_point(|other| other.frame < to);
-            keys.insert(at, CameraKey { frame: to, ..key.clone() });
-        }
-        KeyOf::Object(name) => {
-            let keys = &mut unlocked_object(scene, name)?.keys;
-            let object = before.objects.iter().find(|object| object.name == *name);
-            let key = object.and_then(|object| object.keys.iter().find(|key| key.frame == from));
-            let Some(key) = key else { return Ok(()) };
-            keys.retain(|other| other.frame != to);
-            let at = keys.partition_point(|other| other.frame < to);
-            keys.insert(at, ObjectKey { frame: to, ..key.clone() });
-        }
-    }
-    Ok(())
-}
-
-fn delete_key(scene: &mut Scene, of: &KeyOf, frame: f64) -> Result<(), Refusal> {
-    match of {
-        KeyOf::Camera => {
-            let keys = &mut scene.camera.keys;
-            if keys.len() == 1 && keys[0].frame == frame {
-                return Err(Refusal::new("The camera keeps its last key"));
-            }
-            keys.retain(|key| key.frame != frame);
-        }
-        KeyOf::Object(name) => unlocked_object(scene, name)?.keys.retain(|key| key.frame != frame),
     }
     Ok(())
 }

@@ -233,6 +233,12 @@ fn merged_scene(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refu
         size: merged_value(&from.size, &left.size, &right.size, "size")?,
         seed: merged_value(&from.seed, &left.seed, &right.seed, "seed")?,
         background: merged_value(&from.background, &left.background, &right.background, "background")?,
+        background_keys: merged_value(
+            &from.background_keys,
+            &left.background_keys,
+            &right.background_keys,
+            "background's keys",
+        )?,
         timeline: merged_value(&from.timeline, &left.timeline, &right.timeline, "timeline")?,
         reference: merged_value(&from.reference, &left.reference, &right.reference, "reference")?,
         further_references: merged_value(

@@ -1,10 +1,11 @@
 //! Lights in the viewport: where their icons are, which one is under the pointer, and how one is moved.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
-use impasto_scene::document::{Light, LightKind};
+use impasto_scene::document::{Light, LightKey, LightKind};
+use impasto_scene::motion;
 
 use super::Editor;
-use crate::command::{Arrange, Command};
+use crate::command::{self, Command};
 use crate::euler;
 use crate::picking::View;
 use crate::selection::Item;
@@ -20,8 +21,8 @@ const REACH_PX: f64 = 14.0;
 /// Where a light has its icon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightPlace {
-    /// Index in the scene.
-    pub index: usize,
+    /// The light, as it is at the frame that is shown.
+    pub light: Light,
     /// World space. For a lamp: where it stands. For a sun: a place in the direction that it shines from. For a sky: a
     /// place above the scene.
     pub position: DVec3,
@@ -34,11 +35,10 @@ impl Editor {
         if self.session.mode != Mode::Arrange || self.session.compare {
             return Vec::new();
         }
-        let middle = self.middle();
-        let lights = self.document.shown().scene.lights.iter().enumerate();
-        lights
-            .filter_map(|(index, light)| Some(LightPlace { index, position: place_of(light, middle)? }))
-            .collect()
+        let (middle, frame) = (self.middle(), self.session.frame);
+        let lights = self.document.shown().scene.lights.iter().map(|light| motion::light_at(light, frame));
+        let place = |light: Light| Some(LightPlace { position: place_of(&light, middle)?, light });
+        lights.filter_map(place).collect()
     }
 
     /// The middle of all objects.
@@ -58,47 +58,41 @@ impl Editor {
             .into_iter()
             .filter(is_under)
             .min_by(|a, b| view.depth(a.position).total_cmp(&view.depth(b.position)))?;
-        Some(Item::Light(self.document.shown().scene.lights[nearest.index].name.clone()))
+        Some(Item::Light(nearest.light.name))
     }
 
     /// The selected light as it is shown, with its place.
-    pub(super) fn active_light(&self) -> Option<(&Light, DVec3)> {
+    pub(super) fn active_light(&self) -> Option<LightPlace> {
         let Some(Item::Light(name)) = self.document.selection().active() else { return None };
-        let lights = &self.document.shown().scene.lights;
-        let places = self.light_places();
-        let found = places.iter().find(|place| lights[place.index].name == *name)?;
-        Some((&lights[found.index], found.position))
+        self.light_places().into_iter().find(|place| place.light.name == *name)
     }
 
-    /// The command that moves or turns a light; `None` if its kind cannot do that. `delta` is given in `axes`.
+    /// The command that moves or turns a light, at the frame that is shown if it has keys; `None` if its kind cannot do that. `delta` is given in `axes`.
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
         // As it was at the beginning of the drag, not as it is previewed.
-        let light = self.document.scene().lights.iter().find(|light| light.name == name)?;
+        let (stored, frame) = (self.document.scene(), self.session.frame);
+        let light = motion::light_at(stored.lights.iter().find(|light| light.name == name)?, frame);
         let middle = self.middle();
-        let tidy = |at: DVec3| at.map(euler::tidy).to_array();
-        let moved = match (light.kind, delta) {
+        let tidy = |at: DVec3| Some(at.map(euler::tidy).to_array());
+        let stated = match (light.kind, delta) {
             (LightKind::Point, TransformDelta::Move(by)) => {
                 let position = DVec3::from(light.position?) + axes * by;
-                Light { position: Some(tidy(position)), ..light.clone() }
+                LightKey { position: tidy(position), ..LightKey::at(frame) }
             }
             (LightKind::Sun, TransformDelta::Move(by)) => {
                 // The icon goes round the scene at a constant distance.
-                let direction = (middle - place_of(light, middle)? - axes * by).try_normalize()?;
-                Light { direction: Some(tidy(direction)), ..light.clone() }
+                let direction = (middle - place_of(&light, middle)? - axes * by).try_normalize()?;
+                LightKey { direction: tidy(direction), ..LightKey::at(frame) }
             }
             (LightKind::Sun, TransformDelta::Turn { axis, angle_rad }) => {
                 let turn = DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad);
                 let direction = turn * DVec3::from(light.direction?).try_normalize()?;
-                Light { direction: Some(tidy(direction)), ..light.clone() }
+                LightKey { direction: tidy(direction), ..LightKey::at(frame) }
             }
             _ => return None,
         };
         let what = if light.kind == LightKind::Sun { "direction" } else { "place" };
-        Some(Command::Arrange(Arrange::SetLight {
-            name: name.to_owned(),
-            light: moved,
-            what: what.to_owned(),
-        }))
+        command::set_light(stored, name, stated, what)
     }
 }
 

@@ -7,7 +7,7 @@ use impasto_scene::document::ObjectKey;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion;
 
-use super::{Busy, Editor, TransformDrag, lights};
+use super::{Busy, Editor, LightPlace, TransformDrag, lights};
 use crate::command::{Arrange, Command, Pose, Shift, Time};
 use crate::euler;
 use crate::gizmo::Gizmo;
@@ -34,7 +34,7 @@ impl Editor {
         held: bool,
         view: &View,
     ) -> bool {
-        if let Some((light, position)) = self.active_light() {
+        if let Some(LightPlace { light, position }) = self.active_light() {
             let (name, kind) = (light.name.clone(), light.kind);
             if let Some(words) = lights::refusal(kind, operation) {
                 self.refuse(&Refusal::new(words));
@@ -101,9 +101,10 @@ impl Editor {
         if !is_shown {
             return None;
         }
-        let light = self.active_light().filter(|(light, _)| lights::refusal(light.kind, operation).is_none());
+        let light =
+            self.active_light().filter(|place| lights::refusal(place.light.kind, operation).is_none());
         let pose = match light {
-            Some((_, position)) => DAffine3::from_translation(position),
+            Some(LightPlace { position, .. }) => DAffine3::from_translation(position),
             None => *self.poses().get(self.active_object()?)?,
         };
         Some(Gizmo::new(operation, self.session.options.axes, pose, view))

@@ -1,7 +1,7 @@
 //! Time in the editor: playing, scrubbing, keys, and loose poses (made with Auto key off and not keyed yet).
 
 use super::{Editor, Offer, Said};
-use crate::command::{Command, KeyOf, Pose, Time};
+use crate::command::{Command, KeyOf, Pose, StrokesOf, Time};
 use crate::keymap::Action;
 use crate::playback::{Course, Pacing};
 use crate::refusal::Refusal;
@@ -146,15 +146,20 @@ impl Editor {
             loose.iter().flat_map(|loose| loose.poses.iter().map(|(name, _)| name.clone())).collect();
         let mut commands: Vec<Command> =
             loose.iter().flat_map(|loose| loose.poses.iter().map(|(_, command)| command.clone())).collect();
-        let keyed = self.document.selection().items().iter().filter_map(|item| match item {
-            Item::Object(name) => Some(KeyOf::Object(name.clone())),
-            Item::Camera => Some(KeyOf::Camera),
-            _ => None,
+        let keyed = self.document.selection().items().iter().map(|item| match item {
+            Item::Object(name) => KeyOf::Object(name.clone()),
+            Item::Camera => KeyOf::Camera,
+            Item::Light(name) => KeyOf::Light(name.clone()),
+            Item::Region(name) | Item::Guide(name, _) => KeyOf::Strokes(StrokesOf::Region(name.clone())),
         });
-        let keyed = keyed.filter(|of| !posed.iter().any(|name| name == of.name()));
+        let is_posed = |of: &KeyOf| match of {
+            KeyOf::Camera | KeyOf::Object(_) => posed.iter().any(|name| *name == of.name()),
+            _ => false,
+        };
+        let keyed = keyed.filter(|of| !is_posed(of));
         commands.extend(keyed.map(|of| Command::Time(Time::SetKey(of, frame))));
         match &commands[..] {
-            [] => self.refuse(&Refusal::new("Select an object or the camera first")),
+            [] => self.refuse(&Refusal::new("Select an object, a light, a region or the camera first")),
             [command] => drop(self.keep(command)),
             several => {
                 let text = format!("Key {} things at {frame}", several.len());
@@ -197,7 +202,7 @@ impl Editor {
     pub(super) fn take_loose(&mut self, command: &Command) -> Option<Command> {
         let Command::Time(Time::SetKey(of, at_frame)) = command else { return None };
         let loose = self.time.loose.as_mut().filter(|loose| loose.frame == *at_frame)?;
-        let index = loose.poses.iter().position(|(name, _)| name == of.name())?;
+        let index = loose.poses.iter().position(|(name, _)| *name == of.name())?;
         let (_, posed) = loose.poses.remove(index);
         if loose.poses.is_empty() {
             self.time.loose = None;
@@ -278,7 +283,7 @@ fn poses_of(command: &Command, at_frame: f64) -> Option<Vec<(String, Command)>> 
     match command {
         Command::Time(Time::PoseAtFrame(pose, frame)) if *frame == at_frame => {
             let name = match pose {
-                Pose::Camera(_) => KeyOf::Camera.name().to_owned(),
+                Pose::Camera(_) => KeyOf::Camera.name().into_owned(),
                 Pose::Object(name, _) => name.clone(),
             };
             Some(vec![(name, command.clone())])

@@ -1,8 +1,8 @@
-//! The lanes of the timeline: for the camera and each object, its keys.
+//! The lanes of the timeline: the keys of the camera, of each object, and of values that change over time.
 
-use impasto_scene::document::{Ease, Scene};
+use impasto_scene::document::{Ease, Key, Scene};
 
-use crate::command::KeyOf;
+use crate::command::{KeyOf, StrokesOf};
 
 /// A key: whose it is, and its frame.
 pub type KeyAt = (KeyOf, f64);
@@ -28,6 +28,11 @@ pub struct Lane {
 }
 
 impl Lane {
+    fn new(of: KeyOf, keys: &[impl Key]) -> Self {
+        let keys = keys.iter().map(|key| LaneKey { frame: key.frame(), ease: key.ease() }).collect();
+        Self { of, locked: false, keys }
+    }
+
     /// Whether there is a key at a frame.
     pub fn has(&self, frame: f64) -> bool {
         self.keys.iter().any(|key| key.frame == frame)
@@ -40,20 +45,23 @@ impl Lane {
     }
 }
 
-/// A lane for the camera and one for each object, in the order of the file.
+/// A lane for the camera and one for each object, in the order of the file; then one for each light, the background and strokes that
+/// have keys.
 pub fn lanes(scene: &Scene) -> Vec<Lane> {
-    let keys = &scene.camera.keys;
-    let camera = Lane {
-        of: KeyOf::Camera,
-        locked: false,
-        keys: keys.iter().map(|key| LaneKey { frame: key.frame, ease: key.ease }).collect(),
-    };
+    let camera = Lane::new(KeyOf::Camera, &scene.camera.keys);
     let objects = scene.objects.iter().map(|object| Lane {
-        of: KeyOf::Object(object.name.clone()),
         locked: object.locked,
-        keys: object.keys.iter().map(|key| LaneKey { frame: key.frame, ease: key.ease }).collect(),
+        ..Lane::new(KeyOf::Object(object.name.clone()), &object.keys)
     });
-    std::iter::once(camera).chain(objects).collect()
+    let lights = scene.lights.iter().map(|light| Lane::new(KeyOf::Light(light.name.clone()), &light.keys));
+    let background = Lane::new(KeyOf::Background, &scene.background_keys);
+    let strokes = Lane::new(KeyOf::Strokes(StrokesOf::Scene), &scene.strokes.keys);
+    let regions = scene.regions.iter().map(|region| Lane {
+        locked: region.locked,
+        ..Lane::new(KeyOf::Strokes(StrokesOf::Region(region.name.clone())), &region.strokes.keys)
+    });
+    let values = lights.chain([background, strokes]).chain(regions).filter(|lane| !lane.keys.is_empty());
+    [camera].into_iter().chain(objects).chain(values).collect()
 }
 
 /// The frames at which anything has a key, in order, each once.

@@ -20,11 +20,10 @@ const RANGE_ALPHA: f32 = 0.8;
 
 /// An icon in its colour for each light, and for a selected lamp the ring that shows how far it reaches.
 pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboard> {
-    let lights = &editor.document().shown().scene.lights;
     let px_per_point = framing.size_px()[1] as f32 / framing.viewport().height();
     let mut all = Vec::new();
     for place in editor.light_places() {
-        let light = &lights[place.index];
+        let light = &place.light;
         let position = place.position.as_vec3();
         let icon = match light.kind {
             LightKind::Sun => BillboardIcon::Sun,

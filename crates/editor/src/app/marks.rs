@@ -317,7 +317,7 @@ fn singular(editor: &Editor, poses: &[DAffine3], view: &View) -> Vec<SingularPoi
 fn stand_ins(editor: &Editor, scene: &Scene) -> Vec<(StandIn, bool)> {
     let selection = editor.document().selection();
     let sun = |place: &LightPlace| {
-        let light = &scene.lights[place.index];
+        let light = &place.light;
         let direction = DVec3::from(light.direction.filter(|_| light.kind == LightKind::Sun)?);
         let direction = direction.normalize_or(DVec3::NEG_Y);
         let selected = selection.contains(&Item::Light(light.name.clone()));

@@ -31,21 +31,24 @@ pub(super) fn row(context: &mut MeasureContext<'_>) -> Result<Row, MeasureError>
     for factor in [0.5, 2.0, 4.0] {
         frames.push(strokes_by_key(&painting.seen_by(&zoomed(&camera, factor), at_rest, &options), &[]));
     }
-    // Strokes with `size_follow` are meant to change with their surface.
+    // Strokes with `size_follow` are meant to change with their surface, those with keys to change over time.
     let scene = &context.loaded.scene;
-    let follows: Vec<bool> = (0..=scene.regions.len())
+    let changes: Vec<bool> = (0..=scene.regions.len())
         .map(|region| {
-            presets::resolve(scene, Some(region).filter(|&r| r < scene.regions.len())).size_follow > 0.0
+            let strokes = presets::resolve(scene, Some(region).filter(|&r| r < scene.regions.len()));
+            strokes.size_follow > 0.0 || !strokes.keys.is_empty()
         })
         .collect();
     let mut left_out = 0;
     for strokes in &mut frames {
         let all = strokes.len();
-        strokes.retain(|_, stroke| !follows[stroke.region as usize]);
+        strokes.retain(|_, stroke| !changes[stroke.region as usize]);
         left_out += all - strokes.len();
     }
     if left_out > 0 {
-        row.notes.push(format!("left out, since they follow the size of their surface: {left_out} strokes"));
+        row.notes.push(format!(
+            "left out, since they follow the size of their surface or have keys: {left_out} strokes"
+        ));
     }
     let found = flatness(frames.iter());
     let mapped = context.frame_options(Rotation::Mapped);

@@ -13,6 +13,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_lens(&scene.camera.lens, findings);
     check_camera_keys(scene, findings);
     check_lights(&scene.lights, findings);
+    findings.frames("background_keys", scene.background_keys.iter().map(|key| key.frame));
 }
 
 fn check_size((width, height): (u32, u32), findings: &mut Findings) {
@@ -196,12 +197,37 @@ fn check_lights(lights: &[Light], findings: &mut Findings) {
         if light.ground.is_some() && light.kind != LightKind::Ambient {
             unused(&path("ground"), "an Ambient light", findings);
         }
+        check_light_keys(index, light, findings);
     }
     for (kind, limit) in [(LightKind::Sun, limits::MAX_SUNS), (LightKind::Point, limits::MAX_POINT_LIGHTS)] {
         let mut of_kind = lights.iter().enumerate().filter(|(_, light)| light.kind == kind);
         if let Some((index, _)) = of_kind.nth(limit) {
             let message = format!("there are more than {limit} lights of kind {kind:?}");
             findings.limit(format!("lights[{index}]"), message, format!("keep {limit} of them"));
+        }
+    }
+}
+
+fn check_light_keys(index: usize, light: &Light, findings: &mut Findings) {
+    let keys_path = format!("lights[{index}].keys");
+    findings.frames(&keys_path, light.keys.iter().map(|key| key.frame));
+    for (number, key) in light.keys.iter().enumerate() {
+        let path = |field: &str| format!("{keys_path}[{number}].{field}");
+        if let Some(intensity) = key.intensity {
+            findings.number(&path("intensity"), intensity, 0.0..=limits::MAX_INTENSITY);
+        }
+        match (light.kind, key.direction) {
+            (LightKind::Sun, Some(direction)) => findings.direction(&path("direction"), direction),
+            (_, Some(_)) => unused(&path("direction"), "a Sun", findings),
+            (_, None) => {}
+        }
+        match (light.kind, key.position) {
+            (LightKind::Point, Some(position)) => findings.vector(&path("position"), position),
+            (_, Some(_)) => unused(&path("position"), "a Point light", findings),
+            (_, None) => {}
+        }
+        if key.ground.is_some() && light.kind != LightKind::Ambient {
+            unused(&path("ground"), "an Ambient light", findings);
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Checks stroke settings and the style.
 
 use std::collections::HashSet;
+use std::ops::RangeInclusive;
 
 use super::{Findings, did_you_mean, short, shown};
 use crate::document::{
     BrushMix, Edges, LayerNumber, LayerSettings, STROKE_NUMBERS, Scene, SettingRule, Solver, StrokeNumber,
-    StrokeSettings,
+    StrokeSettings, StrokesKey,
 };
 use crate::limits;
 use crate::presets::{self, GROUND, LayerKind, PAPER_PRESET};
@@ -110,6 +111,20 @@ fn check_settings(strokes_path: &str, settings: &StrokeSettings, findings: &mut 
         findings.number(&path("layer"), f64::from(layer), -most..=most);
     }
     check_layers(strokes_path, &settings.layers, findings);
+    check_keys(&path("keys"), &settings.keys, findings);
+}
+
+fn check_keys(keys_path: &str, keys: &[StrokesKey], findings: &mut Findings) {
+    findings.frames(keys_path, keys.iter().map(|key| key.frame));
+    for (index, key) in keys.iter().enumerate() {
+        let mut number = |field: &str, value: f64, limits: RangeInclusive<f64>| {
+            findings.number(&format!("{keys_path}[{index}].{field}"), value, limits);
+        };
+        number("size", key.size, 0.05..=20.0);
+        number("coverage", key.coverage, 0.0..=4.0);
+        number("dryness", key.dryness, 0.0..=1.0);
+        number("palette_mix", key.palette_mix, 0.0..=1.0);
+    }
 }
 
 fn check_brush(settings_path: &str, brush: Option<&BrushMix>, findings: &mut Findings) {

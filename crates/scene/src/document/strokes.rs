@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use self::InspectorPlace::{Advanced, Main};
 use self::declare::{angle, plain, stroke_numbers};
 use super::numbers::number;
-use super::{BrushMix, Color, Edges, LayerSettings, Number, ResolvedLayer, is_default};
+use super::{BrushMix, Color, Edges, LayerSettings, Number, ResolvedLayer, StrokesKey, is_default};
 use crate::limits::{MAX_COVERAGE, MAX_LENGTH, MAX_STRENGTH, MAX_STROKE_PX};
 
 /// A number of [`StrokeSettings`].

@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 
 use super::*;
-use crate::document::Camera;
+use crate::document::{Camera, Ease};
 
 fn key(frame: f64) -> ObjectKey {
     ObjectKey::at(frame)
@@ -23,6 +23,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         size: (640, 360),
         seed: 0,
         background: Default::default(),
+        background_keys: Vec::new(),
         timeline: Default::default(),
         reference: Default::default(),
         further_references: Vec::new(),

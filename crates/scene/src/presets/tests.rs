@@ -11,6 +11,7 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
         size: (640, 360),
         seed: 0,
         background: Default::default(),
+        background_keys: Vec::new(),
         timeline: Default::default(),
         reference: Default::default(),
         further_references: Vec::new(),

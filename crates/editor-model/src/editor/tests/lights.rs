@@ -24,9 +24,8 @@ fn light<'a>(editor: &'a Editor, name: &str) -> &'a Light {
 
 /// Where the icon of a light shows.
 fn icon(editor: &Editor, name: &str) -> DVec2 {
-    let lights = &editor.document().shown().scene.lights;
     let places = editor.light_places();
-    let place = places.iter().find(|place| lights[place.index].name == name).expect("it has a place");
+    let place = places.iter().find(|place| place.light.name == name).expect("it has a place");
     view(editor).project(place.position).expect("it shows")
 }
 

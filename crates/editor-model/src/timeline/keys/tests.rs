@@ -1,9 +1,11 @@
 //! Tests of selecting, dragging and copying keys.
 
-use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
+use impasto_scene::document::{CameraKey, Ease, LightKey, ObjectKey, Scene};
+use impasto_scene::motion;
 
 use super::super::lanes;
 use super::*;
+use crate::command::{KeyedValue, StrokesOf};
 
 fn scene() -> Scene {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/apple.ron");
@@ -136,4 +138,44 @@ fn keys_stay_within_the_largest_frame_numbers() {
     let fewer = lanes[..1].to_vec();
     hand.retain(&fewer);
     assert_eq!(hand.selected().len(), 2, "the apple is gone");
+}
+
+#[test]
+fn lights_background_and_strokes_have_lanes_once_they_have_keys() {
+    let mut document = scene();
+    let (before, light) = (lanes(&document).len(), document.lights[0].name.clone());
+    let owners = [
+        KeyOf::Light(light.clone()),
+        KeyOf::Background,
+        KeyOf::Strokes(StrokesOf::Scene),
+        KeyOf::Strokes(StrokesOf::Region(document.regions[0].name.clone())),
+    ];
+    let run = |time: Time, document: &mut Scene| time.edit(document).expect("a sound edit");
+    for of in &owners {
+        for frame in [0.0, 40.0] {
+            run(Time::SetKey(of.clone(), frame), &mut document);
+        }
+    }
+    let lanes_now = lanes(&document);
+    assert_eq!(lanes_now[before..].iter().map(|lane| lane.of.clone()).collect::<Vec<_>>(), owners);
+    // A value is put at a frame, and the rest of the light stays as it was there.
+    let intensity = document.lights[0].intensity;
+    let stated = LightKey { intensity: Some(9.0), ..LightKey::at(20.0) };
+    run(Time::PutValue(KeyedValue::Light(light, stated), 20.0), &mut document);
+    assert_eq!(document.lights[0].keys.len(), 3);
+    assert_eq!(motion::light_at(&document.lights[0], 20.0).intensity, 9.0);
+    assert_eq!(motion::light_at(&document.lights[0], 40.0).intensity, intensity);
+    assert_eq!(document.lights[0].keys[1].direction, document.lights[0].direction);
+    // Moved together onto others, they replace those; the eases are theirs.
+    run(Time::SetEase(vec![(KeyOf::Background, 0.0)], Ease::Step), &mut document);
+    run(Time::MoveKeys(vec![(KeyOf::Background, 0.0)], 40.0), &mut document);
+    let keys: Vec<_> = document.background_keys.iter().map(|key| (key.frame, key.ease)).collect();
+    assert_eq!(keys, [(40.0, Ease::Step)]);
+    run(Time::CopyKeys(vec![(owners[2].clone(), 0.0), (owners[2].clone(), 40.0)], 40.0), &mut document);
+    let frames: Vec<f64> = document.strokes.keys.iter().map(|key| key.frame).collect();
+    assert_eq!(frames, [0.0, 40.0, 80.0]);
+    run(Time::DeleteKeys(vec![(KeyOf::Background, 40.0)]), &mut document);
+    assert_eq!(lanes(&document).len(), before + 3);
+    let all = document.camera.keys.iter().map(|key| (KeyOf::Camera, key.frame)).collect();
+    assert!(Time::DeleteKeys(all).edit(&mut document).is_err());
 }

@@ -2,13 +2,15 @@
 
 use egui::Ui;
 use impasto_editor_model::Item;
-use impasto_editor_model::command::{Arrange, Command};
-use impasto_scene::document::{Color, Light, LightKind};
+use impasto_editor_model::command::{Arrange, Command, KeyOf, set_light};
+use impasto_scene::document::{Color, Light, LightKey, LightKind};
 use impasto_scene::limits::MAX_INTENSITY;
+use impasto_scene::motion;
 
 use super::Asker;
 use super::number::Number;
 use super::parts::{head, head_icon, note, pick, reset, row, section, seen};
+use super::pose::of_key;
 use super::region::vector;
 use crate::icons;
 use crate::theme::Tokens;
@@ -25,12 +27,24 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         head_icon(ui, icons::LIGHT, weak);
         asker.name(ui, "Light name", &Item::Light(name.to_owned()));
     });
-    section(ui, "Light", "", true, |ui| rows(ui, asker, [light, stored]));
+    let frame = asker.shown.session.frame;
+    let is_keyed = !stored.keys.is_empty();
+    let title = if is_keyed { format!("Light at frame {frame}") } else { "Light".to_owned() };
+    section(ui, &title, "", true, |ui| rows(ui, asker, [light, stored]));
+    let key = stored.keys.iter().find(|key| key.frame == frame);
+    of_key(ui, asker, KeyOf::Light(name.to_owned()), key.map(|key| key.ease));
 }
 
-fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
+/// The values of the light at the frame that is shown. A light without keys has the same at every frame.
+fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
+    let frame = asker.shown.session.frame;
+    let [light, stored] = [light, kept].map(|light| motion::light_at(light, frame));
+    let scene = asker.stored();
+    let states = |stated: LightKey, what: &str| {
+        set_light(scene, &kept.name, stated, what).unwrap_or(Command::Several(String::new(), Vec::new()))
+    };
     let set = |light: Light, what: &str| {
-        Command::Arrange(Arrange::SetLight { name: stored.name.clone(), light, what: what.to_owned() })
+        Command::Arrange(Arrange::SetLight { name: kept.name.clone(), light, what: what.to_owned() })
     };
     let kinds = [LightKind::Sun, LightKind::Point, LightKind::Ambient];
     row(ui, "Kind", |ui| {
@@ -42,12 +56,12 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
         let chosen = kinds.iter().position(|kind| *kind == light.kind).unwrap_or(0);
         let words = ["Sun", "Lamp", "Sky"];
         if let Some(picked) = pick(ui, tip, &words, chosen) {
-            asker.ask(set(of_kind(stored, kinds[picked]), &format!("is a {}", words[picked].to_lowercase())));
+            asker.ask(set(of_kind(kept, kinds[picked]), &format!("is a {}", words[picked].to_lowercase())));
         }
     });
     row(ui, "Colour", |ui| {
         asker.colour(ui, "Light colour", seen(light.color), |color| {
-            set(Light { color, ..stored.clone() }, "colour")
+            states(LightKey { color: Some(color), ..LightKey::at(frame) }, "colour")
         });
     });
     let intensity = Number {
@@ -60,28 +74,28 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, stored]: [&Light; 2]) {
     asker.number(ui, &intensity, [light.intensity, stored.intensity], |to| {
         let to = to.unwrap_or(1.0);
         let what = if to < stored.intensity { "dimmer" } else { "brighter" };
-        set(Light { intensity: to, ..stored.clone() }, what)
+        states(LightKey { intensity: Some(to), ..LightKey::at(frame) }, what)
     });
     if let (LightKind::Sun, Some(shown), Some(was)) = (light.kind, light.direction, stored.direction) {
         let effect = "Where the light travels to, in the world.";
         vector(ui, asker, "Shines", effect, [shown, was], |direction| {
-            set(Light { direction: Some(direction), ..stored.clone() }, "direction")
+            states(LightKey { direction: Some(direction), ..LightKey::at(frame) }, "direction")
         });
     }
     if let (LightKind::Point, Some(shown), Some(was)) = (light.kind, light.position, stored.position) {
         vector(ui, asker, "Place", "Where the lamp stands, in the world.", [shown, was], |position| {
-            set(Light { position: Some(position), ..stored.clone() }, "place")
+            states(LightKey { position: Some(position), ..LightKey::at(frame) }, "place")
         });
     }
     if light.kind == LightKind::Ambient {
         row(ui, "Ground", |ui| {
             asker.colour(ui, "Ground colour", seen(light.ground.unwrap_or(dim(light.color))), |color| {
-                set(Light { ground: Some(color), ..stored.clone() }, "ground")
+                states(LightKey { ground: Some(color), ..LightKey::at(frame) }, "ground")
             });
             if light.ground.is_none() {
                 note(ui, "from the colour above");
-            } else if reset(ui, "Ground colour") {
-                asker.ask(set(Light { ground: None, ..stored.clone() }, "ground"));
+            } else if kept.keys.is_empty() && reset(ui, "Ground colour") {
+                asker.ask(set(Light { ground: None, ..kept.clone() }, "ground"));
             }
         });
     }
@@ -95,6 +109,9 @@ fn dim(Color(channels): Color) -> Color {
 /// The light as another kind, with defaults for what that kind needs.
 fn of_kind(light: &Light, kind: LightKind) -> Light {
     let mut light = Light { kind, direction: None, position: None, ground: None, ..light.clone() };
+    for key in &mut light.keys {
+        (key.direction, key.position, key.ground) = (None, None, None);
+    }
     match kind {
         LightKind::Sun => light.direction = Some([0.4, -0.8, -0.45]),
         LightKind::Point => light.position = Some([0.0, 2.0, 0.0]),

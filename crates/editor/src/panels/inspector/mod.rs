@@ -8,6 +8,7 @@ mod light;
 mod noise;
 mod number;
 mod object;
+mod over_time;
 mod paint_layers;
 mod parts;
 mod pose;

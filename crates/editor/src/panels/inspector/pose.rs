@@ -98,36 +98,41 @@ fn posed(was: &ObjectKey, field: PoseField, value: f64) -> ObjectKey {
 
 /// The key at the frame that is shown, or a button that sets one.
 pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Option<Ease>) {
-    let frame = asker.shown.session.frame;
     section(ui, "This key", if ease.is_some() { "" } else { "none here" }, true, |ui| {
-        let Some(ease) = ease else {
-            if Button::new("Key this frame").show(ui).clicked() {
-                asker.ask(Command::Time(Time::SetKey(of, frame)));
-            }
-            return;
-        };
-        let number = Number {
-            limits: Some(-MAX_FRAME..=MAX_FRAME),
-            ..Number::new("Key frame", "Moves the key, and the frame that is shown with it.")
-        };
-        let before = asker.asks.len();
-        asker.number(ui, &number, [frame, frame], |to| {
-            Command::Time(Time::MoveKeys(vec![(of.clone(), frame)], to.unwrap_or(frame) - frame))
-        });
-        // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
-        // on release.
-        asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
-        if let Some(Ask::Do(Command::Time(Time::MoveKeys(_, by)))) = asker.asks.get(before) {
-            let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
-            asker.asks.push(Ask::Session(Box::new(session)));
+        key_rows(ui, asker, of, ease);
+    });
+}
+
+/// The rows of [`of_key`].
+pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Option<Ease>) {
+    let frame = asker.shown.session.frame;
+    let Some(ease) = ease else {
+        if Button::new("Key this frame").show(ui).clicked() {
+            asker.ask(Command::Time(Time::SetKey(of, frame)));
         }
-        // The label is narrow, so that the three choices fit into the width of the column.
-        super::parts::row_with(ui, "Ease out", EASE_LABEL, |ui| {
-            let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
-            let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);
-            if widgets::segmented_of(ui, "Ease", &["Smooth", "Linear", "Hold"], &mut chosen).changed() {
-                asker.ask(Command::Time(Time::SetEase(vec![(of.clone(), frame)], kinds[chosen])));
-            }
-        });
+        return;
+    };
+    let number = Number {
+        limits: Some(-MAX_FRAME..=MAX_FRAME),
+        ..Number::new("Key frame", "Moves the key, and the frame that is shown with it.")
+    };
+    let before = asker.asks.len();
+    asker.number(ui, &number, [frame, frame], |to| {
+        Command::Time(Time::MoveKeys(vec![(of.clone(), frame)], to.unwrap_or(frame) - frame))
+    });
+    // Not previewed: a key that moved to another frame would vanish from this section during the drag. It moves
+    // on release.
+    asker.asks.retain(|ask| !matches!(ask, Ask::Preview(Command::Time(Time::MoveKeys(..)))));
+    if let Some(Ask::Do(Command::Time(Time::MoveKeys(_, by)))) = asker.asks.get(before) {
+        let session = impasto_editor_model::Session { frame: frame + by, ..asker.shown.session.clone() };
+        asker.asks.push(Ask::Session(Box::new(session)));
+    }
+    // The label is narrow, so that the three choices fit into the width of the column.
+    super::parts::row_with(ui, "Ease out", EASE_LABEL, |ui| {
+        let kinds = [Ease::Smooth, Ease::Linear, Ease::Step];
+        let mut chosen = kinds.iter().position(|kind| *kind == ease).unwrap_or(0);
+        if widgets::segmented_of(ui, "Ease", &["Smooth", "Linear", "Hold"], &mut chosen).changed() {
+            asker.ask(Command::Time(Time::SetEase(vec![(of.clone(), frame)], kinds[chosen])));
+        }
     });
 }

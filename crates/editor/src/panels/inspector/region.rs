@@ -2,13 +2,13 @@
 
 use egui::Ui;
 use impasto_editor_model::Item;
-use impasto_editor_model::command::{Command, Directions, RegionTarget, Regions};
+use impasto_editor_model::command::{Command, Directions, RegionTarget, Regions, StrokesOf};
 use impasto_scene::document::{Bend, Direction, Region, Seam, Sense};
 
 use super::Asker;
 use super::number::{ANY, Number};
 use super::parts::{at_end, axes, body, head, head_note, note, pick, row, section};
-use super::{guides, strokes};
+use super::{guides, over_time, strokes};
 use crate::panels::tree::region_color;
 use crate::widgets::{self, Tip};
 
@@ -48,6 +48,7 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
         strokes::of_region(ui, asker, name);
         guides::section_of(ui, asker, [region, stored]);
         strokes::advanced(ui, asker, Some(name));
+        over_time::of_strokes(ui, asker, &StrokesOf::Region(name.to_owned()));
     });
 }
 

@@ -2,13 +2,14 @@
 //! regions, reference.
 
 use egui::Ui;
-use impasto_editor_model::command::{Command, SceneEdit, Time};
+use impasto_editor_model::command::{Command, KeyedValue, SceneEdit, StrokesOf, Time};
 use impasto_scene::document::{Reference, Style};
 use impasto_scene::limits::MAX_SIDE_PX;
+use impasto_scene::motion;
 
 use super::number::Number;
 use super::parts::{head, note, row, section, seen};
-use super::{Asker, ink, rotating_strokes, strokes};
+use super::{Asker, ink, over_time, rotating_strokes, strokes};
 use crate::panels::Ask;
 use crate::theme::type_face;
 use crate::widgets::{self, Button, Tip};
@@ -28,6 +29,8 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
     section(ui, "Style", "", true, |ui| style(ui, asker));
     section(ui, "All strokes", "", false, |ui| strokes::contents(ui, asker, None));
     strokes::advanced(ui, asker, None);
+    over_time::of_strokes(ui, asker, &StrokesOf::Scene);
+    over_time::of_background(ui, asker);
     section(ui, "Reference", "", false, |ui| reference(ui, asker));
 }
 
@@ -48,8 +51,14 @@ fn picture(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
         set(f64::from(was_width), to.unwrap_or(720.0))
     });
     row(ui, "Background", |ui| {
-        asker.colour(ui, "Background colour", seen(asker.scene().background), |color| {
-            Command::Scene(SceneEdit::SetBackground(color))
+        let (frame, scene) = (asker.shown.session.frame, asker.scene());
+        let is_keyed = !scene.background_keys.is_empty();
+        asker.colour(ui, "Background colour", seen(motion::background_at(scene, frame)), |color| {
+            if is_keyed {
+                Command::Time(Time::PutValue(KeyedValue::Background(color), frame))
+            } else {
+                Command::Scene(SceneEdit::SetBackground(color))
+            }
         });
     });
 }

@@ -3,14 +3,13 @@
 use egui::{
     Align2, Color32, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, accesskit, pos2, vec2,
 };
-use impasto_editor_model::command::KeyOf;
-use impasto_editor_model::command::ease_name;
+use impasto_editor_model::command::{KeyOf, StrokesOf, ease_name};
 use impasto_editor_model::timeline::{KeysEvent, Lane, LaneKey, TimelineEvent};
 use impasto_editor_model::{Item, Selection};
 use impasto_scene::document::Ease;
 
 use super::across::{FrameScale, KEY, diamond, filled};
-use crate::icons;
+use crate::icons::{self, Icon};
 use crate::panels::{Ask, PanelInput, text_width};
 use crate::theme::{Tokens, measure, type_face};
 use crate::widgets::{self, Tip};
@@ -29,11 +28,29 @@ pub(super) struct LaneRow {
     pub(super) across: FrameScale,
 }
 
-/// The item whose keys these are.
-pub(super) fn item(of: &KeyOf) -> Item {
+/// The item whose keys these are; `None` for the scene, whose settings show where nothing is selected.
+pub(super) fn item(of: &KeyOf) -> Option<Item> {
     match of {
-        KeyOf::Camera => Item::Camera,
-        KeyOf::Object(name) => Item::Object(name.clone()),
+        KeyOf::Camera => Some(Item::Camera),
+        KeyOf::Object(name) => Some(Item::Object(name.clone())),
+        KeyOf::Light(name) => Some(Item::Light(name.clone())),
+        KeyOf::Strokes(StrokesOf::Region(name)) => Some(Item::Region(name.clone())),
+        KeyOf::Background | KeyOf::Strokes(StrokesOf::Scene) => None,
+    }
+}
+
+/// Whether the owner of these keys is selected.
+pub(super) fn is_selected(selection: &Selection, of: &KeyOf) -> bool {
+    item(of).is_some_and(|item| selection.contains(&item))
+}
+
+fn icon(of: &KeyOf) -> Icon {
+    match of {
+        KeyOf::Camera => icons::CAMERA,
+        KeyOf::Object(_) => icons::OBJECT,
+        KeyOf::Light(_) => icons::LIGHT,
+        KeyOf::Background => icons::BACKDROP,
+        KeyOf::Strokes(_) => icons::REGION,
     }
 }
 
@@ -41,23 +58,21 @@ pub(super) fn item(of: &KeyOf) -> Item {
 pub(super) fn name(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
     let mut rect = row.rect;
     rect.max.x = row.names;
-    let item = item(&lane.of);
     let tokens = Tokens::of(ui);
-    let response = ui.interact(rect, ui.scope_id().with(("lane", lane.of.name())), Sense::click());
+    let response = ui.interact(rect, ui.scope_id().with(("lane", &lane.of)), Sense::click());
     let label = format!("Select {}", lane.of.name());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     if response.clicked() {
-        asks.push(Ask::Select(Selection::only(item.clone())));
+        asks.push(Ask::Select(item(&lane.of).map(Selection::only).unwrap_or_default()));
     }
-    if response.hovered() && !shown.document.selection().contains(&item) {
+    if response.hovered() && !is_selected(shown.document.selection(), &lane.of) {
         ui.painter().rect_filled(rect, 0.0, tokens.hov);
     }
-    let icon = if lane.of == KeyOf::Camera { icons::CAMERA } else { icons::OBJECT };
     let at = pos2(rect.left() + 20.0, rect.center().y);
     let font = type_face::icon(measure::SMALL_ICON);
-    ui.painter().text(at, Align2::CENTER_CENTER, icon.glyph(), font, tokens.weak);
+    ui.painter().text(at, Align2::CENTER_CENTER, icon(&lane.of).glyph(), font, tokens.weak);
     let mut job =
-        egui::text::LayoutJob::simple_singleline(lane.of.name().to_owned(), type_face::body(), tokens.text);
+        egui::text::LayoutJob::simple_singleline(lane.of.name().into_owned(), type_face::body(), tokens.text);
     job.wrap = egui::text::TextWrapping::truncate_at_width((rect.width() - 72.0).max(20.0));
     let galley = ui.painter().layout_job(job);
     let at = pos2(rect.left() + 36.0, rect.center().y - galley.size().y / 2.0);
@@ -88,7 +103,7 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     let mut rect = row.rect;
     rect.min.x = row.names;
     let label = format!("{} keys", lane.of.name());
-    let list = ui.interact(rect, ui.scope_id().with(("keys", lane.of.name())), Sense::hover());
+    let list = ui.interact(rect, ui.scope_id().with(("keys", &lane.of)), Sense::hover());
     list.widget_info(|| WidgetInfo::labeled(Role::List, true, &label));
     let tokens = Tokens::of(ui);
     let middle = rect.center().y;

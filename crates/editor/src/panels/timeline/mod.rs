@@ -106,14 +106,14 @@ fn rows_of(
         for (index, lane) in lanes.iter().enumerate() {
             let top = rect.top() + index as f32 * height;
             let rect = Rect::from_x_y_ranges(rect.x_range(), top..=top + height);
-            if is_new && active.as_ref() == Some(&lanes::item(&lane.of)) {
+            if is_new && active.is_some() && active == lanes::item(&lane.of) {
                 ui.scroll_to_rect(rect, None);
             }
             if !ui.is_rect_visible(rect) {
                 continue;
             }
             let tokens = Tokens::of(ui);
-            let is_selected = shown.document.selection().contains(&lanes::item(&lane.of));
+            let is_selected = lanes::is_selected(shown.document.selection(), &lane.of);
             let fill = if is_selected { tokens.sel.gamma_multiply(0.8) } else { Color32::TRANSPARENT };
             ui.painter().rect_filled(rect, 0.0, fill);
             let row = LaneRow { rect, names, across };

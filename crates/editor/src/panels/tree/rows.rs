@@ -79,7 +79,10 @@ pub(super) fn rows(document: &Document, state: &ColumnState) -> Vec<TreeLine> {
     };
     let mut rows = vec![camera];
     let light = RowMark::Icon(icons::LIGHT);
-    rows.extend(scene.lights.iter().map(|of| TreeLine::new(Item::Light(of.name.clone()), "light", light)));
+    rows.extend(scene.lights.iter().map(|of| TreeLine {
+        keyed: of.keys.len() > 1,
+        ..TreeLine::new(Item::Light(of.name.clone()), "light", light)
+    }));
     let starts_open = scene.objects.len() + scene.regions.len() + rows.len() <= ROWS_OPEN_AT_FIRST;
     let listing = Listing { document, state, starts_open, all_open: searched.is_some() };
     listing.objects_on(None, 0, &mut rows);

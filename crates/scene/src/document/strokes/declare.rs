@@ -77,6 +77,9 @@ macro_rules! stroke_numbers {
             /// What differs from the preset in single layers of paint, by name.
             #[serde(skip_serializing_if = "is_default")]
             pub layers: Vec<LayerSettings>,
+            /// Changes over time, frames strictly increasing; those of a region replace the scene's.
+            #[serde(skip_serializing_if = "is_default")]
+            pub keys: Vec<StrokesKey>,
         }
 
         /// Stroke settings with nothing left out.
@@ -90,8 +93,12 @@ macro_rules! stroke_numbers {
             pub edges: Edges,
             /// Pigments; empty means any colour.
             pub palette: Vec<Color>,
+            /// How far colours keep to the palette, 0..=1.
+            pub palette_mix: f32,
             /// Higher layers are painted over lower ones.
             pub layer: i32,
+            /// Changes over time: see [`ResolvedStrokes::at`].
+            pub keys: Vec<StrokesKey>,
         }
 
         /// A preset's values for all numbers that are not sizes, in the units of a scene file.
@@ -115,7 +122,9 @@ macro_rules! stroke_numbers {
                     $($color_resolved: $color_kind::of_preset(numbers.$color),)+
                     edges,
                     palette: Vec::new(),
+                    palette_mix: 1.0,
                     layer: 0,
+                    keys: Vec::new(),
                 }
             }
 

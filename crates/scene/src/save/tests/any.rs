@@ -59,9 +59,27 @@ fn any_camera() -> impl Strategy<Value = Camera> {
 
 fn any_light() -> impl Strategy<Value = Light> {
     let kind = prop_oneof![Just(LightKind::Sun), Just(LightKind::Point), Just(LightKind::Ambient)];
-    let places = (proptest::option::of(vector3()), proptest::option::of(vector3()));
-    (name(), kind, places, any_color(), proptest::option::of(any_color()), number()).prop_map(
-        |(name, kind, (direction, position), color, ground, intensity)| Light {
+    let places = || (proptest::option::of(vector3()), proptest::option::of(vector3()));
+    let values = (
+        proptest::option::of(number()),
+        proptest::option::of(any_color()),
+        proptest::option::of(any_color()),
+        places(),
+    );
+    let key = (number(), values, ease()).prop_map(
+        |(frame, (intensity, color, ground, (direction, position)), ease)| LightKey {
+            frame,
+            intensity,
+            color,
+            ground,
+            direction,
+            position,
+            ease,
+        },
+    );
+    let keys = prop::collection::vec(key, 0..3);
+    (name(), kind, places(), any_color(), proptest::option::of(any_color()), number(), keys).prop_map(
+        |(name, kind, (direction, position), color, ground, intensity, keys)| Light {
             name,
             kind,
             direction,
@@ -69,6 +87,7 @@ fn any_light() -> impl Strategy<Value = Light> {
             color,
             ground,
             intensity,
+            keys,
         },
     )
 }
@@ -191,15 +210,26 @@ fn any_layer() -> impl Strategy<Value = LayerSettings> {
 fn any_strokes() -> impl Strategy<Value = StrokeSettings> {
     let numbers = prop::collection::vec(proptest::option::of(number()), STROKE_NUMBERS.len());
     let edges = prop_oneof![Just(Edges::Clip), number().prop_map(Edges::Overrun), Just(Edges::Free)];
+    let key = (number(), (number(), number(), number(), number()), ease()).prop_map(
+        |(frame, (size, coverage, dryness, palette_mix), ease)| StrokesKey {
+            frame,
+            size,
+            coverage,
+            dryness,
+            palette_mix,
+            ease,
+        },
+    );
     let lists = (
         proptest::option::of(prop::collection::vec(any_color(), 0..3)),
         prop::collection::vec(any_layer(), 0..3),
+        prop::collection::vec(key, 0..3),
     );
     let head = (proptest::option::of(name()), any_brush(), proptest::option::of(edges));
     (head, numbers, proptest::option::of(any::<i32>()), lists).prop_map(
-        |((preset, brush, edges), numbers, layer, (palette, layers))| {
+        |((preset, brush, edges), numbers, layer, (palette, layers, keys))| {
             let mut strokes =
-                StrokeSettings { preset, brush, edges, palette, layer, layers, ..Default::default() };
+                StrokeSettings { preset, brush, edges, palette, layer, layers, keys, ..Default::default() };
             for (of, value) in STROKE_NUMBERS.iter().zip(numbers) {
                 *(of.number.of)(&mut strokes) = value;
             }
@@ -347,9 +377,12 @@ fn any_region() -> impl Strategy<Value = Region> {
 
 pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
     let style = any_style();
+    let background_key =
+        (number(), any_color(), ease()).prop_map(|(frame, color, ease)| BackgroundKey { frame, color, ease });
+    let background = (any_color(), prop::collection::vec(background_key, 0..3));
     let timeline =
         (number(), any::<i64>(), any::<i64>()).prop_map(|(fps, first, last)| Timeline { fps, first, last });
-    let head = (any::<(u32, u32)>(), any::<u32>(), any_color(), timeline, any_reference(), style);
+    let head = (any::<(u32, u32)>(), any::<u32>(), background, timeline, any_reference(), style);
     let lists = (
         prop::collection::vec(any_light(), 0..3),
         prop::collection::vec(any_object(), 0..4),
@@ -358,7 +391,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
     );
     (head, any_camera(), lists, any_strokes()).prop_map(
         |(
-            (size, seed, background, timeline, reference, style),
+            (size, seed, (background, background_keys), timeline, reference, style),
             camera,
             (lights, objects, regions, further_references),
             strokes,
@@ -368,6 +401,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
                 size,
                 seed,
                 background,
+                background_keys,
                 timeline,
                 reference,
                 further_references,
