@@ -11,10 +11,10 @@ mod time;
 use impasto_scene::document::{Object, Region, Scene};
 use impasto_scene::loaded::LoadedScene;
 
-pub use arrange::{Arrange, PoseField, Shift};
+pub use arrange::{Arrange, PoseField, Shift, set_light};
 pub use direction::{Directions, Gesture, GuideSettings, RegionTarget};
 pub use edit::Edit;
-pub use keys::{KeyOf, KeyedValue, set_light, strokes_at};
+pub use keys::{KeyOf, KeyedValue, strokes_at};
 pub use region::{Regions, StrokeChange, StrokesOf};
 pub use scene::SceneEdit;
 pub use time::{Pose, Time, ease_name};

@@ -26,9 +26,15 @@ pub(crate) struct PresenceBound {
 }
 
 impl Painting {
-    /// For each rule, with the strokes that it has now; `None` where it paints nothing on this coat. `by_polygon` where the paper's rule decides what
-    /// shows.
-    pub(crate) fn presence_bounds(&self, coat: &Coat, by_polygon: bool) -> Vec<Option<PresenceBound>> {
+    /// For each rule, which has these strokes at the frame; `None` where it paints nothing on this coat. `by_polygon` where the
+    /// paper's rule decides what shows.
+    pub(crate) fn presence_bounds(
+        &self,
+        coat: &Coat,
+        strokes_of_rule: &[Cow<'_, ResolvedStrokes>],
+        px_scale: f32,
+        by_polygon: bool,
+    ) -> Vec<Option<PresenceBound>> {
         let body = &self.bodies[coat.object];
         let regions = &self.scene().regions;
         let most =

@@ -5,16 +5,18 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{
-    CameraKey, Dab, Direction, Lens, Light, LightKind, MaterialOverride, Object, ObjectKey, Patch, Scene,
-    Seed, Selector, Up,
+    CameraKey, Dab, Direction, Lens, Light, LightKey, LightKind, MaterialOverride, Object, ObjectKey, Patch,
+    Scene, Seed, Selector, Up,
 };
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::mesh_file::MeshFile;
 use impasto_scene::motion::{self, CameraPose};
 use impasto_scene::new_scene::{self, Placing};
 
+use super::keys::KeyedValue;
 use super::region::in_file;
-use super::{Done, counted, finite, object_mut, unlocked_object};
+use super::time::Time;
+use super::{Command, Done, counted, finite, object_mut, unlocked_object};
 use crate::euler::{self, tidy};
 use crate::names;
 use crate::refusal::Refusal;
@@ -404,6 +406,25 @@ fn add_light(scene: &mut Scene, kind: LightKind, at: DVec3, toward: DVec3) -> Do
     };
     scene.lights.push(light);
     Done::new(format!("Add {name}")).selecting(Selection::only(Item::Light(name)))
+}
+
+/// The command that gives a light what `stated` states: at its frame if the light has keys, else for the whole shot. `what` are the
+/// words for it. `None` if there is no such light.
+pub fn set_light(scene: &Scene, name: &str, stated: LightKey, what: &str) -> Option<Command> {
+    let light = scene.lights.iter().find(|light| light.name == name)?;
+    if !light.keys.is_empty() {
+        let frame = stated.frame;
+        return Some(Command::Time(Time::PutValue(KeyedValue::Light(name.to_owned(), stated), frame)));
+    }
+    let light = Light {
+        intensity: stated.intensity.unwrap_or(light.intensity),
+        color: stated.color.unwrap_or(light.color),
+        ground: stated.ground.or(light.ground),
+        direction: stated.direction.or(light.direction),
+        position: stated.position.or(light.position),
+        ..light.clone()
+    };
+    Some(Command::Arrange(Arrange::SetLight { name: name.to_owned(), light, what: what.to_owned() }))
 }
 
 fn set_camera(scene: &mut Scene, frame: f64, pose: &CameraPose) {

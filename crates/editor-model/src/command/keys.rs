@@ -8,7 +8,7 @@ use impasto_scene::document::{
 use impasto_scene::{motion, presets};
 
 use super::region::{StrokesOf, in_file, settings};
-use super::{Arrange, Command, Time, unlocked_object};
+use super::unlocked_object;
 use crate::euler::tidy;
 use crate::refusal::Refusal;
 
@@ -130,25 +130,6 @@ fn whole_key(light: &Light, frame: f64) -> LightKey {
         position: light.position.filter(|_| light.kind == LightKind::Point),
         ..LightKey::at(frame)
     }
-}
-
-/// The command that gives a light what `stated` states: at its frame if the light has keys, else for the whole shot. `what` are the
-/// words for it. `None` if there is no such light.
-pub fn set_light(scene: &Scene, name: &str, stated: LightKey, what: &str) -> Option<Command> {
-    let light = scene.lights.iter().find(|light| light.name == name)?;
-    if !light.keys.is_empty() {
-        let frame = stated.frame;
-        return Some(Command::Time(Time::PutValue(KeyedValue::Light(name.to_owned(), stated), frame)));
-    }
-    let light = Light {
-        intensity: stated.intensity.unwrap_or(light.intensity),
-        color: stated.color.unwrap_or(light.color),
-        ground: stated.ground.or(light.ground),
-        direction: stated.direction.or(light.direction),
-        position: stated.position.or(light.position),
-        ..light.clone()
-    };
-    Some(Command::Arrange(Arrange::SetLight { name: name.to_owned(), light, what: what.to_owned() }))
 }
 
 /// The keys in force for strokes, which a region may have from the scene.
