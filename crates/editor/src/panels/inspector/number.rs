@@ -111,3 +111,12 @@ impl Asker<'_, '_> {
         }
     }
 }
+
+/// The digits after the decimal point that a narrow field has room for.
+pub(super) fn decimals(value: f64) -> usize {
+    match value.abs() {
+        ..10.0 => 3,
+        10.0..100.0 => 2,
+        _ => 1,
+    }
+}

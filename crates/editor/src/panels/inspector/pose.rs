@@ -9,9 +9,9 @@ use impasto_scene::limits::{KEY_SCALE, MAX_FRAME};
 use impasto_scene::motion;
 
 use super::Asker;
-use super::number::Number;
+use super::number::{Number, decimals};
 use super::parts::{axes, section};
-use super::region::decimals;
+
 use crate::panels::Ask;
 use crate::widgets::{self, Button};
 

@@ -6,7 +6,7 @@ use impasto_editor_model::command::{Command, Directions, RegionTarget, Regions, 
 use impasto_scene::document::{Bend, Direction, Region, Seam, Sense};
 
 use super::Asker;
-use super::number::{ANY, Number};
+use super::number::{ANY, Number, decimals};
 use super::parts::{at_end, axes, body, head, head_note, note, pick, row, section};
 use super::{guides, over_time, strokes};
 use crate::panels::tree::region_color;
@@ -178,15 +178,6 @@ pub(super) fn vector(
             command(all)
         });
     });
-}
-
-/// The digits after the decimal point that a narrow field has room for.
-pub(super) fn decimals(value: f64) -> usize {
-    match value.abs() {
-        ..10.0 => 3,
-        10.0..100.0 => 2,
-        _ => 1,
-    }
 }
 
 fn kind(direction: &Direction) -> usize {
