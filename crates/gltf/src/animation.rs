@@ -1,0 +1,123 @@
+//! Animations as the file has them: keys at times, and what they drive.
+
+use std::sync::Arc;
+
+/// An animation: tracks that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Animation {
+    /// The name in the file; empty for none.
+    pub name: String,
+    /// What it drives, in the order of the file.
+    pub tracks: Vec<Track>,
+}
+
+impl Animation {
+    /// The first and the last time of its keys, seconds; `None` without tracks.
+    pub fn span_s(&self) -> Option<[f32; 2]> {
+        let spans =
+            self.tracks.iter().filter_map(|track| Some([*track.times_s.first()?, *track.times_s.last()?]));
+        spans.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+    }
+}
+
+/// The keys of one thing. Lists that several tracks read from one accessor are one list in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// What it drives.
+    pub target: Target,
+    /// Which of the animation's channels it is.
+    pub channel: usize,
+    /// Times of the keys, seconds: finite, increasing, at least one.
+    pub times_s: Arc<Vec<f32>>,
+    /// The values, finite: `width` for each key; with cubic splines three times as many, the tangent into the key, the
+    /// value, and the tangent out of it (per second).
+    pub values: Arc<Vec<f32>>,
+    /// Numbers of a value.
+    pub width: usize,
+    /// What happens between keys.
+    pub interpolation: Interpolation,
+}
+
+/// What happens between keys. Before the first and after the last key nothing moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The value of the key before stays.
+    Step,
+    /// In a straight line; rotations along the shortest arc at even speed.
+    Linear,
+    /// Hermite splines by the tangents of the keys.
+    CubicSpline,
+}
+
+/// What a track drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Target {
+    /// A property of a node.
+    Node(usize, NodeProperty),
+    /// A property of a camera.
+    Camera(usize, CameraProperty),
+    /// A property of a light.
+    Light(usize, LightProperty),
+    /// A property of a material.
+    Material(usize, MaterialProperty),
+}
+
+/// What of a node is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NodeProperty {
+    /// Three numbers.
+    Translation,
+    /// A quaternion: x, y, z, w.
+    Rotation,
+    /// Three numbers.
+    Scale,
+    /// One number for each morph target.
+    Weights,
+    /// One number: 0 hides.
+    Visible,
+}
+
+/// What of a camera is driven: one number each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CameraProperty {
+    /// Vertical field of view, radians.
+    Yfov,
+    /// Half the width.
+    Xmag,
+    /// Half the height.
+    Ymag,
+    /// Nearest distance.
+    Znear,
+    /// Farthest distance.
+    Zfar,
+}
+
+/// What of a light is driven: three numbers for the colour, else one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LightProperty {
+    /// Linear colour.
+    Color,
+    /// Lux or candela.
+    Intensity,
+    /// Metres.
+    Range,
+    /// Radians.
+    InnerConeAngle,
+    /// Radians.
+    OuterConeAngle,
+}
+
+/// What of a material is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MaterialProperty {
+    /// Four numbers.
+    BaseColor,
+    /// One number.
+    Metallic,
+    /// One number.
+    Roughness,
+    /// Three numbers.
+    EmissiveFactor,
+    /// One number.
+    EmissiveStrength,
+}

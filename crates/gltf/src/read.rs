@@ -1,0 +1,168 @@
+//! Reads a file from the outside in: container, JSON, buffers, accessors, then what stands on them. Each step needs
+//! those before it, so a step that finds errors is the last.
+
+use crate::bytes::Bytes;
+use crate::cursor::Cursor;
+use crate::decode::Accessors;
+use crate::finding::{Checked, Finding, Findings, Severity};
+use crate::read_animation::{self, Driven};
+use crate::read_mesh::{self, Counts};
+use crate::read_node::{self, Referred};
+use crate::source::{Open, Source};
+use crate::{Gltf, accessor, camera_light, container, extensions, images, json, material};
+
+/// Reads a glTF 2.0 file, `.gltf` or `.glb`, from its bytes. Opens nothing itself: buffers and pictures in files beside
+/// it are asked of `open`, with names that were checked to stay in the folder.
+///
+/// No list is made longer than the bytes hold, or, where the format lets a file claim zeros, than a limit allows
+/// ([`crate::SPARE_BYTES`]). The second result are warnings, which say what was replaced or left out.
+///
+/// # Errors
+/// At least one fatal finding first, then warnings: the file is broken, needs a feature that is not read, or exceeds a
+/// limit.
+pub fn read(file: Vec<u8>, open: &mut Open<'_>) -> Result<(Gltf, Vec<Finding>), Vec<Finding>> {
+    let mut findings = Findings::default();
+    let read = read_file(Bytes::new(file), open, &mut findings);
+    let gltf = findings.take(read).flatten();
+    match gltf {
+        Some(gltf) if !findings.any_fatal() => Ok((gltf, findings.into_list())),
+        _ => Err(findings.into_list()),
+    }
+}
+
+/// `None`: the findings say why.
+fn read_file(file: Bytes, open: &mut Open<'_>, findings: &mut Findings) -> Checked<Option<Gltf>> {
+    let container = container::split(&file, findings)?;
+    let json = json::parse(&container.json)?;
+    let root = Cursor::root(&json).checked_object()?;
+    check_version(&root, findings)?;
+    extensions::check(&root, findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let mut source = Source::new(open, file.len() as u64);
+    source.read_views(&root, container.bin.as_ref(), findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let list = accessor::read_all(&root, &source.views, findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let mut accessors = Accessors::new(source, root.list("accessors")?, list);
+    read_parts(&root, &mut accessors, findings)
+}
+
+fn read_parts(
+    root: &Cursor<'_, '_>,
+    accessors: &mut Accessors<'_, '_, '_>,
+    findings: &mut Findings,
+) -> Checked<Option<Gltf>> {
+    let image_count = root.list("images")?.len();
+    let textures = material::textures(root, image_count, findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let materials = material::materials(root, textures.len(), findings)?;
+    let mut is_needed = vec![false; image_count];
+    for used in materials.iter().flat_map(|material| [material.base_color_texture, material.emissive_texture])
+    {
+        if let Some(image) = used.and_then(|used| textures[used.texture].image) {
+            is_needed[image] = true;
+        }
+    }
+    let images = images::images(root, &mut accessors.source, &is_needed, findings)?;
+    let variants = variants(root, findings)?;
+    let cameras = camera_light::cameras(root, findings)?;
+    let lights = camera_light::lights(root, findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let counts = Counts { materials: materials.len(), variants: variants.len() };
+    let meshes = read_mesh::read_all(root, accessors, counts, findings)?;
+    let node_count = root.list("nodes")?.len();
+    let skins = read_node::skins(root, accessors, node_count, findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let referred = Referred {
+        nodes: node_count,
+        meshes: &meshes,
+        cameras: cameras.len(),
+        lights: lights.len(),
+        skins: &skins,
+    };
+    let nodes = read_node::nodes(root, &referred, accessors, findings)?;
+    if findings.any_fatal() {
+        return Ok(None);
+    }
+    let roots = read_node::roots(root, &nodes, findings)?;
+    let driven = Driven {
+        nodes: &nodes,
+        meshes: &meshes,
+        cameras: &cameras,
+        lights: lights.len(),
+        materials: materials.len(),
+    };
+    let animations = read_animation::read_all(root, &driven, accessors, findings)?;
+    Ok(Some(Gltf {
+        nodes,
+        roots,
+        meshes,
+        materials,
+        textures,
+        images,
+        cameras,
+        lights,
+        skins,
+        animations,
+        variants,
+    }))
+}
+
+fn check_version(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<()> {
+    let asset = root.required("asset")?;
+    let version_cursor = asset.required("version")?;
+    let [major, minor] = version(&version_cursor)?;
+    if major != 2 {
+        let message = format!("the file is glTF {major}.{minor}, and glTF 2 is read");
+        return Err(Box::new(version_cursor.finding(Severity::Unsupported, message, "export as glTF 2.0")));
+    }
+    if let Some(member) = asset.member("minVersion") {
+        let least = version(&member)?;
+        if least > [2, 0] {
+            let message = format!("the file needs glTF {}.{}, and 2.0 is read", least[0], least[1]);
+            return Err(Box::new(member.finding(Severity::Unsupported, message, "export as glTF 2.0")));
+        }
+    } else if minor > 0 {
+        findings.add(version_cursor.warning(format!("the file is glTF 2.{minor}, and is read as 2.0"), ""));
+    }
+    Ok(())
+}
+
+fn version(cursor: &Cursor<'_, '_>) -> Checked<[u32; 2]> {
+    let parse = |text: &str| {
+        let (major, minor) = text.split_once('.')?;
+        Some([major.parse().ok()?, minor.parse().ok()?])
+    };
+    parse(cursor.text()?).ok_or_else(|| cursor.error("it is no version, as in 2.0"))
+}
+
+/// Names of KHR_materials_variants.
+fn variants(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<Vec<String>> {
+    let Some(extensions) = root.object("extensions")? else { return Ok(Vec::new()) };
+    let Some(extension) = extensions.object(extensions::VARIANTS)? else { return Ok(Vec::new()) };
+    let mut names = Vec::new();
+    for variant in extension.list("variants")?.iter() {
+        let name = variant.optional_text("name")?;
+        if name.is_none() {
+            findings.add(variant.warning("the variant has no name", ""));
+        }
+        names.push(name.unwrap_or_default().to_owned());
+    }
+    if names.len() > 1 {
+        let message = format!("of {} variants of materials, the first is used", names.len());
+        findings.add(extension.warning(message, ""));
+    }
+    Ok(names)
+}
