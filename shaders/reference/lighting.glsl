@@ -1,5 +1,5 @@
 // Lighting: suns (the first casts shadows), point lights, ambient light from above and below; then a soft shoulder.
-uniform sampler2D lights;        // row 0: direction to a sun (w 0) or a point light's place (w 1); row 1: radiance
+uniform sampler2D lights;        // row 0: direction to a sun (w 0) or a point light's place (w 1); row 1: radiance, slope of a cone's edge; row 2: its axis, height of its edge
 uniform int light_count;
 uniform int shadowed_light;      // index of the light that casts shadows, or -1
 uniform sampler2DShadow shadow_depth;
@@ -50,13 +50,16 @@ vec3 lit(vec3 albedo, LitPoint at, out float glint) {
     float sharpness = mix(12.0, 220.0, at.gloss);
     for (int index = 0; index < light_count; index++) {
         vec4 place = texelFetch(lights, ivec2(index, 0), 0);
-        vec3 radiance = texelFetch(lights, ivec2(index, 1), 0).rgb;
+        vec4 radiance_and_slope = texelFetch(lights, ivec2(index, 1), 0);
+        vec3 radiance = radiance_and_slope.rgb;
+        vec4 cone = texelFetch(lights, ivec2(index, 2), 0);
         vec3 towards = place.xyz - at.position * place.w;
         float squared = place.w > 0.0 ? max(dot(towards, towards), 1e-6) : 1.0;
         vec3 direction = normalize(towards);
         float facing = max(dot(at.normal, direction), 0.0);
         if (facing <= 0.0) continue;
-        float arriving = 1.0 / squared;
+        float within = clamp(radiance_and_slope.w * dot(cone.xyz, -direction) + cone.w, 0.0, 1.0);
+        float arriving = within * within / squared;
         if (index == shadowed_light) arriving *= sunlit(at.position, at.normal);
         // Enclosed places get a little less direct light too.
         light += radiance * facing * arriving * mix(0.7, 1.0, at.openness);

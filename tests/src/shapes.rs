@@ -137,6 +137,8 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         seed: 7,
         background: Color::default(),
         background_keys: Vec::new(),
+        shot: None,
+        stage: Default::default(),
         timeline: Timeline { fps: 24.0, first: 0, last: 0 },
         reference: Reference::Frame(0),
         further_references: Vec::new(),
@@ -192,6 +194,7 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
                     color: [0.7, 0.4, 0.3],
                     texture: None,
                     gloss: 0.0,
+                    unlit: false,
                 }],
             };
             (object.mesh.clone(), Arc::new(file))

@@ -108,6 +108,8 @@ pub(crate) fn head(scene: &Scene) -> Scene {
         seed: scene.seed,
         background: scene.background,
         background_keys: scene.background_keys.clone(),
+        shot: scene.shot.clone(),
+        stage: scene.stage.clone(),
         timeline: scene.timeline.clone(),
         reference: scene.reference.clone(),
         further_references: scene.further_references.clone(),

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use glam::{Mat4, Vec3, Vec4};
-use impasto_painting::frame::FrameLights;
+use impasto_painting::frame::{Cone, FrameLights};
 
 use crate::gl::{Bound, Format, GlError, Gpu, Texture};
 use crate::shadow::{self, ShadowMap};
@@ -20,9 +20,20 @@ pub(crate) const LIGHT_UNIFORMS: [&str; 8] = [
     "ambient_below",
 ];
 
+/// Rows of the texture of lights.
+const ROWS: usize = 3;
+
+/// What shaders read of a light: where it is; what it radiates, and the slope of a cone's edge; a cone's axis, and the height of its
+/// edge. Light within a cone is (slope · cosine + height)², clamped (KHR_lights_punctual); 1 without a cone.
+fn column(place: Vec4, radiance: Vec3, cone: Option<&Cone>) -> [Vec4; ROWS] {
+    let Some(cone) = cone else { return [place, radiance.extend(0.0), Vec4::W] };
+    let slope = 1.0 / (cone.inner_cosine - cone.outer_cosine).max(1e-3);
+    [place, radiance.extend(slope), cone.axis.extend(-cone.outer_cosine * slope)]
+}
+
 /// The values of these uniforms in one frame.
 pub(crate) struct LightSetup {
-    /// A column for each light: the first row says where it is, the second what it radiates.
+    /// A column for each light: see [`column`].
     lights: Texture,
     light_count: i32,
     /// Index of the light that casts shadows; −1 without one.
@@ -37,16 +48,20 @@ pub(crate) struct LightSetup {
 
 impl LightSetup {
     pub(crate) fn new(gpu: &Gpu, lights: &FrameLights, shadow: &ShadowMap) -> Result<Self, GlError> {
-        let suns = lights.suns.iter().map(|sun| (sun.to_light.extend(0.0), sun.radiance));
-        let points = lights.points.iter().map(|point| (point.position.extend(1.0), point.radiance));
-        let (places, radiances): (Vec<Vec4>, Vec<Vec3>) = suns.chain(points).unzip();
-        let count = places.len();
-        let columns = count.max(1);
-        let mut texels: Vec<[f32; 4]> = places.iter().map(Vec4::to_array).collect();
-        texels.resize(columns, [0.0; 4]);
-        texels.extend(radiances.iter().map(|radiance| radiance.extend(0.0).to_array()));
-        texels.resize(2 * columns, [0.0; 4]);
-        let size_px = [columns as u32, 2];
+        let suns = lights.suns.iter().map(|sun| column(sun.to_light.extend(0.0), sun.radiance, None));
+        let points = lights
+            .points
+            .iter()
+            .map(|point| column(point.position.extend(1.0), point.radiance, point.cone.as_ref()));
+        let all: Vec<[Vec4; ROWS]> = suns.chain(points).collect();
+        let (count, columns) = (all.len(), all.len().max(1));
+        let mut texels = vec![[0.0f32; 4]; ROWS * columns];
+        for (index, of_light) in all.iter().enumerate() {
+            for (row, value) in of_light.iter().enumerate() {
+                texels[row * columns + index] = value.to_array();
+            }
+        }
+        let size_px = [columns as u32, ROWS as u32];
         let (center, radius) = lights.shadow_bounds;
         let to_light = lights.suns.first().map_or(Vec3::Y, |sun| sun.to_light);
         Ok(Self {

@@ -54,7 +54,8 @@ fn mesh() -> MeshFile {
         material_of_triangle: vec![0, 0],
         ..TriangleMesh::default()
     };
-    let material = Material { name: "sheet".to_owned(), color: [0.5; 3], texture: None, gloss: 0.0 };
+    let material =
+        Material { name: "sheet".to_owned(), color: [0.5; 3], texture: None, gloss: 0.0, unlit: false };
     MeshFile { mesh, groups: vec!["sheet".to_owned()], materials: vec![material] }
 }
 

@@ -136,6 +136,19 @@ pub struct PointLight {
     pub position: Vec3,
     /// Linear colour times intensity at distance 1.
     pub radiance: Vec3,
+    /// The cone that it shines into; `None`: to all sides.
+    pub cone: Option<Cone>,
+}
+
+/// The cone of a spot, with a soft edge.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    /// Where its middle shines to, world space, unit length.
+    pub axis: Vec3,
+    /// Cosine of the angle from the axis to where it begins to fade.
+    pub inner_cosine: f32,
+    /// Cosine of the angle from the axis to where it ends.
+    pub outer_cosine: f32,
 }
 
 /// One object at one time.

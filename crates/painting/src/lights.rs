@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use impasto_core::color::linear_from_srgb;
-use impasto_scene::document::{Color, LightKind, Scene};
+use impasto_scene::document::{Color, Light, LightKind, Scene};
 use impasto_scene::motion;
 
-use crate::frame::{FrameLights, PointLight, SunLight};
+use crate::frame::{Cone, FrameLights, PointLight, SunLight};
 
 /// A colour in linear Rec. 709.
 pub(crate) fn linear(color: Color) -> [f32; 3] {
@@ -29,7 +29,7 @@ pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> 
         lights.ambient_below = Vec3::new(0.50, 0.36, 0.24) * 0.45;
         return lights;
     }
-    for light in scene.lights.iter().map(|light| motion::light_at(light, frame)) {
+    for light in scene.lights.iter().map(|light| motion::light_at(scene, light, frame)) {
         let radiance = radiance(light.color, light.intensity);
         match light.kind {
             LightKind::Sun => lights.suns.push(SunLight {
@@ -38,9 +38,10 @@ pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> 
                     .normalize_or(Vec3::NEG_Y),
                 radiance,
             }),
-            LightKind::Point => lights.points.push(PointLight {
+            LightKind::Point | LightKind::Spot => lights.points.push(PointLight {
                 position: DVec3::from(light.position.unwrap_or_default()).as_vec3(),
                 radiance,
+                cone: (light.kind == LightKind::Spot).then(|| cone(&light)),
             }),
             LightKind::Ambient => {
                 lights.ambient_above += radiance;
@@ -53,6 +54,12 @@ pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> 
         }
     }
     lights
+}
+
+fn cone(light: &Light) -> Cone {
+    let [inner, outer] = light.cone_deg.unwrap_or([0.0, 45.0]).map(|deg| deg.to_radians().cos() as f32);
+    let axis = DVec3::from(light.direction.unwrap_or([0.0, -1.0, 0.0])).as_vec3();
+    Cone { axis: axis.normalize_or(Vec3::NEG_Y), inner_cosine: inner, outer_cosine: outer }
 }
 
 /// A sphere round all bodies in all of these poses: centre and radius, world space.

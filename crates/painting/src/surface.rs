@@ -113,7 +113,7 @@ impl SurfaceInputs {
             over => BodyMaterial {
                 albedo: linear(Color(from_file.color)),
                 texture: from_file.texture.clone(),
-                unlit: over.as_ref().is_some_and(|over| over.unlit),
+                unlit: from_file.unlit || over.as_ref().is_some_and(|over| over.unlit),
                 gloss: over
                     .as_ref()
                     .and_then(|over| over.gloss)

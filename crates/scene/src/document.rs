@@ -16,6 +16,7 @@ mod sumi_e;
 use serde::{Deserialize, Serialize};
 
 use self::numbers::usual_fields;
+use crate::shot::Stage;
 
 pub use color::Color;
 pub use keys::{BackgroundKey, Key, LightKey, StrokesKey};
@@ -54,6 +55,13 @@ pub struct Scene {
     /// The background over time, frames strictly increasing; then `background` itself is not used.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background_keys: Vec<BackgroundKey>,
+    /// A glTF file beside the scene: its objects, camera, lights and motion are the scene's, and its frames where `timeline` states
+    /// none.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub shot: Option<String>,
+    /// What the shot's file holds, once it was read; not part of the file.
+    #[serde(skip)]
+    pub stage: Stage,
     /// Frames and their rate.
     #[serde(default, skip_serializing_if = "is_default")]
     pub timeline: Timeline,
@@ -63,12 +71,14 @@ pub struct Scene {
     /// More poses, at most 16: a surface that the reference does not face takes the one that faces it best.
     #[serde(default, skip_serializing_if = "is_default")]
     pub further_references: Vec<Reference>,
-    /// The camera and its keys.
+    /// The camera and its keys; left out, the shot's.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub camera: Camera,
     /// Lights, at most 8 suns and 16 points; without any, a sun and a soft light all around.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lights: Vec<Light>,
-    /// What stands in the scene.
+    /// What stands in the scene, beside what the shot brings.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub objects: Vec<Object>,
     /// Stroke settings for everything that no region overrides.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -139,13 +149,14 @@ pub enum Ease {
 }
 
 /// The camera: a lens and keyed poses.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// How the camera projects.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lens: Lens,
-    /// At least one key, frames strictly increasing.
+    /// Frames strictly increasing; at least one key, unless the scene has a shot with a camera.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub keys: Vec<CameraKey>,
 }
 
@@ -218,14 +229,17 @@ pub struct CameraKey {
 pub struct Light {
     /// Shown to people; unique.
     pub name: String,
-    /// `Sun`, `Point` or `Ambient`.
+    /// `Sun`, `Point`, `Spot` or `Ambient`.
     pub kind: LightKind,
-    /// `Sun`: where the light travels to, world space, not zero.
+    /// `Sun`, `Spot`: where the light travels to, world space, not zero.
     #[serde(default, skip_serializing_if = "is_default")]
     pub direction: Option<[f64; 3]>,
-    /// `Point`: where it stands, world space.
+    /// `Point`, `Spot`: where it stands, world space.
     #[serde(default, skip_serializing_if = "is_default")]
     pub position: Option<[f64; 3]>,
+    /// `Spot`: from its axis to where the light begins to fade, and to where it ends, degrees from 0 to 90; left out, (0, 45).
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub cone_deg: Option<[f64; 2]>,
     /// Colour; for `Ambient` the colour from above.
     #[serde(default = "Color::white", skip_serializing_if = "Color::is_white")]
     pub color: Color,
@@ -249,6 +263,7 @@ impl Light {
             kind,
             direction: None,
             position: None,
+            cone_deg: None,
             color: Color::white(),
             ground: None,
             intensity: 1.0,
@@ -264,6 +279,8 @@ pub enum LightKind {
     Sun,
     /// Light from a point, falling off with the square of the distance; casts no shadow.
     Point,
+    /// As `Point`, into a cone with a soft edge.
+    Spot,
     /// Light from all around: `color` from above, `ground` from below.
     Ambient,
 }
@@ -340,8 +357,9 @@ impl Up {
 pub struct Object {
     /// Unique; strokes take their looks from it, so a renamed object is painted anew.
     pub name: String,
-    /// Path of the mesh, relative to the scene file; or a built-in one, `impasto:backdrop` (a floor and a wall) or `impasto:patch`
+    /// Path of the mesh, relative to the scene file: an OBJ or glTF file, or one node of it, as in `props.glb#Lamp`; left out, that of the shot's object of this name; or a built-in one, `impasto:backdrop` (a floor and a wall) or `impasto:patch`
     /// (a round piece of floor).
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub mesh: String,
     /// The only group of the mesh that is used; left out, the whole mesh.
     #[serde(default, skip_serializing_if = "is_default")]

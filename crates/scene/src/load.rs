@@ -11,8 +11,10 @@ use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::Located;
 use crate::mesh_file::{MeshFile, Texture};
+use crate::mesh_format::{self, MeshRead, MeshReader};
 use crate::new_scene::{NewScene, Placing};
 use crate::problem::{Problem, Report, Severity};
+use crate::shot::Shot;
 
 mod edited;
 mod files;
@@ -52,7 +54,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Scene, Report> {
     parse::parse(path, text).map(|parsed| parsed.scene)
 }
 
-/// Reads a scene file (`.ron`), or a mesh (`.obj`) in the scene that [`crate::new_scene`] makes for it, with everything
+/// Reads a scene file (`.ron`), or a mesh or shot (`.obj`, `.gltf`, `.glb`) in the scene that [`crate::new_scene`] makes for it, with everything
 /// that it names, and checks all of it.
 ///
 /// # Errors
@@ -62,9 +64,9 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ron") => load_scene(path, options),
-        Some("obj") => load_alone(path, options),
+        Some(_) if mesh_format::is_mesh(path) => load_alone(path, options),
         _ => {
-            let mend = "name a scene file (.ron) or a mesh (.obj)";
+            let mend = "name a scene file (.ron) or a mesh (.obj, .gltf, .glb)";
             Err(Report(vec![error_in(path, None, "this is neither a scene nor a mesh", mend)]))
         }
     }
@@ -82,13 +84,13 @@ pub fn load_brush(path: &Path) -> Result<Texture, Report> {
         .map_err(|problem| Report(vec![problem]))
 }
 
-/// Reads a mesh (`.obj`) with its materials and their pictures, to be added to a scene.
+/// Reads a mesh file with its materials and their pictures, to be added to a scene.
 ///
 /// # Errors
 /// Where the file cannot be used; all its problems, warnings included.
 pub fn load_mesh(path: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
     source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
-    crate::obj::read(path, folder_of(path), folders)
+    MeshReader::default().read(path, None, folder_of(path), folders)
 }
 
 fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
@@ -102,7 +104,19 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
 /// Loads a mesh in a new scene. The scene is written as text and read again, so that `--set` works as on a file that
 /// `impasto new` writes, and both are painted alike.
 fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
-    let (mesh, mut warnings) = load_mesh(path, &options.folders)?;
+    source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
+    let reader = MeshReader::default();
+    let (mesh, mut warnings) = reader.read(path, None, folder_of(path), &options.folders)?;
+    if crate::gltf::is_gltf(path) {
+        let (file, _) = reader.open(path, folder_of(path), &options.folders)?;
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let shot = Shot::new(file, &name);
+        if shot.has_camera() {
+            let scene = crate::new_scene::for_shot(path, &mesh, &Arc::new(shot));
+            let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
+            return finish(path, parsed, options, None);
+        }
+    }
     let NewScene { scene, up_is_unsure } = crate::new_scene::for_mesh(path, &mesh, options.placing);
     if up_is_unsure {
         warnings.push(unsure_of_up(path, &scene));
@@ -133,10 +147,23 @@ fn finish(
     known_mesh: Option<(MeshFile, Vec<Problem>)>,
 ) -> Result<LoadedScene, Report> {
     let written = known_mesh.is_none().then(|| parsed.located.clone());
-    let (Parsed { scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
+    let (Parsed { mut scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
+    let reader = MeshReader::default();
+    let brought = enter_shot(&reader, path, &mut scene, &options.folders);
     let locator = FieldLocator { path, written: written.as_ref(), applied: &applied, edited: None };
     let mut problems: Vec<Problem> =
         check::check(&scene).into_iter().map(|finding| locator.problem(finding)).collect();
+    let brought = match brought {
+        Ok((findings, warnings)) => {
+            problems.extend(findings.into_iter().map(|finding| locator.problem(finding)));
+            warnings
+        }
+        // Without the shot, what is checked is not what is meant.
+        Err(Report(of_shot)) => {
+            let at = |problem| locator.of_file(problem, "shot");
+            return Err(Report(of_shot.into_iter().map(at).collect()));
+        }
+    };
     let known_name =
         known_mesh.is_some().then(|| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
     let known_mesh = std::cell::RefCell::new(known_mesh);
@@ -145,7 +172,7 @@ fn finish(
             let is_known = known_name.as_deref() == Some(name);
             let read = match known_mesh.borrow_mut().take_if(|_| is_known) {
                 Some(mesh) => Ok(mesh),
-                None => read_mesh(path, name, &options.folders),
+                None => read_mesh(&reader, path, name, &options.folders),
             };
             read.map(shared)
         },
@@ -155,12 +182,35 @@ fn finish(
     let files = Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
     let in_meshes = check::check_with_meshes(&scene, &files.meshes);
     problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
-    sort_and_cap(path, &mut problems, files.problems);
+    let of_files = brought.into_iter().chain(files.problems).collect();
+    sort_and_cap(path, &mut problems, of_files);
     if problems.iter().any(|problem| problem.severity.is_fatal()) {
         return Err(Report(problems));
     }
     let Files { meshes, textures, brushes, .. } = files;
     Ok(LoadedScene { path: path.to_owned(), scene, meshes, textures, brushes, warnings: problems })
+}
+
+/// Findings about the document, and warnings about the file of its shot.
+type ShotRead = Result<(Vec<Finding>, Vec<Problem>), Report>;
+
+/// Reads the shot that a document names, and puts it on the stage.
+fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders: &AssetFolders) -> ShotRead {
+    let Some(name) = scene.shot.clone().filter(|_| scene.stage.shot().is_none()) else {
+        return Ok((Vec::new(), Vec::new()));
+    };
+    let root = folder_of(scene_path);
+    let max_bytes = crate::gltf::MAX_FILE_BYTES;
+    let request = AssetRequest { name: &name, beside: scene_path, root, max_bytes };
+    let at_shot =
+        |error: crate::assets::AssetError| Report(vec![error.to_problem(Severity::Error, scene_path, None)]);
+    let path = folders.find(&request).map_err(at_shot)?;
+    if !crate::gltf::is_gltf(&path) {
+        let message = format!("{name:?} is no glTF file");
+        return Err(Report(vec![error_in(scene_path, None, message, "name a .glb or .gltf file")]));
+    }
+    let (file, warnings) = reader.open(&path, root, folders)?;
+    Ok((Arc::new(Shot::new(file, &name)).enter(scene), warnings))
 }
 
 /// What was read, behind an `Arc` as scenes hold it.
@@ -235,7 +285,7 @@ fn sort_and_cap(path: &Path, problems: &mut Vec<Problem>, mut of_files: Vec<Prob
 }
 
 /// Reads a mesh that the scene names.
-fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
+fn read_mesh(reader: &MeshReader, scene: &Path, name: &str, folders: &AssetFolders) -> MeshRead {
     if name.starts_with(built_in_mesh::PREFIX) {
         let unknown = || {
             let message = format!("there is no mesh {name:?} in the house");
@@ -249,11 +299,13 @@ fn read_mesh(scene: &Path, name: &str, folders: &AssetFolders) -> Result<(MeshFi
         return built_in_mesh::of_name(name).map(|mesh| (mesh, Vec::new())).ok_or_else(unknown);
     }
     let root = folder_of(scene);
-    let request = AssetRequest { name, beside: scene, root, max_bytes: crate::obj::MAX_FILE_BYTES };
+    let (file, node) = mesh_format::file_and_node(name);
+    let max_bytes = mesh_format::max_bytes(Path::new(file));
+    let request = AssetRequest { name: file, beside: scene, root, max_bytes };
     let path = folders
         .find(&request)
         .map_err(|error| Report(vec![error.to_problem(Severity::Error, scene, None)]))?;
-    crate::obj::read(&path, root, folders)
+    reader.read(&path, node, root, folders)
 }
 
 type PictureRead = Result<(Texture, Vec<Problem>), Problem>;

@@ -26,6 +26,8 @@ pub struct Material {
     pub texture: Option<Arc<Texture>>,
     /// Strength of highlights, 0 matt .. 1 glazed.
     pub gloss: f32,
+    /// Shown as it is, without light or shadow.
+    pub unlit: bool,
 }
 
 /// A decoded picture: 8 bits per channel, sRGB, straight alpha, first row on top.

@@ -7,6 +7,7 @@ mod values;
 use std::collections::HashMap;
 
 use glam::{DAffine3, DMat3, DMat4, DVec3, EulerRot};
+use impasto_gltf::Posed;
 
 use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scene};
 use span::Span;
@@ -47,6 +48,12 @@ impl CameraPose {
 /// field of view keeps the one of the key before it. Until a key states one, it is that of the lens.
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
+    if keys.is_empty()
+        && let Some(shot) = scene.stage.shot()
+        && let Some(pose) = shot.camera_pose(&shot.at(frame / scene.timeline.fps), scene.size)
+    {
+        return pose;
+    }
     let span = Span::at(keys, frame);
     let Some(span) = span else {
         return CameraPose {
@@ -101,15 +108,43 @@ fn fov_y_deg_at_key(keys: &[CameraKey]) -> Option<f64> {
 /// one that closes a cycle, counts as none (`check` refuses both).
 pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     let objects = &scene.objects;
-    let parents = parent_indices(objects);
-    let mut poses: Vec<DAffine3> =
-        objects.iter().map(|object| pose_in_parent(&object.keys, held_frame(scene, object, frame))).collect();
+    let mut parents = parent_indices(objects);
+    let mut of_shot = ShotPoses::default();
+    let mut pose = |(object, parent): (&Object, &mut Option<usize>)| {
+        let held = held_frame(scene, object, frame);
+        let brought = of_shot.pose_in_world(scene, object, held);
+        if brought.is_some() {
+            *parent = None;
+        }
+        brought.unwrap_or_else(|| pose_in_parent(&object.keys, held))
+    };
+    let mut poses: Vec<DAffine3> = objects.iter().zip(&mut parents).map(&mut pose).collect();
     for index in parents_first(&parents) {
         if let Some(parent) = parents[index] {
             poses[index] = poses[parent] * poses[index];
         }
     }
     poses
+}
+
+/// The poses of objects that a shot moves. Each time that is asked for is evaluated once.
+#[derive(Default)]
+struct ShotPoses {
+    at_frames: Vec<(f64, Posed)>,
+}
+
+impl ShotPoses {
+    /// World from model of an object without keys of its own, at a frame; `None` where no shot moves it.
+    fn pose_in_world(&mut self, scene: &Scene, object: &Object, frame: f64) -> Option<DAffine3> {
+        let shot =
+            scene.stage.shot().filter(|shot| object.keys.is_empty() && shot.has_object(&object.name))?;
+        let known = self.at_frames.iter().position(|(other, _)| *other == frame);
+        let index = known.unwrap_or_else(|| {
+            self.at_frames.push((frame, shot.at(frame / scene.timeline.fps)));
+            self.at_frames.len() - 1
+        });
+        shot.pose_of(&self.at_frames[index].1, &object.name)
+    }
 }
 
 /// The morph weight of every object, in the order of the file: 0 is its own mesh, 1 its morph target.
@@ -205,8 +240,10 @@ fn pose_in_parent(keys: &[ObjectKey], frame: f64) -> DAffine3 {
 
 /// An object's pose at a frame as a key, in its parent's space.
 pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
-    let Some(span) = Span::at(&object.keys, held_frame(scene, object, frame)) else {
-        return ObjectKey::at(frame);
+    let held = held_frame(scene, object, frame);
+    let Some(span) = Span::at(&object.keys, held) else {
+        let brought = ShotPoses::default().pose_in_world(scene, object, held);
+        return brought.map_or(ObjectKey::at(frame), |pose| key_of_pose(pose, frame));
     };
     let (left, right) = (&object.keys[span.left], &object.keys[span.right]);
     ObjectKey {
@@ -216,6 +253,18 @@ pub fn key_at(scene: &Scene, object: &Object, frame: f64) -> ObjectKey {
         scale: span.mix(left.scale, right.scale),
         morph: span.mix(left.morph, right.morph),
         ease: left.ease,
+    }
+}
+
+/// A pose of a shot as a key: an uneven scale becomes its mean.
+fn key_of_pose(pose: DAffine3, frame: f64) -> ObjectKey {
+    let scale = pose.matrix3.determinant().abs().cbrt();
+    let rotation = if scale > 0.0 { pose.matrix3 * (1.0 / scale) } else { DMat3::IDENTITY };
+    ObjectKey {
+        translation: pose.translation.to_array(),
+        rotation_deg: euler_deg_from_rotation(rotation).to_array(),
+        scale: scale.clamp(0.001, 1000.0),
+        ..ObjectKey::at(frame)
     }
 }
 

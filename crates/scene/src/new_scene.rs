@@ -4,6 +4,7 @@ mod add;
 mod axes;
 mod framing;
 mod ground;
+mod of_shot;
 mod scheme;
 mod stance;
 
@@ -23,6 +24,7 @@ use stance::Samples;
 
 pub use add::{REGION_COLORS, add_mesh, regions_of};
 pub use ground::Ground;
+pub use of_shot::for_shot;
 pub use stance::ViewFrom;
 
 /// Width and height in pixels.
@@ -148,6 +150,8 @@ fn bare() -> Scene {
         seed: 0,
         background: Color::default(),
         background_keys: Vec::new(),
+        shot: None,
+        stage: Default::default(),
         timeline: Timeline::default(),
         reference: Reference::default(),
         further_references: Vec::new(),

@@ -11,11 +11,13 @@ use crate::whole_file;
 mod layout;
 mod serializer;
 
-/// The document as text that [`crate::load::parse`] reads back as an equal document.
+/// The document as text that [`crate::load::parse`] reads back as an equal document; what it only has from its shot is left out.
 ///
 /// Colours are written with 8 bits a channel, which is all that a scene file can hold.
 pub fn to_ron(scene: &Scene) -> String {
-    let value = scene.serialize(serializer::ToValue).expect("a document holds only what RON can say");
+    let value = crate::shot::left(scene)
+        .serialize(serializer::ToValue)
+        .expect("a document holds only what RON can say");
     format!("#![enable(implicit_some)]\n{}\n", layout::lay_out(&value))
 }
 

@@ -393,14 +393,15 @@ fn add_light(scene: &mut Scene, kind: LightKind, at: DVec3, toward: DVec3) -> Do
     let wanted = match kind {
         LightKind::Sun => "sun",
         LightKind::Point => "lamp",
+        LightKind::Spot => "spot",
         LightKind::Ambient => "sky",
     };
     let name = names::unique(wanted, scene.lights.iter().map(|light| light.name.as_str()));
     let round = |vector: DVec3| vector.map(|v| (v * 1e4).round() / 1e4).to_array();
     let light = Light {
-        direction: (kind == LightKind::Sun)
+        direction: matches!(kind, LightKind::Sun | LightKind::Spot)
             .then(|| round((toward - at).normalize_or(DVec3::new(0.4, -0.8, -0.45)))),
-        position: (kind == LightKind::Point).then(|| round(at)),
+        position: matches!(kind, LightKind::Point | LightKind::Spot).then(|| round(at)),
         intensity: if kind == LightKind::Ambient { 0.5 } else { 1.5 },
         ..Light::new(name.clone(), kind)
     };

@@ -59,7 +59,7 @@ impl KeyedValue {
             KeyOf::Light(name) => {
                 let light = scene.lights.iter().find(|light| light.name == *name);
                 let light = light.ok_or_else(|| Refusal::unknown("light", name))?;
-                Some(Self::Light(name.clone(), whole_key(&motion::light_at(light, frame), frame)))
+                Some(Self::Light(name.clone(), whole_key(&motion::light_at(scene, light, frame), frame)))
             }
             KeyOf::Background => Some(Self::Background(motion::background_at(scene, frame))),
             KeyOf::Strokes(of) => Some(Self::Strokes(of.clone(), strokes_at(scene, of, frame))),
@@ -80,9 +80,10 @@ impl KeyedValue {
     pub(super) fn put(&self, scene: &mut Scene, frame: f64) -> Result<(), Refusal> {
         match self {
             Self::Light(name, key) => {
-                let light = scene.lights.iter_mut().find(|light| light.name == *name);
-                let light = light.ok_or_else(|| Refusal::unknown("light", name))?;
-                let now = whole_key(&motion::light_at(light, frame), frame);
+                let index = scene.lights.iter().position(|light| light.name == *name);
+                let index = index.ok_or_else(|| Refusal::unknown("light", name))?;
+                let now = whole_key(&motion::light_at(scene, &scene.lights[index], frame), frame);
+                let light = &mut scene.lights[index];
                 let keyed = |states: fn(&LightKey) -> bool| light.keys.iter().any(states);
                 let intensity = now.intensity.filter(|_| keyed(|key| key.intensity.is_some()));
                 let color = now.color.filter(|_| keyed(|key| key.color.is_some()));
@@ -126,8 +127,8 @@ fn whole_key(light: &Light, frame: f64) -> LightKey {
         intensity: Some(light.intensity),
         color: Some(light.color),
         ground: light.ground.filter(|_| light.kind == LightKind::Ambient),
-        direction: light.direction.filter(|_| light.kind == LightKind::Sun),
-        position: light.position.filter(|_| light.kind == LightKind::Point),
+        direction: light.direction.filter(|_| matches!(light.kind, LightKind::Sun | LightKind::Spot)),
+        position: light.position.filter(|_| matches!(light.kind, LightKind::Point | LightKind::Spot)),
         ..LightKey::at(frame)
     }
 }

@@ -35,8 +35,8 @@ impl Editor {
         if self.session.mode != Mode::Arrange || self.session.compare {
             return Vec::new();
         }
-        let (middle, frame) = (self.middle(), self.session.frame);
-        let lights = self.document.shown().scene.lights.iter().map(|light| motion::light_at(light, frame));
+        let (middle, frame, scene) = (self.middle(), self.session.frame, &self.document.shown().scene);
+        let lights = scene.lights.iter().map(|light| motion::light_at(scene, light, frame));
         let place = |light: Light| Some(LightPlace { position: place_of(&light, middle)?, light });
         lights.filter_map(place).collect()
     }
@@ -71,11 +71,11 @@ impl Editor {
     pub(super) fn light_command(&self, name: &str, delta: TransformDelta, axes: DMat3) -> Option<Command> {
         // As it was at the beginning of the drag, not as it is previewed.
         let (stored, frame) = (self.document.scene(), self.session.frame);
-        let light = motion::light_at(stored.lights.iter().find(|light| light.name == name)?, frame);
+        let light = motion::light_at(stored, stored.lights.iter().find(|light| light.name == name)?, frame);
         let middle = self.middle();
         let tidy = |at: DVec3| Some(at.map(euler::tidy).to_array());
         let stated = match (light.kind, delta) {
-            (LightKind::Point, TransformDelta::Move(by)) => {
+            (LightKind::Point | LightKind::Spot, TransformDelta::Move(by)) => {
                 let position = DVec3::from(light.position?) + axes * by;
                 LightKey { position: tidy(position), ..LightKey::at(frame) }
             }
@@ -84,14 +84,14 @@ impl Editor {
                 let direction = (middle - place_of(&light, middle)? - axes * by).try_normalize()?;
                 LightKey { direction: tidy(direction), ..LightKey::at(frame) }
             }
-            (LightKind::Sun, TransformDelta::Turn { axis, angle_rad }) => {
+            (LightKind::Sun | LightKind::Spot, TransformDelta::Turn { axis, angle_rad }) => {
                 let turn = DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), angle_rad);
                 let direction = turn * DVec3::from(light.direction?).try_normalize()?;
                 LightKey { direction: tidy(direction), ..LightKey::at(frame) }
             }
             _ => return None,
         };
-        let what = if light.kind == LightKind::Sun { "direction" } else { "place" };
+        let what = if stated.direction.is_some() { "direction" } else { "place" };
         command::set_light(stored, name, stated, what)
     }
 }
@@ -100,7 +100,7 @@ impl Editor {
 pub(super) fn refusal(kind: LightKind, operation: Operation) -> Option<&'static str> {
     match (kind, operation) {
         (LightKind::Ambient, _) => Some("A sky comes from all around: it has no place"),
-        (_, Operation::Move) | (LightKind::Sun, Operation::Turn) => None,
+        (_, Operation::Move) | (LightKind::Sun | LightKind::Spot, Operation::Turn) => None,
         (_, Operation::Turn) => Some("A lamp shines all round: it can only be moved"),
         (_, Operation::Scale) => Some("A light has no size: its intensity is in the inspector"),
     }
@@ -108,7 +108,7 @@ pub(super) fn refusal(kind: LightKind, operation: Operation) -> Option<&'static 
 
 fn place_of(light: &Light, middle: DVec3) -> Option<DVec3> {
     Some(match light.kind {
-        LightKind::Point => DVec3::from(light.position?),
+        LightKind::Point | LightKind::Spot => DVec3::from(light.position?),
         LightKind::Sun => middle - DVec3::from(light.direction?).normalize_or(DVec3::NEG_Y) * AWAY,
         LightKind::Ambient => middle + DVec3::Y * (0.75 * AWAY),
     })

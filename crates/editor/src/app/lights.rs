@@ -27,7 +27,7 @@ pub(super) fn billboards(editor: &Editor, framing: &Framing) -> Vec<LightBillboa
         let position = place.position.as_vec3();
         let icon = match light.kind {
             LightKind::Sun => BillboardIcon::Sun,
-            LightKind::Point => BillboardIcon::Point,
+            LightKind::Point | LightKind::Spot => BillboardIcon::Point,
             LightKind::Ambient => BillboardIcon::Ambient,
         };
         let size = BillboardSize::Pixels(ICON * px_per_point);

@@ -37,7 +37,9 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
 }
 
 fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
-    findings.add(Severity::Error, || {
+    // What a shot does not bring any more may come back with its next export.
+    let severity = if scene.stage.shot().is_some() { Severity::Warning } else { Severity::Error };
+    findings.add(severity, || {
         let known = scene.objects.iter().map(|object| object.name.as_str());
         let message = format!("there is no object \"{}\"", shown(object));
         (field_path.to_owned(), message, did_you_mean(object, known))

@@ -129,7 +129,8 @@ fn check_lens(lens: &Lens, findings: &mut Findings) {
 
 fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
     let keys = &scene.camera.keys;
-    if keys.is_empty() {
+    let has_camera = scene.stage.shot().is_some_and(|shot| shot.has_camera());
+    if keys.is_empty() && !has_camera {
         let mend = "add one, as in (frame: 0, eye: (0, 1, 4), target: (0, 0, 0))";
         findings.error("camera.keys", "the camera has no key", mend);
     }
@@ -176,36 +177,60 @@ fn check_lights(lights: &[Light], findings: &mut Findings) {
     for (index, light) in lights.iter().enumerate() {
         let path = |field: &str| format!("lights[{index}].{field}");
         findings.number(&path("intensity"), light.intensity, 0.0..=limits::MAX_INTENSITY);
-        match (light.kind, light.direction) {
-            (LightKind::Sun, Some(direction)) => findings.direction(&path("direction"), direction),
-            (LightKind::Sun, None) => {
+        let needs = |what: &str| format!("a {:?} light needs a {what}", light.kind);
+        match light.direction {
+            Some(direction) if shines(light.kind) => findings.direction(&path("direction"), direction),
+            None if shines(light.kind) => {
                 let mend = "add where its light goes, as in direction: (0.5, -1, -0.6)";
-                findings.error(format!("lights[{index}]"), "a Sun needs a direction", mend);
+                findings.error(format!("lights[{index}]"), needs("direction"), mend);
             }
-            (_, Some(_)) => unused(&path("direction"), "a Sun", findings),
-            (_, None) => {}
+            Some(_) => unused(&path("direction"), "a Sun or a Spot", findings),
+            None => {}
         }
-        match (light.kind, light.position) {
-            (LightKind::Point, Some(position)) => findings.vector(&path("position"), position),
-            (LightKind::Point, None) => {
+        match light.position {
+            Some(position) if stands(light.kind) => findings.vector(&path("position"), position),
+            None if stands(light.kind) => {
                 let mend = "add where it stands, as in position: (0, 3, 1)";
-                findings.error(format!("lights[{index}]"), "a Point light needs a position", mend);
+                findings.error(format!("lights[{index}]"), needs("position"), mend);
             }
-            (_, Some(_)) => unused(&path("position"), "a Point light", findings),
-            (_, None) => {}
+            Some(_) => unused(&path("position"), "a Point light or a Spot", findings),
+            None => {}
+        }
+        match light.cone_deg {
+            Some([inner, outer]) if light.kind == LightKind::Spot => {
+                findings.number(&path("cone_deg"), outer, 0.0..=90.0);
+                findings.number(&path("cone_deg"), inner, 0.0..=outer.max(0.0));
+            }
+            Some(_) => unused(&path("cone_deg"), "a Spot", findings),
+            None => {}
         }
         if light.ground.is_some() && light.kind != LightKind::Ambient {
             unused(&path("ground"), "an Ambient light", findings);
         }
         check_light_keys(index, light, findings);
     }
-    for (kind, limit) in [(LightKind::Sun, limits::MAX_SUNS), (LightKind::Point, limits::MAX_POINT_LIGHTS)] {
-        let mut of_kind = lights.iter().enumerate().filter(|(_, light)| light.kind == kind);
+    type OfKind = fn(LightKind) -> bool;
+    let limits: [(&str, usize, OfKind); 2] = [
+        ("suns", limits::MAX_SUNS, |kind| kind == LightKind::Sun),
+        ("point lights and spots", limits::MAX_POINT_LIGHTS, stands),
+    ];
+    for (kind, limit, is_kind) in limits {
+        let mut of_kind = lights.iter().enumerate().filter(|(_, light)| is_kind(light.kind));
         if let Some((index, _)) = of_kind.nth(limit) {
-            let message = format!("there are more than {limit} lights of kind {kind:?}");
+            let message = format!("there are more than {limit} {kind}");
             findings.limit(format!("lights[{index}]"), message, format!("keep {limit} of them"));
         }
     }
+}
+
+/// Whether lights of this kind have a direction.
+fn shines(kind: LightKind) -> bool {
+    matches!(kind, LightKind::Sun | LightKind::Spot)
+}
+
+/// Whether lights of this kind have a place.
+fn stands(kind: LightKind) -> bool {
+    matches!(kind, LightKind::Point | LightKind::Spot)
 }
 
 fn check_light_keys(index: usize, light: &Light, findings: &mut Findings) {
@@ -216,15 +241,15 @@ fn check_light_keys(index: usize, light: &Light, findings: &mut Findings) {
         if let Some(intensity) = key.intensity {
             findings.number(&path("intensity"), intensity, 0.0..=limits::MAX_INTENSITY);
         }
-        match (light.kind, key.direction) {
-            (LightKind::Sun, Some(direction)) => findings.direction(&path("direction"), direction),
-            (_, Some(_)) => unused(&path("direction"), "a Sun", findings),
-            (_, None) => {}
+        match key.direction {
+            Some(direction) if shines(light.kind) => findings.direction(&path("direction"), direction),
+            Some(_) => unused(&path("direction"), "a Sun or a Spot", findings),
+            None => {}
         }
-        match (light.kind, key.position) {
-            (LightKind::Point, Some(position)) => findings.vector(&path("position"), position),
-            (_, Some(_)) => unused(&path("position"), "a Point light", findings),
-            (_, None) => {}
+        match key.position {
+            Some(position) if stands(light.kind) => findings.vector(&path("position"), position),
+            Some(_) => unused(&path("position"), "a Point light or a Spot", findings),
+            None => {}
         }
         if key.ground.is_some() && light.kind != LightKind::Ambient {
             unused(&path("ground"), "an Ambient light", findings);

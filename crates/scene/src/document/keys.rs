@@ -54,10 +54,10 @@ pub struct LightKey {
     /// `Ambient`: the colour from below.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ground: Option<Color>,
-    /// `Sun`: where the light travels to, world space, not zero; it turns evenly from key to key.
+    /// `Sun`, `Spot`: where the light travels to, world space, not zero; it turns evenly from key to key.
     #[serde(default, skip_serializing_if = "is_default")]
     pub direction: Option<[f64; 3]>,
-    /// `Point`: where it stands, world space.
+    /// `Point`, `Spot`: where it stands, world space.
     #[serde(default, skip_serializing_if = "is_default")]
     pub position: Option<[f64; 3]>,
     /// How the values move from this key to the next.

@@ -9,6 +9,7 @@ use crate::assets::AssetFolders;
 use crate::check;
 use crate::document::{Object, Scene};
 use crate::loaded::LoadedScene;
+use crate::mesh_format::MeshReader;
 use crate::problem::{Problem, Report};
 
 impl LoadedScene {
@@ -19,15 +20,21 @@ impl LoadedScene {
     /// All problems, warnings included; at least one is fatal. An edited document has no text, so problems have no
     /// line. Instead, each has its `field_path`, and its message begins with that path, with names in place of numbers
     /// where things have names (`objects.apple.keys[1].scale: …`).
-    pub fn with_scene(&self, scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
+    pub fn with_scene(&self, mut scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
+        let reader = MeshReader::default();
+        let (lost, of_shot) = match self.scene.stage.shared().filter(|_| scene.shot == self.scene.shot) {
+            // Already on the stage of a document that was edited, but not on that of one that was read.
+            Some(shot) if scene.stage.shot().is_none() => (shot.enter(&mut scene), Vec::new()),
+            _ => super::enter_shot(&reader, path, &mut scene, folders)?,
+        };
         let locator = FieldLocator { path, written: None, applied: &[], edited: Some(&scene) };
         let mut problems: Vec<Problem> =
-            check::check(&scene).into_iter().map(|finding| locator.problem(finding)).collect();
+            check::check(&scene).into_iter().chain(lost).map(|finding| locator.problem(finding)).collect();
         let readers = Readers {
             mesh: &|name| match self.meshes.get(name) {
                 Some(mesh) => Ok((Arc::clone(mesh), Vec::new())),
-                None => read_mesh(path, name, folders).map(shared),
+                None => read_mesh(&reader, path, name, folders).map(shared),
             },
             texture: &|name| match self.textures.get(name) {
                 Some(texture) => Ok((Arc::clone(texture), Vec::new())),
@@ -42,7 +49,7 @@ impl LoadedScene {
             Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
         let in_meshes = check::check_anew(&scene, &files.meshes, &self.known_in(&scene));
         problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
-        files.problems.splice(..0, self.warnings_of_files(&files.meshes));
+        files.problems.splice(..0, of_shot.into_iter().chain(self.warnings_of_files(&files.meshes)));
         sort_and_cap(path, &mut problems, files.problems);
         if problems.iter().any(|problem| problem.severity.is_fatal()) {
             return Err(Report(problems));

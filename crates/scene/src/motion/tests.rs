@@ -24,6 +24,8 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         seed: 0,
         background: Default::default(),
         background_keys: Vec::new(),
+        shot: None,
+        stage: Default::default(),
         timeline: Default::default(),
         reference: Default::default(),
         further_references: Vec::new(),

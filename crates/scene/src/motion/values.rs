@@ -8,6 +8,7 @@ use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use super::span::Span;
 use crate::document::{Color, Light, LightKey, ResolvedStrokes, Scene, StrokesKey};
 use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX};
+use crate::shot::Shot;
 
 /// The background at a frame.
 pub fn background_at(scene: &Scene, frame: f64) -> Color {
@@ -16,10 +17,14 @@ pub fn background_at(scene: &Scene, frame: f64) -> Color {
         .map_or(scene.background, |span| mixed(&span, keys[span.left].color, keys[span.right].color))
 }
 
-/// A light at a frame: its values are those of that moment, and it has no keys.
-pub fn light_at(light: &Light, frame: f64) -> Light {
+/// A light of a scene at a frame: its values are those of that moment, and it has no keys. Without keys, a light of the shot is as the
+/// shot has it then.
+pub fn light_at(scene: &Scene, light: &Light, frame: f64) -> Light {
+    let Some(span) = Span::at(&light.keys, frame) else {
+        let posed = |shot: &Shot| shot.light_at(light, &shot.at(frame / scene.timeline.fps));
+        return scene.stage.shot().map_or_else(|| light.clone(), posed);
+    };
     let still = Light { keys: Vec::new(), ..light.clone() };
-    let Some(span) = Span::at(&light.keys, frame) else { return still };
     let stated = Stated { keys: &light.keys, span: &span };
     Light {
         intensity: stated.mixed(light.intensity, |key| key.intensity, |a, b| span.mix(a, b)),
@@ -145,13 +150,13 @@ mod tests {
             LightKey { intensity: Some(6.0), ease: Ease::Step, ..LightKey::at(20.0) },
             LightKey { intensity: Some(1.0), ..LightKey::at(30.0) },
         ]);
-        assert_eq!(light_at(&light, 0.0).intensity, 2.0);
+        assert_eq!(light_at(&new_scene::empty(), &light, 0.0).intensity, 2.0);
         // Before the first key the light is as that key has it.
-        assert_eq!(light_at(&light, 0.0).direction, Some([0.0, -1.0, 0.0]));
-        assert_eq!(light_at(&light, 15.0).intensity, 4.0);
-        assert_eq!(light_at(&light, 29.9).intensity, 6.0);
-        assert_eq!(light_at(&light, 99.0).intensity, 1.0);
-        assert!(light_at(&light, 15.0).keys.is_empty());
+        assert_eq!(light_at(&new_scene::empty(), &light, 0.0).direction, Some([0.0, -1.0, 0.0]));
+        assert_eq!(light_at(&new_scene::empty(), &light, 15.0).intensity, 4.0);
+        assert_eq!(light_at(&new_scene::empty(), &light, 29.9).intensity, 6.0);
+        assert_eq!(light_at(&new_scene::empty(), &light, 99.0).intensity, 1.0);
+        assert!(light_at(&new_scene::empty(), &light, 15.0).keys.is_empty());
     }
 
     #[test]
@@ -161,12 +166,12 @@ mod tests {
             LightKey { direction: Some([3.0, 0.0, 0.0]), color: Some(red), ..LightKey::at(0.0) },
             LightKey { direction: Some([0.0, -0.5, 0.0]), color: Some(Color([0.0; 3])), ..LightKey::at(3.0) },
         ]);
-        let at = light_at(&light, 1.0);
+        let at = light_at(&new_scene::empty(), &light, 1.0);
         let direction = DVec3::from(at.direction.unwrap_or_default());
         let turned_deg = direction.angle_between(DVec3::X).to_degrees();
         assert!((turned_deg - 30.0).abs() < 1e-9 && direction.y < 0.0, "{direction}");
         assert!((linear_from_srgb(at.color.0[0]) - 2.0 / 3.0).abs() < 1e-6);
-        assert_eq!(light_at(&light, 3.0).color, Color([0.0; 3]));
+        assert_eq!(light_at(&new_scene::empty(), &light, 3.0).color, Color([0.0; 3]));
         // Opposite directions give no NaN.
         let [a, b] = [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
         let span = Span { left: 0, right: 1, share: 0.5 };

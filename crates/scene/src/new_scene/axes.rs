@@ -14,7 +14,7 @@ pub(super) struct Axes {
 impl Axes {
     pub fn looking_from(back: DVec3) -> Self {
         let back = back.normalize();
-        let right = DVec3::Y.cross(back).normalize();
+        let right = DVec3::Y.cross(back).normalize_or(DVec3::X);
         Self { right, up: back.cross(right), back }
     }
 

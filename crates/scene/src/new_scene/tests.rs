@@ -38,7 +38,7 @@ fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
 
 /// A material of this sRGB colour.
 fn material(color: [f32; 3]) -> crate::mesh_file::Material {
-    crate::mesh_file::Material { name: String::new(), color, texture: None, gloss: 0.0 }
+    crate::mesh_file::Material { name: String::new(), color, texture: None, gloss: 0.0, unlit: false }
 }
 
 /// Boxes as one mesh, in one group each.
@@ -183,6 +183,7 @@ fn grouped(low: Vec3, high: Vec3, groups: &[&str]) -> MeshFile {
         color: [0.5; 3],
         texture: None,
         gloss: 0.0,
+        unlit: false,
     };
     file.materials = vec![material("wood"), material("spare"), material("")];
     let count = file.mesh.triangles.len();

@@ -8,6 +8,7 @@ use tobj::{LoadError, LoadOptions};
 use super::lint::Checked;
 use super::scan::{Kind, unit};
 use super::text::Findings;
+use crate::surface::Geometry;
 
 /// Models that are smaller than this are scaled to a size of 1: their areas would vanish in single precision.
 const LEAST_EXTENT: f64 = 1e-6;
@@ -15,22 +16,7 @@ const LEAST_EXTENT: f64 = 1e-6;
 /// And so are models that are larger than this: a floor for them would leave the limits of a scene.
 const MOST_EXTENT: f64 = 1e7;
 
-/// The vertices, one for each triple of indices that a corner has; and the corners of the faces, face by face.
-#[derive(Debug)]
-pub(super) struct Geometry {
-    /// For each vertex; a zero is never −0.
-    pub positions: Vec<Vec3>,
-    /// For each vertex; `None` where the file gives none.
-    pub uvs: Vec<Option<Vec2>>,
-    /// For each vertex, of unit length; `None` where the file gives none that can be used.
-    pub normals: Vec<Option<Vec3>>,
-    /// The vertex of each corner.
-    pub corners: Vec<u32>,
-    /// Where the corners of each face end; they begin where those of the face before it end.
-    pub ends: Vec<u32>,
-}
-
-/// Reads the cleaned text of `checked`. Call it only where the linter found no error.
+/// Reads the cleaned text of `checked`; a vertex is a triple of indices that a corner has. Call it only where the linter found no error.
 ///
 /// # Errors
 /// Those of tobj; none is known that the linter does not find first.

@@ -79,7 +79,8 @@ impl<'a> MaterialLibrary<'a> {
         self.tell_of_unknown(checked, place_of);
         let mut materials = Vec::new();
         for name in &checked.materials.list {
-            let mut material = Material { name: name.clone(), color: GREY, texture: None, gloss: 0.0 };
+            let mut material =
+                Material { name: name.clone(), color: GREY, texture: None, gloss: 0.0, unlit: false };
             if let Some((described, mtl)) = self.described.get(name).cloned() {
                 let gloss = described.gloss();
                 if let Some(picture) = described.picture {
@@ -93,7 +94,13 @@ impl<'a> MaterialLibrary<'a> {
             materials.push(material);
         }
         if materials.is_empty() {
-            materials.push(Material { name: String::new(), color: GREY, texture: None, gloss: 0.0 });
+            materials.push(Material {
+                name: String::new(),
+                color: GREY,
+                texture: None,
+                gloss: 0.0,
+                unlit: false,
+            });
         }
         Ok(materials)
     }

@@ -3,7 +3,7 @@
 //!
 //! A face belongs to the group that the last `g` line names (by its whole text). After an `o` line without a `g` line
 //! behind it, the `o` line names the group. Without either, the group is `default`. The same name is the same group.
-//! Smoothing groups are not used: see `surface::CREASE_ANGLE_DEG`.
+//! Smoothing groups are not used: see `crate::surface::CREASE_ANGLE_DEG`.
 
 mod cleaned;
 mod geometry;
@@ -11,9 +11,7 @@ mod lint;
 mod material_library;
 mod materials;
 mod oddities;
-mod polygon;
 mod scan;
-mod surface;
 mod text;
 
 use std::collections::BTreeSet;
@@ -22,9 +20,10 @@ use std::path::{Path, PathBuf};
 use crate::assets::{self, AssetError, AssetFolders};
 use crate::mesh_file::MeshFile;
 use crate::problem::{Problem, Report, Severity};
+use crate::surface::{self, Builder};
 use lint::{Checked, Face};
 use material_library::MaterialLibrary;
-use surface::Builder;
+
 use text::Findings;
 
 /// The largest OBJ file that is read, in bytes.

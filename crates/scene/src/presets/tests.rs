@@ -12,6 +12,8 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
         seed: 0,
         background: Default::default(),
         background_keys: Vec::new(),
+        shot: None,
+        stage: Default::default(),
         timeline: Default::default(),
         reference: Default::default(),
         further_references: Vec::new(),

@@ -163,8 +163,8 @@ fn lights_background_and_strokes_have_lanes_once_they_have_keys() {
     let stated = LightKey { intensity: Some(9.0), ..LightKey::at(20.0) };
     run(Time::PutValue(KeyedValue::Light(light, stated), 20.0), &mut document);
     assert_eq!(document.lights[0].keys.len(), 3);
-    assert_eq!(motion::light_at(&document.lights[0], 20.0).intensity, 9.0);
-    assert_eq!(motion::light_at(&document.lights[0], 40.0).intensity, intensity);
+    assert_eq!(motion::light_at(&document, &document.lights[0], 20.0).intensity, 9.0);
+    assert_eq!(motion::light_at(&document, &document.lights[0], 40.0).intensity, intensity);
     assert_eq!(document.lights[0].keys[1].direction, document.lights[0].direction);
     // Moved together onto others, they replace those; the eases are theirs.
     run(Time::SetEase(vec![(KeyOf::Background, 0.0)], Ease::Step), &mut document);

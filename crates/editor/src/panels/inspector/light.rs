@@ -38,7 +38,8 @@ pub(super) fn show(ui: &mut Ui, asker: &mut Asker<'_, '_>, name: &str) {
 /// The values of the light at the frame that is shown. A light without keys has the same at every frame.
 fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
     let frame = asker.shown.session.frame;
-    let [light, stored] = [light, kept].map(|light| motion::light_at(light, frame));
+    let [light, stored] = [(asker.scene(), light), (asker.stored(), kept)]
+        .map(|(scene, light)| motion::light_at(scene, light, frame));
     let scene = asker.stored();
     let states = |stated: LightKey, what: &str| {
         set_light(scene, &kept.name, stated, what).unwrap_or(Command::Several(String::new(), Vec::new()))
@@ -46,15 +47,15 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
     let set = |light: Light, what: &str| {
         Command::Arrange(Arrange::SetLight { name: kept.name.clone(), light, what: what.to_owned() })
     };
-    let kinds = [LightKind::Sun, LightKind::Point, LightKind::Ambient];
+    let kinds = [LightKind::Sun, LightKind::Point, LightKind::Spot, LightKind::Ambient];
     row(ui, "Kind", |ui| {
         let tip = Tip {
             name: "Kind of light",
-            effect: "A sun casts shadows; a lamp fades with distance; a sky comes from all around.",
+            effect: "A sun casts shadows; a lamp fades with distance; a spot shines into a cone; a sky comes from all around.",
             ..Tip::default()
         };
         let chosen = kinds.iter().position(|kind| *kind == light.kind).unwrap_or(0);
-        let words = ["Sun", "Lamp", "Sky"];
+        let words = ["Sun", "Lamp", "Spot", "Sky"];
         if let Some(picked) = pick(ui, tip, &words, chosen) {
             asker.ask(set(of_kind(kept, kinds[picked]), &format!("is a {}", words[picked].to_lowercase())));
         }
@@ -76,13 +77,13 @@ fn rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, [light, kept]: [&Light; 2]) {
         let what = if to < stored.intensity { "dimmer" } else { "brighter" };
         states(LightKey { intensity: Some(to), ..LightKey::at(frame) }, what)
     });
-    if let (LightKind::Sun, Some(shown), Some(was)) = (light.kind, light.direction, stored.direction) {
+    if let (Some(shown), Some(was)) = (light.direction, stored.direction) {
         let effect = "Where the light travels to, in the world.";
         vector(ui, asker, "Shines", effect, [shown, was], |direction| {
             states(LightKey { direction: Some(direction), ..LightKey::at(frame) }, "direction")
         });
     }
-    if let (LightKind::Point, Some(shown), Some(was)) = (light.kind, light.position, stored.position) {
+    if let (Some(shown), Some(was)) = (light.position, stored.position) {
         vector(ui, asker, "Place", "Where the lamp stands, in the world.", [shown, was], |position| {
             states(LightKey { position: Some(position), ..LightKey::at(frame) }, "place")
         });
@@ -108,13 +109,17 @@ fn dim(Color(channels): Color) -> Color {
 
 /// The light as another kind, with defaults for what that kind needs.
 fn of_kind(light: &Light, kind: LightKind) -> Light {
-    let mut light = Light { kind, direction: None, position: None, ground: None, ..light.clone() };
+    let mut light =
+        Light { kind, direction: None, position: None, cone_deg: None, ground: None, ..light.clone() };
     for key in &mut light.keys {
         (key.direction, key.position, key.ground) = (None, None, None);
     }
     match kind {
         LightKind::Sun => light.direction = Some([0.4, -0.8, -0.45]),
         LightKind::Point => light.position = Some([0.0, 2.0, 0.0]),
+        LightKind::Spot => {
+            (light.direction, light.position) = (Some([0.0, -1.0, 0.0]), Some([0.0, 2.0, 0.0]));
+        }
         LightKind::Ambient => {}
     }
     light

@@ -23,7 +23,12 @@ pub(super) fn menu(button: &Response, shown: &PanelInput<'_>, asks: &mut Vec<Ask
         if entry(ui, icons::OBJECT, "Import mesh\u{2026}") {
             asks.push(Ask::Act(Action::ImportMesh));
         }
-        let kinds = [("Sun", LightKind::Sun), ("Lamp", LightKind::Point), ("Sky", LightKind::Ambient)];
+        let kinds = [
+            ("Sun", LightKind::Sun),
+            ("Lamp", LightKind::Point),
+            ("Spot", LightKind::Spot),
+            ("Sky", LightKind::Ambient),
+        ];
         for (words, kind) in kinds {
             if entry(ui, icons::LIGHT, words) {
                 asks.push(Ask::Do(Command::Arrange(light(shown, kind))));

@@ -13,6 +13,7 @@ use crate::load::files::{as_scene_problem, first_uses, textures};
 use crate::load::{folder_of, read_brush, read_mesh, read_texture};
 use crate::locate::Located;
 use crate::mesh_file::{Material, MeshFile, Texture};
+use crate::mesh_format::MeshReader;
 use crate::problem::{Problem, Severity};
 
 /// Missing files are not searched for if the scene's folder and those below it hold more entries than this.
@@ -181,10 +182,12 @@ impl<'a> FileCache<'a> {
 }
 
 fn mesh(path: &Path, name: &str, options: &LoadOptions) -> Read<MeshFile> {
-    read_mesh(path, name, &options.folders).map(super::super::shared).map_err(|report| {
-        let fatal = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
-        fatal.cloned().unwrap_or_else(|| super::error_in(path, None, "the mesh cannot be used", ""))
-    })
+    read_mesh(&MeshReader::default(), path, name, &options.folders).map(super::super::shared).map_err(
+        |report| {
+            let fatal = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
+            fatal.cloned().unwrap_or_else(|| super::error_in(path, None, "the mesh cannot be used", ""))
+        },
+    )
 }
 
 /// The files in a folder and in the folders below it, as paths relative to it, sorted; none if there are too many.
@@ -246,7 +249,8 @@ fn stand_in(scene: &Scene, name: &str) -> MeshFile {
         names.into_iter().collect::<Vec<_>>()
     };
     let (groups, materials) = (or_plain(groups), or_plain(materials));
-    let material = |name| Material { name, color: [0.55, 0.53, 0.5], texture: None, gloss: 0.0 };
+    let material =
+        |name| Material { name, color: [0.55, 0.53, 0.5], texture: None, gloss: 0.0, unlit: false };
     let mesh = box_mesh(groups.len() as u32, materials.len() as u32);
     MeshFile { mesh, groups, materials: materials.into_iter().map(material).collect() }
 }

@@ -402,6 +402,8 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
                 seed,
                 background,
                 background_keys,
+                shot: None,
+                stage: Default::default(),
                 timeline,
                 reference,
                 further_references,

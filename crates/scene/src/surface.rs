@@ -1,4 +1,6 @@
-//! Turns faces into a mesh: cuts them into triangles, shares vertices, adds missing normals.
+//! Turns faces into a mesh: cuts them into triangles, shares vertices, adds missing normals. Every mesh format ends here.
+
+mod polygon;
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,12 +11,9 @@ use impasto_core::TriangleMesh;
 use indexmap::IndexSet;
 use rayon::prelude::*;
 
-use super::geometry::Geometry;
-use super::polygon;
-
 /// Where the file gives no normals, faces that meet at more than this angle keep the crease between them. A fruit of
 /// few polygons (some 16 to 30 degrees from face to face) is smooth, a chamfer of 45 degrees is not.
-pub(super) const CREASE_ANGLE_DEG: f64 = 44.0;
+pub(crate) const CREASE_ANGLE_DEG: f64 = 44.0;
 
 /// A triangle counts as having no area below this share of its longest edge squared.
 const DEGENERATE: f64 = 1e-12;
@@ -28,12 +27,27 @@ const NONE: u32 = u32::MAX;
 /// The least number of faces or triangles that a core takes at a time.
 const SHARE: usize = 4096;
 
+/// The vertices of a mesh file, and the corners of its faces, face by face.
+#[derive(Debug, Default)]
+pub(crate) struct Geometry {
+    /// For each vertex; a zero is never −0.
+    pub positions: Vec<Vec3>,
+    /// For each vertex; `None` where the file gives none.
+    pub uvs: Vec<Option<Vec2>>,
+    /// For each vertex, of unit length; `None` where the file gives none that can be used.
+    pub normals: Vec<Option<Vec3>>,
+    /// The vertex of each corner.
+    pub corners: Vec<u32>,
+    /// Where the corners of each face end; they begin where those of the face before it end.
+    pub ends: Vec<u32>,
+}
+
 /// Values that differ in their bits, numbered in the order of their first use.
 type Distinct<const N: usize> = IndexSet<[u32; N], RandomState>;
 
 /// Unusual faces that [`Builder`] met.
 #[derive(Debug, Default)]
-pub(super) struct Oddities {
+pub(crate) struct Oddities {
     /// How many faces have no area, and the index of the first.
     pub flat_faces: (usize, u32),
     /// How many faces could only be cut roughly, and the index of the first.
@@ -62,7 +76,7 @@ struct Triangle {
 }
 
 /// Makes a mesh of faces, one after the other.
-pub(super) struct Builder<'a> {
+pub(crate) struct Builder<'a> {
     geometry: &'a Geometry,
     triangles: Vec<Triangle>,
     /// Cutting a polygon with care takes tests of its corners against each other; this many more may be made.

@@ -1,0 +1,84 @@
+//! Materials of a glTF file as Impasto has them: a colour, a picture, a gloss, and whether light falls on it.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use impasto_core::color::srgb_from_linear;
+use impasto_gltf::{Gltf, Material as Stated};
+
+use crate::mesh_file::{Material, Texture};
+use crate::problem::{Problem, Severity};
+use crate::texture;
+
+/// Light that a surface gives off by itself counts as the whole of its look from this share of its own colour on.
+const GLOWS: f32 = 1.0;
+
+/// The file's materials, and last the one of primitives without any. Pictures that cannot be used are left out with a warning.
+pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<Material> {
+    let mut pictures: Vec<Option<Option<Arc<Texture>>>> = vec![None; gltf.images.len()];
+    let mut picture = |index: usize, warnings: &mut Vec<Problem>| -> Option<Arc<Texture>> {
+        pictures[index].get_or_insert_with(|| decoded(path, gltf, index, warnings)).clone()
+    };
+    let mut materials: Vec<Material> = Vec::with_capacity(gltf.materials.len() + 1);
+    for stated in &gltf.materials {
+        let glows = glows(stated);
+        let used = if glows { stated.emissive_texture } else { stated.base_color_texture };
+        let image = used.and_then(|used| gltf.textures[used.texture].image);
+        let texture = image.and_then(|image| picture(image, warnings));
+        materials.push(Material { texture, ..plain(stated, glows) });
+    }
+    materials.push(Material {
+        name: String::new(),
+        color: [srgb_from_linear(1.0); 3],
+        texture: None,
+        gloss: 0.0,
+        unlit: false,
+    });
+    materials
+}
+
+/// Whether what the surface gives off by itself outshines its colour.
+fn glows(stated: &Stated) -> bool {
+    let most = |color: [f32; 3]| color.into_iter().fold(0.0f32, f32::max);
+    let [r, g, b, _] = stated.values.base_color;
+    most(stated.values.emissive()) > GLOWS * most([r, g, b])
+}
+
+fn plain(stated: &Stated, glows: bool) -> Material {
+    let [r, g, b, _] = stated.values.base_color;
+    let linear = if glows {
+        let emissive = stated.values.emissive();
+        let most = emissive.into_iter().fold(1.0f32, f32::max);
+        emissive.map(|channel| channel / most)
+    } else {
+        [r, g, b]
+    };
+    // A roughness of a half, which exporters write for a plain surface, is a quarter glazed, as with OBJ files.
+    let smooth = 1.0 - stated.values.roughness.clamp(0.0, 1.0);
+    Material {
+        name: stated.name.clone(),
+        color: linear.map(srgb_from_linear),
+        texture: None,
+        gloss: smooth * smooth,
+        unlit: stated.is_unlit || glows,
+    }
+}
+
+fn decoded(path: &Path, gltf: &Gltf, index: usize, warnings: &mut Vec<Problem>) -> Option<Arc<Texture>> {
+    let image = &gltf.images[index];
+    let told = |problem: Problem| Problem {
+        severity: Severity::Warning,
+        message: format!("/images/{index}: {}", problem.message),
+        ..problem
+    };
+    match texture::decode(path, image.bytes.as_ref()?) {
+        Ok(decoded) => {
+            warnings.extend(decoded.warnings.into_iter().map(told));
+            Some(Arc::new(decoded.texture))
+        }
+        Err(problem) => {
+            warnings.push(told(problem));
+            None
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Reads glTF files (`.gltf`, `.glb`) as mesh files: the whole file as it rests, or one node of it. `crate::shot` reads them as
+//! shots.
+//!
+//! A node's mesh keeps the size that it has in the file: the stretch of its place in the world at rest is applied to it, turn and
+//! place are left to the scene. Each primitive is a group; materials keep their names.
+
+mod materials;
+mod stretch;
+mod surface;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3};
+use impasto_gltf::{Animator, Finding, Gltf, Playing, Posed, Severity as Level};
+
+use crate::assets::{self, AssetError, AssetFolders, AssetRequest};
+use crate::mesh_file::{Material, MeshFile};
+use crate::nearest;
+use crate::problem::{Problem, Report, Severity};
+
+pub(crate) use stretch::stretch_of;
+
+/// The largest glTF file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 2 << 30;
+
+/// A glTF file that was read, with its pictures.
+#[derive(Debug)]
+pub(crate) struct GltfFile {
+    pub path: PathBuf,
+    pub gltf: Gltf,
+    /// Where everything stands at any time; all animations play together.
+    pub animator: Animator,
+    /// Where everything stands without animation.
+    pub rest: Posed,
+    /// For each node, whether it is in the scene that is shown.
+    in_scene: Vec<bool>,
+    /// The file's materials, and last the default one.
+    materials: Vec<Material>,
+}
+
+/// Reads a glTF file with the files that it names. As everywhere, those come from `root`, the scene's folder, and from `folders`.
+///
+/// # Errors
+/// All that is wrong, each with its JSON pointer, as [`impasto_gltf::read`] finds it.
+pub(crate) fn open(
+    path: &Path,
+    root: &Path,
+    folders: &AssetFolders,
+) -> Result<(GltfFile, Vec<Problem>), Report> {
+    let bytes = assets::read_regular_file(path, MAX_FILE_BYTES).map_err(|error| unread(path, &error))?;
+    let mut open = |name: &str, max_bytes: u64| {
+        let request = AssetRequest { beside: path, root, name, max_bytes };
+        folders.open(&request).map(|asset| asset.bytes).map_err(|error| error.to_string())
+    };
+    let problem = |finding: Finding| in_file(path, &finding);
+    let (gltf, findings) = impasto_gltf::read(bytes, &mut open)
+        .map_err(|findings| Report(findings.into_iter().map(problem).collect()))?;
+    let mut warnings: Vec<Problem> = findings.into_iter().map(problem).collect();
+    // Only an animation that is asked for by name may be missing.
+    let unnamed = |_| Report(Vec::new());
+    let (animator, double) = Animator::new(&gltf, Playing::All).map_err(unnamed)?;
+    warnings.extend(double.into_iter().map(problem));
+    let rest = Animator::new(&gltf, Playing::None).map_err(unnamed)?.0.pose(0.0);
+    let materials = materials::of(path, &gltf, &mut warnings);
+    let mut in_scene = vec![false; gltf.nodes.len()];
+    let mut open = gltf.roots.clone();
+    while let Some(node) = open.pop() {
+        in_scene[node] = true;
+        open.extend(&gltf.nodes[node].children);
+    }
+    Ok((GltfFile { path: path.to_owned(), gltf, animator, rest, in_scene, materials }, warnings))
+}
+
+impl GltfFile {
+    /// The file as it rests, as one mesh; groups are its nodes.
+    ///
+    /// # Errors
+    /// It shows no triangle.
+    pub fn whole(&self) -> Result<MeshFile, Report> {
+        let placed =
+            |node: usize| self.rest.is_visible[node].then(|| (node, self.rest.world_from_node[node]));
+        let nodes: Vec<(usize, DAffine3)> = (0..self.gltf.nodes.len()).filter_map(placed).collect();
+        let nodes = nodes.iter().filter(|(node, _)| self.gltf.nodes[*node].mesh.is_some());
+        surface::mesh_of(self, nodes, true).ok_or_else(|| self.bare("the file shows no triangle"))
+    }
+
+    /// The mesh of one node, stretched as in the file.
+    ///
+    /// # Errors
+    /// There is no such node, or it shows no triangle.
+    pub fn of_node(&self, name: &str) -> Result<MeshFile, Report> {
+        let Some(node) = self.node(name) else {
+            let names = self.gltf.nodes.iter().filter(|node| node.mesh.is_some());
+            let mut report = self.bare(&format!("there is no node {name:?} in the file"));
+            let near = nearest::nearest(name, names.map(|node| node.name.as_str()));
+            report.0[0].mend = near.map_or_else(String::new, |near| format!("did you mean {near:?}?"));
+            return Err(report);
+        };
+        let stretch = DAffine3::from_mat3(self.stretch(node));
+        let mesh = surface::mesh_of(self, [&(node, stretch)].into_iter(), false);
+        mesh.ok_or_else(|| self.bare(&format!("the node {name:?} shows no triangle")))
+    }
+
+    /// Whether a node is in the scene that is shown.
+    pub fn is_in_scene(&self, node: usize) -> bool {
+        self.in_scene[node]
+    }
+
+    /// The node of this name.
+    pub fn node(&self, name: &str) -> Option<usize> {
+        self.gltf.nodes.iter().position(|node| node.name == name)
+    }
+
+    /// What is applied to the mesh of a node: the stretch of its place in the world at rest. Nothing for a skinned one, which stands
+    /// where its joints put it.
+    pub fn stretch(&self, node: usize) -> DMat3 {
+        match self.gltf.nodes[node].skin {
+            Some(_) => DMat3::IDENTITY,
+            None => stretch_of(self.rest.world_from_node[node].matrix3),
+        }
+    }
+
+    fn bare(&self, message: &str) -> Report {
+        Report(vec![Problem {
+            severity: Severity::Error,
+            path: self.path.clone(),
+            place: None,
+            field_path: Box::default(),
+            message: message.to_owned(),
+            mend: "export a mesh of triangles".to_owned(),
+        }])
+    }
+}
+
+/// A finding of the reader as a problem of the file.
+fn in_file(path: &Path, finding: &Finding) -> Problem {
+    let severity = match finding.severity {
+        Level::Warning => Severity::Warning,
+        Level::Error | Level::Unsupported => Severity::Error,
+        Level::Limit => Severity::Limit,
+    };
+    let message = match finding.pointer.as_str() {
+        "" => finding.message.clone(),
+        pointer => format!("{pointer}: {}", finding.message),
+    };
+    Problem {
+        severity,
+        path: path.to_owned(),
+        place: None,
+        field_path: Box::default(),
+        message,
+        mend: finding.mend.to_string(),
+    }
+}
+
+fn unread(path: &Path, error: &AssetError) -> Report {
+    let mut problem = error.to_problem(Severity::Error, path, None);
+    if matches!(error, AssetError::Missing { .. }) {
+        problem.message = "there is no such file".to_owned();
+        problem.mend = "check the path".to_owned();
+    }
+    Report(vec![problem])
+}
+
+/// Whether a file is glTF, by its ending.
+pub fn is_gltf(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    matches!(ending.as_deref(), Some("gltf" | "glb"))
+}
+
+/// Shared by all who name the file in one scene.
+pub(crate) type Shared = Arc<GltfFile>;

@@ -1,0 +1,187 @@
+//! Turns nodes of a glTF file into one mesh file: primitives placed, cut and joined, with normals where the file has none.
+
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use impasto_core::TriangleMesh;
+use impasto_gltf::{Influences, Mesh, Node, Primitive};
+
+use super::GltfFile;
+use crate::mesh_file::MeshFile;
+use crate::surface::{Builder, Geometry};
+
+/// The mesh of these nodes, each placed; `None` where there is no triangle with an area. Groups are the nodes, or, with
+/// `by_node` off, the primitives.
+pub(super) fn mesh_of<'a>(
+    file: &GltfFile,
+    nodes: impl Iterator<Item = &'a (usize, DAffine3)>,
+    by_node: bool,
+) -> Option<MeshFile> {
+    let mut joined = Joined::default();
+    for &(index, placed) in nodes {
+        let node = &file.gltf.nodes[index];
+        let Some(mesh) = node.mesh.map(|mesh| &file.gltf.meshes[mesh]) else { continue };
+        let copies = match &node.instances {
+            Some(instances) => instances.iter().map(|copy| placed * copy.parent_from_local()).collect(),
+            None => vec![placed],
+        };
+        for primitive in &mesh.primitives {
+            let group = if by_node { node.name.clone() } else { group_name(file, mesh, primitive) };
+            let group = joined.group(group);
+            let material = primitive.material.unwrap_or(file.gltf.materials.len());
+            let vertices = Vertices::of(file, node, mesh, primitive);
+            for copy in &copies {
+                joined.add(&vertices, primitive, *copy, [group, material as u32]);
+            }
+        }
+    }
+    joined.finish(file)
+}
+
+/// A primitive's name: that of its material, or its number.
+fn group_name(file: &GltfFile, mesh: &Mesh, primitive: &Primitive) -> String {
+    let material = primitive.material.map(|material| file.gltf.materials[material].name.as_str());
+    match material.filter(|name| !name.is_empty()) {
+        Some(name) => name.to_owned(),
+        None if mesh.primitives.len() == 1 => "default".to_owned(),
+        None => format!("part {}", primitive.index),
+    }
+}
+
+/// The vertices of a primitive at rest.
+struct Vertices {
+    positions: Vec<DVec3>,
+    normals: Option<Vec<DVec3>>,
+    uvs: Option<Vec<Vec2>>,
+}
+
+impl Vertices {
+    /// Morphed by the weights at rest, and moved by the joints.
+    fn of(file: &GltfFile, node: &Node, mesh: &Mesh, primitive: &Primitive) -> Self {
+        let wide = |of: &[f32; 3]| DVec3::from(of.map(f64::from));
+        let mut positions: Vec<DVec3> = primitive.positions.iter().map(wide).collect();
+        let mut normals: Option<Vec<DVec3>> =
+            primitive.normals.as_ref().map(|list| list.iter().map(wide).collect());
+        let weights = node.weights.as_ref().unwrap_or(&mesh.weights);
+        for (target, &weight) in primitive.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
+            let add = |to: &mut Vec<DVec3>, deltas: &[[f32; 3]]| {
+                to.iter_mut().zip(deltas).for_each(|(at, delta)| *at += f64::from(weight) * wide(delta));
+            };
+            if let Some(deltas) = &target.positions {
+                add(&mut positions, deltas);
+            }
+            if let (Some(normals), Some(deltas)) = (&mut normals, &target.normals) {
+                add(normals, deltas);
+            }
+        }
+        if let (Some(skin), Some(influences)) = (node.skin, &primitive.influences) {
+            let joints = file.rest.world_from_bound(&file.gltf.skins[skin]);
+            for (vertex, at) in positions.iter_mut().enumerate() {
+                let matrix = blended(&joints, influences, vertex);
+                *at = matrix.transform_point3(*at);
+                if let Some(normals) = &mut normals {
+                    normals[vertex] = cofactors(matrix.matrix3) * normals[vertex];
+                }
+            }
+        }
+        let uvs = uvs_of(file, primitive);
+        Self { positions, normals, uvs }
+    }
+}
+
+/// The mean of the joints that move a vertex.
+fn blended(joints: &[DAffine3], influences: &Influences, vertex: usize) -> DAffine3 {
+    let of_vertex = vertex * influences.per_vertex..(vertex + 1) * influences.per_vertex;
+    let mut sum = DAffine3::ZERO;
+    for at in of_vertex {
+        let weight = f64::from(influences.weights[at]);
+        let Some(joint) = joints.get(usize::from(influences.joints[at])).filter(|_| weight > 0.0) else {
+            continue;
+        };
+        sum.matrix3 += joint.matrix3 * weight;
+        sum.translation += joint.translation * weight;
+    }
+    sum
+}
+
+/// Takes normals where a matrix takes surfaces: the inverse transpose times the determinant, also of mirrored and flat matrices.
+fn cofactors(matrix: DMat3) -> DMat3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y))
+}
+
+/// Texture coordinates of the picture that shows, V up, moved as the material says.
+fn uvs_of(file: &GltfFile, primitive: &Primitive) -> Option<Vec<Vec2>> {
+    let material = &file.gltf.materials.get(primitive.material?)?;
+    let used = material.base_color_texture.or(material.emissive_texture)?;
+    let list = primitive.uvs[used.uv_set].as_ref()?;
+    let moved = |&uv: &[f32; 2]| {
+        let [u, v] = used.transform.apply(uv);
+        Vec2::new(u, 1.0 - v)
+    };
+    Some(list.iter().map(moved).collect())
+}
+
+/// Primitives that were joined so far.
+#[derive(Default)]
+struct Joined {
+    geometry: Geometry,
+    groups: Vec<String>,
+    group_of_face: Vec<u32>,
+    material_of_face: Vec<u32>,
+    /// Whether any vertex has no normal.
+    lacks_normals: bool,
+}
+
+impl Joined {
+    fn group(&mut self, name: String) -> u32 {
+        let known = self.groups.iter().position(|other| *other == name);
+        known.unwrap_or_else(|| {
+            self.groups.push(name);
+            self.groups.len() - 1
+        }) as u32
+    }
+
+    fn add(
+        &mut self,
+        vertices: &Vertices,
+        primitive: &Primitive,
+        placed: DAffine3,
+        [group, material]: [u32; 2],
+    ) {
+        let first = self.geometry.positions.len() as u32;
+        // Adding 0 makes −0 and 0 the same.
+        self.geometry
+            .positions
+            .extend(vertices.positions.iter().map(|&at| placed.transform_point3(at).as_vec3() + Vec3::ZERO));
+        let turn = cofactors(placed.matrix3);
+        let unit = |normal: &DVec3| (turn * *normal).try_normalize().map(|normal| normal.as_vec3());
+        let count = vertices.positions.len();
+        match &vertices.normals {
+            Some(normals) => self.geometry.normals.extend(normals.iter().map(unit)),
+            None => self.geometry.normals.extend(std::iter::repeat_n(None, count)),
+        }
+        match &vertices.uvs {
+            Some(uvs) => self.geometry.uvs.extend(uvs.iter().copied().map(Some)),
+            None => self.geometry.uvs.extend(std::iter::repeat_n(None, count)),
+        }
+        // A mirrored surface shows its other side.
+        let is_mirrored = placed.matrix3.determinant() < 0.0;
+        for &[a, b, c] in primitive.triangles.iter() {
+            let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
+            self.geometry.corners.extend(corners.map(|corner| first + corner));
+            self.geometry.ends.push(self.geometry.corners.len() as u32);
+        }
+        let faces = primitive.triangles.len();
+        self.group_of_face.extend(std::iter::repeat_n(group, faces));
+        self.material_of_face.extend(std::iter::repeat_n(material, faces));
+        self.lacks_normals |= vertices.normals.is_none();
+    }
+
+    fn finish(self, file: &GltfFile) -> Option<MeshFile> {
+        let (mut mesh, faces): (TriangleMesh, Vec<u32>) = Builder::new(&self.geometry).finish();
+        mesh.group_of_triangle = faces.iter().map(|&face| self.group_of_face[face as usize]).collect();
+        mesh.material_of_triangle = faces.iter().map(|&face| self.material_of_face[face as usize]).collect();
+        let groups = if self.groups.is_empty() { vec!["default".to_owned()] } else { self.groups };
+        let file = MeshFile { mesh, groups, materials: file.materials.clone() };
+        (!file.mesh.triangles.is_empty()).then_some(file)
+    }
+}

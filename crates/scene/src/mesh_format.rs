@@ -1,0 +1,82 @@
+//! The formats of mesh files, behind one door: nobody else knows one by its ending.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::assets::AssetFolders;
+use crate::gltf::{self, Shared};
+use crate::mesh_file::MeshFile;
+use crate::obj;
+use crate::problem::{Problem, Report};
+
+/// What stands between a mesh file's name and the name of a node in it: `props.glb#Lamp`.
+const NODE: char = '#';
+
+/// A mesh that was read, with the warnings.
+pub type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
+
+/// Endings of mesh files, in small letters.
+pub const ENDINGS: [&str; 3] = ["obj", "gltf", "glb"];
+
+/// Whether a file is a mesh file, by its ending.
+pub fn is_mesh(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
+}
+
+/// The largest file of this format that is read, in bytes.
+pub fn max_bytes(path: &Path) -> u64 {
+    if gltf::is_gltf(path) { gltf::MAX_FILE_BYTES } else { obj::MAX_FILE_BYTES }
+}
+
+/// The file and the node of a mesh's name in a scene. The node is `None` for a whole file; only glTF files have nodes.
+pub fn file_and_node(name: &str) -> (&str, Option<&str>) {
+    match name.split_once(NODE) {
+        Some((file, node)) if gltf::is_gltf(Path::new(file)) => (file, Some(node)),
+        _ => (name, None),
+    }
+}
+
+/// The name of a node's mesh in a scene.
+pub fn name_of_node(file: &str, node: &str) -> String {
+    format!("{file}{NODE}{node}")
+}
+
+/// Reads mesh files; a glTF file of which many nodes are asked is read once.
+#[derive(Default)]
+pub(crate) struct MeshReader {
+    open: RefCell<BTreeMap<PathBuf, Shared>>,
+}
+
+impl MeshReader {
+    /// Reads a mesh file, or one node of it.
+    pub fn read(&self, path: &Path, node: Option<&str>, root: &Path, folders: &AssetFolders) -> MeshRead {
+        if !gltf::is_gltf(path) {
+            return obj::read(path, root, folders);
+        }
+        let (file, warnings) = self.open(path, root, folders)?;
+        let mesh = match node {
+            Some(node) => file.of_node(node),
+            None => file.whole(),
+        };
+        mesh.map(|mesh| (mesh, warnings))
+    }
+
+    /// A glTF file; its warnings come with the first use.
+    pub fn open(
+        &self,
+        path: &Path,
+        root: &Path,
+        folders: &AssetFolders,
+    ) -> Result<(Shared, Vec<Problem>), Report> {
+        if let Some(known) = self.open.borrow().get(path) {
+            return Ok((Arc::clone(known), Vec::new()));
+        }
+        let (file, warnings) = gltf::open(path, root, folders)?;
+        let file = Arc::new(file);
+        self.open.borrow_mut().insert(path.to_owned(), Arc::clone(&file));
+        Ok((file, warnings))
+    }
+}

@@ -1,0 +1,45 @@
+//! A new scene for a shot: its camera, lights and motion, and a ground that belongs to its colours.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::axes::Axes;
+use super::scheme::{self, Scheme};
+use super::{bare, object_name};
+use crate::document::{Scene, StrokeSettings};
+use crate::mesh_file::MeshFile;
+use crate::motion;
+use crate::shot::Shot;
+
+/// The longer side of the picture, pixels.
+const LONGER_PX: f64 = 1280.0;
+
+/// Aspects beyond this, wide or tall, are no picture's.
+const MOST_ASPECT: f64 = 4.0;
+
+/// A scene that paints a shot as its file has it. The picture has the aspect of the shot's camera. A shot without lights is lit from
+/// one side. `mesh` is all of the file, as one mesh.
+pub fn for_shot(path: &Path, mesh: &MeshFile, shot: &Arc<Shot>) -> Scene {
+    let name_hash = scheme::name_hash(&object_name(path));
+    let scheme = Scheme::of(mesh, name_hash);
+    let aspect = shot.camera_aspect().unwrap_or(16.0 / 9.0).clamp(1.0 / MOST_ASPECT, MOST_ASPECT);
+    // Movies need even sides.
+    let even = |side: f64| 2 * (side / 2.0).round() as u32;
+    let [width, height] = [aspect, 1.0].map(|side| even(LONGER_PX * side / aspect.max(1.0)));
+    let mut scene = Scene {
+        size: (width, height),
+        seed: name_hash % 1000,
+        background: scheme.plain_ground(),
+        shot: Some(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()),
+        // Smaller strokes than usual: an unknown shot may have much fine detail.
+        strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
+        ..bare()
+    };
+    if !shot.has_lights() {
+        let mut staged = scene.clone();
+        shot.enter(&mut staged);
+        let camera = motion::camera_at(&staged, staged.timeline.first as f64);
+        scene.lights = scheme.lights(Axes::looking_from(camera.eye - camera.target), 1.0);
+    }
+    scene
+}
