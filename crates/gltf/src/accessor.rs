@@ -225,7 +225,9 @@ impl Place<'_> {
                 cursor.error(format!("elements of {element} bytes overlap at the view's stride of {stride}"))
             );
         }
-        if (self.offset + self.view.offset) % component.size() as u64 != 0 || stride % component.size() != 0 {
+        if !(self.offset + self.view.offset).is_multiple_of(component.size() as u64)
+            || !stride.is_multiple_of(component.size())
+        {
             findings.add(
                 cursor
                     .warning(format!("the numbers are not aligned to their {} bytes", component.size()), ""),

@@ -214,11 +214,6 @@ impl<'p, 't> List<'p, 't> {
         self.items.len()
     }
 
-    /// The array itself; `None` where it is missing.
-    pub fn cursor(&self) -> Option<&Cursor<'p, 't>> {
-        self.cursor.as_ref()
-    }
-
     /// The items in order.
     pub fn iter<'s>(&'s self) -> impl Iterator<Item = Cursor<'s, 't>> + use<'s, 'p, 't> {
         let parent = self.cursor.as_ref();

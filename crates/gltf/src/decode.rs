@@ -179,10 +179,10 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
     /// A warning where an accessor that needs `min` and `max` has none.
     pub fn warn_without_bounds(&self, index: usize, findings: &mut Findings) {
         let accessor = &self.list[index];
-        if accessor.min.is_none() || accessor.max.is_none() {
-            if let Some(cursor) = self.cursors.get(index) {
-                findings.add(cursor.warning("\"min\" and \"max\" are missing", ""));
-            }
+        if (accessor.min.is_none() || accessor.max.is_none())
+            && let Some(cursor) = self.cursors.get(index)
+        {
+            findings.add(cursor.warning("\"min\" and \"max\" are missing", ""));
         }
     }
 }

@@ -119,11 +119,11 @@ fn walk<'t>(json: &'t crate::json::Json<'_>, tell: &mut dyn FnMut(&'t str)) {
         }
         Json::Object(members) => {
             for (name, value) in members {
-                if name == "extensions" {
-                    if let Json::Object(extensions) = value {
-                        for (extension, _) in extensions {
-                            tell(extension);
-                        }
+                if name == "extensions"
+                    && let Json::Object(extensions) = value
+                {
+                    for (extension, _) in extensions {
+                        tell(extension);
                     }
                 }
                 if name != "extras" {

@@ -57,10 +57,11 @@ fn image(
         (None, Some(uri)) => {
             let text = uri.text()?;
             let is_data = text.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"));
-            if !is_data && name.is_empty() {
-                if let Ok(Target::File(file)) = uri::target(text) {
-                    name = file;
-                }
+            if !is_data
+                && name.is_empty()
+                && let Ok(Target::File(file)) = uri::target(text)
+            {
+                name = file;
             }
             if is_data || is_needed {
                 fetch(source, &uri, &mut media_type, findings)?

@@ -21,7 +21,7 @@ impl Place {
         let last = times_s.len().saturating_sub(1);
         let time = |key: usize| f64::from(times_s[key]);
         // A time that is no number counts as before all.
-        if last == 0 || !(time_s > time(0)) {
+        if last == 0 || time_s.is_nan() || time_s <= time(0) {
             return Self { before: 0, span_s: 0.0, fraction: 0.0 };
         }
         if time_s >= time(last) {

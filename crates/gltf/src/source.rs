@@ -217,10 +217,10 @@ fn read_view(cursor: &Cursor<'_, '_>, buffers: &[Option<Buffer>], findings: &mut
         let message = format!("bytes {offset} to {offset} + {len} are beyond the buffer's {}", buffer.len);
         return Err(len_cursor.error(message));
     }
-    if let Some(target) = cursor.member("target") {
-        if !matches!(target.whole()?, 34962 | 34963) {
-            findings.add(target.warning("the target is neither 34962 nor 34963", ""));
-        }
+    if let Some(target) = cursor.member("target")
+        && !matches!(target.whole()?, 34962 | 34963)
+    {
+        findings.add(target.warning("the target is neither 34962 nor 34963", ""));
     }
     let extensions = cursor.object("extensions")?;
     let is_compressed =

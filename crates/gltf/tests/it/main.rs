@@ -1,0 +1,9 @@
+//! Tests of the reader from the outside.
+
+mod build;
+mod corpus;
+mod forms;
+mod lies;
+mod motion;
+mod peers;
+mod speed;
