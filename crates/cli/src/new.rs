@@ -1,10 +1,10 @@
-//! `impasto new`: writes the scene that `render MODEL.obj` uses to a file.
+//! `impasto new`: writes the scene that `render MODEL` uses to a file.
 
 use std::path::{Component, Path, PathBuf};
 
 use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_scene::load::{LoadOptions, load};
-use impasto_scene::{built_in_mesh, save};
+use impasto_scene::{built_in_mesh, save, shot};
 
 use crate::args::NewArguments;
 use crate::failure::Failure;
@@ -17,7 +17,8 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
         )));
     }
     if arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ron")) {
-        let words = format!("{} is a scene already; name a model (.obj)", arguments.model.display());
+        let words =
+            format!("{} is a scene already; name a model (.obj, .gltf, .glb)", arguments.model.display());
         return Err(Failure::Refused(words));
     }
     let placing = arguments.placing.of(&arguments.model)?;
@@ -27,8 +28,11 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     }
     not_an_input(&arguments.output, std::slice::from_ref(&arguments.model))?;
     let folder = ready_folder(&arguments.output)?;
-    let mut scene = loaded.scene;
+    let mut scene = shot::left(&loaded.scene);
     let mesh = path_from(&folder, &arguments.model)?;
+    if let Some(shot) = &mut scene.shot {
+        shot.clone_from(&mesh);
+    }
     // The backdrop needs no file.
     for object in scene.objects.iter_mut().filter(|object| !object.mesh.starts_with(built_in_mesh::PREFIX)) {
         object.mesh.clone_from(&mesh);

@@ -1,11 +1,12 @@
 //! A scene with all files that it names, read and checked.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::document::Scene;
 use crate::mesh_file::{MeshFile, Texture};
+use crate::mesh_format;
 use crate::problem::Problem;
 
 /// A scene and the files that it names. `check` has passed: names resolve, numbers are finite and in range, limits
@@ -31,7 +32,9 @@ impl LoadedScene {
     /// folder.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let folder = self.path.parent().map(PathBuf::from).unwrap_or_default();
-        let named = self.meshes.keys().chain(self.textures.keys()).chain(self.brushes.keys());
-        std::iter::once(self.path.clone()).chain(named.map(|name| folder.join(name))).collect()
+        let meshes = self.meshes.keys().map(|name| mesh_format::file_and_node(name).0);
+        let others = self.textures.keys().chain(self.brushes.keys()).chain(&self.scene.shot);
+        let named: BTreeSet<&str> = meshes.chain(others.map(String::as_str)).collect();
+        std::iter::once(self.path.clone()).chain(named.into_iter().map(|name| folder.join(name))).collect()
     }
 }

@@ -10,6 +10,9 @@ use crate::mesh_file::{Material, Texture};
 use crate::problem::{Problem, Severity};
 use crate::texture;
 
+/// The colour (sRGB) of whatever has no material, as in OBJ files.
+const GREY: [f32; 3] = [0.8; 3];
+
 /// Light that a surface gives off by itself counts as the whole of its look from this share of its own colour on.
 const GLOWS: f32 = 1.0;
 
@@ -29,7 +32,7 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
     }
     materials.push(Material {
         name: String::new(),
-        color: [srgb_from_linear(1.0); 3],
+        color: GREY,
         texture: None,
         gloss: 0.0,
         unlit: false,

@@ -1,0 +1,103 @@
+//! Tests against a real Blender, which makes shots, exports them, and says where everything is: `tests/blender/shots.py`.
+//!
+//! They run where `IMPASTO_BPY` names a Python that has Blender as a module (`pip install bpy`), and are skipped elsewhere.
+
+use std::path::Path;
+use std::process::Command;
+
+use glam::{DVec2, DVec3, DVec4};
+use impasto_scene::document::Lens;
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::motion::{CameraPose, camera_at, poses_at};
+use serde_json::Value;
+
+const SIZE_PX: DVec2 = DVec2::new(640.0, 360.0);
+
+/// The furthest that a vertex may be from where Blender has it.
+const MOST_PX: f64 = 0.01;
+
+/// How far a field of view may be from Blender's.
+const MOST_RAD: f64 = 1e-5;
+
+/// Where a point is in the picture, pixels from the lower left; `None` behind the eye.
+fn seen(camera: &CameraPose, at: DVec3) -> Option<DVec2> {
+    let view = camera.view_from_world() * DVec4::from((at, 1.0));
+    let half_height = match camera.lens {
+        Lens::Perspective { fov_y_deg, .. } => -view.z * (0.5 * fov_y_deg.to_radians()).tan(),
+        Lens::Orthographic { height, .. } => 0.5 * height,
+    };
+    let from_middle = view.truncate().truncate() / half_height * (0.5 * SIZE_PX.y);
+    (view.z < 0.0).then_some(from_middle + 0.5 * SIZE_PX)
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// Blender's places of an object's vertices in a frame: in the world (Y up), and in the picture.
+fn places(frame: &Value, object: &str) -> Vec<(DVec3, DVec2)> {
+    let rows = frame["objects"][object].as_array().unwrap().iter().map(numbers);
+    rows.map(|row| (DVec3::new(row[0], row[2], -row[1]), DVec2::new(row[3], row[4]))).collect()
+}
+
+/// Our vertices of an object in a frame, in the world.
+fn vertices(loaded: &LoadedScene, index: usize, frame: f64) -> Vec<DVec3> {
+    let (object, pose) = (&loaded.scene.objects[index], poses_at(&loaded.scene, frame)[index]);
+    let positions = &loaded.meshes[&object.mesh].mesh.positions;
+    positions.iter().map(|at| pose.transform_point3(object.model_from_file() * at.as_dvec3())).collect()
+}
+
+/// The largest difference of a vertex in the picture, over all frames and objects, pixels; and of the field of view, radians.
+fn differences(shot: &Path, frames: &[Value]) -> [f64; 2] {
+    let loaded = load(shot, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"));
+    let (mut most_px, mut most_rad, mut compared) = (0.0f64, 0.0f64, 0);
+    for (index, object) in loaded.scene.objects.iter().enumerate() {
+        // Which of our vertices is which of Blender's is found once: then they must stay together.
+        let first = vertices(&loaded, index, 0.0);
+        let pairs: Vec<usize> = places(&frames[0], &object.name)
+            .iter()
+            .map(|(at, _)| {
+                let away = |index: &usize| first[*index].distance_squared(*at);
+                (0..first.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap()
+            })
+            .collect();
+        for truth in frames {
+            let frame = truth["frame"].as_f64().unwrap();
+            let (camera, ours) = (camera_at(&loaded.scene, frame), vertices(&loaded, index, frame));
+            for (&own, (_, blenders)) in pairs.iter().zip(places(truth, &object.name)) {
+                let Some(at) = seen(&camera, ours[own]) else { continue };
+                most_px = most_px.max(at.distance(blenders));
+                compared += 1;
+            }
+        }
+    }
+    for truth in frames {
+        let camera = camera_at(&loaded.scene, truth["frame"].as_f64().unwrap());
+        if let (Lens::Perspective { fov_y_deg, .. }, Some(blenders)) =
+            (camera.lens, truth["fov_y_rad"].as_f64())
+        {
+            most_rad = most_rad.max((fov_y_deg.to_radians() - blenders).abs());
+        }
+    }
+    assert!(compared > 10_000, "{compared}");
+    [most_px, most_rad]
+}
+
+#[test]
+fn shots_stand_where_blender_has_them() {
+    let Some(python) = std::env::var_os("IMPASTO_BPY") else {
+        return eprintln!("skipped: IMPASTO_BPY names no Python with Blender");
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("blender/shots.py");
+    let made = Command::new(python).arg(script).arg(folder.path()).output().unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    for name in ["nested", "constrained", "layered", "mirrored"] {
+        let truth = std::fs::read_to_string(folder.path().join(format!("{name}.json"))).unwrap();
+        let frames: Vec<Value> = serde_json::from_str(&truth).unwrap();
+        let [px, rad] = differences(&folder.path().join(format!("{name}.glb")), &frames);
+        eprintln!("{name}: at most {px:.5} px and {rad:.1e} rad from Blender in {} frames", frames.len());
+        assert!(px <= MOST_PX && rad <= MOST_RAD, "{name}: {px} px, {rad} rad");
+    }
+}
