@@ -1,6 +1,8 @@
 //! Accessors: what kind of numbers lie where. Everything that a header states is checked here, so that reading the
 //! numbers (`decode`) cannot leave the bytes.
 
+use std::fmt;
+
 use crate::bytes::Bytes;
 use crate::cursor::Cursor;
 use crate::finding::{Checked, Findings, Severity};
@@ -78,6 +80,41 @@ impl Shape {
             Self::Matrix(side) => (side * component.size()).next_multiple_of(4) * side,
             _ => self.width() * component.size(),
         }
+    }
+
+    /// Bytes of the last element: nothing follows its last column.
+    fn bytes_of_last(self, component: Component) -> usize {
+        match self {
+            Self::Matrix(side) => {
+                (side * component.size()).next_multiple_of(4) * (side - 1) + side * component.size()
+            }
+            _ => self.bytes(component),
+        }
+    }
+}
+
+impl fmt::Display for Shape {
+    /// As the file writes it.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scalar => formatter.write_str("SCALAR"),
+            Self::Vector(width) => write!(formatter, "VEC{width}"),
+            Self::Matrix(side) => write!(formatter, "MAT{side}"),
+        }
+    }
+}
+
+impl fmt::Display for Component {
+    /// As the specification calls it, with its number.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::I8 => "BYTE (5120)",
+            Self::U8 => "UNSIGNED_BYTE (5121)",
+            Self::I16 => "SHORT (5122)",
+            Self::U16 => "UNSIGNED_SHORT (5123)",
+            Self::U32 => "UNSIGNED_INT (5125)",
+            Self::F32 => "FLOAT (5126)",
+        })
     }
 }
 
@@ -219,6 +256,7 @@ impl Place<'_> {
         findings: &mut Findings,
     ) -> Checked<Option<Run>> {
         let element = shape.bytes(component);
+        let last = shape.bytes_of_last(component);
         let stride = self.view.stride.unwrap_or(element);
         if stride < element {
             return Err(
@@ -235,9 +273,7 @@ impl Place<'_> {
         }
         let len = match self.count as u64 {
             0 => Some(0),
-            count => {
-                (count - 1).checked_mul(stride as u64).and_then(|bytes| bytes.checked_add(element as u64))
-            }
+            count => (count - 1).checked_mul(stride as u64).and_then(|bytes| bytes.checked_add(last as u64)),
         };
         let end = len.and_then(|len| len.checked_add(self.offset));
         let Some((len, _)) = len.zip(end).filter(|&(_, end)| end <= self.view.len) else {

@@ -109,9 +109,12 @@ fn camera(cursor: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<Camera> {
 
 fn perspective(cursor: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<Lens> {
     let yfov = cursor.required("yfov")?;
-    let yfov_rad = yfov.number()?;
-    if yfov_rad <= 0.0 || yfov_rad >= PI {
-        return Err(yfov.error(format!("a field of view of {yfov_rad} rad is not between 0 and π")));
+    let mut yfov_rad = positive(&yfov)?;
+    if yfov_rad >= PI {
+        findings.add(
+            yfov.warning(format!("a field of view of {yfov_rad} rad is wider than a picture can be"), ""),
+        );
+        yfov_rad = PI - 1e-4;
     }
     let aspect = cursor.member("aspectRatio").map(|member| positive(&member)).transpose()?;
     let znear = positive(&cursor.required("znear")?)?;

@@ -21,6 +21,33 @@ pub(crate) enum Integers {
     Normalized,
 }
 
+/// What is looked for in the numbers of an accessor, once for all who use it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Scan {
+    /// NaN or an infinity.
+    NotFinite,
+    /// A normal of another length than one.
+    OddLength,
+    /// A colour outside 0..=1.
+    OutOfRange,
+    /// A negative weight.
+    Negative,
+}
+
+impl Scan {
+    fn finds(self, numbers: &[f32]) -> bool {
+        match self {
+            Self::NotFinite => !numbers.iter().all(|number| number.is_finite()),
+            Self::OddLength => {
+                let length_squared: f32 = numbers.iter().map(|number| number * number).sum();
+                !(0.98..=1.02).contains(&length_squared)
+            }
+            Self::OutOfRange => numbers.iter().any(|number| !(0.0..=1.0).contains(number)),
+            Self::Negative => numbers.iter().any(|&number| number < 0.0),
+        }
+    }
+}
+
 type Decoded = HashMap<(usize, usize, Integers), Arc<dyn Any + Send + Sync>>;
 
 /// All accessors of a file, and what was read of them.
@@ -30,12 +57,14 @@ pub(crate) struct Accessors<'o, 'p, 't> {
     cursors: List<'p, 't>,
     list: Vec<Accessor>,
     decoded: Decoded,
+    /// What was found: without it, a million primitives on one accessor would be a million scans.
+    scans: HashMap<(usize, Scan), Option<usize>>,
 }
 
 impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
     /// `list` holds one checked accessor for each of `cursors`.
     pub fn new(source: Source<'o>, cursors: List<'p, 't>, list: Vec<Accessor>) -> Self {
-        Self { source, cursors, list, decoded: HashMap::new() }
+        Self { source, cursors, list, decoded: HashMap::new(), scans: HashMap::new() }
     }
 
     /// The index that a member holds.
@@ -64,7 +93,7 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
             Ok(index)
         } else {
             Err(member.error(format!(
-                "accessor {index} holds {:?} of {:?}, which cannot be used here",
+                "accessor {index} is {} of {}, which cannot be used here",
                 accessor.shape, accessor.component
             )))
         }
@@ -126,13 +155,19 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
         findings: &mut Findings,
     ) -> Checked<Arc<Vec<[f32; N]>>> {
         let values = self.floats::<N>(index, integers, findings)?;
-        match first_not_finite(&values) {
+        match self.first(index, Scan::NotFinite, &values) {
             None => Ok(values),
             Some(element) => {
                 let message = format!("element {element} holds a number that is not finite");
                 Err(self.error_at(index, message))
             }
         }
+    }
+
+    /// The first element of an accessor's values in which something is found.
+    pub fn first<const N: usize>(&mut self, index: usize, scan: Scan, values: &[[f32; N]]) -> Option<usize> {
+        let search = || values.iter().position(|value| scan.finds(value));
+        *self.scans.entry((index, scan)).or_insert_with(search)
     }
 
     /// An error about an accessor.
@@ -185,11 +220,6 @@ impl<'o, 'p, 't> Accessors<'o, 'p, 't> {
             findings.add(cursor.warning("\"min\" and \"max\" are missing", ""));
         }
     }
-}
-
-/// The first element that holds NaN or an infinity.
-pub(crate) fn first_not_finite<const N: usize>(values: &[[f32; N]]) -> Option<usize> {
-    values.iter().position(|value| !value.iter().all(|number| number.is_finite()))
 }
 
 fn sparse_indices(accessor: &Accessor, cursor: &Cursor<'_, '_>) -> Checked<Vec<u32>> {

@@ -3,6 +3,7 @@
 //! An [`Animator`] is made once and holds the tracks in the order in which they are used; [`Animator::pose`] is a pure
 //! function of the time. All is computed in `f64`.
 
+use std::hash::BuildHasher;
 use std::sync::Arc;
 
 use foldhash::{HashMap, HashMapExt};
@@ -53,7 +54,7 @@ struct Playable {
 /// A shot at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Posed {
-    /// From the space of each node to the world. For a node with a skin this says nothing of its mesh:
+    /// From the space of each node to the world, finite: a node whose scales outgrow `f64` stands with its parent. For a node with a skin this says nothing of its mesh:
     /// [`Self::world_from_bound`] does.
     pub world_from_node: Vec<DAffine3>,
     /// For each node: whether it is in the scene that is shown, and neither it nor a node above it is hidden.
@@ -109,7 +110,7 @@ impl Animator {
         let mut animator = Self::at_rest(gltf);
         let mut warnings = Vec::new();
         let mut driver: HashMap<Target, usize> = HashMap::new();
-        let mut clocks: HashMap<*const Vec<f32>, usize> = HashMap::new();
+        let mut clocks = Clocks::default();
         for index in chosen {
             let animation = &gltf.animations[index];
             for track in &animation.tracks {
@@ -118,10 +119,7 @@ impl Animator {
                     warnings.push(driven_twice(gltf, [first, index], track));
                     continue;
                 }
-                let clock = *clocks.entry(Arc::as_ptr(&track.times_s)).or_insert_with(|| {
-                    animator.clocks.push(track.times_s.clone());
-                    animator.clocks.len() - 1
-                });
+                let clock = clocks.index(&track.times_s);
                 animator.tracks.push(Playable { track: track.clone(), clock });
             }
             if let Some(own) = animation.span_s() {
@@ -129,6 +127,7 @@ impl Animator {
                 animator.span_s = Some([start.min(own[0]), end.max(own[1])]);
             }
         }
+        animator.clocks = clocks.list;
         // Memory is read in the order of the nodes.
         animator.tracks.sort_by_key(|playable| match playable.track.target {
             Target::Node(node, _) => node,
@@ -212,17 +211,46 @@ impl Animator {
         }
         for &node in &self.order {
             let local = posed.locals[node].parent_from_local();
-            match self.parents[node] {
-                Some(parent) => {
-                    posed.world_from_node[node] = posed.world_from_node[parent] * local;
-                    posed.is_visible[node] &= posed.is_visible[parent];
-                }
-                None => posed.world_from_node[node] = local,
-            }
+            let Some(parent) = self.parents[node] else {
+                posed.world_from_node[node] = local;
+                continue;
+            };
+            let parent_world = posed.world_from_node[parent];
+            let world = parent_world * local;
+            posed.world_from_node[node] = if world.is_finite() { world } else { parent_world };
+            posed.is_visible[node] &= posed.is_visible[parent];
         }
         for (is_visible, is_in_scene) in posed.is_visible.iter_mut().zip(&self.is_in_scene) {
             *is_visible &= is_in_scene;
         }
+    }
+}
+
+/// Lists of times. Exporters write one for each track, and nearly all are equal: a place in equal lists is found once.
+#[derive(Default)]
+struct Clocks {
+    list: Vec<Arc<Vec<f32>>>,
+    by_address: HashMap<*const Vec<f32>, usize>,
+    by_content: HashMap<u64, usize>,
+}
+
+impl Clocks {
+    fn index(&mut self, times_s: &Arc<Vec<f32>>) -> usize {
+        if let Some(&known) = self.by_address.get(&Arc::as_ptr(times_s)) {
+            return known;
+        }
+        let bits: Vec<u32> = times_s.iter().map(|time_s| time_s.to_bits()).collect();
+        let hash = self.by_content.hasher().hash_one(&bits);
+        let index = match self.by_content.get(&hash) {
+            Some(&known) if self.list[known] == *times_s => known,
+            _ => {
+                self.list.push(times_s.clone());
+                self.by_content.insert(hash, self.list.len() - 1);
+                self.list.len() - 1
+            }
+        };
+        self.by_address.insert(Arc::as_ptr(times_s), index);
+        index
     }
 }
 

@@ -1,5 +1,7 @@
 //! Which extensions are read, which only change looks that are not painted, and which are refused by name.
 
+use foldhash::{HashSet, HashSetExt};
+
 use crate::cursor::Cursor;
 use crate::finding::{Checked, Findings, Severity};
 
@@ -47,14 +49,16 @@ const UNSEEN: [&str; 5] =
 /// Reads `extensionsUsed` and `extensionsRequired`, before anything else: a file that needs Draco tells that first.
 pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<()> {
     let required = root.list("extensionsRequired")?;
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for item in required.iter() {
         let Some(name) = findings.take(item.text()) else { continue };
-        if names.contains(&name) {
+        if !names.insert(name) {
             findings.add(item.warning(format!("{name:?} is listed twice"), ""));
             continue;
         }
-        names.push(name);
+        if findings.is_full() {
+            return Ok(());
+        }
         if READ.contains(&name) || SILENT.contains(&name) {
             continue;
         }
@@ -66,10 +70,10 @@ pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<(
             findings.add(item.finding(Severity::Unsupported, message, mend(name)));
         }
     }
-    let mut used_names = Vec::new();
+    let mut used_names = HashSet::new();
     for item in root.list("extensionsUsed")?.iter() {
         let Some(name) = findings.take(item.text()) else { continue };
-        if used_names.contains(&name) {
+        if !used_names.insert(name) {
             findings.add(item.warning(format!("{name:?} is listed twice"), ""));
         } else if !names.contains(&name) {
             if is_unseen(name) {
@@ -81,13 +85,9 @@ pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<(
                 findings.add(item.warning(message, ""));
             }
         }
-        used_names.push(name);
-        if used_names.len() > 1000 {
-            return Err(item.error("more than 1000 extensions are listed"));
-        }
     }
     for name in names {
-        if !used_names.contains(&name) {
+        if !used_names.contains(name) {
             let message = format!("{name} is required but not listed in extensionsUsed");
             findings.add(root.warning(message, ""));
         }
@@ -97,10 +97,10 @@ pub(crate) fn check(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<(
 }
 
 /// Extensions that are in the file although it does not declare them. They are read all the same.
-fn undeclared(root: &Cursor<'_, '_>, used: &[&str], findings: &mut Findings) {
+fn undeclared(root: &Cursor<'_, '_>, used: &HashSet<&str>, findings: &mut Findings) {
     let mut told: Vec<&str> = Vec::new();
     walk(root.json(), &mut |name| {
-        if !used.contains(&name) && !told.contains(&name) && told.len() < 50 {
+        if told.len() < 50 && !used.contains(name) && !told.contains(&name) {
             told.push(name);
             let message = format!("{name:?} is used, but not listed in extensionsUsed");
             findings.add(root.warning(message, "list it there"));

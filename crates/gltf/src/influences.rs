@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::accessor::{Component, Shape};
 use crate::cursor::Cursor;
-use crate::decode::Integers;
+use crate::decode::{Integers, Scan};
 use crate::finding::{Checked, EXPORT_ANEW};
 use crate::mesh::Influences;
 use crate::read_mesh::{InfluenceKey, MeshReader};
@@ -64,7 +64,7 @@ pub(crate) fn read(
         let joints = reader.accessors.integers::<4>(joints_index)?;
         let weights =
             reader.accessors.finite_floats::<4>(weights_index, Integers::Normalized, reader.findings)?;
-        if let Some(vertex) = weights.iter().position(|four| four.iter().any(|&weight| weight < 0.0)) {
+        if let Some(vertex) = reader.accessors.first(weights_index, Scan::Negative, &weights) {
             return Err(reader.error_at(weights_index, format!("a weight of vertex {vertex} is negative")));
         }
         let own = |vertex: usize| vertex * per_vertex + 4 * set..vertex * per_vertex + 4 * set + 4;

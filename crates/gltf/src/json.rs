@@ -8,8 +8,9 @@ use serde::de::{DeserializeSeed, Error as _, MapAccess, SeqAccess, Visitor};
 
 use crate::finding::{Checked, EXPORT_ANEW, Finding, Severity};
 
-/// The most values of one file's JSON. Each takes 32 bytes here, so a text of commas cannot take more than 256 MiB.
-pub(crate) const MOST_VALUES: usize = 8_000_000;
+/// The most values of one file's JSON. Each takes up to 64 bytes here, so a text of commas cannot take more than
+/// 256 MiB.
+pub(crate) const MOST_VALUES: usize = 4_000_000;
 
 /// A JSON value. Numbers are kept as `f64`: whole ones are exact up to 2^53, far beyond any length that is accepted.
 #[derive(Clone, Debug, PartialEq)]

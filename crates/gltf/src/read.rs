@@ -7,7 +7,7 @@ use crate::decode::Accessors;
 use crate::finding::{Checked, Finding, Findings, Severity};
 use crate::read_animation::{self, Driven};
 use crate::read_mesh::{self, Counts};
-use crate::read_node::{self, Referred};
+use crate::read_node::{self, Joints, Referred};
 use crate::source::{Open, Source};
 use crate::{Gltf, accessor, camera_light, container, extensions, images, json, material};
 
@@ -36,6 +36,7 @@ fn read_file(file: Bytes, open: &mut Open<'_>, findings: &mut Findings) -> Check
     let json = json::parse(&container.json)?;
     let root = Cursor::root(&json).checked_object()?;
     check_version(&root, findings)?;
+    warn_of_empty_lists(&root, findings)?;
     extensions::check(&root, findings)?;
     if findings.any_fatal() {
         return Ok(None);
@@ -58,6 +59,7 @@ fn read_parts(
     accessors: &mut Accessors<'_, '_, '_>,
     findings: &mut Findings,
 ) -> Checked<Option<Gltf>> {
+    take_memory_of_lists(root, accessors)?;
     let image_count = root.list("images")?.len();
     let textures = material::textures(root, image_count, findings)?;
     if findings.any_fatal() {
@@ -85,12 +87,14 @@ fn read_parts(
     if findings.any_fatal() {
         return Ok(None);
     }
+    let joints_of_meshes: Vec<Joints> = meshes.iter().map(|mesh| Joints::of(mesh)).collect();
     let referred = Referred {
         nodes: node_count,
         meshes: &meshes,
         cameras: cameras.len(),
         lights: lights.len(),
         skins: &skins,
+        joints_of_meshes: &joints_of_meshes,
     };
     let nodes = read_node::nodes(root, &referred, accessors, findings)?;
     if findings.any_fatal() {
@@ -118,6 +122,44 @@ fn read_parts(
         animations,
         variants,
     }))
+}
+
+/// All lists of a document.
+const LISTS: [&str; 13] = [
+    "accessors",
+    "animations",
+    "bufferViews",
+    "buffers",
+    "cameras",
+    "images",
+    "materials",
+    "meshes",
+    "nodes",
+    "samplers",
+    "scenes",
+    "skins",
+    "textures",
+];
+
+/// An empty list is against the specification, and harmless.
+fn warn_of_empty_lists(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<()> {
+    for name in LISTS {
+        let list = root.list(name)?;
+        if let Some(member) = root.member(name).filter(|_| list.len() == 0) {
+            findings.add(member.warning("the list is empty", ""));
+        }
+    }
+    Ok(())
+}
+
+/// Accounts for what stands on the JSON itself: `{}` is two bytes in the file, and a node here.
+fn take_memory_of_lists(root: &Cursor<'_, '_>, accessors: &mut Accessors<'_, '_, '_>) -> Checked<()> {
+    const BYTES_EACH: usize = 600;
+    for name in LISTS {
+        let count = root.list(name)?.len();
+        accessors.take_memory(count, BYTES_EACH, root)?;
+    }
+    Ok(())
 }
 
 fn check_version(root: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<()> {

@@ -31,6 +31,8 @@ pub(crate) struct Driven<'a> {
 struct Shared {
     times: HashMap<usize, Arc<Vec<f32>>>,
     values: HashMap<(usize, bool), Arc<Vec<f32>>>,
+    /// Rotations that were checked, with or without tangents between them.
+    rotations: HashSet<(usize, usize)>,
 }
 
 /// A sampler, checked as far as it can be without its target.
@@ -88,6 +90,7 @@ fn animation(
             );
             continue;
         }
+        let Some(sampler) = sampler else { continue };
         let Some(track) = track(sampler, (target, index), driven, (accessors, shared), findings)? else {
             continue;
         };
@@ -96,12 +99,13 @@ fn animation(
     Ok(Animation { name, tracks })
 }
 
+/// `None` (after a warning): it has no times.
 fn sampler<'p, 't>(
     cursor: &'p Cursor<'p, 't>,
     accessors: &mut Accessors<'_, '_, '_>,
     shared: &mut Shared,
     findings: &mut Findings,
-) -> Checked<Sampler<'p, 't>> {
+) -> Checked<Option<Sampler<'p, 't>>> {
     let interpolation = match cursor.member("interpolation") {
         None => Interpolation::Linear,
         Some(member) => match member.text()? {
@@ -124,6 +128,14 @@ fn sampler<'p, 't>(
             if times[0][0] < 0.0 {
                 findings.add(input.warning("the times begin before 0", ""));
             }
+            // Valid by the letter: numbers that are not in the file are zeros.
+            let is_placeholder = accessors.get(index).run.is_none() && accessors.get(index).sparse.is_none();
+            if is_placeholder && times.len() > 1 {
+                findings.add(
+                    input.warning("the times are not in the file: what they move stands still", EXPORT_ANEW),
+                );
+                return Ok(None);
+            }
             if let Some(place) = times.windows(2).position(|pair| pair[0] >= pair[1]) {
                 let message = format!("the times of keys {place} and {} do not increase", place + 1);
                 return Err(accessors.error_at(index, message));
@@ -135,7 +147,7 @@ fn sampler<'p, 't>(
     };
     let output = cursor.required("output")?;
     accessors.index(&output)?;
-    Ok(Sampler { times_s, interpolation, output })
+    Ok(Some(Sampler { times_s, interpolation, output }))
 }
 
 /// What a channel drives; `None` (after a warning) where that is not read.
@@ -151,7 +163,9 @@ fn target(cursor: &Cursor<'_, '_>, driven: &Driven<'_>, findings: &mut Findings)
         "weights" => NodeProperty::Weights,
         "pointer" => {
             let Some(extension) = extension else {
-                return Err(cursor.error("the path is \"pointer\", and there is no KHR_animation_pointer"));
+                let message = "the path is \"pointer\", and there is no pointer: the channel is left out";
+                findings.add(cursor.warning(message, EXPORT_ANEW));
+                return Ok(None);
             };
             if node.is_some() {
                 findings.add(cursor.warning("a pointer stands beside a node, which is left out", ""));
@@ -282,7 +296,8 @@ fn track(
             values
         }
     };
-    if let Target::Node(_, NodeProperty::Rotation) = target {
+    if matches!(target, Target::Node(_, NodeProperty::Rotation)) && shared.rotations.insert((index, per_key))
+    {
         check_rotations(&values, per_key, index, accessors, findings)?;
     }
     let interpolation = if is_truth { Interpolation::Step } else { sampler.interpolation };

@@ -6,7 +6,7 @@ use foldhash::{HashMap, HashMapExt};
 
 use crate::accessor::{Component, Shape};
 use crate::cursor::Cursor;
-use crate::decode::{Accessors, Integers, first_not_finite};
+use crate::decode::{Accessors, Integers, Scan};
 use crate::extensions::{DRACO, VARIANTS};
 use crate::finding::{Checked, EXPORT_ANEW, Finding, Findings, Severity};
 use crate::influences;
@@ -78,8 +78,7 @@ impl MeshReader<'_, '_, '_, '_> {
             primitives.extend(primitive);
         }
         let target_count = target_count.unwrap_or(0);
-        let weights =
-            weights(cursor, target_count, self.findings)?.unwrap_or_else(|| vec![0.0; target_count]);
+        let weights = weights(cursor, target_count)?.unwrap_or_else(|| vec![0.0; target_count]);
         Ok(Mesh { name, primitives, target_count, weights, target_names: target_names(cursor, target_count) })
     }
 
@@ -189,16 +188,12 @@ impl MeshReader<'_, '_, '_, '_> {
         let index = self.accessors.expect(&member, &[Shape::Vector(3)], &NORMAL)?;
         self.check_count(&member, index, count)?;
         let normals = self.accessors.floats::<3>(index, Integers::Normalized, self.findings)?;
-        if let Some(bad) = first_not_finite(&normals) {
+        if let Some(bad) = self.accessors.first(index, Scan::NotFinite, &normals) {
             let message = format!("normal {bad} is not finite: the normals are left out");
             self.findings.add(member.warning(message, EXPORT_ANEW));
             return Ok(None);
         }
-        let is_odd = |normal: &[f32; 3]| {
-            let length_squared: f32 = normal.iter().map(|axis| axis * axis).sum();
-            !(0.98..=1.02).contains(&length_squared)
-        };
-        if let Some(odd) = normals.iter().position(is_odd) {
+        if let Some(odd) = self.accessors.first(index, Scan::OddLength, &normals) {
             self.findings.add(member.warning(format!("normal {odd} is not of unit length"), ""));
         }
         Ok(Some(normals))
@@ -214,7 +209,7 @@ impl MeshReader<'_, '_, '_, '_> {
         let index = self.accessors.expect(&member, &[Shape::Vector(2)], &SMALL)?;
         self.check_count(&member, index, count)?;
         let uvs = self.accessors.floats::<2>(index, Integers::AsStated, self.findings)?;
-        Ok(self.finite_or_left_out(&member, uvs))
+        Ok(self.finite_or_left_out(&member, index, uvs))
     }
 
     fn colors(&mut self, attributes: &Cursor<'_, '_>, count: usize) -> Checked<Option<Arc<Vec<[f32; 4]>>>> {
@@ -228,18 +223,19 @@ impl MeshReader<'_, '_, '_, '_> {
             self.accessors.take_memory(count, 16, &member)?;
             Arc::new(opaque.iter().map(|&[red, green, blue]| [red, green, blue, 1.0]).collect())
         };
-        if colors.iter().flatten().any(|channel| !(0.0..=1.0).contains(channel)) {
+        if self.accessors.first(index, Scan::OutOfRange, &colors).is_some() {
             self.findings.add(member.warning("some colours are not from 0 to 1", ""));
         }
-        Ok(self.finite_or_left_out(&member, colors))
+        Ok(self.finite_or_left_out(&member, index, colors))
     }
 
     fn finite_or_left_out<const N: usize>(
         &mut self,
         member: &Cursor<'_, '_>,
+        index: usize,
         values: Arc<Vec<[f32; N]>>,
     ) -> Option<Arc<Vec<[f32; N]>>> {
-        let bad = first_not_finite(&values);
+        let bad = self.accessors.first(index, Scan::NotFinite, &values);
         if let Some(bad) = bad {
             let message = format!("element {bad} is not finite: the attribute is left out");
             self.findings.add(member.warning(message, EXPORT_ANEW));
@@ -279,19 +275,13 @@ impl MeshReader<'_, '_, '_, '_> {
 }
 
 /// The weights of morph targets of a mesh or a node: as many as there are targets.
-pub(crate) fn weights(
-    cursor: &Cursor<'_, '_>,
-    target_count: usize,
-    findings: &mut Findings,
-) -> Checked<Option<Vec<f32>>> {
+pub(crate) fn weights(cursor: &Cursor<'_, '_>, target_count: usize) -> Checked<Option<Vec<f32>>> {
     let Some(member) = cursor.member("weights") else { return Ok(None) };
     let list = member.clone().checked_list()?;
     if list.len() != target_count {
-        let message = format!("{} weights stand for {target_count} morph targets", list.len());
-        findings.add(member.warning(message, ""));
+        return Err(member.error(format!("{} weights stand for {target_count} morph targets", list.len())));
     }
-    let mut weights = list.iter().map(|item| Ok(item.number()? as f32)).collect::<Checked<Vec<f32>>>()?;
-    weights.resize(target_count, 0.0);
+    let weights = list.iter().map(|item| Ok(item.number()? as f32)).collect::<Checked<Vec<f32>>>()?;
     Ok(Some(weights))
 }
 

@@ -10,7 +10,7 @@ use crate::cursor::Cursor;
 use crate::decode::{Accessors, Integers};
 use crate::extensions::{INSTANCING, LIGHTS, VISIBILITY};
 use crate::finding::{Checked, EXPORT_ANEW, Findings};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Primitive};
 use crate::node::{LocalTransform, Node, Skin, Trs};
 use crate::read_mesh;
 
@@ -21,6 +21,28 @@ pub(crate) struct Referred<'a> {
     pub cameras: usize,
     pub lights: usize,
     pub skins: &'a [Skin],
+    pub joints_of_meshes: &'a [Joints],
+}
+
+/// What a mesh asks of a skin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Joints {
+    /// Some primitive has no joints.
+    pub is_partial: bool,
+    /// The largest joint with a weight; `None`: no primitive has joints.
+    pub largest: Option<u16>,
+}
+
+impl Joints {
+    /// What a mesh asks for.
+    pub fn of(mesh: &Mesh) -> Self {
+        let largest =
+            |primitive: &Primitive| primitive.influences.as_ref().map(|joints| joints.largest_joint);
+        Self {
+            is_partial: mesh.primitives.iter().any(|primitive| primitive.influences.is_none()),
+            largest: mesh.primitives.iter().filter_map(largest).max(),
+        }
+    }
 }
 
 /// Reads `skins`.
@@ -163,11 +185,13 @@ fn node(
     let skin = cursor.optional_index("skin", referred.skins.len(), "skin")?;
     check_skin(
         cursor,
-        mesh.map(|mesh| &*referred.meshes[mesh]),
+        mesh.map(|mesh| referred.joints_of_meshes[mesh]),
         skin.map(|skin| &referred.skins[skin]),
         findings,
     )?;
     let target_count = mesh.map_or(0, |mesh| referred.meshes[mesh].target_count);
+    // Every pose holds them.
+    accessors.take_memory(target_count, size_of::<f32>(), cursor)?;
     let extensions = cursor.object("extensions")?;
     let extension = |name| extensions.as_ref().map_or(Ok(None), |extensions| extensions.object(name));
     let light = match extension(LIGHTS)? {
@@ -189,7 +213,7 @@ fn node(
         camera: cursor.optional_index("camera", referred.cameras, "camera")?,
         light,
         skin,
-        weights: read_mesh::weights(cursor, target_count, findings)?,
+        weights: read_mesh::weights(cursor, target_count)?,
         is_visible,
         local: local(cursor, findings)?,
         instances,
@@ -198,7 +222,7 @@ fn node(
 
 fn check_skin(
     cursor: &Cursor<'_, '_>,
-    mesh: Option<&Mesh>,
+    mesh: Option<Joints>,
     skin: Option<&Skin>,
     findings: &mut Findings,
 ) -> Checked<()> {
@@ -207,20 +231,16 @@ fn check_skin(
         findings.add(cursor.warning("the node has a skin and no mesh", ""));
         return Ok(());
     };
-    for primitive in &mesh.primitives {
-        let Some(influences) = &primitive.influences else {
-            findings.add(cursor.warning("the node has a skin, and its mesh no joints", ""));
-            continue;
-        };
-        if usize::from(influences.largest_joint) >= skin.joints.len() {
-            return Err(cursor.error(format!(
-                "the mesh names joint {}, and the skin has {} of them",
-                influences.largest_joint,
-                skin.joints.len()
-            )));
-        }
+    if mesh.is_partial {
+        findings.add(cursor.warning("the node has a skin, and some of its mesh no joints", ""));
     }
-    Ok(())
+    match mesh.largest {
+        Some(largest) if usize::from(largest) >= skin.joints.len() => Err(cursor.error(format!(
+            "the mesh names joint {largest}, and the skin has {} of them",
+            skin.joints.len()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 fn local(cursor: &Cursor<'_, '_>, findings: &mut Findings) -> Checked<LocalTransform> {

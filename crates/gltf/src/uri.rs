@@ -18,7 +18,7 @@ pub(crate) fn target(uri: &str) -> Result<Target, &'static str> {
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
         return data(&uri[5..]);
     }
-    if has_scheme(uri) {
+    if uri.starts_with(':') || has_scheme(uri) {
         return Err("has a scheme: only files beside the glTF file and data URIs are read");
     }
     // A query or fragment would be part of a name on the web only; exporters write such characters unescaped.

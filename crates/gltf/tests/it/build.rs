@@ -70,7 +70,7 @@ impl Buffer {
         let mut bin = self.bytes.clone();
         bin.resize(bin.len().next_multiple_of(4), 0);
         let mut glb = b"glTF".to_vec();
-        let mut word = |glb: &mut Vec<u8>, number: usize| glb.extend((number as u32).to_le_bytes());
+        let word = |glb: &mut Vec<u8>, number: usize| glb.extend((number as u32).to_le_bytes());
         word(&mut glb, 2);
         word(&mut glb, 12 + 8 + text.len() + 8 + bin.len());
         word(&mut glb, text.len());

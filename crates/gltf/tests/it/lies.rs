@@ -47,7 +47,7 @@ fn use_all(gltf: &Gltf) {
     let (animator, _) = Animator::new(gltf, Playing::All).expect("all may play");
     for time_s in [-1.0, 0.0, 0.3, 1.0, 1.5, 2.0, 1e30, f64::INFINITY, f64::NAN] {
         let posed = animator.pose(time_s);
-        assert!(posed.world_from_node.iter().all(|world| !world.is_nan()), "at {time_s}");
+        assert!(posed.world_from_node.iter().all(|world| world.is_finite()), "at {time_s}");
         for skin in &gltf.skins {
             assert_eq!(posed.world_from_bound(skin).len(), skin.joints.len());
         }
@@ -235,7 +235,7 @@ fn json_cut_short_or_deep() {
     let text = document.to_string();
     for len in (0..text.len()).step_by(7) {
         if text.is_char_boundary(len) {
-            assert!(check(text[..len].as_bytes().to_vec(), "cut short").is_err());
+            assert!(check(text.as_bytes()[..len].to_vec(), "cut short").is_err());
         }
     }
     for deep in [
@@ -302,4 +302,49 @@ fn overlapping_accessors_are_counted() {
     let read = impasto_gltf::read(document.to_string().into_bytes(), &mut |_, _| Ok(vec![0; 3_000_000]));
     let findings = read.expect_err("24 GB");
     assert_eq!(findings[0].severity, impasto_gltf::Severity::Limit);
+}
+
+/// Scales of which each is a number, and their product is none.
+#[test]
+fn scales_that_outgrow_all_numbers() {
+    let node = |index: usize| json!({ "children": [index + 1], "scale": [1e38, 1e38, 0.0], "translation": [1e38, 0, 0] });
+    let nodes: Vec<Value> = (0..20).map(node).chain([json!({})]).collect();
+    let document = json!({ "asset": { "version": "2.0" }, "nodes": nodes });
+    assert!(check(document.to_string().into_bytes(), "scales").is_ok());
+}
+
+/// Many who share one long list are not as many scans of it.
+#[test]
+fn sharing_takes_no_time() {
+    let count = 250_000;
+    let accessor =
+        |kind: &str| json!({ "bufferView": 0, "componentType": 5126, "count": count, "type": kind });
+    let primitive = json!({ "attributes": { "POSITION": 0, "NORMAL": 0, "TEXCOORD_0": 1, "COLOR_0": 2 } });
+    let joints: Vec<usize> = vec![0];
+    let document = json!({
+        "asset": { "version": "2.0" },
+        "buffers": [{ "byteLength": 16 * count, "uri": "a.bin" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 16 * count }],
+        "accessors": [accessor("VEC3"), accessor("VEC2"), accessor("VEC4"),
+            { "bufferView": 0, "componentType": 5126, "count": count / 4, "type": "MAT4" }],
+        "meshes": [{ "primitives": vec![primitive; 20_000] }],
+        "skins": vec![json!({ "joints": joints, "inverseBindMatrices": 3 }); 20_000],
+        "nodes": vec![json!({ "mesh": 0, "skin": 0 }); 20_000],
+    });
+    let start = Instant::now();
+    let read = impasto_gltf::read(document.to_string().into_bytes(), &mut |_, _| Ok(vec![0; 16 * count]));
+    assert!(read.is_ok());
+    assert!(start.elapsed() < Duration::from_secs(3), "{:?}", start.elapsed());
+}
+
+/// A node is two bytes in the file, and much more here.
+#[test]
+fn short_texts_of_many_things_are_bounded() {
+    for list in ["nodes", "materials", "scenes", "textures", "samplers"] {
+        let text = format!(r#"{{"asset":{{"version":"2.0"}},"{list}":[{}{{}}]}}"#, "{},".repeat(3_000_000));
+        let findings = read_alone(text.into_bytes()).expect_err("too many");
+        assert_eq!(findings[0].severity, impasto_gltf::Severity::Limit, "{list}");
+    }
+    let text = format!(r#"{{"asset":{{"version":"2.0"}},"x":[{}0]}}"#, "0,".repeat(5_000_000));
+    assert_eq!(read_alone(text.into_bytes()).expect_err("too many")[0].pointer, "/x/3999996");
 }
