@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use impasto_frame_files::{not_an_input, ready_folder};
 use impasto_scene::load::{LoadOptions, load};
-use impasto_scene::{built_in_mesh, save, shot};
+use impasto_scene::{built_in_mesh, save};
 
 use crate::args::NewArguments;
 use crate::failure::Failure;
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<(), Failure> {
     }
     not_an_input(&arguments.output, std::slice::from_ref(&arguments.model))?;
     let folder = ready_folder(&arguments.output)?;
-    let mut scene = shot::left(&loaded.scene);
+    let mut scene = loaded.scene.without_shot();
     let mesh = path_from(&folder, &arguments.model)?;
     if let Some(shot) = &mut scene.shot {
         shot.clone_from(&mesh);

@@ -23,7 +23,6 @@ mod evaluate;
 mod extensions;
 mod finding;
 mod images;
-mod influences;
 mod json;
 mod keys;
 mod material;
@@ -35,7 +34,6 @@ mod read_animation;
 mod read_mesh;
 mod read_node;
 mod source;
-mod triangles;
 mod uri;
 
 use std::sync::Arc;

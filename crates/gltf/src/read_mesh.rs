@@ -1,5 +1,8 @@
 //! Reads meshes.
 
+mod influences;
+mod triangles;
+
 use std::sync::Arc;
 
 use foldhash::{HashMap, HashMapExt};
@@ -9,9 +12,8 @@ use crate::cursor::Cursor;
 use crate::decode::{Accessors, Integers, Scan};
 use crate::extensions::{DRACO, VARIANTS};
 use crate::finding::{Checked, EXPORT_ANEW, Finding, Findings, Severity};
-use crate::influences;
 use crate::mesh::{Influences, Mesh, MorphTarget, Primitive};
-use crate::triangles::{Mode, Triangles, triangles};
+use triangles::{Mode, Triangles, triangles};
 
 /// Lengths of the lists that meshes refer to.
 #[derive(Clone, Copy, Debug)]

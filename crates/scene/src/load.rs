@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::assets::{AssetFolders, AssetRequest};
 use crate::built_in_mesh;
 use crate::check::{self, Finding};
-use crate::document::{Scene, Up};
+use crate::document::{Brought, Lost, Scene, Up};
 use crate::limits;
 use crate::loaded::LoadedScene;
 use crate::locate::Located;
@@ -196,7 +196,7 @@ type ShotRead = Result<(Vec<Finding>, Vec<Problem>), Report>;
 
 /// Reads the shot that a document names, and puts it on the stage.
 fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders: &AssetFolders) -> ShotRead {
-    let Some(name) = scene.shot.clone().filter(|_| scene.stage.shot().is_none()) else {
+    let Some(name) = scene.shot.clone().filter(|_| scene.stage.shot.is_none()) else {
         return Ok((Vec::new(), Vec::new()));
     };
     let root = folder_of(scene_path);
@@ -210,7 +210,19 @@ fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders
         return Err(Report(vec![error_in(scene_path, None, message, "name a .glb or .gltf file")]));
     }
     let (file, warnings) = reader.open(&path, root, folders)?;
-    Ok((Arc::new(Shot::new(file, &name)).enter(scene), warnings))
+    let lost = Arc::new(Shot::new(file, &name)).enter(scene);
+    Ok((lost.into_iter().map(lost_object).collect(), warnings))
+}
+
+/// A finding about an object that the document states and the shot does not have.
+fn lost_object(Lost { index, name, near }: Lost) -> Finding {
+    let stays = "what the scene states for it stays in the file";
+    Finding {
+        severity: Severity::Warning,
+        field_path: format!("objects[{index}].name"),
+        message: format!("the shot has no object {name:?}"),
+        mend: near.map_or_else(|| stays.to_owned(), |near| format!("did you mean {near:?}? If not, {stays}")),
+    }
 }
 
 /// What was read, behind an `Arc` as scenes hold it.

@@ -1,7 +1,7 @@
 //! The formats of mesh files, behind one door: nobody else knows one by its ending.
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,6 +10,7 @@ use crate::gltf::{self, Shared};
 use crate::mesh_file::MeshFile;
 use crate::obj;
 use crate::problem::{Problem, Report};
+use crate::texture;
 
 /// What stands between a mesh file's name and the name of a node in it: `props.glb#Lamp`.
 const NODE: char = '#';
@@ -26,9 +27,23 @@ pub fn is_mesh(path: &Path) -> bool {
     ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()))
 }
 
-/// The largest file of this format that is read, in bytes.
+/// The largest file of this kind that is read, in bytes: a mesh file, or one that a mesh file names.
 pub fn max_bytes(path: &Path) -> u64 {
-    if gltf::is_gltf(path) { gltf::MAX_FILE_BYTES } else { obj::MAX_FILE_BYTES }
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("obj") => obj::MAX_FILE_BYTES,
+        Some("mtl") => obj::MAX_MTL_BYTES,
+        Some("gltf" | "glb" | "bin") => gltf::MAX_FILE_BYTES,
+        _ => texture::MAX_FILE_BYTES,
+    }
+}
+
+/// The files that must be copied with a mesh file in `root` to another folder: those that it names and that are found in `root`.
+///
+/// # Errors
+/// A [`Report`] where the file cannot be read or has errors.
+pub fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report> {
+    if gltf::is_gltf(path) { gltf::companions(path, root) } else { obj::companions(path, root) }
 }
 
 /// The file and the node of a mesh's name in a scene. The node is `None` for a whole file; only glTF files have nodes.

@@ -28,6 +28,16 @@ pub struct CameraPose {
 }
 
 impl CameraPose {
+    /// The camera that stands at a matrix, world from view: −Z forward, Y up, without scale.
+    fn of_matrix(world_from_view: DMat4, lens: Lens) -> Self {
+        let eye = world_from_view.w_axis.truncate();
+        let [up, back] = [world_from_view.y_axis, world_from_view.z_axis].map(|axis| axis.truncate());
+        let unrolled = Self { eye, target: eye - back, roll_rad: 0.0, lens };
+        // The camera's up in a view without roll: straight up is no roll, to the left is a turn counter-clockwise.
+        let up = unrolled.view_from_world().transform_vector3(up);
+        Self { roll_rad: (-up.x).atan2(up.y), ..unrolled }
+    }
+
     /// World space to view space: right-handed, looking down −Z, Y up.
     ///
     /// The camera turns counter-clockwise by `roll_rad`, so a thing at the screen angle φ without roll shows at
@@ -49,10 +59,10 @@ impl CameraPose {
 pub fn camera_at(scene: &Scene, frame: f64) -> CameraPose {
     let keys = &scene.camera.keys;
     if keys.is_empty()
-        && let Some(shot) = scene.stage.shot()
-        && let Some(pose) = shot.camera_pose(&shot.at(frame / scene.timeline.fps), scene.size)
+        && let Some(shot) = &scene.stage.shot
+        && let Some((world_from_view, lens)) = shot.camera(&shot.at(frame / scene.timeline.fps), scene.size)
     {
-        return pose;
+        return CameraPose::of_matrix(world_from_view, lens);
     }
     let span = Span::at(keys, frame);
     let Some(span) = span else {
@@ -136,8 +146,11 @@ struct ShotPoses {
 impl ShotPoses {
     /// World from model of an object without keys of its own, at a frame; `None` where no shot moves it.
     fn pose_in_world(&mut self, scene: &Scene, object: &Object, frame: f64) -> Option<DAffine3> {
-        let shot =
-            scene.stage.shot().filter(|shot| object.keys.is_empty() && shot.has_object(&object.name))?;
+        let shot = scene
+            .stage
+            .shot
+            .as_ref()
+            .filter(|shot| object.keys.is_empty() && shot.has_object(&object.name))?;
         let known = self.at_frames.iter().position(|(other, _)| *other == frame);
         let index = known.unwrap_or_else(|| {
             self.at_frames.push((frame, shot.at(frame / scene.timeline.fps)));

@@ -15,9 +15,8 @@ mod serializer;
 ///
 /// Colours are written with 8 bits a channel, which is all that a scene file can hold.
 pub fn to_ron(scene: &Scene) -> String {
-    let value = crate::shot::left(scene)
-        .serialize(serializer::ToValue)
-        .expect("a document holds only what RON can say");
+    let value =
+        scene.without_shot().serialize(serializer::ToValue).expect("a document holds only what RON can say");
     format!("#![enable(implicit_some)]\n{}\n", layout::lay_out(&value))
 }
 

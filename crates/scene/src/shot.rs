@@ -1,7 +1,7 @@
 //! A shot: what a glTF file brings into a scene, its objects, camera, lights, motion and frame range.
 //!
-//! Nothing of it is written into the scene file. [`Shot::enter`] adds it to the document in memory, so that all who read a document
-//! find objects, lights and frames where they always are; [`left`] takes out again what the document only has from the shot, before it
+//! Nothing of it is written into the scene file. [`Brought::enter`] adds it to the document in memory, so that all who read a document
+//! find objects, lights and frames where they always are; [`Brought::left`] takes out again what the document only has from the shot, before it
 //! is saved. What moves is never turned into keys: [`crate::motion`] asks the shot for each frame.
 
 mod camera;
@@ -12,14 +12,12 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3};
+use glam::{DAffine3, DMat3, DMat4};
 use impasto_gltf::Posed;
 
-use crate::document::{Light, Object, Timeline};
+use crate::document::{Brought, Lens, Light, Lost, Object, Scene, Timeline};
 use crate::gltf::GltfFile;
 use crate::mesh_format;
-
-pub use enter::left;
 
 /// A glTF file on a scene's stage.
 #[derive(Debug)]
@@ -43,34 +41,6 @@ struct ShotObject {
     node: usize,
     /// Undoes the stretch that its mesh has already.
     unstretched: DMat3,
-}
-
-/// The shot of a scene, if it has one. Equal only to itself: what the file holds is not compared.
-#[derive(Clone, Debug, Default)]
-pub struct Stage {
-    shot: Option<Arc<Shot>>,
-    /// What the document states for objects that the shot does not have any more.
-    lost: Arc<Vec<Object>>,
-}
-
-impl PartialEq for Stage {
-    fn eq(&self, other: &Self) -> bool {
-        match (&self.shot, &other.shot) {
-            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
-            (own, other) => own.is_none() && other.is_none(),
-        }
-    }
-}
-
-impl Stage {
-    /// The shot.
-    pub fn shot(&self) -> Option<&Shot> {
-        self.shot.as_deref()
-    }
-
-    pub(crate) fn shared(&self) -> Option<&Arc<Shot>> {
-        self.shot.as_ref()
-    }
 }
 
 impl Shot {
@@ -103,11 +73,6 @@ impl Shot {
         &self.file.path
     }
 
-    /// Whether it has a camera to look through.
-    pub fn has_camera(&self) -> bool {
-        self.camera.is_some()
-    }
-
     /// Whether it has lights.
     pub fn has_lights(&self) -> bool {
         !self.lights.is_empty()
@@ -125,19 +90,22 @@ impl Shot {
         let last = (last - 1e-3).ceil().max(0.0) as i64;
         Timeline { fps, first: ((first + 1e-3).floor() as i64).min(last), last }
     }
+}
 
-    /// Whether it brings this object.
-    pub fn has_object(&self, name: &str) -> bool {
+impl Brought for Shot {
+    fn has_camera(&self) -> bool {
+        self.camera.is_some()
+    }
+
+    fn has_object(&self, name: &str) -> bool {
         self.object_of_name.contains_key(name)
     }
 
-    /// Where everything stands at a time.
-    pub(crate) fn at(&self, time_s: f64) -> Posed {
+    fn at(&self, time_s: f64) -> Posed {
         self.file.animator.pose(time_s)
     }
 
-    /// World from model of an object; `None` if the shot does not bring it.
-    pub(crate) fn pose_of(&self, posed: &Posed, name: &str) -> Option<DAffine3> {
+    fn pose_of(&self, posed: &Posed, name: &str) -> Option<DAffine3> {
         let object = &self.objects[*self.object_of_name.get(name)?];
         // A skinned mesh stands where its joints put it.
         if self.file.gltf.nodes[object.node].skin.is_some() {
@@ -145,5 +113,23 @@ impl Shot {
         }
         let world = posed.world_from_node[object.node];
         Some(DAffine3 { matrix3: world.matrix3 * object.unstretched, translation: world.translation })
+    }
+
+    fn camera(&self, posed: &Posed, size: (u32, u32)) -> Option<(DMat4, Lens)> {
+        let node = self.camera?;
+        let camera = self.file.gltf.nodes[node].camera?;
+        Some((posed.world_from_view(node), camera::lens_in(posed.lenses[camera], size)))
+    }
+
+    fn light(&self, light: &Light, posed: &Posed) -> Light {
+        self.light_at(light, posed)
+    }
+
+    fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost> {
+        enter::enter(self, scene)
+    }
+
+    fn left(&self, scene: &Scene) -> Scene {
+        enter::left(self, scene)
     }
 }

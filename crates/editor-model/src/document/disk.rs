@@ -1,12 +1,14 @@
 //! A document and its files on disk: saving, reading again, and the copy of unsaved work.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use impasto_scene::assets::{AssetFolders, AssetRequest};
+use impasto_scene::document::Scene;
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::problem::Report;
-use impasto_scene::save;
+use impasto_scene::{mesh_format, save};
 
 use super::{Document, Step};
 use crate::change::SceneChange;
@@ -157,9 +159,11 @@ impl Document {
 
     /// The files that the scene names, without built-in meshes.
     pub fn files_named(&self) -> impl Iterator<Item = &str> {
-        let LoadedScene { meshes, textures, brushes, .. } = &*self.loaded;
-        let names = meshes.keys().chain(textures.keys()).chain(brushes.keys());
-        names.map(String::as_str).filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
+        let LoadedScene { scene, meshes, textures, brushes, .. } = &*self.loaded;
+        let of_meshes = meshes.keys().map(|name| mesh_format::file_and_node(name).0);
+        let others = textures.keys().chain(brushes.keys()).chain(&scene.shot).map(String::as_str);
+        let names: BTreeSet<&str> = of_meshes.chain(others).collect();
+        names.into_iter().filter(|name| !name.starts_with(impasto_scene::built_in_mesh::PREFIX))
     }
 
     /// Reads the scene's file, its meshes and pictures again, as one entry of the history, so that edits can be brought
@@ -202,19 +206,28 @@ impl Document {
         Step { text, note: None }
     }
 
-    /// Reads the meshes and pictures that the scene names again. The scene does not change, so there is no history
-    /// entry.
+    /// Reads the shot, the meshes and the pictures that the scene names again. Only what a shot brings can change the scene: that is
+    /// an entry of the history, with a note of what came and went.
     ///
     /// # Errors
     /// What is wrong with them, in the words to show; then the old ones stay.
-    pub fn read_files_again(&mut self) -> Result<(), Refusal> {
-        let scene = self.scene().clone();
+    pub fn read_files_again(&mut self) -> Result<Step, Refusal> {
+        let scene = self.scene().without_shot();
         let (meshes, textures, brushes) = Default::default();
-        let bare = LoadedScene { meshes, textures, brushes, warnings: Vec::new(), ..(*self.loaded).clone() };
+        let (path, warnings) = (self.loaded.path.clone(), Vec::new());
+        let bare = LoadedScene { path, scene: scene.clone(), meshes, textures, brushes, warnings };
         let read = bare.with_scene(scene, &self.options.folders).map_err(|report| Refusal::of(&report))?;
         self.preview = None;
+        let change = SceneChange::between(self.scene(), &read.scene);
+        let note = self.scene().shot.as_ref().map(|shot| differences(shot, self.scene(), &read.scene));
         self.loaded = Arc::new(read);
-        Ok(())
+        let Some(change) = change else { return Ok(nothing()) };
+        let before = self.selection.clone();
+        self.select(before.clone());
+        self.revision += 1;
+        let text = "Read the shot again".to_owned();
+        self.history.push(text.clone(), change, [before, self.selection.clone()]);
+        Ok(Step { text, note })
     }
 
     /// The paths of all files of the scene, its own first; MTL files are assumed to be named like their OBJ files.
@@ -243,6 +256,30 @@ impl Document {
             text: String::new(),
         };
         Work { copy, scene: Arc::clone(&self.loaded) }
+    }
+}
+
+/// What came and went with a new export of a shot, in words to show.
+fn differences(shot: &str, before: &Scene, after: &Scene) -> String {
+    let names = |scene: &Scene| -> BTreeSet<String> {
+        scene.objects.iter().map(|object| object.name.clone()).collect()
+    };
+    let (before, after) = (names(before), names(after));
+    let listed = |names: Vec<&String>, what: &str| match names.len() {
+        0 => None,
+        1..=3 => {
+            Some(format!("{what}: {}", names.iter().map(|name| name.as_str()).collect::<Vec<_>>().join(", ")))
+        }
+        many => Some(format!("{many} objects {what}")),
+    };
+    let changes = [
+        listed(after.difference(&before).collect(), "new"),
+        listed(before.difference(&after).collect(), "gone"),
+    ];
+    let changes: Vec<String> = changes.into_iter().flatten().collect();
+    match changes.is_empty() {
+        true => format!("{shot} was exported again, with the same objects"),
+        false => format!("{shot} was exported again. {}", changes.join("; ")),
     }
 }
 

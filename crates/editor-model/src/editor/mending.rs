@@ -118,7 +118,7 @@ fn take_in(document: &mut Document, news: News) -> Result<Step, Refusal> {
         (News::Scene, Some(_)) => document.read_again().map_err(first),
         (News::Scene, None) => document.reload().map_err(first),
         (News::Files, Some(text)) => document.read_text(&text),
-        (News::Files, None) => document.read_files_again().map(|()| Step { text: String::new(), note: None }),
+        (News::Files, None) => document.read_files_again(),
     }
 }
 

@@ -5,8 +5,8 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use impasto_scene::assets::{self, AssetFolders, AssetRequest};
+use impasto_scene::mesh_format;
 use impasto_scene::whole_file::WholeFile;
-use impasto_scene::{obj, texture};
 
 use super::incoming::Kind;
 
@@ -55,7 +55,7 @@ impl Copies {
             let request = AssetRequest { beside: &beside, root: &root, name, max_bytes: u64::MAX };
             let Ok(file) = AssetFolders::default().find(&request) else { continue };
             if Kind::of(&file) == Some(Kind::Mesh) {
-                let named = obj::companions(&file, &root).unwrap_or_default();
+                let named = mesh_format::companions(&file, &root).unwrap_or_default();
                 for companion in named {
                     if let Ok(within) = companion.strip_prefix(&root) {
                         files.insert(within.to_owned(), companion.clone());
@@ -102,16 +102,9 @@ impl Copies {
     }
 }
 
-fn limit(file: &Path) -> u64 {
-    match file.extension().map(|ending| ending.to_ascii_lowercase()) {
-        Some(ending) if ending == "obj" => obj::MAX_FILE_BYTES,
-        Some(ending) if ending == "mtl" => obj::MAX_MTL_BYTES,
-        _ => texture::MAX_FILE_BYTES,
-    }
-}
-
 fn bytes(file: &Path) -> io::Result<Vec<u8>> {
-    assets::read_regular_file(file, limit(file)).map_err(|error| io::Error::other(error.to_string()))
+    assets::read_regular_file(file, mesh_format::max_bytes(file))
+        .map_err(|error| io::Error::other(error.to_string()))
 }
 
 fn is_same(a: &Path, b: &Path) -> bool {

@@ -190,10 +190,12 @@ fn choose_on_desktop(ask: FileAsk, start: &Path) -> Option<PathBuf> {
     let mut dialog = rfd::FileDialog::new().set_title(ask.title());
     dialog = match ask {
         FileAsk::Open => dialog
-            .add_filter("Scenes and meshes", &["ron", "obj", "OBJ"])
+            .add_filter("Scenes and meshes", &["ron", "obj", "OBJ", "gltf", "glb", "GLB"])
             .add_filter("Scenes", &["ron"])
-            .add_filter("Meshes", &["obj", "OBJ"]),
-        FileAsk::ImportMesh | FileAsk::LocateMesh => dialog.add_filter("Meshes", &["obj", "OBJ"]),
+            .add_filter("Meshes", &["obj", "OBJ", "gltf", "glb", "GLB"]),
+        FileAsk::ImportMesh | FileAsk::LocateMesh => {
+            dialog.add_filter("Meshes", &["obj", "OBJ", "gltf", "glb", "GLB"])
+        }
         FileAsk::SaveAs | FileAsk::SaveCopy => dialog.add_filter("Scenes", &["ron"]),
         FileAsk::RenderOutput => dialog.add_filter("Pictures", &["png"]),
     };

@@ -7,6 +7,7 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 use impasto_editor_model::Document;
+use impasto_scene::mesh_format;
 
 pub use adopt::{AdoptError, Adopted, adopt_mesh, adopt_picture};
 
@@ -18,7 +19,7 @@ pub const PICTURES: &[&str] = &["png", "jpg", "jpeg", "bmp", "tga", "webp"];
 pub enum Kind {
     /// A scene, `.ron`.
     Scene,
-    /// A mesh, `.obj`.
+    /// A mesh or a shot: `.obj`, `.gltf`, `.glb`.
     Mesh,
     /// A picture, one of [`PICTURES`].
     Picture,
@@ -30,7 +31,7 @@ impl Kind {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
             "ron" => Some(Self::Scene),
-            "obj" => Some(Self::Mesh),
+            _ if mesh_format::is_mesh(path) => Some(Self::Mesh),
             ending => PICTURES.contains(&ending).then_some(Self::Picture),
         }
     }
@@ -151,12 +152,11 @@ pub(super) fn refusal(path: &Path) -> String {
     let ending =
         path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     match ending.as_str() {
-        "blend" | "fbx" | "glb" | "gltf" | "ply" | "stl" | "dae" | "abc" | "usd" | "usda" | "usdc"
-        | "usdz" => {
-            format!("{name} is a model that Impasto does not read: export it as OBJ")
+        "blend" | "fbx" | "ply" | "stl" | "dae" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {
+            format!("{name} is a model that Impasto does not read: export it as glTF or OBJ")
         }
         "mtl" => format!("{name} holds materials only: open the OBJ file that names it"),
-        _ => format!("{name} is no scene (.ron), mesh (.obj) or picture (.png, .jpg)"),
+        _ => format!("{name} is no scene (.ron), mesh (.obj, .glb) or picture (.png, .jpg)"),
     }
 }
 

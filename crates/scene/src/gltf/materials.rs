@@ -30,13 +30,7 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
         let texture = image.and_then(|image| picture(image, warnings));
         materials.push(Material { texture, ..plain(stated, glows) });
     }
-    materials.push(Material {
-        name: String::new(),
-        color: GREY,
-        texture: None,
-        gloss: 0.0,
-        unlit: false,
-    });
+    materials.push(Material { name: String::new(), color: GREY, texture: None, gloss: 0.0, unlit: false });
     materials
 }
 

@@ -8,6 +8,7 @@ mod materials;
 mod stretch;
 mod surface;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -70,6 +71,25 @@ pub(crate) fn open(
         open.extend(&gltf.nodes[node].children);
     }
     Ok((GltfFile { path: path.to_owned(), gltf, animator, rest, in_scene, materials }, warnings))
+}
+
+/// The files that a glTF file in `root` names and that are found there.
+///
+/// # Errors
+/// A [`Report`] where the file cannot be read or has errors.
+pub(crate) fn companions(path: &Path, root: &Path) -> Result<BTreeSet<PathBuf>, Report> {
+    let bytes = assets::read_regular_file(path, MAX_FILE_BYTES).map_err(|error| unread(path, &error))?;
+    let mut found = BTreeSet::new();
+    let mut open = |name: &str, max_bytes: u64| {
+        let request = AssetRequest { beside: path, root, name, max_bytes };
+        let asset = AssetFolders::default().open(&request).map_err(|error| error.to_string())?;
+        found.insert(asset.path);
+        Ok(asset.bytes)
+    };
+    let read = impasto_gltf::read(bytes, &mut open);
+    let problem = |finding: &Finding| in_file(path, finding);
+    read.map(|_| ()).map_err(|findings| Report(findings.iter().map(problem).collect()))?;
+    Ok(found)
 }
 
 impl GltfFile {

@@ -23,9 +23,12 @@ impl LoadedScene {
     pub fn with_scene(&self, mut scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
         let reader = MeshReader::default();
-        let (lost, of_shot) = match self.scene.stage.shared().filter(|_| scene.shot == self.scene.shot) {
+        let (lost, of_shot) = match self.scene.stage.shot.as_ref().filter(|_| scene.shot == self.scene.shot) {
             // Already on the stage of a document that was edited, but not on that of one that was read.
-            Some(shot) if scene.stage.shot().is_none() => (shot.enter(&mut scene), Vec::new()),
+            Some(shot) if scene.stage.shot.is_none() => {
+                let lost = Arc::clone(shot).enter(&mut scene);
+                (lost.into_iter().map(super::lost_object).collect(), Vec::new())
+            }
             _ => super::enter_shot(&reader, path, &mut scene, folders)?,
         };
         let locator = FieldLocator { path, written: None, applied: &[], edited: Some(&scene) };

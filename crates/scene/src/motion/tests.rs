@@ -199,3 +199,20 @@ fn euler_angles_come_back() {
         assert!(again.abs_diff_eq(rotation, 1e-9), "{angles:?}");
     }
 }
+
+#[test]
+fn any_turn_of_a_camera_matrix_is_kept() {
+    for (axis, angle_deg) in [
+        (DVec3::Y, 7.0f64),
+        (DVec3::Z, 30.0),
+        (DVec3::new(1.0, 2.0, 3.0), 137.0),
+        (DVec3::X, -90.0),
+        (DVec3::new(1.0, 0.0, 1.0), 179.0),
+    ] {
+        let turn = glam::DQuat::from_axis_angle(axis.normalize(), angle_deg.to_radians());
+        let world_from_view = DMat4::from_rotation_translation(turn, DVec3::new(1.0, -2.0, 0.5));
+        let pose = CameraPose::of_matrix(world_from_view, Lens::default());
+        let again = pose.view_from_world() * world_from_view;
+        assert!(again.abs_diff_eq(DMat4::IDENTITY, 1e-9), "{axis} {angle_deg}: {again}");
+    }
+}

@@ -8,7 +8,6 @@ use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use super::span::Span;
 use crate::document::{Color, Light, LightKey, ResolvedStrokes, Scene, StrokesKey};
 use crate::limits::{MAX_COVERAGE, MAX_STROKE_PX};
-use crate::shot::Shot;
 
 /// The background at a frame.
 pub fn background_at(scene: &Scene, frame: f64) -> Color {
@@ -21,8 +20,9 @@ pub fn background_at(scene: &Scene, frame: f64) -> Color {
 /// shot has it then.
 pub fn light_at(scene: &Scene, light: &Light, frame: f64) -> Light {
     let Some(span) = Span::at(&light.keys, frame) else {
-        let posed = |shot: &Shot| shot.light_at(light, &shot.at(frame / scene.timeline.fps));
-        return scene.stage.shot().map_or_else(|| light.clone(), posed);
+        let shot = scene.stage.shot.as_ref();
+        let posed = shot.map(|shot| shot.light(light, &shot.at(frame / scene.timeline.fps)));
+        return posed.unwrap_or_else(|| light.clone());
     };
     let still = Light { keys: Vec::new(), ..light.clone() };
     let stated = Stated { keys: &light.keys, span: &span };

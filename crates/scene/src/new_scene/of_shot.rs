@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::axes::Axes;
 use super::scheme::{self, Scheme};
 use super::{bare, object_name};
-use crate::document::{Scene, StrokeSettings};
+use crate::document::{Brought, Scene, StrokeSettings};
 use crate::mesh_file::MeshFile;
 use crate::motion;
 use crate::shot::Shot;
@@ -37,7 +37,7 @@ pub fn for_shot(path: &Path, mesh: &MeshFile, shot: &Arc<Shot>) -> Scene {
     };
     if !shot.has_lights() {
         let mut staged = scene.clone();
-        shot.enter(&mut staged);
+        Arc::clone(shot).enter(&mut staged);
         let camera = motion::camera_at(&staged, staged.timeline.first as f64);
         scene.lights = scheme.lights(Axes::looking_from(camera.eye - camera.target), 1.0);
     }

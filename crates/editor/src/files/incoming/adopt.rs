@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use impasto_scene::assets::{self, AssetError, AssetFolders, AssetRequest};
 use impasto_scene::problem::Report;
-use impasto_scene::{obj, texture};
+use impasto_scene::{mesh_format, texture};
 
 use super::name_of;
 
@@ -65,13 +65,11 @@ pub fn adopt_mesh(mesh: &Path, scene_folder: &Path) -> Result<Adopted, AdoptErro
     }
     let source = canonical(mesh)?;
     let folder = source.parent().unwrap_or(Path::new("/")).to_owned();
-    let own_name = PathBuf::from(format!("{}.obj", plain_stem(&source)));
-    let mut files = BTreeMap::from([(own_name.clone(), (source.clone(), obj::MAX_FILE_BYTES))]);
-    for file in obj::companions(&source, &folder)? {
-        let is_mtl = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl"));
-        let limit = if is_mtl { obj::MAX_MTL_BYTES } else { texture::MAX_FILE_BYTES };
+    let own_name = PathBuf::from(format!("{}.{}", plain_stem(&source), ending(&source)));
+    let mut files = BTreeMap::from([(own_name.clone(), (source.clone(), mesh_format::max_bytes(&source)))]);
+    for file in mesh_format::companions(&source, &folder)? {
         if let Ok(within) = file.strip_prefix(&folder) {
-            files.entry(within.to_owned()).or_insert((file.clone(), limit));
+            files.entry(within.to_owned()).or_insert((file.clone(), mesh_format::max_bytes(&file)));
         }
     }
     copy_into_scene(&files, &own_name, scene_folder, "meshes")
@@ -86,11 +84,14 @@ pub fn adopt_picture(picture: &Path, scene_folder: &Path) -> Result<Adopted, Ado
         return Ok(Adopted { name, copied: Vec::new() });
     }
     let source = canonical(picture)?;
-    let ending =
-        source.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    let own_name = PathBuf::from(format!("{}.{ending}", plain_stem(&source)));
+    let own_name = PathBuf::from(format!("{}.{}", plain_stem(&source), ending(&source)));
     let files = BTreeMap::from([(own_name.clone(), (source, texture::MAX_FILE_BYTES))]);
     copy_into_scene(&files, &own_name, scene_folder, "brushes")
+}
+
+/// A file's ending in small letters.
+fn ending(file: &Path) -> String {
+    file.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }
 
 /// How a scene in `folder` names a file inside it; none if the file is elsewhere, or the scene could not find it by

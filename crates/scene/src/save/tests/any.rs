@@ -84,6 +84,7 @@ fn any_light() -> impl Strategy<Value = Light> {
             kind,
             direction,
             position,
+            cone_deg: position.map(|[inner, outer, _]| [inner, outer]),
             color,
             ground,
             intensity,

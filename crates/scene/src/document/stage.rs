@@ -1,0 +1,75 @@
+//! The stage of a scene: what the file of its shot brings. The document knows only what a shot can be asked; [`crate::shot`] reads one.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat4};
+use impasto_gltf::Posed;
+
+use super::{Lens, Light, Object, Scene};
+
+/// The shot of a scene, if it has one. Equal only to itself: what the file holds is not compared.
+#[derive(Clone, Debug, Default)]
+pub struct Stage {
+    /// The shot.
+    pub shot: Option<Arc<dyn Brought>>,
+    /// What the document states for objects that the shot does not have any more.
+    pub lost: Arc<Vec<Object>>,
+}
+
+impl PartialEq for Stage {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.shot, &other.shot) {
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            (own, other) => own.is_none() && other.is_none(),
+        }
+    }
+}
+
+/// An object that a document states and the shot does not have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Lost {
+    /// Its index in the document.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// The name in the shot that is most like it.
+    pub near: Option<String>,
+}
+
+/// What a shot brings into a scene, at any time.
+pub trait Brought: Debug + Send + Sync {
+    /// Whether it has a camera to look through.
+    fn has_camera(&self) -> bool;
+
+    /// Whether it brings this object.
+    fn has_object(&self, name: &str) -> bool;
+
+    /// Where everything stands at a time, seconds.
+    fn at(&self, time_s: f64) -> Posed;
+
+    /// World from model of an object; `None` if the shot does not bring it.
+    fn pose_of(&self, posed: &Posed, name: &str) -> Option<DAffine3>;
+
+    /// World from view (−Z forward, Y up) and lens of the camera, in a picture of this size; `None` where the shot has none. What the
+    /// camera's own picture shows is all inside: a picture of another aspect shows more at two sides.
+    fn camera(&self, posed: &Posed, size: (u32, u32)) -> Option<(DMat4, Lens)>;
+
+    /// A light of the scene: what the document changed stays, the rest is as the shot has it.
+    fn light(&self, light: &Light, posed: &Posed) -> Light;
+
+    /// Puts the shot on the scene's stage: adds its objects and lights, those that the document states by name overridden, and takes
+    /// its frames where the document states none. Returns what the shot does not have any more.
+    fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost>;
+
+    /// The document without what it only has from the shot, as it is saved. An object of the shot that was deleted is stated as
+    /// hidden, since it would come back.
+    fn left(&self, scene: &Scene) -> Scene;
+}
+
+impl Scene {
+    /// The document as it is saved: without what it only has from its shot.
+    pub fn without_shot(&self) -> Self {
+        self.stage.shot.as_ref().map_or_else(|| self.clone(), |shot| shot.left(self))
+    }
+}
