@@ -338,10 +338,10 @@ fn info_doctor_and_completions_answer() {
 #[test]
 fn edit_says_what_is_missing() {
     let folder = Folder::new();
-    std::fs::write(folder.path("chair.glb"), "").unwrap();
+    std::fs::write(folder.path("chair.fbx"), "").unwrap();
     for (arguments, exit, message) in [
         (&["edit", "gone.ron"][..], 3, "gone.ron is not there"),
-        (&["edit", "chair.glb"], 3, "export it as OBJ"),
+        (&["edit", "chair.fbx"], 3, "export it as glTF or OBJ"),
         (&["edit", "scene.ron", "--driver", "voodoo"], 2, "software"),
         (&["edit"], 4, "libx11-6"),
         (&["edit", "scene.ron"], 4, "`impasto render` needs no display"),

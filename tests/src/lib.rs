@@ -3,6 +3,7 @@
 pub mod command;
 pub mod corpus;
 pub mod gestures;
+pub mod glb;
 pub mod pictures;
 pub mod scenes;
 pub mod screen;

@@ -25,7 +25,7 @@ pub(crate) enum Command {
     Edit(EditArguments),
     /// Paint frames of a scene, or any OBJ model from a sensible camera.
     Render(RenderArguments),
-    /// Write the scene that `render MODEL.obj` would use to a file.
+    /// Write the scene that `render MODEL` would use to a file.
     New(NewArguments),
     /// List every problem of scenes, with its line and column.
     Check(CheckArguments),
@@ -49,7 +49,7 @@ pub(crate) enum Command {
 /// How to read a scene.
 #[derive(Args, Debug)]
 pub(crate) struct SceneArguments {
-    /// A scene (.ron) or a model (.obj).
+    /// A scene (.ron), a model (.obj) or a shot (.glb, .gltf).
     pub(crate) scene: PathBuf,
     /// A further folder that meshes and textures may come from; can be repeated.
     #[arg(long = "asset-dir", value_name = "DIR")]
@@ -214,7 +214,7 @@ pub(crate) enum EditDriver {
 #[cfg(feature = "editor")]
 #[derive(Args, Debug)]
 pub(crate) struct EditArguments {
-    /// A scene (.ron), or a model (.obj) to begin one with.
+    /// A scene (.ron), or a model or shot (.obj, .glb, .gltf) to begin one with.
     pub(crate) scene: Option<PathBuf>,
     /// What draws the paintings; the preferences say when left out.
     #[arg(long, value_enum)]
@@ -301,7 +301,7 @@ pub(crate) struct NewArguments {
 
 #[derive(Args, Debug)]
 pub(crate) struct CheckArguments {
-    /// Scenes (.ron) or models (.obj).
+    /// Scenes (.ron), models (.obj) or shots (.glb, .gltf).
     #[arg(required = true)]
     pub(crate) scenes: Vec<PathBuf>,
     /// A further folder that meshes and textures may come from; can be repeated.
@@ -356,7 +356,7 @@ pub(crate) struct StrokesArguments {
 
 #[derive(Args, Debug)]
 pub(crate) struct MeasureArguments {
-    /// Scenes (.ron) or models (.obj).
+    /// Scenes (.ron), models (.obj) or shots (.glb, .gltf).
     #[arg(required = true)]
     pub(crate) scenes: Vec<PathBuf>,
     /// A further folder that meshes and textures may come from; can be repeated.

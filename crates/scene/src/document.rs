@@ -74,14 +74,14 @@ pub struct Scene {
     /// More poses, at most 16: a surface that the reference does not face takes the one that faces it best.
     #[serde(default, skip_serializing_if = "is_default")]
     pub further_references: Vec<Reference>,
-    /// The camera and its keys; left out, the shot's.
-    #[serde(default, skip_serializing_if = "is_default")]
+    /// The camera and its keys. May be left out where the scene has a shot, which has one.
+    #[serde(default)]
     pub camera: Camera,
     /// Lights, at most 8 suns and 16 points; without any, a sun and a soft light all around.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lights: Vec<Light>,
-    /// What stands in the scene, beside what the shot brings.
-    #[serde(default, skip_serializing_if = "is_default")]
+    /// What stands in the scene. May be left out where the scene has a shot, which brings its own.
+    #[serde(default)]
     pub objects: Vec<Object>,
     /// Stroke settings for everything that no region overrides.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -159,7 +159,7 @@ pub struct Camera {
     #[serde(default, skip_serializing_if = "is_default")]
     pub lens: Lens,
     /// Frames strictly increasing; at least one key, unless the scene has a shot with a camera.
-    #[serde(default, skip_serializing_if = "is_default")]
+    #[serde(default)]
     pub keys: Vec<CameraKey>,
 }
 
@@ -300,7 +300,7 @@ pub struct Object {
     pub name: String,
     /// Path of the mesh, relative to the scene file: an OBJ or glTF file, or one node of it, as in `props.glb#Lamp`; left out, that of the shot's object of this name; or a built-in one, `impasto:backdrop` (a floor and a wall) or `impasto:patch`
     /// (a round piece of floor).
-    #[serde(default, skip_serializing_if = "String::is_empty")]
+    #[serde(default)]
     pub mesh: String,
     /// The only group of the mesh that is used; left out, the whole mesh.
     #[serde(default, skip_serializing_if = "is_default")]

@@ -5,19 +5,43 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::document::Scene;
+use crate::document::{Camera, Scene};
 use crate::whole_file;
 
 mod layout;
 mod serializer;
 
+use layout::Value;
+
 /// The document as text that [`crate::load::parse`] reads back as an equal document; what it only has from its shot is left out.
 ///
 /// Colours are written with 8 bits a channel, which is all that a scene file can hold.
 pub fn to_ron(scene: &Scene) -> String {
-    let value =
-        scene.without_shot().serialize(serializer::ToValue).expect("a document holds only what RON can say");
+    let saved = scene.without_shot();
+    let mut value = saved.serialize(serializer::ToValue).expect("a document holds only what RON can say");
+    if saved.shot.is_some() {
+        leave_to_shot(&mut value, &saved);
+    }
     format!("#![enable(implicit_some)]\n{}\n", layout::lay_out(&value))
+}
+
+/// Takes out what a scene with a shot need not state.
+fn leave_to_shot(value: &mut Value, saved: &Scene) {
+    let Value::Group(root) = value else { return };
+    root.items.retain(|(field, _)| match *field {
+        "camera" => saved.camera != Camera::default(),
+        "objects" => !saved.objects.is_empty(),
+        _ => true,
+    });
+    for (field, objects) in &mut root.items {
+        let Value::Group(objects) = objects else { continue };
+        for (_, object) in objects.items.iter_mut().filter(|_| *field == "objects") {
+            let Value::Group(object) = object else { continue };
+            object.items.retain(|(field, value)| {
+                *field != "mesh" || !matches!(value, Value::Word(word) if word == "\"\"")
+            });
+        }
+    }
 }
 
 /// Writes a scene file so that at any moment, even after a crash, the path holds the old file or the new one, whole.

@@ -10,14 +10,18 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     let objects = &scene.objects;
     findings.unique("objects", objects.iter().map(|object| object.name.as_str()));
     for (index, object) in objects.iter().enumerate() {
-        check_object(&format!("objects[{index}]"), object, findings);
+        let object_path = format!("objects[{index}]");
+        // The shot has the meshes of its objects.
+        if !(object.mesh.is_empty() && scene.shot.is_some()) {
+            findings.name(&format!("{object_path}.mesh"), &object.mesh);
+        }
+        check_object(&object_path, object, findings);
     }
     check_particles(objects, findings);
     check_parents(objects, findings);
 }
 
 fn check_object(object_path: &str, object: &Object, findings: &mut Findings) {
-    findings.name(&format!("{object_path}.mesh"), &object.mesh);
     if let Some(texture) = object.material.as_ref().and_then(|material| material.texture.as_deref()) {
         findings.name(&format!("{object_path}.material.texture"), texture);
     }

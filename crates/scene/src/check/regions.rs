@@ -38,7 +38,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
 
 fn unknown_object(field_path: &str, object: &str, scene: &Scene, findings: &mut Findings) {
     // What a shot does not bring any more may come back with its next export.
-    let severity = if scene.stage.shot.is_some() { Severity::Warning } else { Severity::Error };
+    let severity = if scene.shot.is_some() { Severity::Warning } else { Severity::Error };
     findings.add(severity, || {
         let known = scene.objects.iter().map(|object| object.name.as_str());
         let message = format!("there is no object \"{}\"", shown(object));

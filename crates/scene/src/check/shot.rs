@@ -129,7 +129,8 @@ fn check_lens(lens: &Lens, findings: &mut Findings) {
 
 fn check_camera_keys(scene: &Scene, findings: &mut Findings) {
     let keys = &scene.camera.keys;
-    let has_camera = scene.stage.shot.as_ref().is_some_and(|shot| shot.has_camera());
+    // What a shot brings is known once it stands on the stage.
+    let has_camera = scene.stage.shot.as_ref().map_or(scene.shot.is_some(), |shot| shot.has_camera());
     if keys.is_empty() && !has_camera {
         let mend = "add one, as in (frame: 0, eye: (0, 1, 4), target: (0, 0, 0))";
         findings.error("camera.keys", "the camera has no key", mend);

@@ -11,7 +11,7 @@ use crate::document::{LayerSettings, RotatingStrokes, STROKE_NUMBERS, Scene, Sty
 use crate::limits;
 use crate::locate::{Field, Inside, Located, Node};
 use crate::nearest::nearest;
-use crate::problem::{Problem, Report};
+use crate::problem::{Problem, Report, TextPosition};
 
 /// The most bytes parsed in all passes over one text together; the first pass is always made.
 const MOST_PARSED_BYTES: usize = 32 << 20;
@@ -32,7 +32,7 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Parsed, Report> {
     // Each unknown field costs one more pass, so a very long text gets fewer of them.
     let most_problems = (MOST_PARSED_BYTES / text.len().max(1)).clamp(1, limits::MAX_PROBLEMS);
     loop {
-        let error = match from_ron(&left) {
+        let error = match from_ron(&located, &left) {
             Ok(scene) if problems.is_empty() => return Ok(Parsed { scene, located }),
             Ok(_) => break,
             Err(error) => error,
@@ -102,11 +102,52 @@ pub(super) fn is_newer(located: &Located) -> bool {
     digits.and_then(|digits| digits.parse::<u64>().ok()).is_some_and(|said| said > u64::from(Scene::VERSION))
 }
 
-pub(super) fn from_ron(text: &str) -> Result<Scene, SpannedError> {
-    ron::Options::default()
+/// The document in a text, of which `located` knows where everything stands; parts of it may be blanked out.
+pub(super) fn from_ron(located: &Located, text: &str) -> Result<Scene, SpannedError> {
+    let scene: Scene = ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME)
         .with_recursion_limit(2 * limits::MAX_NESTING)
-        .from_str(text)
+        .from_str(text)?;
+    match left_to_shot(located, text).filter(|_| scene.shot.is_none()) {
+        Some((field, at)) => {
+            let TextPosition { line, column } = located.place(at);
+            let at = Position { line, col: column };
+            let code = ron::Error::MissingStructField { field, outer: None };
+            Err(SpannedError { code, span: ron::error::Span { start: at, end: at } })
+        }
+        None => Ok(scene),
+    }
+}
+
+/// What may be left out where a scene has a shot, and is left out: the field, and where it could stand.
+fn left_to_shot(located: &Located, text: &str) -> Option<(&'static str, usize)> {
+    fn field<'a>(located: &'a Located, text: &str, node: &'a Node, name: &str) -> Option<&'a Node> {
+        let Inside::Fields(fields) = &node.inside else { return None };
+        let is_it = |field: &&Field| {
+            located.text_of(&field.key) == name && !text[field.key.start as usize..].starts_with(' ')
+        };
+        fields.iter().find(is_it).map(|field| located.through_some(&field.value))
+    }
+    let lacks = |node: &Node, name: &'static str| {
+        let is_struct = matches!(node.inside, Inside::Fields(_) | Inside::Nothing);
+        let is_there = !is_struct || field(located, text, node, name).is_some();
+        (!is_there).then_some((name, node.end.saturating_sub(1) as usize))
+    };
+    let root = located.root();
+    if let Some(camera) = field(located, text, root, "camera")
+        && let Some(lacking) = lacks(camera, "keys")
+    {
+        return Some(lacking);
+    }
+    if let Some(Node { inside: Inside::Items(objects), .. }) = field(located, text, root, "objects")
+        && let Some(lacking) = objects.iter().find_map(|object| {
+            let is_left = !text[object.start as usize..].starts_with(' ');
+            is_left.then(|| lacks(object, "mesh")).flatten()
+        })
+    {
+        return Some(lacking);
+    }
+    lacks(root, "camera").or_else(|| lacks(root, "objects"))
 }
 
 /// The last field named `found` that is not blanked out and begins before `end`, where the parser stopped.

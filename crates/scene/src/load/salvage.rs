@@ -133,7 +133,7 @@ impl Reading<'_> {
             self.add_at_end(&located, &format!("version: {}", Scene::VERSION));
             return Ok(None);
         }
-        let scene = match parse::from_ron(&self.left) {
+        let scene = match parse::from_ron(&located, &self.left) {
             Ok(scene) => scene,
             Err(error) => {
                 self.take_out(&located, &error)?;

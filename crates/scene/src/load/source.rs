@@ -14,7 +14,12 @@ pub(super) fn check_regular(path: &Path) -> Result<(), Problem> {
     if metadata.is_file() {
         Ok(())
     } else {
-        Err(error_in(path, None, "this is no regular file", "name a scene file (.ron) or a mesh (.obj)"))
+        Err(error_in(
+            path,
+            None,
+            "this is no regular file",
+            "name a scene file (.ron) or a mesh (.obj, .gltf, .glb)",
+        ))
     }
 }
 

@@ -212,7 +212,7 @@ fn a_missing_file_a_folder_and_a_strange_extension_are_refused() {
     let subfolder = folder.path().join("folder.ron");
     std::fs::create_dir(&subfolder).unwrap();
     assert!(said(&subfolder).contains("this is no regular file"));
-    assert!(said(&folder.path().join("x.gltf")).contains("neither a scene nor a mesh"));
+    assert!(said(&folder.path().join("x.fbx")).contains("neither a scene nor a mesh"));
     let long = folder.path().join("long.ron");
     std::fs::File::create(&long).unwrap().set_len(limits::MAX_SCENE_BYTES + 1).unwrap();
     assert!(said(&long).contains("limit: the scene file is longer than 16 MiB"));

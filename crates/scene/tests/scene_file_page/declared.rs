@@ -34,7 +34,9 @@ pub struct Field {
 const VALUES: [&str; 3] = ["Color", "Scale", "BrushMix"];
 
 /// Types that no scene file holds.
-const NOT_IN_FILES: [&str; 11] = [
+const NOT_IN_FILES: [&str; 13] = [
+    "Stage",
+    "Lost",
     "Number",
     "LayerNumber",
     "ResolvedLayer",
@@ -102,6 +104,8 @@ fn default_of(kind: &str) -> String {
         "Lens" => "Perspective()",
         "Style" => "RotatingStrokes()",
         "Timeline" | "StrokeSettings" => "()",
+        // Left out only where the scene has a shot.
+        "Camera" | "String" => "",
         kind if kind.starts_with("Option<") || kind.starts_with("Vec<") => "",
         kind => panic!("what is the default of {kind}?"),
     }
@@ -154,6 +158,7 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
     let mut about = String::new();
     let mut usual: Option<String> = None;
     let mut is_usual = false;
+    let mut is_skipped = false;
     // Whether every field of the type may be left out.
     let mut has_defaults = false;
     // The type that the line is inside of, if any, and then perhaps a variant of it with named fields. Each is given as
@@ -168,6 +173,7 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
         }
         if let Some(attribute) = line.strip_prefix("#[") {
             is_usual |= attribute == "default]";
+            is_skipped |= attribute == "serde(skip)]";
             if attribute.starts_with("serde(deny_unknown_fields") {
                 has_defaults = attribute.contains("default");
             }
@@ -181,6 +187,9 @@ fn read(text: &str, texts: &[String], found: &mut Vec<Declared>) {
         let about = std::mem::take(&mut about).trim().replace("[`", "`").replace("`]", "`");
         let usual = usual.take();
         let is_usual = std::mem::take(&mut is_usual);
+        if std::mem::take(&mut is_skipped) {
+            continue;
+        }
         if open.last().is_some_and(|(_, of)| *of == indent) && line.starts_with('}') {
             open.pop();
         } else if let Some(name) = line.strip_prefix("pub struct ").or_else(|| line.strip_prefix("pub enum "))

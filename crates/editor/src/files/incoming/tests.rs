@@ -171,11 +171,11 @@ fn dropped_files_are_opened_begun_or_imported() {
 #[test]
 fn files_that_cannot_be_read_are_refused_with_words() {
     let home = Home::new();
-    home.write("chair.glb", "");
+    home.write("chair.fbx", "");
     home.write("looks.mtl", "");
     for (name, words) in [
         ("models/diary.txt", "no scene"),
-        ("chair.glb", "export it as OBJ"),
+        ("chair.fbx", "export it as glTF or OBJ"),
         ("looks.mtl", "the OBJ file"),
         ("models", "is a folder"),
         ("gone.obj", "is not there"),

@@ -1,0 +1,196 @@
+//! Tests of shots: what a glTF file brings into a scene, what the scene overrides, and what stays when the file is exported again.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::DVec3;
+use impasto_core::TriangleMesh;
+use impasto_painting::{FrameOptions, prepare};
+use impasto_scene::document::{Lens, LightKind};
+use impasto_scene::load::{LoadOptions, load};
+use impasto_scene::loaded::LoadedScene;
+use impasto_scene::{motion, save};
+use impasto_tests::glb::{self, Node};
+use impasto_tests::pictures::wrap_half;
+use impasto_tests::shapes;
+
+/// A folder with a shot of two balls and a box between them.
+struct Home(tempfile::TempDir);
+
+impl Home {
+    fn new() -> Self {
+        let home = Self(tempfile::tempdir().unwrap());
+        home.export(&shapes::sphere(24, 12), ["Ball", "Box", "Far"]);
+        home
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes the shot: `Ball` is this mesh and turns by 90 degrees; nodes stand in the order of `names`.
+    fn export(&self, ball: &TriangleMesh, names: [&str; 3]) {
+        let cube = shapes::cube();
+        let nodes = names.map(|name| {
+            let (mesh, x) = match name {
+                "Ball" | "Kugel" => (ball, -1.2),
+                "Box" => (&cube, 1.2),
+                _ => (ball, 3.4),
+            };
+            let turn_deg = if x < 0.0 { 90.0 } else { 0.0 };
+            Node { name, mesh, translation: [x, 0.0, 0.0], turn_deg }
+        });
+        glb::write(&self.at("shot.glb"), &nodes);
+    }
+
+    fn scene(&self, text: &str) -> LoadedScene {
+        std::fs::write(self.at("s.ron"), text).unwrap();
+        loaded(&self.at("s.ron"))
+    }
+}
+
+fn loaded(path: &Path) -> LoadedScene {
+    load(path, &LoadOptions::default()).unwrap_or_else(|report| panic!("{report}"))
+}
+
+fn names(loaded: &LoadedScene) -> Vec<&str> {
+    loaded.scene.objects.iter().map(|object| object.name.as_str()).collect()
+}
+
+#[test]
+fn a_shot_brings_objects_camera_light_and_frames_and_none_is_saved() {
+    let home = Home::new();
+    let shot = loaded(&home.at("shot.glb"));
+    assert_eq!(names(&shot), ["Ball", "Box", "Far"]);
+    assert_eq!((shot.scene.timeline.first, shot.scene.timeline.last), (0, 48));
+    assert_eq!(shot.scene.size, (1280, 720));
+    let kinds: Vec<LightKind> = shot.scene.lights.iter().map(|light| light.kind).collect();
+    assert_eq!(kinds, [LightKind::Sun, LightKind::Ambient]);
+    let camera = motion::camera_at(&shot.scene, 12.0);
+    assert!((camera.eye - DVec3::new(0.0, 0.0, 6.0)).length() < 1e-9);
+    assert!(
+        matches!(camera.lens, Lens::Perspective { fov_y_deg, .. } if (fov_y_deg - 0.6f64.to_degrees()).abs() < 1e-5)
+    );
+    // A quarter turn in 48 frames, evenly: 30 degrees at frame 16.
+    let pose = motion::poses_at(&shot.scene, 16.0)[0];
+    let x = pose.transform_vector3(DVec3::X);
+    assert!((x.z.atan2(x.x).to_degrees() + 30.0).abs() < 1e-4, "{x}");
+    // What is saved names the file, and nothing in it.
+    let text = save::to_ron(&shot.scene);
+    assert!(text.contains("shot: \"shot.glb\""), "{text}");
+    assert!(["objects", "camera", "timeline", "lights"].iter().all(|field| !text.contains(field)), "{text}");
+    let again = home.scene(&text);
+    assert_eq!(names(&again), names(&shot));
+    assert_eq!(again.scene.lights, shot.scene.lights);
+    assert_eq!(save::to_ron(&again.scene), text);
+    // It is painted.
+    let painting = prepare(Arc::new(shot)).unwrap();
+    let frame = painting.at(0.0, &FrameOptions::new([320, 180]));
+    assert!(frame.strokes.iter().filter(|stroke| stroke.body_id == 1).count() > 100);
+}
+
+const SCENE: &str = r##"#![enable(implicit_some)]
+(
+    version: 1,
+    size: (640, 360),
+    shot: "shot.glb",
+    timeline: (fps: 12, first: 3, last: 7),
+    objects: [
+        (name: "Box", mesh: "shot.glb#Box", keys: [(frame: 0, translation: (0, 2, 0))]),
+        (name: "Ball", material: (color: "#b3262a")),
+        (name: "Bal", hold: 2),
+    ],
+    regions: [
+        (name: "fur", on: Object("Bal")),
+        (name: "skin", on: Object("Ball"), direction: Angle(20)),
+    ],
+)
+"##;
+
+#[test]
+fn a_scene_overrides_a_shot_by_name_and_what_is_gone_stays_in_the_file() {
+    let home = Home::new();
+    let scene = home.scene(SCENE);
+    assert_eq!(names(&scene), ["Box", "Ball", "Far"]);
+    let said: Vec<String> = scene.warnings.iter().map(ToString::to_string).collect();
+    assert!(
+        said.iter().any(|line| line.contains("no object \"Bal\"") && line.contains("did you mean \"Ball\"")),
+        "{said:?}"
+    );
+    assert!(said.iter().any(|line| line.contains("there is no object \"Bal\"")), "{said:?}");
+    // Frames are times at the scene's own rate, and keys of its own lie over the track.
+    assert_eq!((scene.scene.timeline.first, scene.scene.timeline.last), (3, 7));
+    let poses = motion::poses_at(&scene.scene, 8.0);
+    assert_eq!(poses[0].translation, DVec3::new(0.0, 2.0, 0.0));
+    let x = poses[1].transform_vector3(DVec3::X);
+    assert!((x.z.atan2(x.x).to_degrees() + 30.0).abs() < 1e-4, "frame 8 at 12 a second is 2/3 s");
+    // An object that was deleted would come back, so it is stated as hidden.
+    let mut edited = scene.scene.clone();
+    edited.objects.retain(|object| object.name != "Far");
+    let text = save::to_ron(&edited);
+    for part in [
+        "(name: \"Far\", hidden: true)",
+        "(name: \"Bal\", hold: 2)",
+        "(name: \"Ball\", material: (color: \"#b3262a\"))",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let again = home.scene(&text);
+    assert_eq!(names(&again), ["Box", "Ball", "Far"]);
+    assert!(again.scene.objects[2].hidden);
+    assert_eq!(save::to_ron(&again.scene), text);
+}
+
+#[test]
+fn errors_of_a_shot_name_file_and_place() {
+    let home = Home::new();
+    let said = |text: &str| {
+        std::fs::write(home.at("s.ron"), text).unwrap();
+        load(&home.at("s.ron"), &LoadOptions::default()).expect_err("refused").to_string()
+    };
+    let missing = said("(version: 1, shot: \"none.glb\")");
+    assert!(missing.contains("s.ron:1:") && missing.contains("was not found"), "{missing}");
+    assert!(said("(version: 1, shot: \"../up.glb\")").contains("is refused"));
+    assert!(said("(version: 1)").contains("has no `camera`"));
+    std::fs::write(home.at("bad.glb"), b"glTF").unwrap();
+    let bad = said("(version: 1, shot: \"bad.glb\")");
+    assert!(bad.contains("bad.glb"), "{bad}");
+    std::fs::write(home.at("draco.gltf"), r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"]}"#).unwrap();
+    assert!(said("(version: 1, shot: \"draco.gltf\")").contains("without compression"));
+}
+
+#[test]
+fn a_painting_survives_a_new_export() {
+    let home = Home::new();
+    let text = SCENE.replace("hold: 2", "particles: 10").replace(
+        "direction: Angle(20)",
+        "direction: Around((0.2, 1, 0.1)), strokes: (angle_jitter_deg: 0, swing_deg: 0, contour: 0)",
+    );
+    // For each place on the ball, its strokes' angle.
+    let angles = |scene: LoadedScene| -> Vec<([f32; 2], f32)> {
+        let body = 1 + names(&scene).iter().position(|name| *name == "Ball").unwrap() as u32;
+        let frame = prepare(Arc::new(scene)).unwrap().at(4.0, &FrameOptions::new([640, 360]));
+        let of_ball =
+            frame.strokes.iter().filter(|stroke| stroke.body_id == body && stroke.facing_fade > 0.9);
+        of_ball.map(|stroke| (stroke.center_px, stroke.angle_rad)).collect()
+    };
+    let before = angles(home.scene(&text));
+    // Another order of nodes, a finer ball, and one object renamed.
+    home.export(&shapes::sphere(40, 20), ["Fern", "Ball", "Box"]);
+    let scene = home.scene(&text);
+    assert_eq!(names(&scene), ["Box", "Ball", "Fern"]);
+    let after = angles(scene);
+    let mut differences: Vec<f64> = Vec::new();
+    for (at, angle) in &after {
+        let away = |other: &[f32; 2]| (other[0] - at[0]).hypot(other[1] - at[1]);
+        let nearest = before.iter().min_by(|a, b| away(&a.0).total_cmp(&away(&b.0))).unwrap();
+        if away(&nearest.0) < 0.7 {
+            differences.push(wrap_half(f64::from(angle - nearest.1)).abs().to_degrees());
+        }
+    }
+    differences.sort_by(f64::total_cmp);
+    assert!(differences.len() > 50, "{}", differences.len());
+    let [median, p95] = [50, 95].map(|share| differences[differences.len() * share / 100]);
+    // Near the limb the coarse ball's facets turn strokes by a degree or two; a lost direction would be tens of degrees off.
+    assert!(median < 0.5 && p95 < 3.0, "{median} {p95}");
+}
