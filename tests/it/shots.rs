@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use impasto_core::TriangleMesh;
+use impasto_editor_model::command::{Command, Edit, KeyOf, SceneEdit, Time};
+use impasto_editor_model::{Document, Item};
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::document::{Lens, LightKind};
 use impasto_scene::load::{LoadOptions, load};
@@ -193,4 +195,60 @@ fn a_painting_survives_a_new_export() {
     let [median, p95] = [50, 95].map(|share| differences[differences.len() * share / 100]);
     // Near the limb the coarse ball's facets turn strokes by a degree or two; a lost direction would be tens of degrees off.
     assert!(median < 0.5 && p95 < 3.0, "{median} {p95}");
+}
+
+#[test]
+fn what_a_shot_moves_is_posed_once_it_has_own_keys() {
+    let home = Home::new();
+    let mut document = Document::open(&home.at("shot.glb"), &LoadOptions::default()).unwrap();
+    let ball = || KeyOf::Object("Ball".to_owned());
+    let pose = |document: &Document, frame: f64| motion::poses_at(document.scene(), frame)[0];
+    let before: Vec<_> = (0..=48).map(|frame| pose(&document, f64::from(frame))).collect();
+    for refused in [
+        Command::Time(Time::SetKey(ball(), 12.0)),
+        Command::Time(Time::SetKey(KeyOf::Camera, 12.0)),
+        Command::Edit(Edit::Rename(Item::Object("Ball".to_owned()), "Kugel".to_owned())),
+    ] {
+        let words = document.apply(&refused).expect_err("the shot has it").0;
+        assert!(words.contains("shot.glb"), "{words}");
+    }
+    document.apply(&Command::Time(Time::OwnKeys(ball()))).unwrap();
+    for (frame, before) in before.iter().enumerate() {
+        assert!(pose(&document, frame as f64).abs_diff_eq(*before, 1e-6), "{frame}");
+    }
+    // An even turn about one axis needs two keys; where it comes to 90 degrees about Y, angles are rough, so there may be a third.
+    assert!(document.scene().objects[0].keys.len() <= 3);
+    document.apply(&Command::Time(Time::OwnKeys(KeyOf::Camera))).unwrap();
+    assert_eq!(document.scene().camera.keys.len(), 2);
+    document.apply(&Command::Time(Time::SetKey(ball(), 12.0))).unwrap();
+    let text = save::to_ron(document.scene());
+    assert!(text.contains("(name: \"Ball\", keys: [") || text.contains("name: \"Ball\",\n"), "{text}");
+    assert!(document.undo().is_some() && document.undo().is_some() && document.undo().is_some());
+    assert_eq!(pose(&document, 20.0), before[20]);
+}
+
+#[test]
+fn a_new_export_is_read_while_the_window_is_open_and_undo_holds() {
+    let home = Home::new();
+    std::fs::write(home.at("s.ron"), SCENE).unwrap();
+    let mut document = Document::open(&home.at("s.ron"), &LoadOptions::default()).unwrap();
+    document.apply(&Command::Scene(SceneEdit::SetSeed(5))).unwrap();
+    home.export(&shapes::sphere(40, 20), ["Ball", "Box", "Fern"]);
+    let step = document.read_files_again().unwrap();
+    let note = step.note.unwrap();
+    assert!(note.contains("new: Fern") && note.contains("gone: Far"), "{note}");
+    let named = |document: &Document| -> Vec<String> {
+        document.scene().objects.iter().map(|object| object.name.clone()).collect()
+    };
+    assert_eq!(named(&document), ["Box", "Ball", "Fern"]);
+    document.undo().unwrap();
+    assert_eq!(
+        (named(&document), document.scene().seed),
+        (vec!["Box".into(), "Ball".into(), "Far".into()], 5)
+    );
+    document.redo().unwrap();
+    assert_eq!(
+        (named(&document), document.scene().seed),
+        (vec!["Box".into(), "Ball".into(), "Fern".into()], 5)
+    );
 }

@@ -107,6 +107,22 @@ pub(crate) fn unlocked_object<'a>(scene: &'a mut Scene, name: &str) -> Result<&'
     if object.locked { Err(Refusal::new(format!("{name} is locked"))) } else { Ok(object) }
 }
 
+/// An object whose pose may be changed: it is not locked, and not moved by the scene's shot.
+pub(crate) fn posable_object<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Object, Refusal> {
+    if let Some(object) = scene.objects.iter().find(|object| object.name == name)
+        && scene.is_moved_by_shot(object)
+    {
+        return Err(moved_by_shot(scene, name));
+    }
+    unlocked_object(scene, name)
+}
+
+/// Why something cannot be posed that the scene's shot moves.
+pub(crate) fn moved_by_shot(scene: &Scene, name: &str) -> Refusal {
+    let shot = scene.shot.as_deref().unwrap_or("the shot");
+    Refusal::new(format!("{name} moves as {shot} has it: make own keys first, in the inspector"))
+}
+
 /// A region that may be changed: neither it nor its object is locked.
 pub(crate) fn unlocked_region<'a>(scene: &'a mut Scene, name: &str) -> Result<&'a mut Region, Refusal> {
     let on = region_mut(scene, name)?.on.object().map(str::to_owned);

@@ -16,7 +16,7 @@ use impasto_scene::new_scene::{self, Placing};
 use super::keys::KeyedValue;
 use super::region::in_file;
 use super::time::Time;
-use super::{Command, Done, counted, finite, object_mut, unlocked_object};
+use super::{Command, Done, counted, finite, moved_by_shot, object_mut, posable_object, unlocked_object};
 use crate::euler::{self, tidy};
 use crate::names;
 use crate::refusal::Refusal;
@@ -217,7 +217,7 @@ impl Arrange {
                 Ok(Done::new("Set field of view"))
             }
             Self::SetCamera { frame, pose } => {
-                set_camera(scene, *frame, pose);
+                set_camera(scene, *frame, pose)?;
                 Ok(Done::new("Camera to this view").selecting(Selection::only(Item::Camera)))
             }
         }
@@ -255,7 +255,7 @@ fn shift_motion(scene: &mut Scene, objects: &[String], shift: &Shift) -> Result<
         let parent = parent.and_then(|parent| scene.objects.iter().position(|other| other.name == parent));
         let world_from_parent = parent.map_or(DAffine3::IDENTITY, |parent| poses[parent]);
         let in_parent = world_from_parent.inverse() * shift.world_from_world * world_from_parent;
-        let object = unlocked_object(scene, name)?;
+        let object = posable_object(scene, name)?;
         if object.keys.is_empty() {
             object.keys.push(ObjectKey::at(0.0));
         }
@@ -361,7 +361,7 @@ fn set_pose_field(
     value: f64,
 ) -> Result<Done, Refusal> {
     let now = motion::key_at(scene, object_mut(&mut scene.clone(), name)?, frame);
-    let object: &mut Object = unlocked_object(scene, name)?;
+    let object: &mut Object = posable_object(scene, name)?;
     if object.keys.is_empty() {
         object.keys.push(ObjectKey::at(0.0));
     }
@@ -428,7 +428,10 @@ pub fn set_light(scene: &Scene, name: &str, stated: LightKey, what: &str) -> Opt
     Some(Command::Arrange(Arrange::SetLight { name: name.to_owned(), light, what: what.to_owned() }))
 }
 
-fn set_camera(scene: &mut Scene, frame: f64, pose: &CameraPose) {
+fn set_camera(scene: &mut Scene, frame: f64, pose: &CameraPose) -> Result<(), Refusal> {
+    if scene.has_camera_of_shot() {
+        return Err(moved_by_shot(scene, "the camera"));
+    }
     let now = motion::camera_at(scene, frame);
     let [eye_by, target_by] = [pose.eye - now.eye, pose.target - now.target];
     let roll_by = (pose.roll_rad - now.roll_rad).to_degrees();
@@ -442,4 +445,5 @@ fn set_camera(scene: &mut Scene, frame: f64, pose: &CameraPose) {
         key.target = (DVec3::from(key.target) + target_by).map(tidy).to_array();
         key.roll_deg = tidy(key.roll_deg + roll_by);
     }
+    Ok(())
 }

@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use impasto_scene::document::{ObjectKey, Scene};
 use impasto_scene::motion;
 
-use super::{Done, counted, object_mut, region_mut, unlocked_object, unlocked_region};
+use super::{Done, counted, object_mut, posable_object, region_mut, unlocked_object, unlocked_region};
 use crate::euler;
 use crate::names;
 use crate::refusal::Refusal;
@@ -188,6 +188,10 @@ fn rename(scene: &mut Scene, item: &Item, name: &str) -> Result<Done, Refusal> {
     match item {
         Item::Object(_) => {
             object_mut(scene, &old)?;
+            if scene.stage.shot.as_ref().is_some_and(|shot| shot.has_object(&old)) {
+                let shot = scene.shot.as_deref().unwrap_or("the shot");
+                return Err(Refusal::new(format!("{old} has its name from {shot}: rename it there")));
+            }
             taken(Box::new(scene.objects.iter().map(|object| object.name.as_str())))?;
             names::rename_object(scene, &old, &new);
         }
@@ -241,7 +245,7 @@ fn reparent(scene: &mut Scene, object: &str, parent: Option<&str>, frame: f64) -
     };
     let (old, new) = (parent_of(scene, object), parent);
     let new_from_old = pose_of(new).inverse() * pose_of(old.as_deref());
-    let object = object_mut(scene, object)?;
+    let object = posable_object(scene, object)?;
     object.parent = parent.map(str::to_owned);
     if new_from_old.abs_diff_eq(DAffine3::IDENTITY, 1e-12) {
         return Ok(());

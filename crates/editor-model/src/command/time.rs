@@ -1,10 +1,11 @@
 //! Commands on keys of objects and camera, and on the timeline.
 
-use impasto_scene::document::{CameraKey, Ease, ObjectKey, Scene};
+use impasto_scene::document::{CameraKey, Ease, Key, Lens, ObjectKey, Scene};
 use impasto_scene::motion::{self, CameraPose};
 
 use super::keys::{self, KeyOf, KeyedValue};
-use super::{Done, finite, unlocked_object};
+use super::{Done, finite, moved_by_shot, posable_object, unlocked_object};
+use crate::euler;
 use crate::refusal::Refusal;
 
 /// A pose to key.
@@ -21,6 +22,9 @@ pub enum Pose {
 pub enum Time {
     /// Sets a key with the current pose at a frame.
     SetKey(KeyOf, f64),
+    /// Gives the camera, or an object, that the scene's shot moves keys of its own: one at each frame, but for those between which
+    /// nothing happens that a straight line does not.
+    OwnKeys(KeyOf),
     /// Sets a new pose at a frame. The first key at another frame than the reference also keys the old pose at the
     /// reference, so that there is a motion between the two.
     PoseAtFrame(Pose, f64),
@@ -51,6 +55,7 @@ impl Time {
                 }
                 Ok(Done::new(format!("Key {} at {frame}", of.name())))
             }
+            Self::OwnKeys(of) => own_keys(scene, of),
             Self::PoseAtFrame(pose, frame) => pose_at_frame(scene, pose, finite(*frame)?),
             Self::PutValue(value, frame) => {
                 value.put(scene, finite(*frame)?)?;
@@ -105,6 +110,70 @@ fn counted(keys: &[(KeyOf, f64)]) -> String {
     if keys.len() == 1 { "1 key".to_owned() } else { format!("{} keys", keys.len()) }
 }
 
+/// Two numbers of a key count as the same up to this.
+const SAME: f64 = 1e-9;
+
+fn own_keys(scene: &mut Scene, of: &KeyOf) -> Result<Done, Refusal> {
+    let frames: Vec<f64> = (scene.timeline.first..=scene.timeline.last).map(|frame| frame as f64).collect();
+    match of {
+        KeyOf::Camera if scene.has_camera_of_shot() => {
+            let mut keys: Vec<CameraKey> = Vec::new();
+            for &frame in &frames {
+                let pose = motion::camera_at(scene, frame);
+                let fov_y_deg = match pose.lens {
+                    Lens::Perspective { fov_y_deg, .. } => Some(fov_y_deg),
+                    Lens::Orthographic { .. } => None,
+                };
+                // A roll goes on turning from key to key.
+                let before = keys.last().map_or(0.0, |key| key.roll_deg);
+                let roll_deg = pose.roll_rad.to_degrees();
+                let roll_deg = roll_deg + ((before - roll_deg) / 360.0).round() * 360.0;
+                let [eye, target] = [pose.eye, pose.target].map(|at| at.to_array());
+                keys.push(CameraKey { frame, eye, target, roll_deg, fov_y_deg, ease: Ease::Linear });
+            }
+            scene.camera.lens = motion::camera_at(scene, scene.timeline.first as f64).lens;
+            let numbers = |key: &CameraKey| {
+                let fov = key.fov_y_deg.unwrap_or_default();
+                key.eye.into_iter().chain(key.target).chain([key.roll_deg, fov]).collect()
+            };
+            scene.camera.keys = thinned(keys, numbers);
+        }
+        KeyOf::Object(name) => {
+            let object = unlocked_object(scene, name)?.clone();
+            if !scene.is_moved_by_shot(&object) {
+                return Err(Refusal::new(format!("{name} has keys of its own already")));
+            }
+            let mut keys: Vec<ObjectKey> = Vec::new();
+            for &frame in &frames {
+                let key = motion::key_at(scene, &object, frame);
+                let near = keys.last().map_or([0.0; 3], |key| key.rotation_deg);
+                let rotation_deg = euler::degrees(euler::matrix(key.rotation_deg), near);
+                keys.push(ObjectKey { frame, rotation_deg, ease: Ease::Linear, ..key });
+            }
+            let numbers = |key: &ObjectKey| {
+                key.translation.into_iter().chain(key.rotation_deg).chain([key.scale]).collect()
+            };
+            unlocked_object(scene, name)?.keys = thinned(keys, numbers);
+        }
+        _ => return Err(Refusal::new(format!("{} has keys of its own already", of.name()))),
+    }
+    Ok(Done::new(format!("Own keys for {}", of.name())))
+}
+
+/// The keys without those that lie on a straight line between their neighbours, one key a frame.
+fn thinned<K: Key>(keys: Vec<K>, numbers: impl Fn(&K) -> Vec<f64>) -> Vec<K> {
+    let all: Vec<Vec<f64>> = keys.iter().map(numbers).collect();
+    let is_straight = |at: usize| {
+        let around = all[at - 1].iter().zip(&all[at]).zip(&all[at + 1]);
+        around
+            .into_iter()
+            .all(|((before, now), after)| ((before + after) * 0.5 - now).abs() <= SAME * now.abs().max(1.0))
+    };
+    let last = keys.len().saturating_sub(1);
+    let keeps = |at: usize| at == 0 || at == last || !is_straight(at);
+    keys.into_iter().enumerate().filter(|(at, _)| keeps(*at)).map(|(_, key)| key).collect()
+}
+
 fn shift(scene: &mut Scene, keys: &[(KeyOf, f64)], by: f64, copies: bool) -> Result<(), Refusal> {
     for (of, frames) in keys::by_owner(keys) {
         keys::list(scene, of)?.shift(&frames, by, copies);
@@ -151,6 +220,9 @@ fn pose_at_frame(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<Done, Ref
 fn put_key(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<(), Refusal> {
     match pose {
         Pose::Camera(pose) => {
+            if scene.has_camera_of_shot() {
+                return Err(moved_by_shot(scene, "the camera"));
+            }
             let keys = &mut scene.camera.keys;
             let at = keys.partition_point(|key| key.frame < frame);
             let old = keys.get(at).filter(|key| key.frame == frame).cloned();
@@ -162,7 +234,7 @@ fn put_key(scene: &mut Scene, pose: &Pose, frame: f64) -> Result<(), Refusal> {
             keys.splice(at..at + usize::from(old.is_some()), [key]);
         }
         Pose::Object(name, pose) => {
-            let keys = &mut unlocked_object(scene, name)?.keys;
+            let keys = &mut posable_object(scene, name)?.keys;
             let at = keys.partition_point(|key| key.frame < frame);
             let old = keys.get(at).filter(|key| key.frame == frame).cloned();
             let ease = old.as_ref().map_or(Ease::Smooth, |old| old.ease);

@@ -23,6 +23,8 @@ pub struct Lane {
     pub of: KeyOf,
     /// Whether they cannot be changed.
     pub locked: bool,
+    /// Whether the scene's shot moves this, so that there are no keys.
+    pub of_shot: bool,
     /// The keys.
     pub keys: Vec<LaneKey>,
 }
@@ -30,7 +32,7 @@ pub struct Lane {
 impl Lane {
     fn new(of: KeyOf, keys: &[impl Key]) -> Self {
         let keys = keys.iter().map(|key| LaneKey { frame: key.frame(), ease: key.ease() }).collect();
-        Self { of, locked: false, keys }
+        Self { of, locked: false, of_shot: false, keys }
     }
 
     /// Whether there is a key at a frame.
@@ -48,9 +50,10 @@ impl Lane {
 /// A lane for the camera and one for each object, in the order of the file; then one for each light, the background and strokes that
 /// have keys.
 pub fn lanes(scene: &Scene) -> Vec<Lane> {
-    let camera = Lane::new(KeyOf::Camera, &scene.camera.keys);
+    let camera = Lane { of_shot: scene.has_camera_of_shot(), ..Lane::new(KeyOf::Camera, &scene.camera.keys) };
     let objects = scene.objects.iter().map(|object| Lane {
         locked: object.locked,
+        of_shot: scene.is_moved_by_shot(object),
         ..Lane::new(KeyOf::Object(object.name.clone()), &object.keys)
     });
     let lights = scene.lights.iter().map(|light| Lane::new(KeyOf::Light(light.name.clone()), &light.keys));

@@ -68,6 +68,16 @@ pub trait Brought: Debug + Send + Sync {
 }
 
 impl Scene {
+    /// Whether an object moves as the shot has it: the shot brings it, and it has no keys of its own.
+    pub fn is_moved_by_shot(&self, object: &Object) -> bool {
+        object.keys.is_empty() && self.stage.shot.as_ref().is_some_and(|shot| shot.has_object(&object.name))
+    }
+
+    /// Whether the camera is the shot's.
+    pub fn has_camera_of_shot(&self) -> bool {
+        self.camera.keys.is_empty() && self.stage.shot.as_ref().is_some_and(|shot| shot.has_camera())
+    }
+
     /// The document as it is saved: without what it only has from its shot.
     pub fn without_shot(&self) -> Self {
         self.stage.shot.as_ref().map_or_else(|| self.clone(), |shot| shot.left(self))

@@ -10,7 +10,7 @@ use impasto_scene::motion;
 
 use super::Asker;
 use super::number::{Number, decimals};
-use super::parts::{axes, section};
+use super::parts::{axes, note, section};
 
 use crate::panels::Ask;
 use crate::widgets::{self, Button};
@@ -107,6 +107,24 @@ pub(super) fn of_key(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Op
 pub(super) fn key_rows(ui: &mut Ui, asker: &mut Asker<'_, '_>, of: KeyOf, ease: Option<Ease>) {
     let frame = asker.shown.session.frame;
     let Some(ease) = ease else {
+        let scene = asker.stored();
+        let is_of_shot = match &of {
+            KeyOf::Camera => scene.has_camera_of_shot(),
+            KeyOf::Object(name) => {
+                scene.objects.iter().any(|object| object.name == *name && scene.is_moved_by_shot(object))
+            }
+            _ => false,
+        };
+        if is_of_shot {
+            note(
+                ui,
+                "It moves as the shot has it. Own keys replace that, and stay when it is exported again.",
+            );
+            if Button::new("Make own keys").show(ui).clicked() {
+                asker.ask(Command::Time(Time::OwnKeys(of)));
+            }
+            return;
+        }
         if Button::new("Key this frame").show(ui).clicked() {
             asker.ask(Command::Time(Time::SetKey(of, frame)));
         }

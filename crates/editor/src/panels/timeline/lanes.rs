@@ -110,7 +110,11 @@ pub(super) fn keys(ui: &mut Ui, row: LaneRow, lane: &Lane, shown: &PanelInput<'_
     if lane.keys.is_empty() {
         let at = pos2(row.across.left + 8.0, middle);
         let is_auto = shown.session.auto_key && !lane.locked;
-        let words = if is_auto { "no keys: move it, or press I" } else { "no keys, press I" };
+        let words = match (lane.of_shot, is_auto) {
+            (true, _) => "moves as the shot has it",
+            (false, true) => "no keys: move it, or press I",
+            (false, false) => "no keys, press I",
+        };
         ui.painter().text(at, Align2::LEFT_CENTER, words, type_face::small(), tokens.weak);
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
