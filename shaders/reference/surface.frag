@@ -3,6 +3,7 @@ in vec3 position_in_world;
 in vec3 normal_in_world;
 in float depth_along_gaze;
 in vec2 texture_at;
+in vec3 tint;                  // of the vertices, linear
 
 uniform vec3 albedo;
 uniform sampler2D albedo_texture;
@@ -18,7 +19,7 @@ layout(location = 2) out vec2 depth_and_id;
 void main() {
     vec3 towards_eye = eye.xyz - position_in_world * eye.w;
     vec3 n = normalize(normal_in_world);
-    albedo_and_lit = vec4(albedo * texture(albedo_texture, texture_at).rgb, is_lit);
+    albedo_and_lit = vec4(albedo * tint * texture(albedo_texture, texture_at).rgb, is_lit);
     normal = vec4(dot(n, towards_eye) < 0.0 ? -n : n, gloss);
     depth_and_id = vec2(depth_along_gaze, body_id);
 }

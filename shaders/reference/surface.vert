@@ -8,6 +8,7 @@ out vec3 position_in_world;
 out vec3 normal_in_world;
 out float depth_along_gaze;
 out vec2 texture_at;
+out vec3 tint;
 
 void main() {
     BodyVertex vertex = body_vertex();
@@ -17,5 +18,6 @@ void main() {
     normal_in_world = mat3(world_from_model) * vertex.normal;
     depth_along_gaze = -view.z;
     texture_at = uv;
+    tint = 1.0 - shade;
     gl_Position = clip_from_view * view;
 }

@@ -6,6 +6,7 @@ layout(location = 1) in vec3 normal_in_model;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec3 target_position;   // where the whole morph takes the vertex
 layout(location = 4) in vec3 target_normal;
+layout(location = 5) in vec3 shade;              // what the vertex takes away of each channel, linear
 
 uniform mat4 world_from_model;
 uniform float morph;             // how far the surface has turned into its target

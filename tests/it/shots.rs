@@ -7,13 +7,14 @@ use glam::DVec3;
 use impasto_core::TriangleMesh;
 use impasto_editor_model::command::{Command, Edit, KeyOf, SceneEdit, Time};
 use impasto_editor_model::{Document, Item};
+use impasto_gl_render::context::Driver;
 use impasto_painting::{FrameOptions, prepare};
 use impasto_scene::document::{Lens, LightKind};
 use impasto_scene::load::{LoadOptions, load};
 use impasto_scene::loaded::LoadedScene;
 use impasto_scene::{motion, save};
 use impasto_tests::glb::{self, Node};
-use impasto_tests::pictures::wrap_half;
+use impasto_tests::pictures::{renderer, wrap_half};
 use impasto_tests::shapes;
 
 /// A folder with a shot of two balls and a box between them.
@@ -144,6 +145,31 @@ fn a_scene_overrides_a_shot_by_name_and_what_is_gone_stays_in_the_file() {
 }
 
 #[test]
+fn a_camera_of_several_is_chosen_by_name() {
+    let home = Home::new();
+    let text = std::fs::read(home.at("shot.glb")).unwrap();
+    // A second camera: the node of the sun gets one.
+    let with_two: Vec<u8> = {
+        let json_end = 20 + u32::from_le_bytes(text[12..16].try_into().unwrap()) as usize;
+        let mut root: serde_json::Value = serde_json::from_slice(&text[20..json_end]).unwrap();
+        root["nodes"][4]["camera"] = serde_json::json!(0);
+        glb::bytes(&root, text[json_end + 8..].to_vec())
+    };
+    std::fs::write(home.at("shot.glb"), with_two).unwrap();
+    let first = home.scene("(version: 1, shot: \"shot.glb\")");
+    let warnings: Vec<String> = first.warnings.iter().map(ToString::to_string).collect();
+    assert!(
+        warnings.iter().any(|line| line.contains("there are 2 cameras") && line.contains("of_shot: \"Sun\"")),
+        "{warnings:?}"
+    );
+    assert_eq!(motion::camera_at(&first.scene, 0.0).eye.z, 6.0);
+    let other = home.scene("(version: 1, shot: \"shot.glb\", camera: (of_shot: \"Sun\"))");
+    assert!(other.warnings.is_empty(), "{:?}", other.warnings);
+    assert_eq!(motion::camera_at(&other.scene, 0.0).eye.z, 0.0);
+    assert!(save::to_ron(&other.scene).contains("camera: (of_shot: \"Sun\"),"));
+}
+
+#[test]
 fn errors_of_a_shot_name_file_and_place() {
     let home = Home::new();
     let said = |text: &str| {
@@ -251,4 +277,66 @@ fn a_new_export_is_read_while_the_window_is_open_and_undo_holds() {
         (named(&document), document.scene().seed),
         (vec!["Box".into(), "Ball".into(), "Fern".into()], 5)
     );
+}
+
+#[test]
+fn colours_of_vertices_are_painted() {
+    let home = tempfile::tempdir().unwrap();
+    let mut bin = Vec::new();
+    // A quad whose left half is red and whose right half is blue, by the colours of its vertices.
+    let corners = [
+        [-1.0f32, -1.0],
+        [0.0, -1.0],
+        [0.0, 1.0],
+        [-1.0, 1.0],
+        [0.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 1.0],
+        [0.0, 1.0],
+    ];
+    bin.extend(corners.iter().flat_map(|[x, y]| [*x, *y, 0.0]).flat_map(f32::to_le_bytes));
+    let colors = (0..8).map(|vertex| if vertex < 4 { [1.0f32, 0.0, 0.0] } else { [0.0, 0.0, 1.0] });
+    bin.extend(colors.flatten().flat_map(f32::to_le_bytes));
+    bin.extend([0u16, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7].iter().flat_map(|corner| corner.to_le_bytes()));
+    let root = serde_json::json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+        "nodes": [{ "name": "Quad", "mesh": 0 }, { "name": "Cam", "camera": 0, "translation": [0, 0, 3] }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "COLOR_0": 1 }, "indices": 2, "material": 0 }] }],
+        "materials": [{ "name": "Flat", "extensions": { "KHR_materials_unlit": {} } }],
+        "extensionsUsed": ["KHR_materials_unlit"],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0] },
+            { "bufferView": 1, "componentType": 5126, "count": 8, "type": "VEC3" },
+            { "bufferView": 2, "componentType": 5123, "count": 12, "type": "SCALAR" },
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 96 }, { "buffer": 0, "byteOffset": 96, "byteLength": 96 },
+            { "buffer": 0, "byteOffset": 192, "byteLength": 24 },
+        ],
+        "buffers": [{ "byteLength": bin.len() }],
+        "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.5, "znear": 0.1, "zfar": 10.0 } }],
+    });
+    let path = home.path().join("quad.glb");
+    std::fs::write(&path, glb::bytes(&root, bin)).unwrap();
+    let options = |style: &str| {
+        let mut options = LoadOptions::default();
+        options.overrides.push(("style".to_owned(), style.to_owned()));
+        options
+    };
+    for style in ["Reference", "RotatingStrokes()"] {
+        let painting = prepare(Arc::new(load(&path, &options(style)).unwrap())).unwrap();
+        let frame = painting.at(0.0, &FrameOptions::new([160, 90]));
+        let picture = renderer(Driver::Egl).render(&frame).unwrap();
+        let mean = |columns: std::ops::Range<usize>| -> [f64; 3] {
+            let pixels: Vec<&[u8]> = (30..60)
+                .flat_map(|row| columns.clone().map(move |column| row * 160 + column))
+                .map(|pixel| &picture.rgba8[4 * pixel..4 * pixel + 3])
+                .collect();
+            std::array::from_fn(|channel| {
+                pixels.iter().map(|pixel| f64::from(pixel[channel])).sum::<f64>() / pixels.len() as f64
+            })
+        };
+        let [left, right] = [mean(50..74), mean(86..110)];
+        assert!(left[0] > 2.0 * left[2] && right[2] > 2.0 * right[0], "{style}: {left:?} {right:?}");
+    }
 }

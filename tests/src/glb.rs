@@ -74,22 +74,22 @@ pub fn write(path: &Path, nodes: &[Node<'_>]) {
         "extensions": { "KHR_lights_punctual": { "lights": [{ "type": "directional", "intensity": 683.0 }] } },
         "animations": [{ "channels": channels, "samplers": samplers }],
     });
-    std::fs::write(path, glb(&root, bin)).expect("written");
+    std::fs::write(path, bytes(&root, bin)).expect("written");
 }
 
 /// The bytes of a `.glb`.
-fn glb(root: &Value, mut bin: Vec<u8>) -> Vec<u8> {
+pub fn bytes(root: &Value, mut bin: Vec<u8>) -> Vec<u8> {
     let mut text = root.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     bin.resize(bin.len().next_multiple_of(4), 0);
     let whole = 12 + 8 + text.len() + 8 + bin.len();
-    let mut bytes = b"glTF".to_vec();
-    bytes.extend(2u32.to_le_bytes());
-    bytes.extend((whole as u32).to_le_bytes());
+    let mut file = b"glTF".to_vec();
+    file.extend(2u32.to_le_bytes());
+    file.extend((whole as u32).to_le_bytes());
     for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &bin)] {
-        bytes.extend((chunk.len() as u32).to_le_bytes());
-        bytes.extend(kind);
-        bytes.extend(chunk);
+        file.extend((chunk.len() as u32).to_le_bytes());
+        file.extend(kind);
+        file.extend(chunk);
     }
-    bytes
+    file
 }

@@ -143,6 +143,7 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         reference: Reference::Frame(0),
         further_references: Vec::new(),
         camera: Camera {
+            of_shot: None,
             lens: Lens::Perspective { fov_y_deg: 35.0, near: 0.05, far: 100.0 },
             keys: vec![camera_key(0.0, [0.0, 0.0, 4.0], [0.0; 3])],
         },

@@ -39,6 +39,15 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
             mesh["bounds"][1],
         )?;
     }
+    if let (Some(name), Some(shot)) = (&scene.shot, &scene.stage.shot) {
+        let span = match shot.span_s() {
+            Some([first, last]) => format!("moves from {first:.3} to {last:.3} seconds"),
+            None => "nothing moves".to_owned(),
+        };
+        let objects = scene.objects.iter().filter(|object| shot.has_object(&object.name)).count();
+        let camera = if shot.has_camera() { "a camera" } else { "no camera" };
+        writeln!(out, "shot {name}: {objects} objects, {camera}, {span}")?;
+    }
     for object in facts["objects"].as_array().into_iter().flatten() {
         writeln!(
             out,
@@ -138,6 +147,9 @@ fn facts(painting: &Painting) -> serde_json::Value {
         "path": loaded.path,
         "size": [scene.size.0, scene.size.1],
         "timeline": { "fps": scene.timeline.fps, "first": scene.timeline.first, "last": scene.timeline.last },
+        "shot": scene.stage.shot.as_ref().map(|shot| {
+            serde_json::json!({ "path": scene.shot, "has_camera": shot.has_camera(), "span_s": shot.span_s() })
+        }),
         "meshes": meshes,
         "objects": objects,
         "regions": scene.regions.iter().map(|region| &region.name).collect::<Vec<_>>(),

@@ -14,6 +14,8 @@ pub struct TriangleMesh {
     pub normals: Vec<Vec3>,
     /// One texture coordinate per vertex (V up, as in OBJ), or empty when the file has none.
     pub uvs: Vec<Vec2>,
+    /// One colour per vertex, linear Rec. 709, which multiplies that of the material; or empty when the file has none.
+    pub colors: Vec<Vec3>,
     /// Vertex indices, three per triangle, each less than `positions.len()`.
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle, the index of the file's polygon that it was cut from; never decreases.

@@ -62,6 +62,14 @@ impl Particle {
         let [v, w] = self.barycentric;
         Some(a? * (1.0 - v - w) + b? * v + c? * w)
     }
+
+    /// The mesh's own colour here, linear; `None` where it has none.
+    pub fn color(&self, mesh: &TriangleMesh) -> Option<Vec3> {
+        let [a, b, c] =
+            mesh.triangles[self.triangle as usize].map(|vertex| mesh.colors.get(vertex as usize).copied());
+        let [v, w] = self.barycentric;
+        Some(a? * (1.0 - v - w) + b? * v + c? * w)
+    }
 }
 
 /// The visible sides of a mesh's triangles (its faces), with a running sum of their areas.

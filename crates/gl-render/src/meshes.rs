@@ -22,6 +22,8 @@ pub(crate) struct MeshOnGpu {
     pub(crate) array: VertexArray,
     pub(crate) parts: Vec<Part>,
     vertices: Buffer,
+    /// What each vertex takes away of each channel, linear; `None` where the mesh has no colours of its own.
+    shades: Option<Buffer>,
     _indices: Buffer,
     /// Created when the first draft is drawn.
     front: RefCell<Option<FrontFaces>>,
@@ -110,7 +112,8 @@ impl MeshOnGpu {
             Some(faces) => faces,
             None => {
                 let indices = Buffer::new(gpu, BufferUse::Streamed)?;
-                let array = VertexArray::new(gpu, &inputs(&self.vertices), Some(&indices))?;
+                let array =
+                    VertexArray::new(gpu, &inputs(&self.vertices, self.shades.as_ref()), Some(&indices))?;
                 FrontFaces { array: Rc::new(array), indices }
             }
         };
@@ -120,23 +123,26 @@ impl MeshOnGpu {
     }
 }
 
-/// The fields of [`Vertex`] as shader inputs.
-fn inputs(vertices: &Buffer) -> [Attribute<'_>; 5] {
-    [(3, 0), (3, 12), (2, 24), (3, 32), (3, 44)].map({
-        let mut location = 0;
-        move |(components, offset_bytes)| {
-            location += 1;
-            Attribute {
-                location: location - 1,
-                buffer: vertices,
-                components,
-                integer: false,
-                stride_bytes: size_of::<Vertex>() as i32,
-                offset_bytes,
-                per_instance: false,
-            }
-        }
-    })
+/// The fields of [`Vertex`] as shader inputs, and the shades. Where there are none, the shader reads zeros.
+fn inputs<'a>(vertices: &'a Buffer, shades: Option<&'a Buffer>) -> Vec<Attribute<'a>> {
+    let of = |location: usize,
+              buffer: &'a Buffer,
+              components: i32,
+              [stride_bytes, offset_bytes]: [i32; 2]| Attribute {
+        location: location as u32,
+        buffer,
+        components,
+        integer: false,
+        stride_bytes,
+        offset_bytes,
+        per_instance: false,
+    };
+    let fields = [(3, 0), (3, 12), (2, 24), (3, 32), (3, 44)];
+    let stride_bytes = size_of::<Vertex>() as i32;
+    let of_vertex = fields.into_iter().enumerate().map(|(location, (components, offset_bytes))| {
+        of(location, vertices, components, [stride_bytes, offset_bytes])
+    });
+    of_vertex.chain(shades.map(|shades| of(fields.len(), shades, 3, [12, 0]))).collect()
 }
 
 impl MeshCache {
@@ -190,12 +196,22 @@ impl MeshCache {
         vertex_buffer.upload(bytemuck::cast_slice(&vertices))?;
         let mut index_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         index_buffer.upload(bytemuck::cast_slice(&indices))?;
-        let array = VertexArray::new(gpu, &inputs(&vertex_buffer), Some(&index_buffer))?;
+        let shades: Vec<[f32; 3]> = mesh.colors.iter().map(|color| (Vec3::ONE - *color).to_array()).collect();
+        let shades = match shades.is_empty() {
+            true => None,
+            false => {
+                let mut buffer = Buffer::new(gpu, BufferUse::Fixed)?;
+                buffer.upload(bytemuck::cast_slice(&shades))?;
+                Some(buffer)
+            }
+        };
+        let array = VertexArray::new(gpu, &inputs(&vertex_buffer, shades.as_ref()), Some(&index_buffer))?;
         let front = RefCell::new(None);
         Ok(MeshOnGpu {
             array,
             parts,
             vertices: vertex_buffer,
+            shades,
             _indices: index_buffer,
             front,
             bounds: mesh.bounds(),

@@ -203,9 +203,9 @@ impl BodySurface {
         (((low + high) * 0.5).as_dvec3(), f64::from((high - low).length()))
     }
 
-    /// sRGB albedo of each material; if any material has a texture, of each of `particles` instead.
+    /// sRGB albedo of each material; if any material has a texture, or the mesh has colours of its own, of each of `particles` instead.
     pub(crate) fn albedo(&self, particles: impl IndexedParallelIterator<Item = Particle>) -> Albedo {
-        if self.materials.iter().any(|material| material.texture.is_some()) {
+        if !self.mesh.colors.is_empty() || self.materials.iter().any(|material| material.texture.is_some()) {
             return Albedo::OfParticle(particles.map(|particle| self.albedo_srgb8(&particle)).collect());
         }
         Albedo::OfMaterial(self.materials.iter().map(|material| srgb8(material, material.albedo)).collect())
@@ -228,6 +228,9 @@ impl BodySurface {
             for (channel, byte) in albedo.iter_mut().zip(texture.rgba8[texel as usize]) {
                 *channel *= linear_from_srgb(f32::from(byte) / 255.0);
             }
+        }
+        if let Some(color) = particle.color(&self.mesh) {
+            albedo.iter_mut().zip(color.to_array()).for_each(|(channel, own)| *channel *= own);
         }
         srgb8(material, albedo)
     }

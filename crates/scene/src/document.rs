@@ -155,6 +155,9 @@ pub enum Ease {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
+    /// Which camera of the shot is looked through, where there are several: the name of its node; left out, the first.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub of_shot: Option<String>,
     /// How the camera projects.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lens: Lens,

@@ -110,11 +110,17 @@ fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
     if crate::gltf::is_gltf(path) {
         let (file, _) = reader.open(path, folder_of(path), &options.folders)?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let shot = Shot::new(file, &name);
+        let (shot, _) = Shot::new(file, &name, None);
         if shot.has_camera() {
             let scene = crate::new_scene::for_shot(path, &mesh, &Arc::new(shot));
             let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
             return finish(path, parsed, options, None);
+        }
+        if shot.span_s().is_some() {
+            let severity = Severity::Warning;
+            let message = "the file moves and has no camera: it is painted as a model that stands still";
+            let mend = "export it with its cameras";
+            warnings.push(Problem { severity, ..error_in(path, None, message, mend) });
         }
     }
     let NewScene { scene, up_is_unsure } = crate::new_scene::for_mesh(path, &mesh, options.placing);
@@ -209,8 +215,13 @@ fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders
         let message = format!("{name:?} is no glTF file");
         return Err(Report(vec![error_in(scene_path, None, message, "name a .glb or .gltf file")]));
     }
-    let (file, warnings) = reader.open(&path, root, folders)?;
-    let lost = Arc::new(Shot::new(file, &name)).enter(scene);
+    let (file, mut warnings) = reader.open(&path, root, folders)?;
+    let (shot, odd) = Shot::new(file, &name, scene.camera.of_shot.as_deref());
+    warnings.extend(odd.into_iter().map(|[message, mend]| {
+        let severity = Severity::Warning;
+        Problem { severity, ..error_in(&path, None, message, mend) }
+    }));
+    let lost = Arc::new(shot).enter(scene);
     Ok((lost.into_iter().map(lost_object).collect(), warnings))
 }
 

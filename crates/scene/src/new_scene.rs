@@ -131,7 +131,7 @@ pub fn empty() -> Scene {
     let from_sun = round_to(Axes::looking_from(eye - target).to_world(DVec3::new(0.6, -0.75, -0.55)), 1e-3);
     let sun = Light { direction: Some(from_sun.to_array()), ..light("sun", LightKind::Sun, "#fff1dc", 2.2) };
     Scene {
-        camera: Camera { lens: Lens::default(), keys: vec![key] },
+        camera: Camera { of_shot: None, lens: Lens::default(), keys: vec![key] },
         lights: vec![sun, light("sky", LightKind::Ambient, "#b9c8dc", 0.6)],
         ..bare()
     }
@@ -155,7 +155,7 @@ fn bare() -> Scene {
         timeline: Timeline::default(),
         reference: Reference::default(),
         further_references: Vec::new(),
-        camera: Camera { lens: Lens::default(), keys: Vec::new() },
+        camera: Camera { of_shot: None, lens: Lens::default(), keys: Vec::new() },
         lights: Vec::new(),
         objects: Vec::new(),
         strokes: StrokeSettings::default(),

@@ -35,6 +35,9 @@ fn leave_to_shot(value: &mut Value, saved: &Scene) {
     });
     for (field, objects) in &mut root.items {
         let Value::Group(objects) = objects else { continue };
+        objects
+            .items
+            .retain(|(inner, _)| *field != "camera" || *inner != "keys" || !saved.camera.keys.is_empty());
         for (_, object) in objects.items.iter_mut().filter(|_| *field == "objects") {
             let Value::Group(object) = object else { continue };
             object.items.retain(|(field, value)| {

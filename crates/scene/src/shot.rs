@@ -32,6 +32,8 @@ pub struct Shot {
     lights: Vec<(Light, Option<usize>)>,
     /// Our intensity of a light over that of the file.
     exposure: f64,
+    /// For each light of the file, a factor on the intensities of its keys.
+    key_factors: Vec<f64>,
 }
 
 /// A node with a mesh.
@@ -44,8 +46,9 @@ struct ShotObject {
 }
 
 impl Shot {
-    /// The shot in a file that a scene names so.
-    pub(crate) fn new(file: Arc<GltfFile>, name: &str) -> Self {
+    /// The shot in a file that a scene names so, seen by its camera of the name that is given, or by its first. Also returns what a
+    /// user should know of the file: each what is odd, and the mend.
+    pub(crate) fn new(file: Arc<GltfFile>, name: &str, camera: Option<&str>) -> (Self, Vec<[String; 2]>) {
         let mut objects = Vec::new();
         for (index, node) in file.gltf.nodes.iter().enumerate() {
             let shows = node.mesh.is_some_and(|mesh| !file.gltf.meshes[mesh].primitives.is_empty());
@@ -60,12 +63,35 @@ impl Shot {
         }
         let object_of_name =
             objects.iter().enumerate().map(|(index, object)| (object.object.name.clone(), index)).collect();
-        let camera = (0..file.gltf.nodes.len())
-            .find(|&node| file.gltf.nodes[node].camera.is_some() && file.is_in_scene(node));
-        let mut shot = Self { objects, object_of_name, camera, lights: Vec::new(), exposure: 1.0, file };
+        let mut odd = Vec::new();
+        let camera = camera::chosen(&file, camera, &mut odd);
+        let (lights, key_factors) = (Vec::new(), vec![1.0; file.gltf.lights.len()]);
+        let mut shot = Self { objects, object_of_name, camera, lights, exposure: 1.0, key_factors, file };
         shot.exposure = shot.found_exposure();
         shot.lights = shot.lights_at_rest();
-        shot
+        shot.mend_light_keys(&mut odd);
+        shot.tell_what_bends(&mut odd);
+        (shot, odd)
+    }
+
+    /// Says what bends in the file and does not here.
+    fn tell_what_bends(&self, odd: &mut Vec<[String; 2]>) {
+        let (nodes, meshes) = (&self.file.gltf.nodes, &self.file.gltf.meshes);
+        let bends = |object: &&ShotObject| {
+            let node = &nodes[object.node];
+            node.skin.is_some() || node.mesh.is_some_and(|mesh| meshes[mesh].target_count > 0)
+        };
+        let bending: Vec<&str> =
+            self.objects.iter().filter(bends).map(|object| object.object.name.as_str()).collect();
+        if let Some(first) = bending.first() {
+            let message = match bending.len() {
+                1 => format!("{first} bends by joints or shape keys, and shows as it rests"),
+                many => format!(
+                    "{many} objects bend by joints or shape keys, {first:?} the first of them, and show as they rest"
+                ),
+            };
+            odd.push([message, "only what moves as a whole moves here yet".to_owned()]);
+        }
     }
 
     /// The file.
@@ -76,11 +102,6 @@ impl Shot {
     /// Whether it has lights.
     pub fn has_lights(&self) -> bool {
         !self.lights.is_empty()
-    }
-
-    /// The first and the last time of its animations, seconds; `None` where nothing moves.
-    pub fn span_s(&self) -> Option<[f32; 2]> {
-        self.file.animator.span_s()
     }
 
     /// The frames in which it moves, at this rate: frame = time · rate.
@@ -99,6 +120,10 @@ impl Brought for Shot {
 
     fn has_object(&self, name: &str) -> bool {
         self.object_of_name.contains_key(name)
+    }
+
+    fn span_s(&self) -> Option<[f32; 2]> {
+        self.file.animator.span_s()
     }
 
     fn at(&self, time_s: f64) -> Posed {

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use foldhash::fast::RandomState;
 use glam::{DVec3, Vec2, Vec3};
 use impasto_core::TriangleMesh;
+use impasto_core::color::linear_from_srgb;
 use indexmap::IndexSet;
 use rayon::prelude::*;
 
@@ -36,6 +37,8 @@ pub(crate) struct Geometry {
     pub uvs: Vec<Option<Vec2>>,
     /// For each vertex, of unit length; `None` where the file gives none that can be used.
     pub normals: Vec<Option<Vec3>>,
+    /// For each vertex, sRGB with 8 bits a channel; empty where no vertex has one.
+    pub colors: Vec<[u8; 3]>,
     /// The vertex of each corner.
     pub corners: Vec<u32>,
     /// Where the corners of each face end; they begin where those of the face before it end.
@@ -190,7 +193,7 @@ impl<'a> Builder<'a> {
     /// The mesh, and for each triangle the number of the face that it was cut from. Corners that agree in all values
     /// are one vertex; vertices are numbered in the order of their first use.
     pub fn finish(&self) -> (TriangleMesh, Vec<u32>) {
-        let Geometry { positions, uvs, normals, .. } = self.geometry;
+        let Geometry { positions, uvs, normals, colors, .. } = self.geometry;
         let made_normals = self.corner_normals();
         let mut used = self.triangles.iter().flat_map(|triangle| triangle.vertices);
         let has_uvs = used.any(|vertex| uvs[vertex as usize].is_some());
@@ -204,12 +207,14 @@ impl<'a> Builder<'a> {
                 return known;
             }
             let normal = bits(made.or(normals[vertex]).unwrap_or_default().to_array());
-            if known != NONE && vertices[known as usize][5..] == normal {
+            if known != NONE && vertices[known as usize][5..8] == normal {
                 return known;
             }
             let ([x, y, z], [nx, ny, nz]) = (bits(positions[vertex].to_array()), normal);
             let [u, v] = bits(uvs[vertex].unwrap_or_default().to_array());
-            let number = vertices.insert_full([x, y, z, u, v, nx, ny, nz]).0 as u32;
+            let [r, g, b] = colors.get(vertex).copied().unwrap_or_default();
+            let color = u32::from_be_bytes([0, r, g, b]);
+            let number = vertices.insert_full([x, y, z, u, v, nx, ny, nz, color]).0 as u32;
             last[vertex] = number;
             number
         };
@@ -227,12 +232,19 @@ impl<'a> Builder<'a> {
             face = triangle.face;
             mesh.polygon_of_triangle.push(polygon);
         }
-        let value = |vertex: &[u32; 8], at: usize| f32::from_bits(vertex[at]);
+        let value = |vertex: &[u32; 9], at: usize| f32::from_bits(vertex[at]);
         let vector = |vertex, at| Vec3::new(value(vertex, at), value(vertex, at + 1), value(vertex, at + 2));
         mesh.positions = vertices.iter().map(|vertex| vector(vertex, 0)).collect();
         mesh.normals = vertices.iter().map(|vertex| vector(vertex, 5)).collect();
         if has_uvs {
             mesh.uvs = vertices.iter().map(|vertex| Vec2::new(value(vertex, 3), value(vertex, 4))).collect();
+        }
+        if !colors.is_empty() {
+            let linear = |vertex: &[u32; 9]| {
+                let [_, r, g, b] = vertex[8].to_be_bytes();
+                Vec3::from([r, g, b].map(|channel| linear_from_srgb(f32::from(channel) / 255.0)))
+            };
+            mesh.colors = vertices.iter().map(linear).collect();
         }
         (mesh, self.triangles.iter().map(|triangle| triangle.face).collect())
     }

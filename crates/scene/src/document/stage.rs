@@ -45,6 +45,9 @@ pub trait Brought: Debug + Send + Sync {
     /// Whether it brings this object.
     fn has_object(&self, name: &str) -> bool;
 
+    /// The first and the last time of its animations, seconds; `None` where nothing moves.
+    fn span_s(&self) -> Option<[f32; 2]>;
+
     /// Where everything stands at a time, seconds.
     fn at(&self, time_s: f64) -> Posed;
 

@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use impasto_core::TriangleMesh;
+use impasto_core::color::srgb_from_linear;
 use impasto_gltf::{Influences, Mesh, Node, Primitive};
 
 use super::GltfFile;
@@ -51,6 +52,8 @@ struct Vertices {
     positions: Vec<DVec3>,
     normals: Option<Vec<DVec3>>,
     uvs: Option<Vec<Vec2>>,
+    /// sRGB.
+    colors: Option<Vec<[u8; 3]>>,
 }
 
 impl Vertices {
@@ -83,7 +86,10 @@ impl Vertices {
             }
         }
         let uvs = uvs_of(file, primitive);
-        Self { positions, normals, uvs }
+        let byte = |channel: f32| (srgb_from_linear(channel) * 255.0).round() as u8;
+        let opaque = |&[r, g, b, _]: &[f32; 4]| [r, g, b].map(byte);
+        let colors = primitive.colors.as_ref().map(|list| list.iter().map(opaque).collect());
+        Self { positions, normals, uvs, colors }
     }
 }
 
@@ -158,6 +164,14 @@ impl Joined {
         match &vertices.normals {
             Some(normals) => self.geometry.normals.extend(normals.iter().map(unit)),
             None => self.geometry.normals.extend(std::iter::repeat_n(None, count)),
+        }
+        // Joined with others that have colours, a primitive without is white.
+        if vertices.colors.is_some() || !self.geometry.colors.is_empty() {
+            self.geometry.colors.resize(first as usize, [255; 3]);
+            match &vertices.colors {
+                Some(colors) => self.geometry.colors.extend(colors),
+                None => self.geometry.colors.resize(first as usize + count, [255; 3]),
+            }
         }
         match &vertices.uvs {
             Some(uvs) => self.geometry.uvs.extend(uvs.iter().copied().map(Some)),

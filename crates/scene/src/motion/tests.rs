@@ -29,7 +29,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         timeline: Default::default(),
         reference: Default::default(),
         further_references: Vec::new(),
-        camera: Camera { lens: Lens::default(), keys: camera_keys },
+        camera: Camera { of_shot: None, lens: Lens::default(), keys: camera_keys },
         lights: Vec::new(),
         objects,
         strokes: Default::default(),

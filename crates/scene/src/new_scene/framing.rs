@@ -82,6 +82,7 @@ impl View {
 
     pub fn camera(&self) -> Camera {
         Camera {
+            of_shot: None,
             lens: Lens::Perspective { fov_y_deg: FOV_Y_DEG, near: self.near, far: self.far },
             keys: vec![CameraKey {
                 frame: 0.0,

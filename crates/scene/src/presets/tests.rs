@@ -17,7 +17,7 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
         timeline: Default::default(),
         reference: Default::default(),
         further_references: Vec::new(),
-        camera: Camera { lens: Default::default(), keys: Vec::new() },
+        camera: Camera { of_shot: None, lens: Default::default(), keys: Vec::new() },
         lights: Vec::new(),
         objects: Vec::new(),
         strokes,

@@ -4,6 +4,7 @@ use impasto_gltf::Lens as ShotLens;
 
 use super::Shot;
 use crate::document::Lens;
+use crate::gltf::GltfFile;
 
 /// The depth that an infinite camera sees, over its nearest one.
 const FARTHEST: f64 = 1e5;
@@ -22,6 +23,29 @@ pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
             Lens::Orthographic { height: 2.0 * ymag.max(xmag / aspect), near: znear, far: zfar }
         }
     }
+}
+
+/// The node of the camera with this name, or else of the first. Says where the choice is not clear.
+pub(super) fn chosen(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Option<usize> {
+    let nodes = &file.gltf.nodes;
+    let all: Vec<usize> =
+        (0..nodes.len()).filter(|&node| nodes[node].camera.is_some() && file.is_in_scene(node)).collect();
+    let named = name.map(|name| all.iter().copied().find(|&node| nodes[node].name == name));
+    let &first = all.first()?;
+    let names: Vec<&str> = all.iter().map(|&node| nodes[node].name.as_str()).collect();
+    let is_first = format!("{:?} is looked through", names[0]);
+    let mend = || format!("choose one in the scene, as in camera: (of_shot: {:?})", names[names.len() - 1]);
+    match (named, name) {
+        (Some(Some(node)), _) => return Some(node),
+        (Some(None), Some(name)) => {
+            odd.push([format!("there is no camera {name:?}; there are {names:?}, and {is_first}"), mend()]);
+        }
+        _ if all.len() > 1 => {
+            odd.push([format!("there are {} cameras, {names:?}; {is_first}", all.len()), mend()])
+        }
+        _ => {}
+    }
+    Some(first)
 }
 
 impl Shot {

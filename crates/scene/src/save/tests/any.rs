@@ -54,7 +54,7 @@ fn any_camera() -> impl Strategy<Value = Camera> {
             ease,
         },
     );
-    (lens, prop::collection::vec(key, 0..4)).prop_map(|(lens, keys)| Camera { lens, keys })
+    (lens, prop::collection::vec(key, 0..4)).prop_map(|(lens, keys)| Camera { of_shot: None, lens, keys })
 }
 
 fn any_light() -> impl Strategy<Value = Light> {
