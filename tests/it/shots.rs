@@ -86,6 +86,9 @@ fn a_shot_brings_objects_camera_light_and_frames_and_none_is_saved() {
     assert_eq!(names(&again), names(&shot));
     assert_eq!(again.scene.lights, shot.scene.lights);
     assert_eq!(save::to_ron(&again.scene), text);
+    // Two nodes of one mesh share it.
+    let mesh = |index: usize| &shot.meshes[&shot.scene.objects[index].mesh];
+    assert!(Arc::ptr_eq(mesh(0), mesh(2)) && !Arc::ptr_eq(mesh(0), mesh(1)));
     // It is painted.
     let painting = prepare(Arc::new(shot)).unwrap();
     let frame = painting.at(0.0, &FrameOptions::new([320, 180]));

@@ -17,7 +17,7 @@ pub struct Node<'a> {
     pub turn_deg: f32,
 }
 
-/// Writes a shot of two seconds: these nodes, a camera at (0, 0, 6) that looks down −Z, and a sun. Keys are linear.
+/// Writes a shot of two seconds: these nodes (those of one mesh share it), a camera at (0, 0, 6) that looks down −Z, and a sun. Keys are linear.
 pub fn write(path: &Path, nodes: &[Node<'_>]) {
     let mut bin = Vec::new();
     let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -37,14 +37,23 @@ pub fn write(path: &Path, nodes: &[Node<'_>]) {
     };
     let (mut meshes, mut list, mut channels, mut samplers) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let times = add(&[0.0, 2.0], "SCALAR", 1);
-    let mut indices = Vec::new();
+    let (mut indices, mut mesh_of_node) = (Vec::new(), Vec::new());
     for (index, node) in nodes.iter().enumerate() {
-        let flat = |list: &[glam::Vec3]| list.iter().flat_map(|at| at.to_array()).collect::<Vec<f32>>();
-        let position = add(&flat(&node.mesh.positions), "VEC3", 3);
-        let normal = add(&flat(&node.mesh.normals), "VEC3", 3);
-        indices.push(node.mesh.triangles.iter().flatten().copied().collect::<Vec<u32>>());
-        meshes.push(json!({ "primitives": [{ "attributes": { "POSITION": position, "NORMAL": normal } }] }));
-        list.push(json!({ "name": node.name, "mesh": index, "translation": node.translation }));
+        let known = nodes[..index].iter().position(|other| std::ptr::eq(other.mesh, node.mesh));
+        mesh_of_node.push(match known {
+            Some(other) => mesh_of_node[other],
+            None => {
+                let flat =
+                    |list: &[glam::Vec3]| list.iter().flat_map(|at| at.to_array()).collect::<Vec<f32>>();
+                let position = add(&flat(&node.mesh.positions), "VEC3", 3);
+                let normal = add(&flat(&node.mesh.normals), "VEC3", 3);
+                indices.push(node.mesh.triangles.iter().flatten().copied().collect::<Vec<u32>>());
+                let attributes = json!({ "POSITION": position, "NORMAL": normal });
+                meshes.push(json!({ "primitives": [{ "attributes": attributes }] }));
+                meshes.len() - 1
+            }
+        });
+        list.push(json!({ "name": node.name, "mesh": mesh_of_node[index], "translation": node.translation }));
         let (sin, cos) = (0.5 * node.turn_deg.to_radians()).sin_cos();
         let turn = add(&[0.0, 0.0, 0.0, 1.0, 0.0, sin, 0.0, cos], "VEC4", 4);
         samplers.push(json!({ "input": times, "output": turn }));

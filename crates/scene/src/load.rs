@@ -90,7 +90,8 @@ pub fn load_brush(path: &Path) -> Result<Texture, Report> {
 /// Where the file cannot be used; all its problems, warnings included.
 pub fn load_mesh(path: &Path, folders: &AssetFolders) -> Result<(MeshFile, Vec<Problem>), Report> {
     source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
-    MeshReader::default().read(path, None, folder_of(path), folders)
+    let (mesh, warnings) = MeshReader::default().read(path, None, folder_of(path), folders)?;
+    Ok((Arc::unwrap_or_clone(mesh), warnings))
 }
 
 fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
@@ -150,7 +151,7 @@ fn finish(
     path: &Path,
     parsed: Parsed,
     options: &LoadOptions,
-    known_mesh: Option<(MeshFile, Vec<Problem>)>,
+    known_mesh: Option<(Arc<MeshFile>, Vec<Problem>)>,
 ) -> Result<LoadedScene, Report> {
     let written = known_mesh.is_none().then(|| parsed.located.clone());
     let (Parsed { mut scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
@@ -176,11 +177,10 @@ fn finish(
     let readers = Readers {
         mesh: &|name| {
             let is_known = known_name.as_deref() == Some(name);
-            let read = match known_mesh.borrow_mut().take_if(|_| is_known) {
+            match known_mesh.borrow_mut().take_if(|_| is_known) {
                 Some(mesh) => Ok(mesh),
                 None => read_mesh(&reader, path, name, &options.folders),
-            };
-            read.map(shared)
+            }
         },
         texture: &|name| read_texture(path, name, &options.folders).map(shared),
         brush: &|name| read_brush(path, name, &options.folders).map(shared),
@@ -319,7 +319,7 @@ fn read_mesh(reader: &MeshReader, scene: &Path, name: &str, folders: &AssetFolde
                 format!("there are {:?} and {:?}", built_in_mesh::ALL[0], built_in_mesh::ALL[1]),
             )])
         };
-        return built_in_mesh::of_name(name).map(|mesh| (mesh, Vec::new())).ok_or_else(unknown);
+        return built_in_mesh::of_name(name).map(|mesh| (Arc::new(mesh), Vec::new())).ok_or_else(unknown);
     }
     let root = folder_of(scene);
     let (file, node) = mesh_format::file_and_node(name);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::assets::AssetFolders;
-use crate::gltf::{self, Shared};
+use crate::gltf::{self, InstanceKey, Shared};
 use crate::mesh_file::MeshFile;
 use crate::obj;
 use crate::problem::{Problem, Report};
@@ -15,8 +15,8 @@ use crate::texture;
 /// What stands between a mesh file's name and the name of a node in it: `props.glb#Lamp`.
 const NODE: char = '#';
 
-/// A mesh that was read, with the warnings.
-pub type MeshRead = Result<(MeshFile, Vec<Problem>), Report>;
+/// A mesh that was read, with the warnings. Nodes that show the same mesh at the same stretch share it in memory.
+pub type MeshRead = Result<(Arc<MeshFile>, Vec<Problem>), Report>;
 
 /// Endings of mesh files, in small letters.
 pub const ENDINGS: [&str; 3] = ["obj", "gltf", "glb"];
@@ -63,20 +63,27 @@ pub fn name_of_node(file: &str, node: &str) -> String {
 #[derive(Default)]
 pub(crate) struct MeshReader {
     open: RefCell<BTreeMap<PathBuf, Shared>>,
+    instances: RefCell<BTreeMap<(PathBuf, InstanceKey), Arc<MeshFile>>>,
 }
 
 impl MeshReader {
     /// Reads a mesh file, or one node of it.
     pub fn read(&self, path: &Path, node: Option<&str>, root: &Path, folders: &AssetFolders) -> MeshRead {
         if !gltf::is_gltf(path) {
-            return obj::read(path, root, folders);
+            return obj::read(path, root, folders).map(|(mesh, warnings)| (Arc::new(mesh), warnings));
         }
         let (file, warnings) = self.open(path, root, folders)?;
-        let mesh = match node {
-            Some(node) => file.of_node(node),
-            None => file.whole(),
+        let Some(node) = node else { return file.whole().map(|mesh| (Arc::new(mesh), warnings)) };
+        let key = file.instance_key(node).map(|key| (path.to_owned(), key));
+        let known = key.as_ref().and_then(|key| self.instances.borrow().get(key).cloned());
+        let mesh = match known {
+            Some(mesh) => mesh,
+            None => Arc::new(file.of_node(node)?),
         };
-        mesh.map(|mesh| (mesh, warnings))
+        if let Some(key) = key {
+            self.instances.borrow_mut().insert(key, Arc::clone(&mesh));
+        }
+        Ok((mesh, warnings))
     }
 
     /// A glTF file; its warnings come with the first use.

@@ -132,6 +132,15 @@ impl GltfFile {
         self.gltf.nodes.iter().position(|node| node.name == name)
     }
 
+    /// What a node's mesh depends on; `None` where that is more than the mesh of the file and its stretch.
+    pub fn instance_key(&self, name: &str) -> Option<InstanceKey> {
+        let index = self.node(name)?;
+        let node = &self.gltf.nodes[index];
+        let is_plain = node.skin.is_none() && node.weights.is_none() && node.instances.is_none();
+        let stretch = self.stretch(index).to_cols_array().map(f64::to_bits);
+        node.mesh.filter(|_| is_plain).map(|mesh| (mesh, stretch))
+    }
+
     /// What is applied to the mesh of a node: the stretch of its place in the world at rest. Nothing for a skinned one, which stands
     /// where its joints put it.
     pub fn stretch(&self, node: usize) -> DMat3 {
@@ -188,6 +197,9 @@ pub fn is_gltf(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     matches!(ending.as_deref(), Some("gltf" | "glb"))
 }
+
+/// A mesh of the file, and the bits of the stretch that is applied to it.
+pub(crate) type InstanceKey = (usize, [u64; 9]);
 
 /// Shared by all who name the file in one scene.
 pub(crate) type Shared = Arc<GltfFile>;

@@ -37,7 +37,7 @@ impl LoadedScene {
         let readers = Readers {
             mesh: &|name| match self.meshes.get(name) {
                 Some(mesh) => Ok((Arc::clone(mesh), Vec::new())),
-                None => read_mesh(&reader, path, name, folders).map(shared),
+                None => read_mesh(&reader, path, name, folders),
             },
             texture: &|name| match self.textures.get(name) {
                 Some(texture) => Ok((Arc::clone(texture), Vec::new())),

@@ -8,9 +8,9 @@ use crate::check;
 use crate::document::Scene;
 use crate::limits;
 use crate::mesh_file::{MeshFile, Texture};
+use crate::mesh_format::MeshRead;
 use crate::problem::{Problem, Report};
 
-pub(super) type MeshRead = Result<(Arc<MeshFile>, Vec<Problem>), Report>;
 pub(super) type TextureRead = Result<(Arc<Texture>, Vec<Problem>), Problem>;
 
 /// How the files of one scene are read. Names are as the document writes them.

@@ -182,12 +182,10 @@ impl<'a> FileCache<'a> {
 }
 
 fn mesh(path: &Path, name: &str, options: &LoadOptions) -> Read<MeshFile> {
-    read_mesh(&MeshReader::default(), path, name, &options.folders).map(super::super::shared).map_err(
-        |report| {
-            let fatal = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
-            fatal.cloned().unwrap_or_else(|| super::error_in(path, None, "the mesh cannot be used", ""))
-        },
-    )
+    read_mesh(&MeshReader::default(), path, name, &options.folders).map_err(|report| {
+        let fatal = report.0.iter().find(|problem| problem.severity.is_fatal()).or(report.0.first());
+        fatal.cloned().unwrap_or_else(|| super::error_in(path, None, "the mesh cannot be used", ""))
+    })
 }
 
 /// The files in a folder and in the folders below it, as paths relative to it, sorted; none if there are too many.
