@@ -11,6 +11,7 @@ mod bench;
 mod counted;
 mod docs;
 mod floor;
+mod gltf_loading;
 mod growth;
 mod inputs;
 mod live;

@@ -7,8 +7,8 @@
 
 use crate::bench::Bench;
 use crate::{
-    growth, live, loading, memory, neighbours, noise_displace, paper_scenes, sampling, sequence, solving,
-    stroke_pass,
+    gltf_loading, growth, live, loading, memory, neighbours, noise_displace, paper_scenes, sampling,
+    sequence, solving, stroke_pass,
 };
 
 /// A part of the benchmark.
@@ -37,6 +37,7 @@ pub const PARTS: &[Part] = &[
         solving::run,
     ),
     part("loading", "a mesh file of a million triangles, beside tobj", loading::run),
+    part("loading_gltf", "a glTF file of a million triangles, beside gltf", gltf_loading::run),
     part("paper_scenes", "table 2 of the source paper, measured again", paper_scenes::run),
     part("memory", "bytes per particle, in playback and while preparing", memory::run),
     part("stroke_pass", "laying strokes, beside a bare draw of the same", stroke_pass::run),

@@ -25,6 +25,8 @@ enum Place {
     Libraries,
     /// In a folder of `PATH`.
     Programs,
+    /// Anywhere: `files` are whole paths.
+    Paths,
 }
 
 /// A library or a program that has to be there, and the Debian package that brings it.
@@ -84,8 +86,17 @@ const WINDOW_TESTS: &[Need] = &[
 /// What the tests of movies need.
 const MOVIE_TESTS: &[Need] = &[program_of("ffmpeg", &["ffmpeg"])];
 
+/// Models of others, for the tests of readers.
+const MODELS: &[Need] = &[Need {
+    what: "the models of assimp",
+    package: "assimp-testmodels",
+    place: Place::Paths,
+    files: &["/usr/share/assimp/models/glTF2"],
+    retired: false,
+}];
+
 /// What `cargo xtask test` and `ci` make sure of.
-pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS, MOVIE_TESTS];
+pub const FOR_TESTS: &[&[Need]] = &[TESTS, WINDOW_TESTS, MOVIE_TESTS, MODELS];
 
 /// Makes sure that everything in `needs` is there, or says how to get it.
 pub fn ensure(root: &Path, needs: &[&[Need]], install: Install) -> anyhow::Result<()> {
@@ -174,8 +185,10 @@ fn program(name: &str) -> Option<PathBuf> {
 /// Whether the library or program is there: a program in a folder of `PATH`, a library in one of `folders` or in its
 /// `dri` folder.
 fn is_there(need: &Need, folders: &[PathBuf]) -> bool {
-    if need.place == Place::Programs {
-        return need.files.iter().any(|name| program(name).is_some());
+    match need.place {
+        Place::Programs => return need.files.iter().any(|name| program(name).is_some()),
+        Place::Paths => return need.files.iter().any(|path| Path::new(path).exists()),
+        Place::Libraries => {}
     }
     folders.iter().flat_map(|folder| [folder.clone(), folder.join("dri")]).any(|folder| {
         let Ok(entries) = std::fs::read_dir(folder) else { return false };

@@ -29,7 +29,7 @@ pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> 
         lights.ambient_below = Vec3::new(0.50, 0.36, 0.24) * 0.45;
         return lights;
     }
-    for light in scene.lights.iter().map(|light| motion::light_at(scene, light, frame)) {
+    for light in motion::lights_at(scene, frame) {
         let radiance = radiance(light.color, light.intensity);
         match light.kind {
             LightKind::Sun => lights.suns.push(SunLight {

@@ -12,7 +12,7 @@ use impasto_gltf::Posed;
 use crate::document::{CameraKey, Lens, Object, ObjectKey, Reference, Scene};
 use span::Span;
 
-pub use values::{background_at, light_at, stroke_key_at};
+pub use values::{background_at, light_at, lights_at, stroke_key_at};
 
 /// The camera at one frame.
 #[derive(Clone, Debug, PartialEq)]

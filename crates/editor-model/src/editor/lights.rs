@@ -36,7 +36,7 @@ impl Editor {
             return Vec::new();
         }
         let (middle, frame, scene) = (self.middle(), self.session.frame, &self.document.shown().scene);
-        let lights = scene.lights.iter().map(|light| motion::light_at(scene, light, frame));
+        let lights = motion::lights_at(scene, frame).into_iter();
         let place = |light: Light| Some(LightPlace { position: place_of(&light, middle)?, light });
         lights.filter_map(place).collect()
     }

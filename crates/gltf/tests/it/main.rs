@@ -6,4 +6,3 @@ mod forms;
 mod lies;
 mod motion;
 mod peers;
-mod speed;

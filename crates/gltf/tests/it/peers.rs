@@ -1,4 +1,5 @@
-//! The files of Debian's `assimp-testmodels` beside the `gltf` crate. By hand: `cargo test -- --ignored testmodels`.
+//! The files of Debian's `assimp-testmodels` beside the `gltf` crate. Skipped where the package is not installed;
+//! `cargo xtask test` installs it.
 
 use std::path::{Path, PathBuf};
 
@@ -37,13 +38,14 @@ fn triangles_of_peer(path: &Path) -> Option<usize> {
 }
 
 #[test]
-#[ignore = "needs the package assimp-testmodels"]
 fn testmodels_have_as_many_triangles() {
     let mut paths = Vec::new();
     files(Path::new("/usr/share/assimp/models/glTF2"), &mut paths);
     paths.sort();
-    assert!(!paths.is_empty(), "the package is not installed");
-    let mut differ = 0;
+    if paths.is_empty() {
+        return eprintln!("skipped: the package assimp-testmodels is not installed");
+    }
+    let (mut differ, mut equal) = (0, 0);
     for path in paths {
         let peer = triangles_of_peer(&path);
         let own = read_path(&path);
@@ -55,10 +57,11 @@ fn testmodels_have_as_many_triangles() {
             Ok((_, warnings)) => warnings.first().map_or(String::new(), ToString::to_string),
             Err(findings) => findings[0].to_string(),
         };
+        equal += usize::from(peer.is_some() && peer == count);
         if peer != count {
             differ += usize::from(peer.is_some() && count.is_some());
             eprintln!("{}: gltf {peer:?}, here {count:?} {why}", path.display());
         }
     }
-    assert_eq!(differ, 0);
+    assert!(differ == 0 && equal >= 30, "{differ} {equal}");
 }

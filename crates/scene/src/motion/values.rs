@@ -16,14 +16,28 @@ pub fn background_at(scene: &Scene, frame: f64) -> Color {
         .map_or(scene.background, |span| mixed(&span, keys[span.left].color, keys[span.right].color))
 }
 
+/// The lights of a scene at a frame, as [`light_at`] gives each. The shot is evaluated once.
+pub fn lights_at(scene: &Scene, frame: f64) -> Vec<Light> {
+    let of_shot = scene.stage.shot.as_ref().map(|shot| (shot, shot.at(frame / scene.timeline.fps)));
+    let at_frame = |light: &Light| match &of_shot {
+        Some((shot, posed)) if light.keys.is_empty() => shot.light(light, posed),
+        _ => keyed(light, frame),
+    };
+    scene.lights.iter().map(at_frame).collect()
+}
+
 /// A light of a scene at a frame: its values are those of that moment, and it has no keys. Without keys, a light of the shot is as the
 /// shot has it then.
 pub fn light_at(scene: &Scene, light: &Light, frame: f64) -> Light {
-    let Some(span) = Span::at(&light.keys, frame) else {
-        let shot = scene.stage.shot.as_ref();
-        let posed = shot.map(|shot| shot.light(light, &shot.at(frame / scene.timeline.fps)));
-        return posed.unwrap_or_else(|| light.clone());
-    };
+    match scene.stage.shot.as_ref().filter(|_| light.keys.is_empty()) {
+        Some(shot) => shot.light(light, &shot.at(frame / scene.timeline.fps)),
+        None => keyed(light, frame),
+    }
+}
+
+/// A light as its keys have it at a frame.
+fn keyed(light: &Light, frame: f64) -> Light {
+    let Some(span) = Span::at(&light.keys, frame) else { return light.clone() };
     let still = Light { keys: Vec::new(), ..light.clone() };
     let stated = Stated { keys: &light.keys, span: &span };
     Light {

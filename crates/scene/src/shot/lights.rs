@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use impasto_core::color::srgb_from_linear;
-use impasto_gltf::{LightKind as ShotKind, LightValues, Posed};
+use impasto_gltf::{LightKind as ShotKind, LightProperty, LightValues, Posed, Target};
 
 use super::Shot;
 use crate::document::{Color, Light, LightKind};
@@ -92,33 +92,23 @@ impl Shot {
         lit
     }
 
-    /// Blender 5.0 writes keys of the strength of point and spot lights without the 1/4π of the light itself. Where that shows (at some
-    /// frame a key is 4π times the light at rest, and at none as it), the keys are brought down to the light.
+    /// Blender 5.0 writes keys of the strength of point and spot lights without the 1/4π of the light itself. Where that shows (one of
+    /// the keys is 4π times the light at rest, and none is as it), the keys are brought down to the light.
     pub(super) fn mend_light_keys(&mut self, odd: &mut Vec<[String; 2]>) {
         const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
-        const RATES: [f64; 4] = [24.0, 25.0, 30.0, 60.0];
-        const MOST_FRAMES: f64 = 5000.0;
-        let Some([first, last]) = self.file.animator.span_s().map(|span| span.map(f64::from)) else { return };
-        let is_flat = |light: usize| self.file.gltf.lights[light].kind != ShotKind::Directional;
-        let lights: Vec<usize> =
-            self.light_nodes().map(|(_, light)| light).filter(|&light| is_flat(light)).collect();
-        let mut seen = vec![[false; 2]; self.file.gltf.lights.len()];
-        for rate in RATES.into_iter().filter(|_| !lights.is_empty()) {
-            let frames = ((last - first) * rate).min(MOST_FRAMES) as usize;
-            for frame in 0..=frames {
-                let posed = self.file.animator.pose(first + frame as f64 / rate);
-                for &light in &lights {
-                    let ratio = posed.lights[light].intensity / self.file.rest.lights[light].intensity;
-                    seen[light][0] |= (ratio - 1.0).abs() < 1e-3;
-                    seen[light][1] |= (ratio / FOUR_PI - 1.0).abs() < 1e-3;
-                }
+        let is_near = |value: f64, wanted: f64| (value / wanted - 1.0).abs() < 1e-3;
+        let gltf = &self.file.gltf;
+        for track in gltf.animations.iter().flat_map(|animation| &animation.tracks) {
+            let Target::Light(index, LightProperty::Intensity) = track.target else { continue };
+            let light = &gltf.lights[index];
+            let has = |wanted: f64| track.values.iter().any(|&value| is_near(f64::from(value), wanted));
+            let rest = light.values.intensity;
+            if light.kind == ShotKind::Directional || has(rest) || !has(FOUR_PI * rest) {
+                continue;
             }
-        }
-        for light in lights.into_iter().filter(|&light| seen[light] == [false, true]) {
-            self.key_factors[light] = 1.0 / FOUR_PI;
-            let name = &self.file.gltf.lights[light].name;
+            self.key_factors[index] = 1.0 / FOUR_PI;
             odd.push([
-                format!("the keys of the light {name:?} are 4π times as strong as the light itself"),
+                format!("the keys of the light {:?} are 4π times as strong as the light itself", light.name),
                 "they are brought down to it; Blender 5.0 writes them so".to_owned(),
             ]);
         }

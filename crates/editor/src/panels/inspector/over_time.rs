@@ -23,46 +23,44 @@ struct Row {
     of: fn(&mut StrokesKey) -> &mut f64,
 }
 
+/// What the factors have in common, and the shares.
+const FACTOR: Row = Row {
+    label: "",
+    effect: "",
+    unit: "\u{d7}",
+    file_per_shown: 1.0,
+    range: [0.05, 20.0],
+    step: (0.05, 2),
+    usual: 1.0,
+    of: |key| &mut key.size,
+};
+const SHARE: Row = Row { unit: "%", file_per_shown: 0.01, range: [0.0, 100.0], step: (5.0, 0), ..FACTOR };
+
 const ROWS: [Row; 4] = [
     Row {
         label: "Size",
         effect: "Multiplies length and width at this frame; strokes come and go by rank.",
-        unit: "\u{d7}",
-        file_per_shown: 1.0,
-        range: [0.05, 20.0],
-        step: (0.05, 2),
-        usual: 1.0,
-        of: |key| &mut key.size,
+        ..FACTOR
     },
     Row {
         label: "Coverage",
         effect: "Multiplies how many strokes lie over each other at this frame.",
-        unit: "\u{d7}",
-        file_per_shown: 1.0,
         range: [0.0, 4.0],
-        step: (0.05, 2),
-        usual: 1.0,
         of: |key| &mut key.coverage,
+        ..FACTOR
     },
     Row {
         label: "Dryness",
         effect: "Dries the brushes at this frame: 100 % leaves only traces.",
-        unit: "%",
-        file_per_shown: 0.01,
-        range: [0.0, 100.0],
-        step: (5.0, 0),
         usual: 0.0,
         of: |key| &mut key.dryness,
+        ..SHARE
     },
     Row {
         label: "Palette mix",
         effect: "How far colours keep to the palette at this frame.",
-        unit: "%",
-        file_per_shown: 0.01,
-        range: [0.0, 100.0],
-        step: (5.0, 0),
-        usual: 1.0,
         of: |key| &mut key.palette_mix,
+        ..SHARE
     },
 ];
 
