@@ -1,5 +1,7 @@
 // From each pixel to where its surface point is in another picture: offset in px (Y up), depth along the gaze there, body.
 // Both positions are interpolated in the same way, so that a body at rest moves by exactly 0.
+#include "shared/cutout.glsl"
+
 in vec4 clip_now;
 in vec4 clip_then;
 in float depth_then;
@@ -10,6 +12,7 @@ uniform float body_id;
 layout(location = 0) out vec4 motion;
 
 void main() {
+    cut_out();
     // A point behind the eye has no place in the picture: its depth is 0.
     bool in_front = clip_then.w > 0.0;
     vec2 offset = clip_then.xy / clip_then.w - clip_now.xy / clip_now.w;

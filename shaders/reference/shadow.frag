@@ -1,2 +1,6 @@
 // Writes depth only.
-void main() {}
+#include "shared/cutout.glsl"
+
+void main() {
+    cut_out();
+}

@@ -1,4 +1,6 @@
 // The surface before it is lit: colour, normal, depth and body.
+#include "shared/cutout.glsl"
+
 in vec3 position_in_world;
 in vec3 normal_in_world;
 in float depth_along_gaze;
@@ -17,6 +19,7 @@ layout(location = 1) out vec4 normal;           // and gloss
 layout(location = 2) out vec2 depth_and_id;
 
 void main() {
+    cut_out();
     vec3 towards_eye = eye.xyz - position_in_world * eye.w;
     vec3 n = normalize(normal_in_world);
     albedo_and_lit = vec4(albedo * tint * texture(albedo_texture, texture_at).rgb, is_lit);

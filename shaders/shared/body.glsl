@@ -1,5 +1,6 @@
 // The vertices of a body, as its morph and its noise put them. Every vertex shader that draws bodies takes them from here;
-// `body_program.rs` sets the uniforms. With NOISE_DISPLACE the noise takes part.
+// `body_program.rs` sets the uniforms. With NOISE_DISPLACE the noise takes part;
+// with CUTOUT a texture cuts holes.
 #include "noise_displace/displace.glsl"
 layout(location = 0) in vec3 position_in_model;
 layout(location = 1) in vec3 normal_in_model;
@@ -14,6 +15,9 @@ uniform float morph;             // how far the surface has turned into its targ
 uniform vec4 lookup_u;           // rows: where in the noise a place looks
 uniform vec4 lookup_v;
 uniform float moves_normals;     // 1: normals turn with the displaced surface; 0: they stay
+#endif
+#ifdef CUTOUT
+out vec2 cut_at;                 // for shared/cutout.glsl
 #endif
 
 // Model space.
@@ -30,6 +34,9 @@ BodyVertex morphed(float share) {
 // The vertex as it is in this picture.
 BodyVertex body_vertex() {
     BodyVertex vertex = morphed(morph);
+#ifdef CUTOUT
+    cut_at = uv;
+#endif
 #ifdef NOISE_DISPLACE
     mat2x4 lookup = mat2x4(lookup_u, lookup_v);
     vec3 turned = displaced_normal(vertex.position, vertex.normal, lookup);

@@ -1,4 +1,6 @@
 // Depth and body of a surface. Only the nearest surface is kept, so that one sees through a glowing body only once.
+#include "shared/cutout.glsl"
+
 in float depth_along_gaze;
 
 uniform float body_id;
@@ -6,5 +8,6 @@ uniform float body_id;
 out vec2 depth_and_id;
 
 void main() {
+    cut_out();
     depth_and_id = vec2(depth_along_gaze, body_id);
 }

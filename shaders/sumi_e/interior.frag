@@ -1,5 +1,6 @@
 // Pass 2 of the source: light from its own direction, put through the ramp of four tones.
 #include "sumi_e/ramp.glsl"
+#include "shared/cutout.glsl"
 in vec3 normal_in_view;
 
 uniform vec3 to_light;           // unit, in the eye's space
@@ -7,6 +8,7 @@ uniform vec3 to_light;           // unit, in the eye's space
 out vec4 tone;
 
 void main() {
+    cut_out();
     float diffuse = clamp(dot(normal_in_view, to_light), 0.0, 1.0);
     tone = vec4(vec3(tone_at(diffuse)), 1.0);
 }

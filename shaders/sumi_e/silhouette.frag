@@ -1,4 +1,5 @@
 // Pass 0 of the source: light from the eye, reduced to its middle values.
+#include "shared/cutout.glsl"
 in vec3 normal_in_view;
 
 uniform vec2 silhouette;         // black at the first cosine, white at the second
@@ -6,6 +7,7 @@ uniform vec2 silhouette;         // black at the first cosine, white at the seco
 out vec4 lit;
 
 void main() {
+    cut_out();
     // The source is left-handed: its eye lies along −Z, ours along +Z.
     float diffuse = clamp(dot(normal_in_view, vec3(0.0, 0.0, 1.0)), 0.0, 1.0);
     float t = clamp((diffuse - silhouette.x) / (silhouette.y - silhouette.x), 0.0, 1.0);

@@ -343,3 +343,133 @@ fn colours_of_vertices_are_painted() {
         assert!(left[0] > 2.0 * left[2] && right[2] > 2.0 * right[0], "{style}: {left:?} {right:?}");
     }
 }
+
+/// A shot of one quad before the eye that fills its picture; its texture, of 2 by 1 pixels, is green at the left and has no alpha at the
+/// right. The quad hides from one second to the next, in an animation "Blink"; another, "Slide", moves it.
+fn write_card(path: &Path, alpha_mode: &str, wrap_code: u32) {
+    let mut bin = Vec::new();
+    let corners = [[-1.0f32, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    bin.extend(corners.iter().flat_map(|[x, y]| [*x, *y, 0.0]).flat_map(f32::to_le_bytes));
+    // The right half of the quad lies beyond the texture.
+    bin.extend(
+        [[0.0f32, 1.0], [2.0, 1.0], [2.0, 0.0], [0.0, 0.0]].iter().flatten().flat_map(|c| c.to_le_bytes()),
+    );
+    bin.extend([0u16, 1, 2, 0, 2, 3].iter().flat_map(|corner| corner.to_le_bytes()));
+    bin.extend([0.0f32, 1.0, 2.0].iter().flat_map(|time| time.to_le_bytes()));
+    bin.extend([1u8, 0, 1, 0]);
+    bin.extend(
+        [0.0f32, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 0.0, 0.0].iter().flat_map(|number| number.to_le_bytes()),
+    );
+    let mut png = Vec::new();
+    let pixels = [0u8, 200, 0, 255, 0, 0, 255, 0];
+    let mut encoder = png::Encoder::new(&mut png, 2, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+    let picture = bin.len();
+    bin.extend(&png);
+    let root = serde_json::json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+        "nodes": [{ "name": "Card", "mesh": 0 }, { "name": "Cam", "camera": 0, "translation": [0, 0, 2.1] }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "indices": 2, "material": 0 }] }],
+        "materials": [{ "name": "Leaf", "alphaMode": alpha_mode, "extensions": { "KHR_materials_unlit": {} },
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }],
+        "textures": [{ "source": 0, "sampler": 0 }], "samplers": [{ "wrapS": wrap_code, "magFilter": 9728 }],
+        "images": [{ "bufferView": 6, "mimeType": "image/png" }],
+        "extensionsUsed": ["KHR_materials_unlit", "KHR_animation_pointer", "KHR_node_visibility"],
+        "animations": [
+            { "name": "Blink", "samplers": [{ "input": 3, "output": 4, "interpolation": "STEP" }],
+              "channels": [{ "sampler": 0, "target": { "path": "pointer", "extensions": { "KHR_animation_pointer": {
+                "pointer": "/nodes/0/extensions/KHR_node_visibility/visible" } } } }] },
+            { "name": "Slide", "samplers": [{ "input": 3, "output": 5, "interpolation": "STEP" }],
+              "channels": [{ "sampler": 0, "target": { "node": 0, "path": "translation" } }] },
+        ],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0] },
+            { "bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2" },
+            { "bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR" },
+            { "bufferView": 3, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [2] },
+            { "bufferView": 4, "componentType": 5121, "count": 3, "type": "SCALAR" },
+            { "bufferView": 5, "componentType": 5126, "count": 3, "type": "VEC3" },
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 48 }, { "buffer": 0, "byteOffset": 48, "byteLength": 32 },
+            { "buffer": 0, "byteOffset": 80, "byteLength": 12 }, { "buffer": 0, "byteOffset": 92, "byteLength": 12 },
+            { "buffer": 0, "byteOffset": 104, "byteLength": 3 }, { "buffer": 0, "byteOffset": 108, "byteLength": 36 },
+            { "buffer": 0, "byteOffset": picture, "byteLength": png.len() },
+        ],
+        "buffers": [{ "byteLength": bin.len() }],
+        "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.5, "znear": 0.1, "zfar": 10.0 } }],
+    });
+    std::fs::write(path, glb::bytes(&root, bin)).unwrap();
+}
+
+/// The share of painted pixels in each of four columns of a picture of this shot.
+fn painted(path: &Path, settings: &[(&str, &str)], frame_at: f64) -> [f64; 4] {
+    let mut options = LoadOptions::default();
+    options.overrides =
+        settings.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let painting =
+        prepare(Arc::new(load(path, &options).unwrap_or_else(|report| panic!("{report}")))).unwrap();
+    let frame = FrameOptions { transparent: true, ..FrameOptions::new([160, 90]) };
+    let picture = renderer(Driver::Egl).render(&painting.at(frame_at, &frame)).unwrap();
+    std::array::from_fn(|column| {
+        let columns = column * 40 + 4..column * 40 + 36;
+        let pixels = (10..80).flat_map(|row| columns.clone().map(move |at| row * 160 + at));
+        let count = pixels.clone().count() as f64;
+        pixels.map(|pixel| f64::from(picture.rgba8[4 * pixel + 3]) / 255.0).sum::<f64>() / count
+    })
+}
+
+#[test]
+fn alpha_cuts_holes_and_wrapping_goes_on_beyond_the_texture() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("card.glb");
+    let (repeat, mirror, clamp) = (10497, 33648, 33071);
+    let (full, none) = (0.97, 0.03);
+    for (mode, wrap, wanted) in [
+        ("OPAQUE", repeat, [true, true, true, true]),
+        ("MASK", repeat, [true, false, true, false]),
+        ("BLEND", mirror, [true, false, false, true]),
+        ("MASK", clamp, [true, false, false, false]),
+    ] {
+        write_card(&path, mode, wrap);
+        for style in ["Reference", "RotatingStrokes()"] {
+            let shares = painted(&path, &[("style", style)], 0.0);
+            for (share, wanted) in shares.into_iter().zip(wanted) {
+                assert!(
+                    if wanted { share > full } else { share < none },
+                    "{mode} {wrap} {style}: {shares:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn one_animation_of_several_plays_and_what_hides_is_hidden() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("card.glb");
+    write_card(&path, "OPAQUE", 10497);
+    let of_both: f64 = painted(&path, &[], 24.0).iter().sum();
+    assert!(of_both < 0.05, "hidden for a second: {of_both}");
+    let scene = home.path().join("s.ron");
+    let text = |animation: &str| {
+        format!(
+            "#![enable(implicit_some)]\n(version: 1, shot: \"card.glb\", timeline: (animation: \"{animation}\"))"
+        )
+    };
+    std::fs::write(&scene, text("Slide")).unwrap();
+    let slid: f64 = painted(&scene, &[], 24.0).iter().sum();
+    let [still, hidden, shown] = {
+        std::fs::write(&scene, text("Blink")).unwrap();
+        [0.0, 24.0, 48.0].map(|frame| painted(&scene, &[], frame).iter().sum::<f64>())
+    };
+    // Nine units aside, the card is out of the picture; the blink alone leaves it where it is.
+    assert!(slid < 0.05 && still > 3.8 && hidden < 0.05 && shown > 3.8, "{slid} {still} {hidden} {shown}");
+    std::fs::write(&scene, text("Blnk")).unwrap();
+    let told = loaded(&scene).warnings.iter().map(ToString::to_string).collect::<String>();
+    assert!(
+        told.contains("there is no animation \"Blnk\"") && told.contains("did you mean \"Blink\"?"),
+        "{told}"
+    );
+}

@@ -137,9 +137,10 @@ pub fn scene(objects: Vec<Object>) -> Scene {
         seed: 7,
         background: Color::default(),
         background_keys: Vec::new(),
+        exposure: 0.0,
         shot: None,
         stage: Default::default(),
-        timeline: Timeline { fps: 24.0, first: 0, last: 0 },
+        timeline: Timeline::default(),
         reference: Reference::Frame(0),
         further_references: Vec::new(),
         camera: Camera {
@@ -190,13 +191,7 @@ pub fn loaded(scene: Scene, meshes: impl IntoIterator<Item = TriangleMesh>) -> A
             let file = MeshFile {
                 mesh,
                 groups: vec!["whole".to_owned()],
-                materials: vec![Material {
-                    name: String::new(),
-                    color: [0.7, 0.4, 0.3],
-                    texture: None,
-                    gloss: 0.0,
-                    unlit: false,
-                }],
+                materials: vec![Material::plain(String::new(), [0.7, 0.4, 0.3])],
             };
             (object.mesh.clone(), Arc::new(file))
         })

@@ -111,6 +111,7 @@ pub(crate) fn head(scene: &Scene) -> Scene {
         shot: scene.shot.clone(),
         stage: scene.stage.clone(),
         timeline: scene.timeline.clone(),
+        exposure: scene.exposure,
         reference: scene.reference.clone(),
         further_references: scene.further_references.clone(),
         camera: scene.camera.clone(),

@@ -211,6 +211,7 @@ fn command(scene: &Scene, (kind, which, other, x, y): Dice) -> Command {
         )),
         37 => Command::Scene(match other % 4 {
             0 => SceneEdit::SetSize(640 + u32::from(which), 360),
+            1 if other % 8 == 1 => SceneEdit::SetExposure(f64::from(which) * 0.25),
             1 => SceneEdit::SetBackground(Color([0.2, 0.301, 0.4])),
             2 if other % 8 == 2 => {
                 SceneEdit::SetStyle(Style::SumiE(SumiE::default()), "Style: ink".to_owned())

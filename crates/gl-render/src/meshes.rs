@@ -45,6 +45,8 @@ pub(crate) struct Part {
     triangles: Vec<u32>,
     pub(crate) material: usize,
     pub(crate) texture: Rc<Texture>,
+    /// Where the texture's alpha is less than this, there is no surface.
+    pub(crate) cutoff: Option<f32>,
 }
 
 impl Part {
@@ -190,7 +192,9 @@ impl MeshCache {
             let first_index = parts.last().map_or(0, |part| part.first_index + part.index_count);
             let texture = self.texture(gpu, surface, material)?;
             let triangles = run.iter().map(|&triangle| triangle as u32).collect();
-            parts.push(Part { first_index, index_count: run.len() as u32 * 3, triangles, material, texture });
+            let cutoff = surface.materials.get(material).and_then(|material| material.cutoff);
+            let index_count = run.len() as u32 * 3;
+            parts.push(Part { first_index, index_count, triangles, material, texture, cutoff });
         }
         let mut vertex_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         vertex_buffer.upload(bytemuck::cast_slice(&vertices))?;
@@ -219,13 +223,18 @@ impl MeshCache {
     }
 
     fn texture(&self, gpu: &Gpu, surface: &BodySurface, material: usize) -> Result<Rc<Texture>, GlError> {
-        let picture = surface.materials.get(material).and_then(|material| material.texture.as_ref());
-        let Some(picture) = picture.filter(|_| !surface.mesh.uvs.is_empty()) else {
+        let material = surface.materials.get(material).filter(|_| !surface.mesh.uvs.is_empty());
+        let Some((material, picture)) =
+            material.and_then(|material| Some((material, material.texture.as_ref()?)))
+        else {
             return Ok(Rc::clone(&self.white));
         };
         // OBJ counts V from the bottom; the first row of a picture is its top.
         let width = picture.size_px[0] as usize;
-        let texels: Vec<[u8; 4]> = picture.rgba8.chunks(width).rev().flatten().copied().collect();
+        let mut texels: Vec<[u8; 4]> = picture.rgba8.chunks(width).rev().flatten().copied().collect();
+        if material.cutoff.is_some() {
+            color_of_holes(&mut texels);
+        }
         let limit = gpu.limits().max_side_px;
         if picture.size_px.iter().any(|&side| side > limit) {
             return Err(GlError::Resource {
@@ -234,6 +243,20 @@ impl MeshCache {
             });
         }
         let bytes = bytemuck::cast_slice(&texels);
-        Ok(Rc::new(Texture::with_driver_levels(gpu, Format::SrgbAlpha8, picture.size_px, bytes)?))
+        let texture = Texture::with_driver_levels(gpu, Format::SrgbAlpha8, picture.size_px, bytes)?;
+        texture.set_sampling(material.sampling);
+        Ok(Rc::new(texture))
     }
+}
+
+/// Gives texels without alpha the mean colour of the others, so that what a file hides there does not fringe the borders.
+fn color_of_holes(texels: &mut [[u8; 4]]) {
+    let mut sum = [0u64; 3];
+    let mut count = 0;
+    for texel in texels.iter().filter(|texel| texel[3] > 0) {
+        (0..3).for_each(|channel| sum[channel] += u64::from(texel[channel]));
+        count += 1;
+    }
+    let [red, green, blue] = sum.map(|sum| (sum / count.max(1)) as u8);
+    texels.iter_mut().filter(|texel| texel[3] == 0).for_each(|texel| *texel = [red, green, blue, 0]);
 }

@@ -80,7 +80,7 @@ impl MotionPass {
             for part in &mesh.parts {
                 let bound = self
                     .program
-                    .bind(body, tiles)
+                    .bind(body, part, tiles)
                     .set("world_from_model_then", body_then.world_from_model)
                     .set("morph_then", body_then.morph)
                     .set("lookup_u_then", u)

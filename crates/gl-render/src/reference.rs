@@ -162,7 +162,7 @@ impl ReferencePass {
                 let is_lit = material.is_none_or(|material| !material.unlit);
                 let bound = self
                     .surface
-                    .bind(body, &self.tiles)
+                    .bind(body, part, &self.tiles)
                     .set("view_from_world", view.view_from_world)
                     .set("clip_from_view", view.clip_from_view)
                     .set("albedo", Vec3::from(albedo))

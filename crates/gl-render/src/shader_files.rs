@@ -39,6 +39,7 @@ pub(crate) const SHARED: &[ShaderFile] = shader_files![
     "shared/inverse_bilinear.glsl",
     "shared/stroke_shape.glsl",
     "shared/body.glsl",
+    "shared/cutout.glsl",
     "noise_displace/displace.glsl",
 ];
 

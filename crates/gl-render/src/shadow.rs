@@ -102,7 +102,7 @@ impl ShadowMap {
         self.gpu.begin_pass(&self.pass, state);
         for DrawnBody { body, mesh } in bodies.iter().filter(|drawn| casts_shadow(drawn.body)) {
             for part in &mesh.parts {
-                let bound = self.program.bind(body, tiles).set("shadow_from_world", shadow_from_world);
+                let bound = self.program.bind(body, part, tiles).set("shadow_from_world", shadow_from_world);
                 self.gpu.draw(bound, &mesh.array, part.vertices())?;
             }
         }

@@ -136,6 +136,13 @@ impl Animator {
         Ok((animator, warnings))
     }
 
+    /// Whether something is hidden or shown over time.
+    pub fn changes_visibility(&self) -> bool {
+        let drives =
+            |playable: &Playable| matches!(playable.track.target, Target::Node(_, NodeProperty::Visible));
+        self.tracks.iter().any(drives)
+    }
+
     fn at_rest(gltf: &Gltf) -> Self {
         let order = parents_first(&gltf.nodes);
         let parents: Vec<Option<usize>> = gltf.nodes.iter().map(|node| node.parent).collect();

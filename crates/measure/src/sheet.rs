@@ -54,8 +54,7 @@ fn mesh() -> MeshFile {
         material_of_triangle: vec![0, 0],
         ..TriangleMesh::default()
     };
-    let material =
-        Material { name: "sheet".to_owned(), color: [0.5; 3], texture: None, gloss: 0.0, unlit: false };
+    let material = Material::plain("sheet".to_owned(), [0.5; 3]);
     MeshFile { mesh, groups: vec!["sheet".to_owned()], materials: vec![material] }
 }
 

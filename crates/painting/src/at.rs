@@ -31,6 +31,7 @@ impl Painting {
         let view = PictureView { pose: camera.clone(), size_px: options.size_px };
         let poses = motion::poses_at(scene, frame);
         let shapes = self.shapes_at(frame);
+        let hidden = motion::hidden_at(scene, frame);
         Frame {
             size_px: options.size_px,
             px_scale: self.px_scale(options),
@@ -41,14 +42,14 @@ impl Painting {
                 .bodies
                 .iter()
                 .zip(poses.iter().zip(shapes))
-                .zip(&scene.objects)
-                .map(|((body, (&pose, shape)), object)| FrameBody {
+                .zip(scene.objects.iter().zip(hidden))
+                .map(|((body, (&pose, shape)), (object, hidden))| FrameBody {
                     is_backdrop: built_in_mesh::ALL.contains(&object.mesh.as_str()),
                     surface: Arc::clone(&body.surface),
                     world_from_model: glam::Mat4::from(pose.as_affine3()),
                     morph: shape.morph as f32,
                     noise: shape.noise,
-                    hidden: body.hidden,
+                    hidden,
                 })
                 .collect(),
             strokes: Vec::new(),

@@ -7,7 +7,7 @@ use impasto_core::TriangleMesh;
 use impasto_core::noise_displace::{Lookup, Tile, VertexNoise};
 use impasto_core::shells::Side;
 use impasto_scene::document::NoiseDisplace;
-use impasto_scene::mesh_file::Texture;
+use impasto_scene::mesh_file::{Sampling, Texture};
 use impasto_scene::morph::MorphTarget;
 
 /// A surface with its materials, in model space (static scale applied).
@@ -32,6 +32,10 @@ pub struct BodyMaterial {
     pub albedo: [f32; 3],
     /// Multiplies `albedo`; sRGB bytes.
     pub texture: Option<Arc<Texture>>,
+    /// How the texture is read.
+    pub sampling: Sampling,
+    /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1.
+    pub cutoff: Option<f32>,
     /// Whether it is shown as it is, without light or shadow.
     pub unlit: bool,
     /// Strength of highlights, 0 matt .. 1 glazed.

@@ -10,6 +10,7 @@ use crate::order::{OrderEntry, PaintingOrder};
 use crate::painting_view::{CoatView, MOST_GROWTH, PaintingView};
 use crate::recall::Recall;
 use crate::stroke::Candidate;
+use crate::surface::HOLE;
 
 /// How many candidates are read before their strokes are computed.
 const BATCH: usize = 64;
@@ -89,7 +90,7 @@ impl PaintingView<'_> {
         }
         let half_px = self.half_px.map(|half| half + most_reach_px);
         let bounds = Bounds { half_px, near_far: self.near_far, most_per_area };
-        if self.is_left_out(coat.coat.kind) || most_per_area <= 0.0 {
+        if coat.hidden || self.is_left_out(coat.coat.kind) || most_per_area <= 0.0 {
             return vec![0; coat.baked.len().div_ceil(PaintingOrder::WORD)];
         }
         coat.within(&bounds)
@@ -133,7 +134,8 @@ impl PaintingView<'_> {
         let (coat, index) = (&self.coats[entry.coat as usize], entry.particle as usize);
         let Some(bound) = &coat.presence_bounds[usize::from(region)] else { return false };
         let reach = bound.reach_px * coat.growth(index, self);
-        solved.area_px > 0.0
+        candidate.albedo_srgb8 != HOLE
+            && solved.area_px > 0.0
             && solved.area_px * bound.most_per_area[part] > index as f32
             && self.is_between(solved.depth)
             && solved.x_px.abs() < self.half_px[0] + reach

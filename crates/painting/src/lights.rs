@@ -16,9 +16,20 @@ fn radiance(color: Color, intensity: f64) -> Vec3 {
     Vec3::from(linear(color)) * intensity as f32
 }
 
+/// The lights of a scene at a frame, as bright as its exposure makes them.
+pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
+    let mut lights = unexposed(scene, frame, shadow_bounds);
+    let exposure = scene.exposure.exp2() as f32;
+    lights.suns.iter_mut().for_each(|sun| sun.radiance *= exposure);
+    lights.points.iter_mut().for_each(|point| point.radiance *= exposure);
+    lights.ambient_above *= exposure;
+    lights.ambient_below *= exposure;
+    lights
+}
+
 /// The lights of a scene at a frame. If it names none, they are a warm sun from the upper left front, cool light from above, and
 /// warm light from below.
-pub(crate) fn resolve(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
+fn unexposed(scene: &Scene, frame: f64, shadow_bounds: (Vec3, f32)) -> FrameLights {
     let mut lights = FrameLights { shadow_bounds, ..Default::default() };
     if scene.lights.is_empty() {
         lights.suns.push(SunLight {

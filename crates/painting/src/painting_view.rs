@@ -45,6 +45,8 @@ pub(crate) struct PaintingView<'a> {
 /// One coat in one view.
 pub(crate) struct CoatView<'a> {
     pub(crate) coat: &'a Coat,
+    /// Whether its body is hidden at this frame.
+    pub(crate) hidden: bool,
     /// The baked particles, moved with the surface where it has changed its shape.
     pub(crate) baked: Cow<'a, BakedParticles>,
     pub(crate) map: ScreenMap,
@@ -60,6 +62,7 @@ pub(crate) struct CoatView<'a> {
 
 /// One body at a frame, shared by its coats.
 struct PosedBody {
+    hidden: bool,
     world_from_model: DAffine3,
     shape: BodyShape,
     /// Where the vertices were when the coats were baked, and where they are now; computed when first asked for.
@@ -95,7 +98,13 @@ impl Painting {
         let bodies: Vec<PosedBody> = poses
             .into_iter()
             .zip(self.shapes_at(frame))
-            .map(|(world_from_model, shape)| PosedBody { world_from_model, shape, vertices: OnceCell::new() })
+            .zip(motion::hidden_at(self.scene(), frame))
+            .map(|((world_from_model, shape), hidden)| PosedBody {
+                hidden,
+                world_from_model,
+                shape,
+                vertices: OnceCell::new(),
+            })
             .collect();
         let px_scale = self.px_scale(options);
         let mut painting_view = PaintingView {
@@ -145,7 +154,18 @@ impl<'a> PaintingView<'a> {
         let presence_bounds =
             self.painting.presence_bounds(coat, &self.strokes_of_rule, self.px_scale, shown.is_some());
         let particle_view = ParticleView::new(&map);
-        CoatView { coat, baked, map, particle_view, world_from_model, shown, clip_views, presence_bounds }
+        let hidden = body.hidden;
+        CoatView {
+            coat,
+            hidden,
+            baked,
+            map,
+            particle_view,
+            world_from_model,
+            shown,
+            clip_views,
+            presence_bounds,
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use impasto_core::sampling::Particle;
 use impasto_core::shells::sides;
 use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::mesh_file::{MeshFile, Texture};
+use impasto_scene::mesh_file::{MeshFile, Sampling, Texture};
 use impasto_scene::morph::{self, MorphTarget};
 use rayon::prelude::*;
 
@@ -103,21 +103,25 @@ impl SurfaceInputs {
     }
 
     fn material_of(&self, from_file: &impasto_scene::mesh_file::Material) -> BodyMaterial {
-        match &self.material {
+        let over = self.material.as_ref();
+        let gloss = over.and_then(|over| over.gloss).map_or(from_file.gloss, |gloss| gloss as f32);
+        let is_unlit = over.is_some_and(|over| over.unlit);
+        match over {
             Some(over) if over.color.is_some() || self.texture.is_some() => BodyMaterial {
                 albedo: linear(over.color.unwrap_or(Color::white())),
                 texture: self.texture.clone(),
-                unlit: over.unlit,
-                gloss: over.gloss.map_or(from_file.gloss, |gloss| gloss as f32),
+                sampling: Sampling::default(),
+                cutoff: None,
+                unlit: is_unlit,
+                gloss,
             },
-            over => BodyMaterial {
+            _ => BodyMaterial {
                 albedo: linear(Color(from_file.color)),
                 texture: from_file.texture.clone(),
-                unlit: from_file.unlit || over.as_ref().is_some_and(|over| over.unlit),
-                gloss: over
-                    .as_ref()
-                    .and_then(|over| over.gloss)
-                    .map_or(from_file.gloss, |gloss| gloss as f32),
+                sampling: from_file.sampling,
+                cutoff: from_file.cutoff,
+                unlit: from_file.unlit || is_unlit,
+                gloss,
             },
         }
     }
@@ -222,10 +226,11 @@ impl BodySurface {
         let Some(material) = self.materials.get(material) else { return NO_MATERIAL };
         let mut albedo = material.albedo;
         if let (Some(texture), Some(uv)) = (&material.texture, particle.uv(&self.mesh)) {
-            let at = |value: f32, size: u32| ((value.rem_euclid(1.0) * size as f32) as u32).min(size - 1);
-            let [width, height] = texture.size_px;
-            let texel = at(uv.x, width) + (height - 1 - at(uv.y, height)) * width;
-            for (channel, byte) in albedo.iter_mut().zip(texture.rgba8[texel as usize]) {
+            let [red, green, blue, alpha] = texture.pixel(material.sampling, uv.to_array());
+            if material.cutoff.is_some_and(|cutoff| f32::from(alpha) / 255.0 < cutoff) {
+                return HOLE;
+            }
+            for (channel, byte) in albedo.iter_mut().zip([red, green, blue]) {
                 *channel *= linear_from_srgb(f32::from(byte) / 255.0);
             }
         }
@@ -236,11 +241,17 @@ impl BodySurface {
     }
 }
 
+/// Stands for the albedo where a texture cuts the surface out: no stroke lies there. The albedo of a surface has an A of 0 or 255.
+pub(crate) const HOLE: u32 = 0x0100_0000;
+
 /// The albedo of triangles without a material.
 const NO_MATERIAL: u32 = 0xffcc_cccc;
 
 /// A linear albedo in the form that [`BodySurface::albedo_srgb8`] gives.
 fn srgb8(material: &BodyMaterial, albedo: [f32; 3]) -> u32 {
+    if material.cutoff.is_some_and(|cutoff| cutoff > 1.0) {
+        return HOLE;
+    }
     let [r, g, b] = albedo.map(|channel| (srgb_from_linear(channel) * 255.0).round() as u32);
     let lit = if material.unlit { 0 } else { 255 };
     lit << 24 | b << 16 | g << 8 | r

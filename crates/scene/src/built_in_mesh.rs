@@ -43,13 +43,7 @@ pub fn of_name(name: &str) -> Option<MeshFile> {
         PATCH => (patch(), &[FLOOR]),
         _ => return None,
     };
-    let material = Material {
-        name: "ground".to_owned(),
-        color: [0.42, 0.40, 0.35],
-        texture: None,
-        gloss: 0.0,
-        unlit: false,
-    };
+    let material = Material::plain("ground".to_owned(), [0.42, 0.40, 0.35]);
     let groups = groups.iter().map(|&group| group.to_owned()).collect();
     Some(MeshFile { mesh, groups, materials: vec![material] })
 }

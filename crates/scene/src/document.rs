@@ -77,6 +77,9 @@ pub struct Scene {
     /// The camera and its keys. May be left out where the scene has a shot, which has one.
     #[serde(default)]
     pub camera: Camera,
+    /// Stops of light, from −16 to 16: each doubles the brightness of all lights.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub exposure: f64,
     /// Lights, at most 8 suns and 16 points; without any, a sun and a soft light all around.
     #[serde(default, skip_serializing_if = "is_default")]
     pub lights: Vec<Light>,
@@ -112,6 +115,8 @@ usual_fields! {
         pub first: i64 = 0; saved always,
         /// Last frame of the shot; it is part of it.
         pub last: i64 = 0; saved always,
+        /// Which animation of the shot plays, where there are several: its name; left out, all of them together.
+        pub animation: Option<String> = None,
     }
 }
 

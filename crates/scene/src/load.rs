@@ -14,7 +14,7 @@ use crate::mesh_file::{MeshFile, Texture};
 use crate::mesh_format::{self, MeshRead, MeshReader};
 use crate::new_scene::{NewScene, Placing};
 use crate::problem::{Problem, Report, Severity};
-use crate::shot::Shot;
+use crate::shot::{Choice, Shot};
 
 mod edited;
 mod files;
@@ -111,7 +111,7 @@ fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
     if crate::gltf::is_gltf(path) {
         let (file, _) = reader.open(path, folder_of(path), &options.folders)?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let (shot, _) = Shot::new(file, &name, None);
+        let (shot, _) = Shot::new(file, &name, &Choice::default());
         if shot.has_camera() {
             let scene = crate::new_scene::for_shot(path, &mesh, &Arc::new(shot));
             let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
@@ -216,7 +216,7 @@ fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders
         return Err(Report(vec![error_in(scene_path, None, message, "name a .glb or .gltf file")]));
     }
     let (file, mut warnings) = reader.open(&path, root, folders)?;
-    let (shot, odd) = Shot::new(file, &name, scene.camera.of_shot.as_deref());
+    let (shot, odd) = Shot::new(file, &name, &Choice::of(scene));
     warnings.extend(odd.into_iter().map(|[message, mend]| {
         let severity = Severity::Warning;
         Problem { severity, ..error_in(&path, None, message, mend) }

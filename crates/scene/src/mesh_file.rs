@@ -24,10 +24,45 @@ pub struct Material {
     pub color: [f32; 3],
     /// Multiplies `color` where the mesh has texture coordinates.
     pub texture: Option<Arc<Texture>>,
+    /// How the texture is read.
+    pub sampling: Sampling,
+    /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1. `None`: alpha means
+    /// nothing.
+    pub cutoff: Option<f32>,
     /// Strength of highlights, 0 matt .. 1 glazed.
     pub gloss: f32,
     /// Shown as it is, without light or shadow.
     pub unlit: bool,
+}
+
+impl Material {
+    /// A matt material of one colour (sRGB, each channel in 0..=1).
+    pub fn plain(name: impl Into<String>, color: [f32; 3]) -> Self {
+        let name = name.into();
+        let sampling = Sampling::default();
+        Self { name, color, texture: None, sampling, cutoff: None, gloss: 0.0, unlit: false }
+    }
+}
+
+/// What lies beyond the border of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Wrap {
+    /// The picture again.
+    #[default]
+    Repeat,
+    /// The picture mirrored, then again.
+    Mirror,
+    /// The pixels of the border.
+    Clamp,
+}
+
+/// How a texture is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Sampling {
+    /// Beyond the left and right border, and beyond the upper and lower border.
+    pub wrap: [Wrap; 2],
+    /// Whether pixels show as squares when the picture is enlarged.
+    pub is_nearest: bool,
 }
 
 /// A decoded picture: 8 bits per channel, sRGB, straight alpha, first row on top.
@@ -42,4 +77,19 @@ pub struct Texture {
 impl Texture {
     /// The longest side that is kept; larger pictures are scaled down on reading, so that every GL driver takes them.
     pub const MAX_SIDE_PX: u32 = 4096;
+
+    /// The pixel at texture coordinates whose V points up, (0, 0) the lower left corner.
+    pub fn pixel(&self, sampling: Sampling, uv: [f32; 2]) -> [u8; 4] {
+        let at = |axis: usize| {
+            let unit = match sampling.wrap[axis] {
+                Wrap::Repeat => uv[axis].rem_euclid(1.0),
+                Wrap::Mirror => 1.0 - (uv[axis].rem_euclid(2.0) - 1.0).abs(),
+                Wrap::Clamp => uv[axis],
+            };
+            // The cast brings numbers below 0 to 0.
+            ((unit * self.size_px[axis] as f32) as u32).min(self.size_px[axis] - 1)
+        };
+        let row = self.size_px[1] - 1 - at(1);
+        self.rgba8[(row * self.size_px[0] + at(0)) as usize]
+    }
 }

@@ -137,6 +137,15 @@ pub fn poses_at(scene: &Scene, frame: f64) -> Vec<DAffine3> {
     poses
 }
 
+/// For each object, whether it is hidden at a frame: by the document, or by the shot.
+pub fn hidden_at(scene: &Scene, frame: f64) -> Vec<bool> {
+    let shot = scene.stage.shot.as_ref().filter(|shot| shot.changes_visibility());
+    let of_shot = shot.map(|shot| (shot, shot.at(frame / scene.timeline.fps)));
+    let is_shown =
+        |object: &Object| of_shot.as_ref().is_none_or(|(shot, posed)| shot.is_visible(posed, &object.name));
+    scene.objects.iter().map(|object| object.hidden || !is_shown(object)).collect()
+}
+
 /// The poses of objects that a shot moves. Each time that is asked for is evaluated once.
 #[derive(Default)]
 struct ShotPoses {

@@ -150,6 +150,7 @@ fn bare() -> Scene {
         seed: 0,
         background: Color::default(),
         background_keys: Vec::new(),
+        exposure: 0.0,
         shot: None,
         stage: Default::default(),
         timeline: Timeline::default(),

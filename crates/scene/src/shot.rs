@@ -13,16 +13,19 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DMat4};
-use impasto_gltf::Posed;
+use impasto_gltf::{Animator, Playing, Posed};
 
-use crate::document::{Brought, Lens, Light, Lost, Object, Scene, Timeline};
+use crate::document::{Brought, Lens, Light, Lost, Object, Scene};
 use crate::gltf::GltfFile;
 use crate::mesh_format;
+use crate::nearest::nearest;
 
 /// A glTF file on a scene's stage.
 #[derive(Debug)]
 pub struct Shot {
     file: Arc<GltfFile>,
+    /// Where everything stands at any time.
+    animator: Animator,
     /// The objects, in the order of the file's nodes.
     objects: Vec<ShotObject>,
     object_of_name: HashMap<String, usize>,
@@ -45,10 +48,44 @@ struct ShotObject {
     unstretched: DMat3,
 }
 
+/// What a scene chooses of a shot's file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Choice {
+    /// The camera that is looked through, by the name of its node; left out, the first.
+    camera: Option<String>,
+    /// The animation that plays; left out, all of them together.
+    animation: Option<String>,
+}
+
+impl Choice {
+    /// What a scene states.
+    pub fn of(scene: &Scene) -> Self {
+        Self { camera: scene.camera.of_shot.clone(), animation: scene.timeline.animation.clone() }
+    }
+}
+
+/// The animation of this name, or else all of them. Says where the file is not clear.
+fn playing(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Animator {
+    let named = name.map_or(Playing::All, Playing::Named);
+    let (animator, double) = Animator::new(&file.gltf, named).unwrap_or_else(|names| {
+        let name = name.unwrap_or_default();
+        let near = nearest(name, names.iter().map(String::as_str));
+        let mend =
+            near.map_or_else(|| format!("there are {names:?}"), |near| format!("did you mean {near:?}?"));
+        odd.push([format!("there is no animation {name:?}: all play together"), mend]);
+        Animator::new(&file.gltf, Playing::All).unwrap_or_else(|_| unreachable!("none is asked for by name"))
+    });
+    let mend = "choose one in the scene, as in timeline: (animation: …)";
+    odd.extend(double.into_iter().map(|found| [found.to_string(), mend.to_owned()]));
+    animator
+}
+
 impl Shot {
-    /// The shot in a file that a scene names so, seen by its camera of the name that is given, or by its first. Also returns what a
-    /// user should know of the file: each what is odd, and the mend.
-    pub(crate) fn new(file: Arc<GltfFile>, name: &str, camera: Option<&str>) -> (Self, Vec<[String; 2]>) {
+    /// The shot in a file that a scene names so. Also returns what a user should know of the file: each what is odd, and the mend.
+    pub(crate) fn new(file: Arc<GltfFile>, name: &str, choice: &Choice) -> (Self, Vec<[String; 2]>) {
+        let mut odd = Vec::new();
+        let animator = playing(&file, choice.animation.as_deref(), &mut odd);
+        let hides = animator.changes_visibility();
         let mut objects = Vec::new();
         for (index, node) in file.gltf.nodes.iter().enumerate() {
             let shows = node.mesh.is_some_and(|mesh| !file.gltf.meshes[mesh].primitives.is_empty());
@@ -56,17 +93,17 @@ impl Shot {
                 continue;
             }
             let object = Object {
-                hidden: !file.rest.is_visible[index],
+                hidden: !(hides || file.rest.is_visible[index]),
                 ..Object::new(node.name.clone(), mesh_format::name_of_node(name, &node.name))
             };
             objects.push(ShotObject { object, node: index, unstretched: file.stretch(index).inverse() });
         }
         let object_of_name =
             objects.iter().enumerate().map(|(index, object)| (object.object.name.clone(), index)).collect();
-        let mut odd = Vec::new();
-        let camera = camera::chosen(&file, camera, &mut odd);
+        let camera = camera::chosen(&file, choice.camera.as_deref(), &mut odd);
         let (lights, key_factors) = (Vec::new(), vec![1.0; file.gltf.lights.len()]);
-        let mut shot = Self { objects, object_of_name, camera, lights, exposure: 1.0, key_factors, file };
+        let mut shot =
+            Self { animator, objects, object_of_name, camera, lights, exposure: 1.0, key_factors, file };
         shot.exposure = shot.found_exposure();
         shot.lights = shot.lights_at_rest();
         shot.mend_light_keys(&mut odd);
@@ -104,12 +141,12 @@ impl Shot {
         !self.lights.is_empty()
     }
 
-    /// The frames in which it moves, at this rate: frame = time · rate.
-    pub fn timeline(&self, fps: f64) -> Timeline {
+    /// The first and the last frame in which it moves, at this rate: frame = time · rate.
+    pub fn frames(&self, fps: f64) -> (i64, i64) {
         let [first, last] = self.span_s().unwrap_or_default().map(|time_s| f64::from(time_s) * fps);
         // What rounding of times to 32 bits leaves over is no frame.
         let last = (last - 1e-3).ceil().max(0.0) as i64;
-        Timeline { fps, first: ((first + 1e-3).floor() as i64).min(last), last }
+        (((first + 1e-3).floor() as i64).min(last), last)
     }
 }
 
@@ -123,11 +160,11 @@ impl Brought for Shot {
     }
 
     fn span_s(&self) -> Option<[f32; 2]> {
-        self.file.animator.span_s()
+        self.animator.span_s()
     }
 
     fn at(&self, time_s: f64) -> Posed {
-        self.file.animator.pose(time_s)
+        self.animator.pose(time_s)
     }
 
     fn pose_of(&self, posed: &Posed, name: &str) -> Option<DAffine3> {
@@ -138,6 +175,15 @@ impl Brought for Shot {
         }
         let world = posed.world_from_node[object.node];
         Some(DAffine3 { matrix3: world.matrix3 * object.unstretched, translation: world.translation })
+    }
+
+    fn changes_visibility(&self) -> bool {
+        self.animator.changes_visibility()
+    }
+
+    fn is_visible(&self, posed: &Posed, name: &str) -> bool {
+        let object = self.object_of_name.get(name).map(|&index| &self.objects[index]);
+        object.is_none_or(|object| posed.is_visible[object.node])
     }
 
     fn camera(&self, posed: &Posed, size: (u32, u32)) -> Option<(DMat4, Lens)> {

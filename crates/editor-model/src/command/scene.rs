@@ -1,4 +1,4 @@
-//! Commands on the scene as a whole: size, seed, background and style.
+//! Commands on the scene as a whole: size, seed, background, exposure and style.
 
 use impasto_scene::document::{Color, Scene, Style};
 
@@ -6,7 +6,7 @@ use super::Done;
 use super::region::in_file;
 use crate::refusal::Refusal;
 
-/// Size, seed, background and style.
+/// Size, seed, background, exposure and style.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "edits are made one at a time")]
 pub enum SceneEdit {
@@ -16,6 +16,8 @@ pub enum SceneEdit {
     SetSeed(u32),
     /// Sets the background: what shows where nothing is painted.
     SetBackground(Color),
+    /// Sets the stops by which all lights are brightened.
+    SetExposure(f64),
     /// Sets the style, with a text of what changed: *Canvas: linen*.
     SetStyle(Style, String),
 }
@@ -34,6 +36,10 @@ impl SceneEdit {
             Self::SetBackground(color) => {
                 scene.background = in_file(*color);
                 Ok(Done::new("Background"))
+            }
+            Self::SetExposure(stops) => {
+                scene.exposure = *stops;
+                Ok(Done::new(format!("Exposure {stops:+}")))
             }
             Self::SetStyle(style, words) => {
                 scene.style = style.clone();

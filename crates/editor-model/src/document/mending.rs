@@ -239,6 +239,7 @@ fn merged_scene(from: &Scene, left: &Scene, right: &Scene) -> Result<Scene, Refu
             &right.background_keys,
             "background's keys",
         )?,
+        exposure: merged_value(&from.exposure, &left.exposure, &right.exposure, "exposure")?,
         timeline: merged_value(&from.timeline, &left.timeline, &right.timeline, "timeline")?,
         reference: merged_value(&from.reference, &left.reference, &right.reference, "reference")?,
         further_references: merged_value(

@@ -49,7 +49,7 @@ fn range(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<Ask>) {
         asks.push(shown.session_with(|session| session.show_lanes(true)));
     }
     transport::looped(ui, shown, asks);
-    let Timeline { fps, first, last } = &shown.document.scene().timeline;
+    let Timeline { fps, first, last, .. } = &shown.document.scene().timeline;
     for words in [format!("{fps} fps"), format!("{first}\u{2013}{last}")] {
         ui.label(RichText::new(words).font(type_face::small()).color(Tokens::of(ui).weak));
     }

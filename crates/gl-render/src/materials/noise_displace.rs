@@ -151,13 +151,17 @@ fn draw_body(
     let in_front = DrawState { depth_test: true, depth_kept: true, ..DrawState::default() };
     gpu.begin_pass(&targets.place_pass, in_front);
     for part in &mesh.parts {
-        let bound = set_camera(programs.place.bind(body, tiles), frame).set("body_id", body_id);
+        let bound = set_camera(programs.place.bind(body, part, tiles), frame).set("body_id", body_id);
         gpu.draw(bound, &mesh.array, part.vertices())?;
     }
     gpu.begin_pass(&targets.look_pass, DrawState { blend: Blend::Over, ..in_front });
     for part in &mesh.parts {
-        let bound =
-            set_layers(set_camera(programs.look.bind(body, tiles), frame), layers, noise.travelled, tiles);
+        let bound = set_layers(
+            set_camera(programs.look.bind(body, part, tiles), frame),
+            layers,
+            noise.travelled,
+            tiles,
+        );
         gpu.draw(bound, &mesh.array, part.vertices())?;
     }
     Ok(())

@@ -252,7 +252,7 @@ fn draw_bodies(
         }
         for part in &mesh.parts {
             let bound = program
-                .bind(body, input.tiles)
+                .bind(body, part, input.tiles)
                 .set("view_from_world", view.view_from_world)
                 .set("clip_from_view", view.clip_from_view);
             gpu.draw(set_own(bound), &mesh.array, part.vertices())?;

@@ -12,6 +12,7 @@ pub(super) fn check(scene: &Scene, findings: &mut Findings) {
     check_references(scene, findings);
     check_lens(&scene.camera.lens, findings);
     check_camera_keys(scene, findings);
+    findings.number("exposure", scene.exposure, -16.0..=16.0);
     check_lights(&scene.lights, findings);
     findings.frames("background_keys", scene.background_keys.iter().map(|key| key.frame));
 }

@@ -257,13 +257,7 @@ fn groups_and_materials_are_looked_for_in_the_mesh() {
     let mesh = MeshFile {
         mesh: TriangleMesh::default(),
         groups: vec!["skin".to_owned(), "leaf".to_owned()],
-        materials: vec![Material {
-            name: "wax".to_owned(),
-            color: [0.5; 3],
-            texture: None,
-            gloss: 0.0,
-            unlit: false,
-        }],
+        materials: vec![Material::plain("wax".to_owned(), [0.5; 3])],
     };
     let meshes = BTreeMap::from([("cube.obj".to_owned(), Arc::new(mesh))]);
     let scene = scene(
@@ -347,13 +341,7 @@ fn guides_lie_on_their_surface_and_morphs_have_its_topology() {
                 ..TriangleMesh::default()
             },
             groups: vec!["skin".to_owned(), "bare".to_owned()],
-            materials: vec![Material {
-                name: String::new(),
-                color: [0.5; 3],
-                texture: None,
-                gloss: 0.0,
-                unlit: false,
-            }],
+            materials: vec![Material::plain(String::new(), [0.5; 3])],
         })
     };
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 5.0, 0.0]];

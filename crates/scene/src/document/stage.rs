@@ -54,6 +54,12 @@ pub trait Brought: Debug + Send + Sync {
     /// World from model of an object; `None` if the shot does not bring it.
     fn pose_of(&self, posed: &Posed, name: &str) -> Option<DAffine3>;
 
+    /// Whether things are hidden or shown over time.
+    fn changes_visibility(&self) -> bool;
+
+    /// Whether an object shows; one that the shot does not bring does.
+    fn is_visible(&self, posed: &Posed, name: &str) -> bool;
+
     /// World from view (−Z forward, Y up) and lens of the camera, in a picture of this size; `None` where the shot has none. What the
     /// camera's own picture shows is all inside: a picture of another aspect shows more at two sides.
     fn camera(&self, posed: &Posed, size: (u32, u32)) -> Option<(DMat4, Lens)>;

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use impasto_core::color::srgb_from_linear;
-use impasto_gltf::{Gltf, Material as Stated};
+use impasto_gltf::{AlphaMode, Gltf, Material as Stated, Sampler, Wrap as StatedWrap};
 
-use crate::mesh_file::{Material, Texture};
+use crate::mesh_file::{Material, Sampling, Texture, Wrap};
 use crate::problem::{Problem, Severity};
 use crate::texture;
 
@@ -26,12 +26,52 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
     for stated in &gltf.materials {
         let glows = glows(stated);
         let used = if glows { stated.emissive_texture } else { stated.base_color_texture };
-        let image = used.and_then(|used| gltf.textures[used.texture].image);
-        let texture = image.and_then(|image| picture(image, warnings));
-        materials.push(Material { texture, ..plain(stated, glows) });
+        let used = used.map(|used| &gltf.textures[used.texture]);
+        let texture = used.and_then(|used| used.image).and_then(|image| picture(image, warnings));
+        let sampling = used.map_or(Sampling::default(), |used| sampling(used.sampler));
+        // Alpha is that of the base colour: a picture of emission has none.
+        let cutoff = cutoff(stated).filter(|cutoff| !glows || *cutoff > 1.0);
+        if stated.alpha == AlphaMode::Blend && cutoff.is_some_and(|cutoff| cutoff > 1.0) {
+            warnings.push(unseen(path, materials.len(), &stated.name));
+        }
+        materials.push(Material { texture, sampling, cutoff, ..plain(stated, glows) });
     }
-    materials.push(Material { name: String::new(), color: GREY, texture: None, gloss: 0.0, unlit: false });
+    materials.push(Material::plain(String::new(), GREY));
     materials
+}
+
+/// Below which alpha of its picture there is no surface: strokes are there or not, so half a veil is the border.
+fn cutoff(stated: &Stated) -> Option<f32> {
+    const HALF: f32 = 0.5;
+    let of_all = match stated.alpha {
+        AlphaMode::Opaque => return None,
+        AlphaMode::Mask(cutoff) => cutoff,
+        AlphaMode::Blend => HALF,
+    };
+    Some(of_all / stated.values.base_color[3].max(1e-6))
+}
+
+fn sampling(sampler: Sampler) -> Sampling {
+    let wrap = |wrap| match wrap {
+        StatedWrap::Repeat => Wrap::Repeat,
+        StatedWrap::Mirror => Wrap::Mirror,
+        StatedWrap::Clamp => Wrap::Clamp,
+    };
+    Sampling { wrap: [sampler.wrap_u, sampler.wrap_v].map(wrap), is_nearest: sampler.is_nearest }
+}
+
+/// A warning that a material is too clear to be painted.
+fn unseen(path: &Path, index: usize, name: &str) -> Problem {
+    Problem {
+        severity: Severity::Warning,
+        path: path.to_owned(),
+        place: None,
+        field_path: Box::default(),
+        message: format!(
+            "/materials/{index}: {name:?} is more than half clear, as glass is: it is not painted"
+        ),
+        mend: "to paint it, make its alpha at least 0.5, or give its object a colour in the scene".to_owned(),
+    }
 }
 
 /// Whether what the surface gives off by itself outshines its colour.
@@ -53,11 +93,9 @@ fn plain(stated: &Stated, glows: bool) -> Material {
     // A roughness of a half, which exporters write for a plain surface, is a quarter glazed, as with OBJ files.
     let smooth = 1.0 - stated.values.roughness.clamp(0.0, 1.0);
     Material {
-        name: stated.name.clone(),
-        color: linear.map(srgb_from_linear),
-        texture: None,
         gloss: smooth * smooth,
         unlit: stated.is_unlit || glows,
+        ..Material::plain(stated.name.as_str(), linear.map(srgb_from_linear))
     }
 }
 

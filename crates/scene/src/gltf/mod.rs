@@ -30,8 +30,6 @@ pub const MAX_FILE_BYTES: u64 = 2 << 30;
 pub(crate) struct GltfFile {
     pub path: PathBuf,
     pub gltf: Gltf,
-    /// Where everything stands at any time; all animations play together.
-    pub animator: Animator,
     /// Where everything stands without animation.
     pub rest: Posed,
     /// For each node, whether it is in the scene that is shown.
@@ -60,8 +58,6 @@ pub(crate) fn open(
     let mut warnings: Vec<Problem> = findings.into_iter().map(problem).collect();
     // Only an animation that is asked for by name may be missing.
     let unnamed = |_| Report(Vec::new());
-    let (animator, double) = Animator::new(&gltf, Playing::All).map_err(unnamed)?;
-    warnings.extend(double.into_iter().map(problem));
     let rest = Animator::new(&gltf, Playing::None).map_err(unnamed)?.0.pose(0.0);
     let materials = materials::of(path, &gltf, &mut warnings);
     let mut in_scene = vec![false; gltf.nodes.len()];
@@ -70,7 +66,7 @@ pub(crate) fn open(
         in_scene[node] = true;
         open.extend(&gltf.nodes[node].children);
     }
-    Ok((GltfFile { path: path.to_owned(), gltf, animator, rest, in_scene, materials }, warnings))
+    Ok((GltfFile { path: path.to_owned(), gltf, rest, in_scene, materials }, warnings))
 }
 
 /// The files that a glTF file in `root` names and that are found there.

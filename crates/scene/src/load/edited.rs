@@ -11,6 +11,7 @@ use crate::document::{Object, Scene};
 use crate::loaded::LoadedScene;
 use crate::mesh_format::MeshReader;
 use crate::problem::{Problem, Report};
+use crate::shot::Choice;
 
 impl LoadedScene {
     /// This scene with another document, checked as if it had been read from the same path. Files that are already
@@ -23,7 +24,8 @@ impl LoadedScene {
     pub fn with_scene(&self, mut scene: Scene, folders: &AssetFolders) -> Result<Self, Report> {
         let path = &self.path;
         let reader = MeshReader::default();
-        let (lost, of_shot) = match self.scene.stage.shot.as_ref().filter(|_| scene.shot == self.scene.shot) {
+        let is_same = scene.shot == self.scene.shot && Choice::of(&scene) == Choice::of(&self.scene);
+        let (lost, of_shot) = match self.scene.stage.shot.as_ref().filter(|_| is_same) {
             // Already on the stage of a document that was edited, but not on that of one that was read.
             Some(shot) if scene.stage.shot.is_none() => {
                 let lost = Arc::clone(shot).enter(&mut scene);

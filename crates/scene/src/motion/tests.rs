@@ -24,6 +24,7 @@ fn scene(camera_keys: Vec<CameraKey>, objects: Vec<Object>) -> Scene {
         seed: 0,
         background: Default::default(),
         background_keys: Vec::new(),
+        exposure: 0.0,
         shot: None,
         stage: Default::default(),
         timeline: Default::default(),

@@ -38,7 +38,7 @@ fn box_between(low: Vec3, high: Vec3, open: bool) -> MeshFile {
 
 /// A material of this sRGB colour.
 fn material(color: [f32; 3]) -> crate::mesh_file::Material {
-    crate::mesh_file::Material { name: String::new(), color, texture: None, gloss: 0.0, unlit: false }
+    crate::mesh_file::Material::plain(String::new(), color)
 }
 
 /// Boxes as one mesh, in one group each.
@@ -178,13 +178,7 @@ fn the_backdrop_stands_under_and_behind_the_model() {
 fn grouped(low: Vec3, high: Vec3, groups: &[&str]) -> MeshFile {
     let mut file = box_between(low, high, false);
     file.groups = groups.iter().map(|group| (*group).to_owned()).collect();
-    let material = |name: &str| crate::mesh_file::Material {
-        name: name.to_owned(),
-        color: [0.5; 3],
-        texture: None,
-        gloss: 0.0,
-        unlit: false,
-    };
+    let material = |name: &str| crate::mesh_file::Material::plain(name.to_owned(), [0.5; 3]);
     file.materials = vec![material("wood"), material("spare"), material("")];
     let count = file.mesh.triangles.len();
     file.mesh.group_of_triangle = (0..count).map(|i| (i % groups.len()) as u32).collect();

@@ -79,8 +79,7 @@ impl<'a> MaterialLibrary<'a> {
         self.tell_of_unknown(checked, place_of);
         let mut materials = Vec::new();
         for name in &checked.materials.list {
-            let mut material =
-                Material { name: name.clone(), color: GREY, texture: None, gloss: 0.0, unlit: false };
+            let mut material = Material::plain(name.clone(), GREY);
             if let Some((described, mtl)) = self.described.get(name).cloned() {
                 let gloss = described.gloss();
                 if let Some(picture) = described.picture {
@@ -94,13 +93,7 @@ impl<'a> MaterialLibrary<'a> {
             materials.push(material);
         }
         if materials.is_empty() {
-            materials.push(Material {
-                name: String::new(),
-                color: GREY,
-                texture: None,
-                gloss: 0.0,
-                unlit: false,
-            });
+            materials.push(Material::plain(String::new(), GREY));
         }
         Ok(materials)
     }

@@ -12,6 +12,7 @@ fn scene(strokes: StrokeSettings, of_region: StrokeSettings) -> Scene {
         seed: 0,
         background: Default::default(),
         background_keys: Vec::new(),
+        exposure: 0.0,
         shot: None,
         stage: Default::default(),
         timeline: Default::default(),

@@ -33,7 +33,7 @@ pub(super) fn enter(shot: Arc<Shot>, scene: &mut Scene) -> Vec<Lost> {
         }
     }
     if (scene.timeline.first, scene.timeline.last) == (0, 0) {
-        scene.timeline = shot.timeline(scene.timeline.fps);
+        (scene.timeline.first, scene.timeline.last) = shot.frames(scene.timeline.fps);
     }
     scene.stage = Stage { shot: Some(shot), lost: Arc::new(lost) };
     missing
@@ -60,8 +60,7 @@ pub(super) fn left(shot: &Shot, scene: &Scene) -> Scene {
         .chain(scene.stage.lost.iter().cloned())
         .collect();
     left.lights.retain(|light| shot.lights.iter().all(|(brought, _)| brought != light));
-    let timeline = shot.timeline(scene.timeline.fps);
-    if timeline == scene.timeline {
+    if shot.frames(scene.timeline.fps) == (scene.timeline.first, scene.timeline.last) {
         (left.timeline.first, left.timeline.last) = (0, 0);
     }
     left

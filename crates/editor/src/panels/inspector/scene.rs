@@ -61,6 +61,17 @@ fn picture(ui: &mut Ui, asker: &mut Asker<'_, '_>) {
             }
         });
     });
+    let [shown, stored] = [asker.scene(), asker.stored()].map(|scene| scene.exposure);
+    let exposure = Number {
+        unit: "stops",
+        range: -3.0..=3.0,
+        limits: Some(-16.0..=16.0),
+        step: (0.1, 2),
+        default: Some(0.0),
+        ..Number::new("Exposure", "Each stop doubles the brightness of all lights.")
+    };
+    let set = |stops: Option<f64>| Command::Scene(SceneEdit::SetExposure(stops.unwrap_or(0.0)));
+    asker.number(ui, &exposure, [shown, stored], set);
 }
 
 fn time(ui: &mut Ui, asker: &mut Asker<'_, '_>) {

@@ -100,7 +100,7 @@ pub(super) fn range_fields(ui: &mut Ui, shown: &PanelInput<'_>, asks: &mut Vec<A
         asks.push(shown.session_with(|session| session.show_lanes(false)));
     }
     looped(ui, shown, asks);
-    let Timeline { fps, first, last } = shown.document.shown().scene.timeline;
+    let Timeline { fps, first, last, .. } = shown.document.shown().scene.timeline;
     let stored = &shown.document.scene().timeline;
     let mut value = fps;
     let decimals = if fps.fract() == 0.0 { 0 } else { 3 };

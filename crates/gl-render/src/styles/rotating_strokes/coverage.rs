@@ -95,7 +95,7 @@ impl Coverage {
             for part in &drawn.mesh.parts {
                 let bound = self
                     .place
-                    .bind(drawn.body, input.tiles)
+                    .bind(drawn.body, part, input.tiles)
                     .set("view_from_world", view.view_from_world)
                     .set("clip_from_view", view.clip_from_view)
                     .set("body_id", (index + 1) as f32);

@@ -247,8 +247,7 @@ fn stand_in(scene: &Scene, name: &str) -> MeshFile {
         names.into_iter().collect::<Vec<_>>()
     };
     let (groups, materials) = (or_plain(groups), or_plain(materials));
-    let material =
-        |name| Material { name, color: [0.55, 0.53, 0.5], texture: None, gloss: 0.0, unlit: false };
+    let material = |name| Material::plain(name, [0.55, 0.53, 0.5]);
     let mesh = box_mesh(groups.len() as u32, materials.len() as u32);
     MeshFile { mesh, groups, materials: materials.into_iter().map(material).collect() }
 }

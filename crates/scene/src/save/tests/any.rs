@@ -381,8 +381,9 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
     let background_key =
         (number(), any_color(), ease()).prop_map(|(frame, color, ease)| BackgroundKey { frame, color, ease });
     let background = (any_color(), prop::collection::vec(background_key, 0..3));
-    let timeline =
-        (number(), any::<i64>(), any::<i64>()).prop_map(|(fps, first, last)| Timeline { fps, first, last });
+    let timeline = (number(), any::<i64>(), any::<i64>(), prop::option::of("[a-z]{1,4}"))
+        .prop_map(|(fps, first, last, animation)| Timeline { fps, first, last, animation });
+    let background = (background, number());
     let head = (any::<(u32, u32)>(), any::<u32>(), background, timeline, any_reference(), style);
     let lists = (
         prop::collection::vec(any_light(), 0..3),
@@ -392,7 +393,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
     );
     (head, any_camera(), lists, any_strokes()).prop_map(
         |(
-            (size, seed, (background, background_keys), timeline, reference, style),
+            (size, seed, ((background, background_keys), exposure), timeline, reference, style),
             camera,
             (lights, objects, regions, further_references),
             strokes,
@@ -405,6 +406,7 @@ pub(super) fn any_scene() -> impl Strategy<Value = Scene> {
                 background_keys,
                 shot: None,
                 stage: Default::default(),
+                exposure,
                 timeline,
                 reference,
                 further_references,

@@ -1,0 +1,14 @@
+// Holes that the alpha of a texture cuts into a body, for fragment shaders of programs with shared/body.glsl. Only with CUTOUT.
+#ifdef CUTOUT
+in vec2 cut_at;
+uniform sampler2D cut_texture;
+uniform float cutoff;
+
+void cut_out() {
+    if (texture(cut_texture, cut_at).a < cutoff) {
+        discard;
+    }
+}
+#else
+void cut_out() {}
+#endif
