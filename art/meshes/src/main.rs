@@ -1,4 +1,4 @@
-//! The shipped meshes, modelled in code: `cargo xtask meshes` writes them to `scenes/meshes`.
+//! The shipped meshes and the shipped shot, modelled in code: `cargo xtask meshes` writes them to `scenes/meshes`.
 
 mod apple;
 mod apple_fine;
@@ -14,10 +14,12 @@ mod curve;
 mod deer;
 mod effects;
 mod fish;
+mod glb;
 mod globe;
 mod head;
 mod hills;
 mod jug;
+mod lane;
 mod lemon;
 mod limb;
 mod orange;
@@ -40,7 +42,10 @@ use poly_mesh::PolyMesh;
 /// Where the meshes are kept, from the repository's root.
 const FOLDER: &str = "scenes/meshes";
 
-/// Writes every shipped mesh, an OBJ and its MTL.
+/// The shipped shot, in the folder.
+const SHOT: &str = "lane.glb";
+
+/// Writes every shipped mesh, an OBJ and its MTL, and the shot.
 fn main() -> anyhow::Result<()> {
     let folder = folder();
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
@@ -50,7 +55,8 @@ fn main() -> anyhow::Result<()> {
             std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
         }
     }
-    Ok(())
+    let path = folder.join(SHOT);
+    std::fs::write(&path, lane::lane()?).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// The folder of the meshes in the repository that this package lies in.
@@ -124,6 +130,8 @@ mod tests {
                 assert!(committed == text, "{name} is stale: run `cargo xtask meshes`");
             }
         }
+        let committed = std::fs::read(folder.join(SHOT)).unwrap();
+        assert!(committed == lane::lane().unwrap(), "{SHOT} is stale: run `cargo xtask meshes`");
     }
 
     #[test]

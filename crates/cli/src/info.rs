@@ -1,9 +1,11 @@
 //! `impasto info`: what is in a scene or a mesh.
 
 use std::io::Write as _;
+use std::sync::Arc;
 
 use impasto_painting::Painting;
 use impasto_scene::document::Region;
+use impasto_scene::mesh_file::MeshFile;
 
 use crate::args::InfoArguments;
 use crate::failure::Failure;
@@ -28,8 +30,12 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     for mesh in facts["meshes"].as_array().into_iter().flatten() {
         writeln!(
             out,
-            "mesh {}: {} polygons, {} triangles, {} vertices, {} groups, {} materials, bounds {} to {}",
+            "mesh {}{}: {} polygons, {} triangles, {} vertices, {} groups, {} materials, bounds {} to {}",
             text(&mesh["path"]),
+            match mesh["also"].as_array().map_or(0, Vec::len) {
+                0 => String::new(),
+                others => format!(" (and {others} more of its instances)"),
+            },
             mesh["polygons"],
             mesh["triangles"],
             mesh["vertices"],
@@ -101,13 +107,21 @@ fn text(value: &serde_json::Value) -> &str {
 fn facts(painting: &Painting) -> serde_json::Value {
     let loaded = painting.loaded();
     let scene = &loaded.scene;
+    // Nodes that share a mesh in memory are told of once.
+    let same = |file: &Arc<MeshFile>| {
+        let named = loaded.meshes.iter().filter(|(_, other)| Arc::ptr_eq(file, other));
+        named.map(|(path, _)| path).collect::<Vec<_>>()
+    };
     let meshes: Vec<serde_json::Value> = loaded
         .meshes
         .iter()
-        .map(|(path, file)| {
+        .map(|(path, file)| (path, file, same(file)))
+        .filter(|(path, _, same)| same[0] == *path)
+        .map(|(path, file, same)| {
             let (low, high) = file.mesh.bounds().unwrap_or_default();
             serde_json::json!({
                 "path": path,
+                "also": &same[1..],
                 "polygons": file.mesh.polygon_count(),
                 "triangles": file.mesh.triangles.len(),
                 "vertices": file.mesh.positions.len(),

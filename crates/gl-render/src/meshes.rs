@@ -47,6 +47,8 @@ pub(crate) struct Part {
     pub(crate) texture: Rc<Texture>,
     /// Where the texture's alpha is less than this, there is no surface.
     pub(crate) cutoff: Option<f32>,
+    /// Whether it casts a shadow: what light does not fall on, as a painted sky, does not.
+    pub(crate) casts_shadow: bool,
 }
 
 impl Part {
@@ -192,9 +194,11 @@ impl MeshCache {
             let first_index = parts.last().map_or(0, |part| part.first_index + part.index_count);
             let texture = self.texture(gpu, surface, material)?;
             let triangles = run.iter().map(|&triangle| triangle as u32).collect();
-            let cutoff = surface.materials.get(material).and_then(|material| material.cutoff);
+            let stated = surface.materials.get(material);
+            let cutoff = stated.and_then(|material| material.cutoff);
+            let casts_shadow = stated.is_none_or(|material| !material.unlit);
             let index_count = run.len() as u32 * 3;
-            parts.push(Part { first_index, index_count, triangles, material, texture, cutoff });
+            parts.push(Part { first_index, index_count, triangles, material, texture, cutoff, casts_shadow });
         }
         let mut vertex_buffer = Buffer::new(gpu, BufferUse::Fixed)?;
         vertex_buffer.upload(bytemuck::cast_slice(&vertices))?;

@@ -101,7 +101,7 @@ impl ShadowMap {
         let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
         self.gpu.begin_pass(&self.pass, state);
         for DrawnBody { body, mesh } in bodies.iter().filter(|drawn| casts_shadow(drawn.body)) {
-            for part in &mesh.parts {
+            for part in mesh.parts.iter().filter(|part| part.casts_shadow) {
                 let bound = self.program.bind(body, part, tiles).set("shadow_from_world", shadow_from_world);
                 self.gpu.draw(bound, &mesh.array, part.vertices())?;
             }

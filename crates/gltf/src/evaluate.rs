@@ -136,6 +136,11 @@ impl Animator {
         Ok((animator, warnings))
     }
 
+    /// The times of all keys, seconds; a time may come several times.
+    pub fn key_times_s(&self) -> impl Iterator<Item = f32> + '_ {
+        self.clocks.iter().flat_map(|clock| clock.iter().copied())
+    }
+
     /// Whether something is hidden or shown over time.
     pub fn changes_visibility(&self) -> bool {
         let drives =

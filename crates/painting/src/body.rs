@@ -13,8 +13,6 @@ use impasto_scene::morph::MorphTarget;
 /// A surface with its materials, in model space (static scale applied).
 #[derive(Debug)]
 pub struct BodySurface {
-    /// The object's name.
-    pub name: String,
     /// The triangles.
     pub mesh: TriangleMesh,
     /// For each triangle, the side that can be seen.

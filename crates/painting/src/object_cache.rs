@@ -115,6 +115,11 @@ impl ObjectCache {
         });
     }
 
+    /// Takes the surface of another object, which is built and has equal inputs.
+    pub(crate) fn share_surface(&mut self, inputs: &SurfaceInputs, twin: &Self) {
+        self.surface.update(inputs.clone(), |_, _| twin.object_surface().clone());
+    }
+
     pub(crate) fn build_noise(&mut self, inputs: NoiseInputs) {
         self.noise.update(inputs, |inputs, before| inputs.build(before.as_ref()));
     }

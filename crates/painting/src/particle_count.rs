@@ -10,6 +10,9 @@ use rayon::prelude::*;
 const LEAST: f64 = 64.0;
 const MOST: f64 = 400_000.0;
 
+/// How far beyond the picture faces count, in its size.
+const MARGIN: f64 = 1.1;
+
 /// At most this many faces are examined.
 const FACES: usize = 20_000;
 
@@ -21,7 +24,16 @@ pub(crate) struct Sighting {
     pub(crate) near: f64,
 }
 
-/// A face, with what its strokes need.
+/// A face that a view does not see whole, or sees at very different depths, is cut into pieces that are at most this share of the surface.
+const PIECE: f64 = 1.0 / 2000.0;
+
+/// A face is cut into at most the square of this many pieces.
+const MOST_CUTS: f64 = 64.0;
+
+/// How much farther than its nearest corner the farthest one of a face may be, of the nearest depth, so that its middle stands for it.
+const EVEN_DEPTH: f64 = 0.25;
+
+/// A face or a piece of one, with what its strokes need.
 struct CountedFace<const LAYERS: usize> {
     center: DVec3,
     normal: DVec3,
@@ -41,16 +53,21 @@ pub(crate) fn find<const LAYERS: usize>(
     let faces: Vec<CountedFace<LAYERS>> = surface
         .faces()
         .step_by(stride)
-        .map(|(triangle, flipped, area)| {
-            let [a, b, c] = surface.mesh().corners(triangle as usize).map(Vec3::as_dvec3);
+        .flat_map(|(triangle, flipped, area)| {
+            let corners = surface.mesh().corners(triangle as usize).map(Vec3::as_dvec3);
+            let [a, b, c] = corners;
             let across = (b - a).cross(c - a).normalize_or_zero();
-            let (center, normal) = ((a + b + c) / 3.0, if flipped { -across } else { across });
-            CountedFace {
+            let normal = if flipped { -across } else { across };
+            let share = area / (surface.area() * PIECE);
+            let is_uneven = share > 1.0 && sightings.iter().any(|sighting| sighting.is_uneven(corners));
+            let cuts = if is_uneven { share.sqrt().ceil().min(MOST_CUTS) as usize } else { 1 };
+            let wanted = &wanted_per_px;
+            middles(corners, cuts).map(move |center| CountedFace {
                 center,
                 normal,
-                area,
-                wanted_per_px: wanted_per_px(triangle as usize, center, normal).map(f64::from),
-            }
+                area: area / (cuts * cuts) as f64,
+                wanted_per_px: wanted(triangle as usize, center, normal).map(f64::from),
+            })
         })
         .collect();
     let most = |a: [f64; LAYERS], b: [f64; LAYERS]| std::array::from_fn(|layer| a[layer].max(b[layer]));
@@ -60,12 +77,39 @@ pub(crate) fn find<const LAYERS: usize>(
     needed_per_area.map(|needed| (needed * surface.area() * 1.25).clamp(LEAST, MOST).ceil() as usize)
 }
 
+impl Sighting {
+    /// Whether the middle of a triangle does not stand for all of it: a part of it is out of sight, or much nearer than another.
+    fn is_uneven(&self, corners: [DVec3; 3]) -> bool {
+        let depths = corners.map(|corner| self.map.depth(corner));
+        let nearest = depths.into_iter().fold(f64::INFINITY, f64::min);
+        let farthest = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let is_outside =
+            |corner: &DVec3| !self.map.project(*corner).abs().cmplt(self.half_size_px * MARGIN).all();
+        farthest > self.near
+            && (nearest <= self.near
+                || farthest - nearest > EVEN_DEPTH * nearest
+                || corners.iter().any(is_outside))
+    }
+}
+
+/// The middles of the equal triangles that cuts along each side, into so many parts, make of a triangle.
+fn middles([a, b, c]: [DVec3; 3], cuts: usize) -> impl Iterator<Item = DVec3> {
+    let at = move |row: usize, column: usize, third: f64| {
+        let [v, w] = [row, column].map(|number| (number as f64 + third / 3.0) / cuts as f64);
+        a + (b - a) * v + (c - a) * w
+    };
+    (0..cuts).flat_map(move |row| {
+        let upright = (0..cuts - row).map(move |column| at(row, column, 1.0));
+        upright.chain((0..cuts - row - 1).map(move |column| at(row, column, 2.0)))
+    })
+}
+
 /// Particles needed per unit of surface in one view, by layer.
 fn needed_per_area<const LAYERS: usize>(faces: &[CountedFace<LAYERS>], sighting: &Sighting) -> [f64; LAYERS] {
     let seen: Vec<(&CountedFace<LAYERS>, f64)> = faces
         .iter()
         .filter_map(|face| {
-            let inside = sighting.map.project(face.center).abs().cmplt(sighting.half_size_px * 1.1).all();
+            let inside = sighting.map.project(face.center).abs().cmplt(sighting.half_size_px * MARGIN).all();
             if sighting.map.depth(face.center) <= sighting.near || !inside {
                 return None;
             }
@@ -115,7 +159,44 @@ fn reached(mut values: &mut [(f64, f64)], target: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impasto_core::hash;
+    use glam::DAffine3;
+    use impasto_core::screen_map::PixelLens;
+    use impasto_core::{TriangleMesh, hash};
+
+    /// A square floor of this half side at y = 0, as a grid.
+    fn floor(half: f32, cells: u32) -> TriangleMesh {
+        let mut mesh = TriangleMesh::default();
+        for row in 0..=cells {
+            for column in 0..=cells {
+                let [x, z] = [column, row].map(|number| (number as f32 / cells as f32 * 2.0 - 1.0) * half);
+                mesh.positions.push(Vec3::new(x, 0.0, z));
+                mesh.normals.push(Vec3::Y);
+            }
+        }
+        for row in 0..cells {
+            for column in 0..cells {
+                let [a, c] = [0, 1].map(|down| (row + down) * (cells + 1) + column);
+                mesh.triangles.extend([[a, c, a + 1], [a + 1, c, c + 1]]);
+            }
+        }
+        mesh
+    }
+
+    #[test]
+    fn a_floor_of_two_triangles_needs_as_many_as_a_grid() {
+        // Someone who stands in the middle of 20 by 20 m and looks along the floor, a little down.
+        let eye = DVec3::new(0.0, 1.7, 0.0);
+        let view = glam::dcamera::rh::view::look_at_mat4(eye, eye + DVec3::new(0.3, -0.25, -1.0), DVec3::Y);
+        let lens = PixelLens::Perspective { focal_px: 1000.0 };
+        let map = ScreenMap::new(view, DAffine3::IDENTITY, lens);
+        let sighting = Sighting { map, half_size_px: DVec2::new(640.0, 360.0), near: 0.1 };
+        let counted = |cells: u32| {
+            let mesh = floor(10.0, cells);
+            find(&Surface::new(&mesh, |_| true), std::slice::from_ref(&sighting), |_, _, _| [0.001])[0] as f64
+        };
+        let (rough, fine) = (counted(1), counted(100));
+        assert!((rough / fine - 1.0).abs() < 0.2, "{rough} {fine}");
+    }
 
     #[test]
     fn a_value_is_reached_as_in_a_sorted_list() {

@@ -99,15 +99,16 @@ impl Preparer {
         let regions: Vec<Arc<BodyRegions>> = inputs
             .iter()
             .zip(&bodies)
-            .map(|(inputs, body)| {
-                Arc::new(BodyRegions::new(scene, &inputs.name, inputs.file(), &body.surface.mesh))
+            .zip(&scene.objects)
+            .map(|((inputs, body), object)| {
+                Arc::new(BodyRegions::new(scene, &object.name, inputs.file(), &body.surface.mesh))
             })
             .collect();
         for (body, regions) in bodies.iter_mut().zip(&regions) {
             body.regions = Arc::clone(regions);
         }
         let guides: Vec<Arc<Vec<BodyGuide>>> =
-            inputs.iter().map(|inputs| Arc::new(regions::guides(scene, &inputs.name))).collect();
+            scene.objects.iter().map(|object| Arc::new(regions::guides(scene, &object.name))).collect();
         let used: Vec<Arc<Vec<u16>>> = regions.iter().map(|regions| Arc::new(regions.all())).collect();
         let objects: Vec<ObjectInputs<'_>> = (0..caches.len())
             .map(|index| ObjectInputs {
@@ -208,12 +209,20 @@ impl Preparer {
     }
 }
 
-/// Builds the surfaces of all objects, and their noise.
+/// Builds the surfaces of all objects, and their noise. Instances share one surface.
 fn build(loaded: &LoadedScene, caches: &mut [ObjectCache], inputs: &[SurfaceInputs]) {
-    caches.par_iter_mut().zip(inputs).zip(&loaded.scene.objects).for_each(|((cache, inputs), object)| {
-        cache.build_surface(inputs);
+    let twins = SurfaceInputs::twins(inputs);
+    let objects = caches.par_iter_mut().zip(inputs).zip(&loaded.scene.objects).enumerate();
+    objects.for_each(|(index, ((cache, inputs), object))| {
+        if twins[index] == index {
+            cache.build_surface(inputs);
+        }
         cache.build_noise(NoiseInputs::new(loaded, object));
     });
+    for (index, &twin) in twins.iter().enumerate().filter(|(index, twin)| index != *twin) {
+        let [cache, of_twin] = caches.get_disjoint_mut([index, twin]).expect("a twin is another object");
+        cache.share_surface(&inputs[index], of_twin);
+    }
 }
 
 /// A painting without particles, of objects whose surfaces are built.

@@ -1,6 +1,7 @@
 //! Makes the surface of a body from an object of the document, and gives the surface's vertices in any shape and its
 //! albedo.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
@@ -21,7 +22,6 @@ use crate::noise_displace;
 /// What a body's surface depends on.
 #[derive(Clone, Debug)]
 pub(crate) struct SurfaceInputs {
-    pub(crate) name: String,
     file: Arc<MeshFile>,
     group: Option<String>,
     scale: Scale,
@@ -42,7 +42,6 @@ impl PartialEq for SurfaceInputs {
         Arc::ptr_eq(&self.file, &other.file)
             && same(self.texture.as_ref(), other.texture.as_ref())
             && same(self.morph.as_ref(), other.morph.as_ref())
-            && self.name == other.name
             && self.group == other.group
             && self.scale == other.scale
             && self.up == other.up
@@ -55,7 +54,6 @@ impl SurfaceInputs {
     pub(crate) fn new(loaded: &LoadedScene, object: &Object) -> Option<Self> {
         let texture_name = object.material.as_ref().and_then(|material| material.texture.as_ref());
         Some(Self {
-            name: object.name.clone(),
             file: Arc::clone(loaded.meshes.get(&object.mesh)?),
             group: object.group.clone(),
             scale: object.scale,
@@ -65,6 +63,24 @@ impl SurfaceInputs {
             texture: texture_name.and_then(|name| loaded.textures.get(name)).map(Arc::clone),
             morph: object.morph.as_ref().and_then(|name| loaded.meshes.get(name)).map(Arc::clone),
         })
+    }
+
+    /// For each of these, the first whose surface is the same: as a rule itself. Of one mesh file, only the first few kinds of surface
+    /// are compared.
+    pub(crate) fn twins(all: &[Self]) -> Vec<usize> {
+        const COMPARED: usize = 16;
+        let mut kinds: HashMap<*const MeshFile, Vec<usize>> = HashMap::new();
+        let mut twin = |(index, inputs): (usize, &Self)| {
+            let kinds = kinds.entry(Arc::as_ptr(&inputs.file)).or_default();
+            if let Some(&same) = kinds.iter().find(|&&other| all[other] == *inputs) {
+                return same;
+            }
+            if kinds.len() < COMPARED {
+                kinds.push(index);
+            }
+            index
+        };
+        all.iter().enumerate().map(&mut twin).collect()
     }
 
     /// The mesh file, whose groups and materials regions name.
@@ -82,7 +98,7 @@ impl SurfaceInputs {
             let TriangleMesh { positions, normals, .. } = placed(self.chosen(&moved), self.scale, self.up);
             MorphTarget { positions, normals }
         });
-        BodySurface { name: self.name.clone(), sides: sides(&mesh), mesh, morph, materials }
+        BodySurface { sides: sides(&mesh), mesh, morph, materials }
     }
 
     /// The whole mesh, or the triangles of the object's group.

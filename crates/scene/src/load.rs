@@ -216,7 +216,14 @@ fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders
         return Err(Report(vec![error_in(scene_path, None, message, "name a .glb or .gltf file")]));
     }
     let (file, mut warnings) = reader.open(&path, root, folders)?;
-    let (shot, odd) = Shot::new(file, &name, &Choice::of(scene));
+    let (shot, mut odd) = Shot::new(file, &name, &Choice::of(scene));
+    let fps = scene.timeline.fps;
+    if let Some(rate) = shot.rate_of_keys().filter(|rate| (rate - fps).abs() > 1e-3) {
+        odd.push([
+            format!("its keys lie {rate} to a second, and the scene plays {fps} frames a second"),
+            format!("so that frames have the same numbers, write timeline: (fps: {rate}) in the scene"),
+        ]);
+    }
     warnings.extend(odd.into_iter().map(|[message, mend]| {
         let severity = Severity::Warning;
         Problem { severity, ..error_in(&path, None, message, mend) }

@@ -9,6 +9,7 @@ mod enter;
 mod lights;
 
 use std::collections::HashMap;
+use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -21,7 +22,6 @@ use crate::mesh_format;
 use crate::nearest::nearest;
 
 /// A glTF file on a scene's stage.
-#[derive(Debug)]
 pub struct Shot {
     file: Arc<GltfFile>,
     /// Where everything stands at any time.
@@ -29,12 +29,14 @@ pub struct Shot {
     /// The objects, in the order of the file's nodes.
     objects: Vec<ShotObject>,
     object_of_name: HashMap<String, usize>,
-    /// The node of the camera that is looked through: the first that shows.
+    /// The node of the camera that is looked through.
     camera: Option<usize>,
     /// The lights as they are at rest, each with its node; the soft light all around has none.
     lights: Vec<(Light, Option<usize>)>,
     /// Our intensity of a light over that of the file.
     exposure: f64,
+    /// Intensity of the soft light all around.
+    around: f64,
     /// For each light of the file, a factor on the intensities of its keys.
     key_factors: Vec<f64>,
 }
@@ -100,11 +102,20 @@ impl Shot {
         }
         let object_of_name =
             objects.iter().enumerate().map(|(index, object)| (object.object.name.clone(), index)).collect();
-        let camera = camera::chosen(&file, choice.camera.as_deref(), &mut odd);
+        let camera = camera::chosen(&file, &animator, choice.camera.as_deref(), &mut odd);
         let (lights, key_factors) = (Vec::new(), vec![1.0; file.gltf.lights.len()]);
-        let mut shot =
-            Self { animator, objects, object_of_name, camera, lights, exposure: 1.0, key_factors, file };
-        shot.exposure = shot.found_exposure();
+        let mut shot = Self {
+            animator,
+            objects,
+            object_of_name,
+            camera,
+            lights,
+            exposure: 1.0,
+            around: 0.0,
+            key_factors,
+            file,
+        };
+        (shot.exposure, shot.around) = shot.found_exposure();
         shot.lights = shot.lights_at_rest();
         shot.mend_light_keys(&mut odd);
         shot.tell_what_bends(&mut odd);
@@ -141,12 +152,33 @@ impl Shot {
         !self.lights.is_empty()
     }
 
+    /// Frames per second at which all keys lie on whole frames; `None` where there are too few keys to tell.
+    pub fn rate_of_keys(&self) -> Option<f64> {
+        /// The commonest first: what fits several is the first of them.
+        const RATES: [f64; 10] =
+            [24.0, 25.0, 30.0, 12.0, 15.0, 48.0, 50.0, 60.0, 24_000.0 / 1001.0, 30_000.0 / 1001.0];
+        const FEW: usize = 4;
+        /// How far from a whole frame a key may be: times have 32 bits.
+        const OFF: f64 = 2e-3;
+        let is_whole = |frame: f64| (frame - frame.round()).abs() < OFF;
+        let fits = |rate: &f64| self.animator.key_times_s().all(|time_s| is_whole(f64::from(time_s) * rate));
+        let enough = self.animator.key_times_s().nth(FEW).is_some();
+        RATES.into_iter().find(fits).filter(|_| enough)
+    }
+
     /// The first and the last frame in which it moves, at this rate: frame = time · rate.
     pub fn frames(&self, fps: f64) -> (i64, i64) {
         let [first, last] = self.span_s().unwrap_or_default().map(|time_s| f64::from(time_s) * fps);
         // What rounding of times to 32 bits leaves over is no frame.
         let last = (last - 1e-3).ceil().max(0.0) as i64;
         (((first + 1e-3).floor() as i64).min(last), last)
+    }
+}
+
+/// The path alone: whoever prints a scene does not want the numbers of a whole file.
+impl fmt::Debug for Shot {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_tuple("Shot").field(&self.file.path).finish()
     }
 }
 

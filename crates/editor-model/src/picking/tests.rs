@@ -19,13 +19,7 @@ fn numbers() -> impl FnMut() -> f64 {
 }
 
 fn surface(mesh: TriangleMesh) -> Arc<BodySurface> {
-    Arc::new(BodySurface {
-        name: String::new(),
-        sides: sides(&mesh),
-        mesh,
-        morph: None,
-        materials: Vec::new(),
-    })
+    Arc::new(BodySurface { sides: sides(&mesh), mesh, morph: None, materials: Vec::new() })
 }
 
 fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriangleMesh {

@@ -13,6 +13,9 @@ use crate::texture;
 /// The colour (sRGB) of whatever has no material, as in OBJ files.
 const GREY: [f32; 3] = [0.8; 3];
 
+/// The share of its colour that smooth metal lacks as a matt surface.
+const METAL_DARK: f32 = 0.45;
+
 /// Light that a surface gives off by itself counts as the whole of its look from this share of its own colour on.
 const GLOWS: f32 = 1.0;
 
@@ -90,10 +93,16 @@ fn plain(stated: &Stated, glows: bool) -> Material {
     } else {
         [r, g, b]
     };
-    // A roughness of a half, which exporters write for a plain surface, is a quarter glazed, as with OBJ files.
+    // A roughness of a half, which exporters write for a plain surface, is a quarter glazed, as with OBJ files. Metal is darker, since
+    // its colour is that of its highlights. Where a picture says how metallic a place is, the factor says nothing.
     let smooth = 1.0 - stated.values.roughness.clamp(0.0, 1.0);
+    let is_metal = !glows && stated.metallic_roughness_texture.is_none();
+    let metallic = if is_metal { stated.values.metallic.clamp(0.0, 1.0) } else { 0.0 };
+    let of_metal = smooth.sqrt();
+    let gloss = smooth * smooth * (1.0 - metallic) + of_metal * metallic;
+    let linear = linear.map(|channel| channel * (1.0 - METAL_DARK * metallic * of_metal));
     Material {
-        gloss: smooth * smooth,
+        gloss,
         unlit: stated.is_unlit || glows,
         ..Material::plain(stated.name.as_str(), linear.map(srgb_from_linear))
     }

@@ -3,10 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use impasto_core::color::{linear_from_srgb, srgb_from_linear};
+
 use super::axes::Axes;
 use super::scheme::{self, Scheme};
 use super::{bare, object_name};
-use crate::document::{Brought, Scene, StrokeSettings};
+use crate::document::{Brought, Color, Scene, StrokeSettings, Timeline};
 use crate::mesh_file::MeshFile;
 use crate::motion;
 use crate::shot::Shot;
@@ -16,6 +18,11 @@ const LONGER_PX: f64 = 1280.0;
 
 /// Aspects beyond this, wide or tall, are no picture's.
 const MOST_ASPECT: f64 = 4.0;
+
+/// A colour with this share of its light.
+fn dimmed(Color(color): Color, share: f64) -> Color {
+    Color(color.map(|channel| srgb_from_linear(linear_from_srgb(channel) * share as f32)))
+}
 
 /// A scene that paints a shot as its file has it. The picture has the aspect of the shot's camera. A shot without lights is lit from
 /// one side. `mesh` is all of the file, as one mesh.
@@ -29,9 +36,10 @@ pub fn for_shot(path: &Path, mesh: &MeshFile, shot: &Arc<Shot>) -> Scene {
     let mut scene = Scene {
         size: (width, height),
         seed: name_hash % 1000,
-        background: scheme.plain_ground(),
+        background: dimmed(scheme.plain_ground(), shot.brightness().powi(2)),
         shot: Some(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()),
         // Smaller strokes than usual: an unknown shot may have much fine detail.
+        timeline: Timeline { fps: shot.rate_of_keys().unwrap_or(24.0), ..Timeline::default() },
         strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
         ..bare()
     };

@@ -1,6 +1,7 @@
 //! The lens of a shot's camera, as the lenses of scenes are stated.
 
-use impasto_gltf::Lens as ShotLens;
+use glam::DVec3;
+use impasto_gltf::{Animator, Lens as ShotLens, Posed};
 
 use super::Shot;
 use crate::document::Lens;
@@ -25,15 +26,43 @@ pub(super) fn lens_in(lens: ShotLens, (width, height): (u32, u32)) -> Lens {
     }
 }
 
-/// The node of the camera with this name, or else of the first. Says where the choice is not clear.
-pub(super) fn chosen(file: &GltfFile, name: Option<&str>, odd: &mut Vec<[String; 2]>) -> Option<usize> {
+/// How many objects have their places inside a camera's picture.
+fn seen(file: &GltfFile, posed: &Posed, node: usize) -> usize {
+    let Some(camera) = file.gltf.nodes[node].camera else { return 0 };
+    let view_from_world = posed.world_from_view(node).inverse();
+    let is_inside = |at: DVec3| match posed.lenses[camera] {
+        ShotLens::Perspective { yfov_rad, aspect, znear, .. } => {
+            let half = (0.5 * yfov_rad).tan() * -at.z;
+            -at.z > znear && at.y.abs() < half && at.x.abs() < half * aspect.unwrap_or(1.0)
+        }
+        ShotLens::Orthographic { xmag, ymag, .. } => at.z < 0.0 && at.x.abs() < xmag && at.y.abs() < ymag,
+    };
+    let nodes = file.gltf.nodes.iter().enumerate();
+    let shows = nodes.filter(|(index, node)| node.mesh.is_some() && posed.is_visible[*index]);
+    shows
+        .filter(|(index, _)| {
+            is_inside(view_from_world.transform_point3(posed.world_from_node[*index].translation))
+        })
+        .count()
+}
+
+/// The node of the camera with this name, or else of the first of those that see the most objects when the shot begins. Says where the
+/// choice is not clear.
+pub(super) fn chosen(
+    file: &GltfFile,
+    animator: &Animator,
+    name: Option<&str>,
+    odd: &mut Vec<[String; 2]>,
+) -> Option<usize> {
     let nodes = &file.gltf.nodes;
     let all: Vec<usize> =
         (0..nodes.len()).filter(|&node| nodes[node].camera.is_some() && file.is_in_scene(node)).collect();
     let named = name.map(|name| all.iter().copied().find(|&node| nodes[node].name == name));
-    let &first = all.first()?;
+    let posed = animator.pose(animator.span_s().map_or(0.0, |[first, _]| f64::from(first)));
+    // Of equals, `min_by_key` keeps the first.
+    let first = all.iter().copied().min_by_key(|&node| std::cmp::Reverse(seen(file, &posed, node)))?;
     let names: Vec<&str> = all.iter().map(|&node| nodes[node].name.as_str()).collect();
-    let is_first = format!("{:?} is looked through", names[0]);
+    let is_first = format!("{:?} is looked through", nodes[first].name);
     let mend = || format!("choose one in the scene, as in camera: (of_shot: {:?})", names[names.len() - 1]);
     match (named, name) {
         (Some(Some(node)), _) => return Some(node),

@@ -7,41 +7,94 @@ use impasto_gltf::{LightKind as ShotKind, LightProperty, LightValues, Posed, Tar
 use super::Shot;
 use crate::document::{Color, Light, LightKind};
 
-/// What all the lights of a shot together bring to its middle, as a sun would: as bright as the sun of a new scene.
-const BRIGHTNESS: f64 = 2.4;
+/// Our intensity of a sun of one watt a square metre, so that a white surface is as bright as where the shot was made: divided by π, and
+/// by what the curve of display does to the middle values.
+const OF_WATT: f64 = 0.455;
 
-/// Brightness of the soft light all around, which no exporter writes.
-const AMBIENT: f64 = 0.5;
+/// Lux of a watt a square metre, as exporters have it.
+const LUX_PER_WATT: f64 = 683.0;
 
-/// The light at the middle counts as at least this far from it, over the size of the scene.
-const NEAREST: f64 = 0.1;
+/// Light on the objects of the shot, in our intensity, that is neither dimmed nor lifted.
+const LEAST: f64 = 0.7;
+const MOST: f64 = 1.7;
+
+/// Below this, the numbers are no lux: they are taken as shares.
+const NO_LUX: f64 = 0.01;
+
+/// What is left of how much darker than `LEAST` a shot is, as a power: a night stays one, and strokes can be seen.
+const DARKNESS: f64 = 0.6;
+
+/// The soft light all around, which no exporter writes, over the light of suns and over that of lamps.
+const AROUND: [f64; 2] = [0.15, 0.25];
+
+/// A lamp counts as at least this far from an object, over the size of the scene.
+const NEAREST: f64 = 0.05;
 
 impl Shot {
-    /// Our intensity over that of the file: all lights together are as bright at the middle of the shot as the light of a new scene.
-    pub(super) fn found_exposure(&self) -> f64 {
-        let rest = &self.file.rest;
-        let places = self.objects.iter().map(|object| rest.world_from_node[object.node].translation);
-        let (low, high) = places
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
-        let (middle, size) = if low.cmple(high).all() {
-            ((low + high) * 0.5, (high - low).length())
-        } else {
-            (DVec3::ZERO, 1.0)
+    /// Our intensity over that of the file, and the soft light all around. A shot is as bright as where it was made, within limits: it
+    /// is dimmed where whites would burn, and lifted where it is dark.
+    pub(super) fn found_exposure(&self) -> (f64, f64) {
+        let [suns, lamps] = self.light_at_middle().map(|lux| lux / LUX_PER_WATT * OF_WATT);
+        let found = suns + lamps;
+        if !(found > 0.0 && found.is_finite()) {
+            return (OF_WATT / LUX_PER_WATT, 0.0);
+        }
+        let wanted = match found {
+            ..NO_LUX => MOST,
+            NO_LUX..LEAST => LEAST * (found / LEAST).powf(DARKNESS),
+            _ => found.min(MOST),
         };
-        let brings = |(node, light): (usize, usize)| {
+        let scale = wanted / found;
+        let around = scale * (AROUND[0] * suns + AROUND[1] * lamps);
+        (scale * OF_WATT / LUX_PER_WATT, around)
+    }
+
+    /// What all suns, and all lamps, together bring to the objects of the shot, lux: to the one in the middle, when they are put in order
+    /// by their light. Shadows are not looked for.
+    fn light_at_middle(&self) -> [f64; 2] {
+        /// As many objects stand for all of them.
+        const ASKED: usize = 256;
+        let rest = &self.file.rest;
+        let stride = self.objects.len().div_ceil(ASKED).max(1);
+        let objects = self.objects.iter().step_by(stride);
+        let mut places: Vec<DVec3> =
+            objects.map(|object| rest.world_from_node[object.node].translation).collect();
+        if places.is_empty() {
+            places.push(DVec3::ZERO);
+        }
+        let (low, high) = places
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &at| (low.min(at), high.max(at)));
+        let nearest = (NEAREST * (high - low).length()).max(1e-3);
+        let mut lit: Vec<[f64; 2]> = places.iter().map(|&at| self.light_on(at, nearest)).collect();
+        lit.sort_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+        lit[lit.len() / 2]
+    }
+
+    /// What all suns, and all lamps, bring to a place, lux. Lamps count as at least `nearest` away.
+    fn light_on(&self, at: DVec3, nearest: f64) -> [f64; 2] {
+        let rest = &self.file.rest;
+        let mut brought = [0.0; 2];
+        for (node, light) in self.light_nodes() {
             let values = rest.lights[light];
             let luma = values.color.map(f64::from).into_iter().zip([0.2126, 0.7152, 0.0722]);
             let bright = values.intensity * luma.map(|(channel, weight)| channel * weight).sum::<f64>();
+            let world = rest.world_from_view(node);
+            let way = at - world.w_axis.truncate();
+            let off_axis_rad = way.angle_between(-world.z_axis.truncate());
             match self.file.gltf.lights[light].kind {
-                ShotKind::Directional => bright,
-                ShotKind::Point | ShotKind::Spot => {
-                    let away = (rest.world_from_node[node].translation - middle).length();
-                    bright / away.max(NEAREST * size).max(1e-6).powi(2)
-                }
+                ShotKind::Directional => brought[0] += bright,
+                ShotKind::Spot if off_axis_rad > values.outer_cone_rad => {}
+                ShotKind::Point | ShotKind::Spot => brought[1] += bright / way.length().max(nearest).powi(2),
             }
-        };
-        let all: f64 = self.light_nodes().map(brings).sum();
-        if all > 0.0 && all.is_finite() { BRIGHTNESS / all } else { 1.0 }
+        }
+        brought
+    }
+
+    /// How bright the shot is, over a well-lit one: at most 1.
+    pub(crate) fn brightness(&self) -> f64 {
+        let found: f64 = self.light_at_middle().iter().sum();
+        if found > 0.0 { (found * self.exposure / LEAST).min(1.0) } else { 1.0 }
     }
 
     /// The lights as they are at rest, and a soft light all around where there are any.
@@ -61,7 +114,7 @@ impl Shot {
         if !lights.is_empty() {
             let ambient = Light {
                 color: Color::from_bytes([0xcf, 0xdc, 0xf2]),
-                intensity: AMBIENT,
+                intensity: self.around,
                 ..Light::new("ambient", LightKind::Ambient)
             };
             lights.push((ambient, None));
