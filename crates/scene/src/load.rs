@@ -106,30 +106,47 @@ fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report>
 /// `impasto new` writes, and both are painted alike.
 fn load_alone(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Report> {
     source::check_regular(path).map_err(|problem| Report(vec![problem]))?;
-    let reader = MeshReader::default();
-    let (mesh, mut warnings) = reader.read(path, None, folder_of(path), &options.folders)?;
+    let mut made = Made::default();
+    let root = folder_of(path);
     if crate::gltf::is_gltf(path) {
-        let (file, _) = reader.open(path, folder_of(path), &options.folders)?;
+        let (file, warnings) = made.reader.open(path, root, &options.folders)?;
+        made.warnings = warnings;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let (shot, _) = Shot::new(file, &name, &Choice::default());
         if shot.has_camera() {
-            let scene = crate::new_scene::for_shot(path, &mesh, &Arc::new(shot));
+            // What cannot be read is told of when the scene is.
+            let read = |node| made.reader.read(path, Some(node), root, &options.folders).ok();
+            let meshes: Vec<Arc<MeshFile>> =
+                shot.object_names().filter_map(read).map(|(mesh, _)| mesh).collect();
+            let scene = crate::new_scene::for_shot(path, &meshes, &Arc::new(shot));
             let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
-            return finish(path, parsed, options, None);
+            return finish(path, parsed, options, Some(made));
         }
         if shot.span_s().is_some() {
             let severity = Severity::Warning;
             let message = "the file moves and has no camera: it is painted as a model that stands still";
             let mend = "export it with its cameras";
-            warnings.push(Problem { severity, ..error_in(path, None, message, mend) });
+            made.warnings.push(Problem { severity, ..error_in(path, None, message, mend) });
         }
     }
+    let (mesh, warnings) = made.reader.read(path, None, root, &options.folders)?;
+    made.warnings.extend(warnings);
     let NewScene { scene, up_is_unsure } = crate::new_scene::for_mesh(path, &mesh, options.placing);
     if up_is_unsure {
-        warnings.push(unsure_of_up(path, &scene));
+        made.warnings.push(unsure_of_up(path, &scene));
     }
+    made.mesh = Some(mesh);
     let parsed = parse::parse(path, &crate::save::to_ron(&scene))?;
-    finish(path, parsed, options, Some((mesh, warnings)))
+    finish(path, parsed, options, Some(made))
+}
+
+/// What was read while a scene was made for a file.
+#[derive(Default)]
+struct Made {
+    reader: MeshReader,
+    /// The whole file as one mesh.
+    mesh: Option<Arc<MeshFile>>,
+    warnings: Vec<Problem>,
 }
 
 /// Says which axis was taken to be up where another could as well be.
@@ -151,11 +168,11 @@ fn finish(
     path: &Path,
     parsed: Parsed,
     options: &LoadOptions,
-    known_mesh: Option<(Arc<MeshFile>, Vec<Problem>)>,
+    made: Option<Made>,
 ) -> Result<LoadedScene, Report> {
-    let written = known_mesh.is_none().then(|| parsed.located.clone());
+    let written = made.is_none().then(|| parsed.located.clone());
+    let Made { reader, mesh: known_mesh, warnings: of_made } = made.unwrap_or_default();
     let (Parsed { mut scene, .. }, applied) = overrides::apply(parsed, &options.overrides)?;
-    let reader = MeshReader::default();
     let brought = enter_shot(&reader, path, &mut scene, &options.folders);
     let locator = FieldLocator { path, written: written.as_ref(), applied: &applied, edited: None };
     let mut problems: Vec<Problem> =
@@ -171,16 +188,12 @@ fn finish(
             return Err(Report(of_shot.into_iter().map(at).collect()));
         }
     };
-    let known_name =
-        known_mesh.is_some().then(|| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
-    let known_mesh = std::cell::RefCell::new(known_mesh);
+    let own_name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    let known_mesh = known_mesh.map(|mesh| (own_name, mesh));
     let readers = Readers {
-        mesh: &|name| {
-            let is_known = known_name.as_deref() == Some(name);
-            match known_mesh.borrow_mut().take_if(|_| is_known) {
-                Some(mesh) => Ok(mesh),
-                None => read_mesh(&reader, path, name, &options.folders),
-            }
+        mesh: &|name| match &known_mesh {
+            Some((known, mesh)) if *known == name => Ok((Arc::clone(mesh), Vec::new())),
+            _ => read_mesh(&reader, path, name, &options.folders),
         },
         texture: &|name| read_texture(path, name, &options.folders).map(shared),
         brush: &|name| read_brush(path, name, &options.folders).map(shared),
@@ -188,7 +201,7 @@ fn finish(
     let files = Files::read(&scene, &readers, |problem, field_path| locator.of_file(problem, field_path));
     let in_meshes = check::check_with_meshes(&scene, &files.meshes);
     problems.extend(in_meshes.into_iter().map(|finding| locator.problem(finding)));
-    let of_files = brought.into_iter().chain(files.problems).collect();
+    let of_files = of_made.into_iter().chain(brought).chain(files.problems).collect();
     sort_and_cap(path, &mut problems, of_files);
     if problems.iter().any(|problem| problem.severity.is_fatal()) {
         return Err(Report(problems));

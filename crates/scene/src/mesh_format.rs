@@ -59,6 +59,11 @@ pub fn name_of_node(file: &str, node: &str) -> String {
     format!("{file}{NODE}{node}")
 }
 
+/// The same for all paths of a file.
+fn one_name(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
+
 /// Reads mesh files; a glTF file of which many nodes are asked is read once.
 #[derive(Default)]
 pub(crate) struct MeshReader {
@@ -74,7 +79,7 @@ impl MeshReader {
         }
         let (file, warnings) = self.open(path, root, folders)?;
         let Some(node) = node else { return file.whole().map(|mesh| (Arc::new(mesh), warnings)) };
-        let key = file.instance_key(node).map(|key| (path.to_owned(), key));
+        let key = file.instance_key(node).map(|key| (one_name(path), key));
         let known = key.as_ref().and_then(|key| self.instances.borrow().get(key).cloned());
         let mesh = match known {
             Some(mesh) => mesh,
@@ -93,12 +98,13 @@ impl MeshReader {
         root: &Path,
         folders: &AssetFolders,
     ) -> Result<(Shared, Vec<Problem>), Report> {
-        if let Some(known) = self.open.borrow().get(path) {
+        let one_name = one_name(path);
+        if let Some(known) = self.open.borrow().get(&one_name) {
             return Ok((Arc::clone(known), Vec::new()));
         }
         let (file, warnings) = gltf::open(path, root, folders)?;
         let file = Arc::new(file);
-        self.open.borrow_mut().insert(path.to_owned(), Arc::clone(&file));
+        self.open.borrow_mut().insert(one_name, Arc::clone(&file));
         Ok((file, warnings))
     }
 }

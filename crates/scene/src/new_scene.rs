@@ -67,7 +67,7 @@ pub fn for_mesh(path: &Path, mesh: &MeshFile, placing: Placing) -> NewScene {
     let name_hash = scheme::name_hash(&name);
     let stance = Samples::of(mesh).stance(placing.up, placing.view);
     let view = View::of(mesh, stance, placing.view == ViewFrom::Auto);
-    let scheme = Scheme::of(mesh, name_hash);
+    let scheme = Scheme::of(&[mesh], name_hash);
     let mesh_name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let mut objects = objects_of(&name, &mesh_name, mesh, &scheme);
     for object in &mut objects {

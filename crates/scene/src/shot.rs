@@ -147,6 +147,11 @@ impl Shot {
         &self.file.path
     }
 
+    /// The names of what it shows.
+    pub fn object_names(&self) -> impl Iterator<Item = &str> {
+        self.objects.iter().map(|object| object.object.name.as_str())
+    }
+
     /// Whether it has lights.
     pub fn has_lights(&self) -> bool {
         !self.lights.is_empty()

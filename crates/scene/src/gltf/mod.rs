@@ -53,13 +53,15 @@ pub(crate) fn open(
         folders.open(&request).map(|asset| asset.bytes).map_err(|error| error.to_string())
     };
     let problem = |finding: Finding| in_file(path, &finding);
-    let (gltf, findings) = impasto_gltf::read(bytes, &mut open)
+    let (mut gltf, findings) = impasto_gltf::read(bytes, &mut open)
         .map_err(|findings| Report(findings.into_iter().map(problem).collect()))?;
     let mut warnings: Vec<Problem> = findings.into_iter().map(problem).collect();
     // Only an animation that is asked for by name may be missing.
     let unnamed = |_| Report(Vec::new());
     let rest = Animator::new(&gltf, Playing::None).map_err(unnamed)?.0.pose(0.0);
     let materials = materials::of(path, &gltf, &mut warnings);
+    // The bytes of pictures are those of the whole file; decoded, they are not needed any more.
+    gltf.images.iter_mut().for_each(|image| image.bytes = None);
     let mut in_scene = vec![false; gltf.nodes.len()];
     let mut open = gltf.roots.clone();
     while let Some(node) = open.pop() {

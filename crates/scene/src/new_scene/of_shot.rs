@@ -25,10 +25,10 @@ fn dimmed(Color(color): Color, share: f64) -> Color {
 }
 
 /// A scene that paints a shot as its file has it. The picture has the aspect of the shot's camera. A shot without lights is lit from
-/// one side. `mesh` is all of the file, as one mesh.
-pub fn for_shot(path: &Path, mesh: &MeshFile, shot: &Arc<Shot>) -> Scene {
+/// one side. `meshes` are what its objects show.
+pub fn for_shot(path: &Path, meshes: &[Arc<MeshFile>], shot: &Arc<Shot>) -> Scene {
     let name_hash = scheme::name_hash(&object_name(path));
-    let scheme = Scheme::of(mesh, name_hash);
+    let scheme = Scheme::of(&meshes.iter().map(|mesh| &**mesh).collect::<Vec<_>>(), name_hash);
     let aspect = shot.camera_aspect().unwrap_or(16.0 / 9.0).clamp(1.0 / MOST_ASPECT, MOST_ASPECT);
     // Movies need even sides.
     let even = |side: f64| 2 * (side / 2.0).round() as u32;

@@ -66,13 +66,16 @@ pub(super) struct Scheme {
 
 impl Scheme {
     /// The scheme of a model; `name_hash` chooses among harmonies.
-    pub fn of(mesh: &MeshFile, name_hash: u32) -> Self {
+    pub fn of(meshes: &[&MeshFile], name_hash: u32) -> Self {
         let [own, ground] = HARMONIES[name_hash as usize % HARMONIES.len()];
-        if has_no_color(mesh) {
+        if meshes.iter().all(|mesh| has_no_color(mesh)) {
             let albedo = luminance(linear(own));
             return Self::lit(Some(own), ground, [albedo, albedo]);
         }
-        let colors = colors_of(mesh);
+        let mut colors: Vec<([f32; 3], f64)> = meshes.iter().flat_map(|mesh| colors_of(mesh)).collect();
+        if colors.is_empty() {
+            colors.push((NO_COLOR.map(linear_from_srgb), 1.0));
+        }
         let total: f64 = colors.iter().map(|(_, area)| area).sum();
         let mut mean = [0.0f32; 3];
         for (color, area) in &colors {
@@ -193,9 +196,6 @@ fn colors_of(mesh: &MeshFile) -> Vec<([f32; 3], f64)> {
                 area / pixels.len() as f64,
             ));
         }
-    }
-    if colors.is_empty() {
-        colors.push((NO_COLOR.map(linear_from_srgb), 1.0));
     }
     colors
 }
