@@ -405,9 +405,8 @@ fn write_card(path: &Path, alpha_mode: &str, wrap_code: u32) {
 
 /// The share of painted pixels in each of four columns of a picture of this shot.
 fn painted(path: &Path, settings: &[(&str, &str)], frame_at: f64) -> [f64; 4] {
-    let mut options = LoadOptions::default();
-    options.overrides =
-        settings.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let overrides = settings.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let options = LoadOptions { overrides, ..LoadOptions::default() };
     let painting =
         prepare(Arc::new(load(path, &options).unwrap_or_else(|report| panic!("{report}")))).unwrap();
     let frame = FrameOptions { transparent: true, ..FrameOptions::new([160, 90]) };

@@ -35,8 +35,10 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
             let verdict = if errors > 0 { "bad" } else { "good" };
             writeln!(
                 std::io::stdout(),
-                "{}: {verdict}, {errors} errors, {warnings} warnings",
-                path.display()
+                "{}: {verdict}, {}, {}",
+                path.display(),
+                counted(errors, "error"),
+                counted(warnings, "warning"),
             )?;
         }
     }
@@ -57,4 +59,9 @@ fn as_json(problem: &Problem) -> serde_json::Value {
         "message": problem.message,
         "mend": problem.mend,
     })
+}
+
+/// A number of things in words.
+fn counted(count: usize, thing: &str) -> String {
+    if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
 }

@@ -1,5 +1,6 @@
 //! `impasto info`: what is in a scene or a mesh.
 
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::sync::Arc;
 
@@ -119,6 +120,7 @@ fn facts(painting: &Painting) -> serde_json::Value {
         .filter(|(path, _, same)| same[0] == *path)
         .map(|(path, file, same)| {
             let (low, high) = file.mesh.bounds().unwrap_or_default();
+            let used: BTreeSet<u32> = file.mesh.material_of_triangle.iter().copied().collect();
             serde_json::json!({
                 "path": path,
                 "also": &same[1..],
@@ -127,7 +129,7 @@ fn facts(painting: &Painting) -> serde_json::Value {
                 "vertices": file.mesh.positions.len(),
                 "has_uv": !file.mesh.uvs.is_empty(),
                 "groups": file.groups,
-                "materials": file.materials.iter().map(|material| &material.name).collect::<Vec<_>>(),
+                "materials": used.iter().map(|&material| &file.materials[material as usize].name).collect::<Vec<_>>(),
                 "bounds": [low.to_array(), high.to_array()],
             })
         })

@@ -240,8 +240,10 @@ impl Plan {
         }
         if !arguments.talk.quiet {
             let seconds = start.elapsed().as_secs_f64();
-            let folder = pattern.path(0).parent().map(Path::to_owned).unwrap_or_default();
-            eprintln!("{done} frames in {seconds:.1} s, {}", folder.display());
+            let frames = if done == 1 { "frame" } else { "frames" };
+            let first = pattern.path(0);
+            let folder = first.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+            eprintln!("{done} {frames} in {seconds:.1} s, into {}", folder.display());
         }
         Ok(())
     }

@@ -98,7 +98,7 @@ impl ShadowMap {
             self.drawn = before;
             return Ok(());
         }
-        let state = DrawState { depth_test: true, depth_offset: true, ..DrawState::default() };
+        let state = DrawState { depth_test: true, casts_shadow: true, ..DrawState::default() };
         self.gpu.begin_pass(&self.pass, state);
         for DrawnBody { body, mesh } in bodies.iter().filter(|drawn| casts_shadow(drawn.body)) {
             for part in mesh.parts.iter().filter(|part| part.casts_shadow) {

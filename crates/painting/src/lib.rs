@@ -37,6 +37,7 @@ mod presence_bound;
 mod recall;
 mod references;
 mod regions;
+mod shadow_bounds;
 mod stated;
 mod stroke;
 mod stroke_directions;

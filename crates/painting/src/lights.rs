@@ -1,6 +1,6 @@
-//! Turns the document's lights and colours into linear light, and finds the sphere round a scene that shadows need.
+//! Turns the document's lights and colours into linear light.
 
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use impasto_core::color::linear_from_srgb;
 use impasto_scene::document::{Color, Light, LightKind, Scene};
 use impasto_scene::motion;
@@ -71,27 +71,4 @@ fn cone(light: &Light) -> Cone {
     let [inner, outer] = light.cone_deg.unwrap_or([0.0, 45.0]).map(|deg| deg.to_radians().cos() as f32);
     let axis = DVec3::from(light.direction.unwrap_or([0.0, -1.0, 0.0])).as_vec3();
     Cone { axis: axis.normalize_or(Vec3::NEG_Y), inner_cosine: inner, outer_cosine: outer }
-}
-
-/// A sphere round all bodies in all of these poses: centre and radius, world space.
-pub(crate) fn bounds_over<'a>(
-    bodies: &[Option<(Vec3, Vec3)>],
-    poses: impl Iterator<Item = &'a [DAffine3]>,
-) -> (Vec3, f32) {
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for poses in poses {
-        for (bounds, pose) in bodies.iter().zip(poses) {
-            let Some((least, greatest)) = bounds else { continue };
-            for corner in 0..8 {
-                let pick = |axis: usize| if corner >> axis & 1 == 0 { least[axis] } else { greatest[axis] };
-                let at = pose.transform_point3(Vec3::new(pick(0), pick(1), pick(2)).as_dvec3());
-                low = low.min(at);
-                high = high.max(at);
-            }
-        }
-    }
-    if low.cmpgt(high).any() {
-        return (Vec3::ZERO, 1.0);
-    }
-    (((low + high) * 0.5).as_vec3(), (((high - low).length() * 0.5) as f32).max(1e-6))
 }

@@ -106,8 +106,9 @@ impl ObjectCache {
     pub(crate) fn build_surface(&mut self, inputs: &SurfaceInputs) {
         self.surface.update(inputs.clone(), |inputs, _| {
             let body = inputs.build();
+            let surface = Surface::with_sides(&body.mesh, &body.sides, |_| true);
             ObjectSurface {
-                parts: Arc::new(BodyParts::of(&Surface::with_sides(&body.mesh, &body.sides, |_| true))),
+                parts: Arc::new(BodyParts::of(&surface)),
                 bounds: body.bounds(),
                 extent: body.extent(),
                 body: Arc::new(body),

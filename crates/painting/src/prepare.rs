@@ -18,13 +18,13 @@ use crate::coat::Coat;
 use crate::context::{Context, ObjectInputs};
 use crate::finish::FinishRule;
 use crate::frame::Brushes;
-use crate::lights;
 use crate::noise_displace::NoiseInputs;
 use crate::object_cache::ObjectCache;
 use crate::order::{OrderInputs, PaintingOrder};
 use crate::painting::{Painting, PreparedBody, shapes};
 use crate::references::{BodyReferences, SceneReferences};
 use crate::regions::{self, BodyGuide, BodyRegions, RegionRule};
+use crate::shadow_bounds;
 use crate::surface::SurfaceInputs;
 use crate::view::PictureView;
 use options::{StepClock, fits};
@@ -246,6 +246,12 @@ fn plain(
         regions: Arc::default(),
     });
     let bounds: Vec<_> = caches.iter().map(ObjectCache::bounds).collect();
+    let is_lit = |cache: &ObjectCache| cache.surface().materials.iter().any(|material| !material.unlit);
+    let lit: Vec<_> = caches
+        .iter()
+        .zip(&scene.objects)
+        .map(|(cache, object)| cache.bounds().filter(|_| !object.hidden && is_lit(cache)))
+        .collect();
     let noises: Vec<Option<Arc<BodyNoise>>> = caches.iter().map(ObjectCache::noise).collect();
     let reference_shapes = shapes(scene, &noises, motion::referred_to(scene, &scene.reference).1);
     Painting {
@@ -263,7 +269,7 @@ fn plain(
         references: Arc::new(references),
         solver: if presets::is_paper(scene) { Solver::HornExact } else { style.solver },
         style: scene.style.clone(),
-        shadow_bounds: lights::bounds_over(&bounds, views.iter().map(|(_, poses)| poses.as_slice())),
+        shadow_bounds: shadow_bounds::find(&bounds, &lit, views),
         steps: Vec::new(),
     }
 }

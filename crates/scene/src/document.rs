@@ -52,7 +52,7 @@ pub struct Scene {
     /// A whole number from 0; another one changes every random choice at once.
     #[serde(default, skip_serializing_if = "is_default")]
     pub seed: u32,
-    /// What is seen where nothing is painted.
+    /// What is seen where nothing is painted; left out in a scene with a shot that has lights, a plain sky as bright as the shot.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background: Color,
     /// The background over time, frames strictly increasing; then `background` itself is not used.
@@ -109,7 +109,7 @@ fn default_size() -> (u32, u32) {
 usual_fields! {
     /// Frame range and rate.
     pub struct Timeline {
-        /// Frames per second, more than 0 and at most 1000000.
+        /// Frames per second, more than 0 and at most 1000000. Where a scene with a shot states neither rate nor frames, that of the shot's keys.
         pub fps: f64 = 24.0; saved always,
         /// First frame of the shot.
         pub first: i64 = 0; saved always,
@@ -160,7 +160,8 @@ pub enum Ease {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// Which camera of the shot is looked through, where there are several: the name of its node; left out, the first.
+    /// Which camera of the shot is looked through, where there are several: the name of its node; left out, the one that sees the most
+    /// objects when the shot begins.
     #[serde(default, skip_serializing_if = "is_default")]
     pub of_shot: Option<String>,
     /// How the camera projects.

@@ -229,19 +229,21 @@ fn enter_shot(reader: &MeshReader, scene_path: &Path, scene: &mut Scene, folders
         return Err(Report(vec![error_in(scene_path, None, message, "name a .glb or .gltf file")]));
     }
     let (file, mut warnings) = reader.open(&path, root, folders)?;
-    let (shot, mut odd) = Shot::new(file, &name, &Choice::of(scene));
-    let fps = scene.timeline.fps;
-    if let Some(rate) = shot.rate_of_keys().filter(|rate| (rate - fps).abs() > 1e-3) {
-        odd.push([
-            format!("its keys lie {rate} to a second, and the scene plays {fps} frames a second"),
-            format!("so that frames have the same numbers, write timeline: (fps: {rate}) in the scene"),
-        ]);
-    }
+    let (shot, odd) = Shot::new(file, &name, &Choice::of(scene));
     warnings.extend(odd.into_iter().map(|[message, mend]| {
         let severity = Severity::Warning;
         Problem { severity, ..error_in(&path, None, message, mend) }
     }));
+    let rate = shot.rate_of_keys();
     let lost = Arc::new(shot).enter(scene);
+    let fps = scene.timeline.fps;
+    if let Some(rate) = rate.filter(|rate| (rate - fps).abs() > 1e-3) {
+        let message = format!("its keys lie {rate} to a second, and the scene plays {fps} frames a second");
+        let mend =
+            format!("so that frames have the same numbers, write timeline: (fps: {rate}) in the scene");
+        let severity = Severity::Warning;
+        warnings.push(Problem { severity, ..error_in(&path, None, message, mend) });
+    }
     Ok((lost.into_iter().map(lost_object).collect(), warnings))
 }
 

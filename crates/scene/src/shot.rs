@@ -117,6 +117,10 @@ impl Shot {
         };
         (shot.exposure, shot.around) = shot.found_exposure();
         shot.lights = shot.lights_at_rest();
+        if !shot.has_lights() {
+            let mend = "tick lights in the export dialog (in Blender, Punctual Lights)";
+            odd.push(["there are no lights: it is lit from one side".to_owned(), mend.to_owned()]);
+        }
         shot.mend_light_keys(&mut odd);
         shot.tell_what_bends(&mut odd);
         (shot, odd)
@@ -158,17 +162,13 @@ impl Shot {
     }
 
     /// Frames per second at which all keys lie on whole frames; `None` where there are too few keys to tell.
-    pub fn rate_of_keys(&self) -> Option<f64> {
-        /// The commonest first: what fits several is the first of them.
-        const RATES: [f64; 10] =
-            [24.0, 25.0, 30.0, 12.0, 15.0, 48.0, 50.0, 60.0, 24_000.0 / 1001.0, 30_000.0 / 1001.0];
-        const FEW: usize = 4;
-        /// How far from a whole frame a key may be: times have 32 bits.
-        const OFF: f64 = 2e-3;
-        let is_whole = |frame: f64| (frame - frame.round()).abs() < OFF;
-        let fits = |rate: &f64| self.animator.key_times_s().all(|time_s| is_whole(f64::from(time_s) * rate));
-        let enough = self.animator.key_times_s().nth(FEW).is_some();
-        RATES.into_iter().find(fits).filter(|_| enough)
+    pub(crate) fn rate_of_keys(&self) -> Option<f64> {
+        rate_of(self.animator.key_times_s())
+    }
+
+    /// Frames per second: those of its keys, or else 24.
+    pub fn rate(&self) -> f64 {
+        self.rate_of_keys().unwrap_or(24.0)
     }
 
     /// The first and the last frame in which it moves, at this rate: frame = time · rate.
@@ -239,5 +239,36 @@ impl Brought for Shot {
 
     fn left(&self, scene: &Scene) -> Scene {
         enter::left(self, scene)
+    }
+}
+
+/// Frames per second at which all these times lie on whole frames; `None` where there are too few to tell.
+fn rate_of(times_s: impl Iterator<Item = f32>) -> Option<f64> {
+    const FEW: usize = 4;
+    /// How far from a whole frame a key may be: times have 32 bits.
+    const OFF: f64 = 2e-3;
+    let ntsc = |rate: f64| rate * 1000.0 / 1001.0;
+    // The commonest first: what fits several is the first of them.
+    let rates = [24.0, 25.0, 30.0, 12.0, 15.0, 48.0, 50.0, 60.0, ntsc(24.0), ntsc(30.0)];
+    let times_s: Vec<f64> = times_s.map(f64::from).collect();
+    let is_whole = |frame: f64| (frame - frame.round()).abs() < OFF;
+    let fits = |rate: &f64| times_s.iter().all(|time_s| is_whole(time_s * rate));
+    rates.into_iter().find(fits).filter(|_| times_s.len() > FEW)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rate_of;
+
+    #[test]
+    fn keys_tell_the_rate() {
+        let keys = |rate: f64, count: u32| (1..=count).map(move |frame| (f64::from(frame) / rate) as f32);
+        for rate in [24.0, 25.0, 30.0, 60.0, 24_000.0 / 1001.0] {
+            assert_eq!(rate_of(keys(rate, 2000)), Some(rate));
+        }
+        // Whole seconds fit all; three keys are chance; 17 a second is no rate of films.
+        assert_eq!(rate_of(keys(1.0, 9)), Some(24.0));
+        assert_eq!(rate_of(keys(30.0, 3)), None);
+        assert_eq!(rate_of(keys(17.0, 99)), None);
     }
 }

@@ -76,6 +76,7 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("fish", "fish", 0),
     whole("falling_log", "falling_log", 12),
     whole("meadow", "meadow", 0),
+    whole("lane", "lane", 24),
     meadow(
         "stroke_taper",
         [760, 560, 360, 160],

@@ -28,8 +28,9 @@ pub(crate) struct DrawState {
     pub blend: Blend,
     /// Clears every colour target to this colour; `None` keeps what they hold.
     pub clear: Option<[f32; 4]>,
-    /// Pushes surfaces away from the eye a little, so that they cast no shadow on themselves.
-    pub depth_offset: bool,
+    /// For shadow maps: pushes surfaces away from the eye a little, so that they cast no shadow on themselves, and keeps what is nearer
+    /// than the nearest depth.
+    pub casts_shadow: bool,
 }
 
 /// What to draw.
@@ -66,7 +67,8 @@ impl Gpu {
         }
         switch(glow::DEPTH_TEST, state.depth_test);
         switch(glow::BLEND, state.blend != Blend::Off);
-        switch(glow::POLYGON_OFFSET_FILL, state.depth_offset);
+        switch(glow::POLYGON_OFFSET_FILL, state.casts_shadow);
+        switch(glow::DEPTH_CLAMP, state.casts_shadow);
         // SAFETY: the context is current; the framebuffer was made in it.
         unsafe {
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.id()));

@@ -13,7 +13,7 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
         meshes.iter().map(|(path, mesh)| (path.as_str(), KnownNames::of(path, mesh))).collect();
     for (index, object) in scene.objects.iter().enumerate() {
         if let (Some(group), Some(known)) = (&object.group, known.get(object.mesh.as_str())) {
-            known.check(Kind::Group, group, &format!("objects[{index}].group"), findings);
+            known.check(Kind::Group, group, Severity::Error, &format!("objects[{index}].group"), findings);
         }
     }
     let mesh_path_of: HashMap<&str, &str> =
@@ -27,7 +27,9 @@ pub(super) fn check(scene: &Scene, meshes: &BTreeMap<String, Arc<MeshFile>>, fin
                 PatchRef::Material(material) => (Kind::Material, material),
                 PatchRef::Whole | PatchRef::Dabs(_) | PatchRef::Flood(..) => continue,
             };
-            known.check(kind, name, &format!("regions[{index}].on"), findings);
+            // What a shot does not bring any more may come back with its next export.
+            let severity = if scene.shot.is_some() { Severity::Warning } else { Severity::Error };
+            known.check(kind, name, severity, &format!("regions[{index}].on"), findings);
         }
     }
 }
@@ -55,15 +57,19 @@ impl<'a> KnownNames<'a> {
         }
     }
 
-    fn check(&self, kind: Kind, name: &str, field_path: &str, findings: &mut Findings) {
+    fn check(&self, kind: Kind, name: &str, severity: Severity, field_path: &str, findings: &mut Findings) {
         let (word, known) = match kind {
             Kind::Group => ("group", &self.groups),
             Kind::Material => ("material", &self.materials),
         };
         if !known.contains(name) {
-            findings.add(Severity::Error, || {
+            findings.add(severity, || {
                 let message = format!("there is no {word} \"{}\" in {}", shown(name), shown(self.mesh_path));
-                (field_path.to_owned(), message, did_you_mean(name, known.iter().copied()))
+                (
+                    field_path.to_owned(),
+                    message,
+                    did_you_mean(name, known.iter().copied().filter(|known| !known.is_empty())),
+                )
             });
         }
     }

@@ -68,7 +68,7 @@ pub trait Brought: Debug + Send + Sync {
     fn light(&self, light: &Light, posed: &Posed) -> Light;
 
     /// Puts the shot on the scene's stage: adds its objects and lights, those that the document states by name overridden, and takes
-    /// its frames where the document states none. Returns what the shot does not have any more.
+    /// its frames and its sky where the document states none. Returns what the shot does not have any more.
     fn enter(self: Arc<Self>, scene: &mut Scene) -> Vec<Lost>;
 
     /// The document without what it only has from the shot, as it is saved. An object of the shot that was deleted is stated as

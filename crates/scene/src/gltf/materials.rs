@@ -14,7 +14,7 @@ use crate::texture;
 const GREY: [f32; 3] = [0.8; 3];
 
 /// The share of its colour that smooth metal lacks as a matt surface.
-const METAL_DARK: f32 = 0.45;
+const METAL_DARK: f32 = 0.2;
 
 /// Light that a surface gives off by itself counts as the whole of its look from this share of its own colour on.
 const GLOWS: f32 = 1.0;

@@ -1,5 +1,7 @@
 //! Turns nodes of a glTF file into one mesh file: primitives placed, cut and joined, with normals where the file has none.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use impasto_core::TriangleMesh;
 use impasto_core::color::srgb_from_linear;
@@ -30,7 +32,7 @@ pub(super) fn mesh_of<'a>(
             let material = primitive.material.unwrap_or(file.gltf.materials.len());
             let vertices = Vertices::of(file, node, mesh, primitive);
             for copy in &copies {
-                joined.add(&vertices, primitive, *copy, [group, material as u32]);
+                joined.add(&vertices, *copy, [group, material as u32]);
             }
         }
     }
@@ -54,6 +56,8 @@ struct Vertices {
     uvs: Option<Vec<Vec2>>,
     /// sRGB.
     colors: Option<Vec<[u8; 3]>>,
+    /// The corners of each triangle.
+    triangles: Arc<Vec<[u32; 3]>>,
 }
 
 impl Vertices {
@@ -89,7 +93,39 @@ impl Vertices {
         let byte = |channel: f32| (srgb_from_linear(channel) * 255.0).round() as u8;
         let opaque = |&[r, g, b, _]: &[f32; 4]| [r, g, b].map(byte);
         let colors = primitive.colors.as_ref().map(|list| list.iter().map(opaque).collect());
-        Self { positions, normals, uvs, colors }
+        let triangles = Arc::clone(&primitive.triangles);
+        let mut vertices = Self { positions, normals, uvs, colors, triangles };
+        // Primitives may share their vertices: each takes those that it uses.
+        if vertices.positions.len() > vertices.triangles.len() {
+            vertices.drop_unused();
+        }
+        vertices
+    }
+
+    /// Drops the vertices that no triangle uses; the others keep their order.
+    fn drop_unused(&mut self) {
+        let mut is_used = vec![false; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|&vertex| is_used[vertex as usize] = true);
+        let mut count = 0;
+        let place = |used: &bool| {
+            count += u32::from(*used);
+            count.wrapping_sub(1)
+        };
+        let place: Vec<u32> = is_used.iter().map(place).collect();
+        if count as usize == is_used.len() {
+            return;
+        }
+        fn keep<T>(list: &mut Vec<T>, is_used: &[bool]) {
+            let mut used = is_used.iter();
+            list.retain(|_| used.next() == Some(&true));
+            list.shrink_to_fit();
+        }
+        keep(&mut self.positions, &is_used);
+        self.normals.iter_mut().for_each(|list| keep(list, &is_used));
+        self.uvs.iter_mut().for_each(|list| keep(list, &is_used));
+        self.colors.iter_mut().for_each(|list| keep(list, &is_used));
+        let placed = |corners: &[u32; 3]| corners.map(|vertex| place[vertex as usize]);
+        self.triangles = Arc::new(self.triangles.iter().map(placed).collect());
     }
 }
 
@@ -146,13 +182,7 @@ impl Joined {
         }) as u32
     }
 
-    fn add(
-        &mut self,
-        vertices: &Vertices,
-        primitive: &Primitive,
-        placed: DAffine3,
-        [group, material]: [u32; 2],
-    ) {
+    fn add(&mut self, vertices: &Vertices, placed: DAffine3, [group, material]: [u32; 2]) {
         let first = self.geometry.positions.len() as u32;
         // Adding 0 makes −0 and 0 the same.
         self.geometry
@@ -179,12 +209,12 @@ impl Joined {
         }
         // A mirrored surface shows its other side.
         let is_mirrored = placed.matrix3.determinant() < 0.0;
-        for &[a, b, c] in primitive.triangles.iter() {
+        for &[a, b, c] in vertices.triangles.iter() {
             let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
             self.geometry.corners.extend(corners.map(|corner| first + corner));
             self.geometry.ends.push(self.geometry.corners.len() as u32);
         }
-        let faces = primitive.triangles.len();
+        let faces = vertices.triangles.len();
         self.group_of_face.extend(std::iter::repeat_n(group, faces));
         self.material_of_face.extend(std::iter::repeat_n(material, faces));
         self.lacks_normals |= vertices.normals.is_none();

@@ -3,12 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use impasto_core::color::{linear_from_srgb, srgb_from_linear};
-
 use super::axes::Axes;
 use super::scheme::{self, Scheme};
 use super::{bare, object_name};
-use crate::document::{Brought, Color, Scene, StrokeSettings, Timeline};
+use crate::document::{Brought, Color, Scene, StrokeSettings};
 use crate::mesh_file::MeshFile;
 use crate::motion;
 use crate::shot::Shot;
@@ -18,11 +16,6 @@ const LONGER_PX: f64 = 1280.0;
 
 /// Aspects beyond this, wide or tall, are no picture's.
 const MOST_ASPECT: f64 = 4.0;
-
-/// A colour with this share of its light.
-fn dimmed(Color(color): Color, share: f64) -> Color {
-    Color(color.map(|channel| srgb_from_linear(linear_from_srgb(channel) * share as f32)))
-}
 
 /// A scene that paints a shot as its file has it. The picture has the aspect of the shot's camera. A shot without lights is lit from
 /// one side. `meshes` are what its objects show.
@@ -35,11 +28,10 @@ pub fn for_shot(path: &Path, meshes: &[Arc<MeshFile>], shot: &Arc<Shot>) -> Scen
     let [width, height] = [aspect, 1.0].map(|side| even(LONGER_PX * side / aspect.max(1.0)));
     let mut scene = Scene {
         size: (width, height),
-        seed: name_hash % 1000,
-        background: dimmed(scheme.plain_ground(), shot.brightness().powi(2)),
+        // A shot with lights brings a sky.
+        background: if shot.has_lights() { Color::default() } else { scheme.plain_ground() },
         shot: Some(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()),
         // Smaller strokes than usual: an unknown shot may have much fine detail.
-        timeline: Timeline { fps: shot.rate_of_keys().unwrap_or(24.0), ..Timeline::default() },
         strokes: StrokeSettings { scale: Some(0.7), ..Default::default() },
         ..bare()
     };

@@ -3,8 +3,13 @@
 use std::sync::Arc;
 
 use super::Shot;
-use crate::document::{Lost, Object, Scene, Stage};
+use crate::document::{Color, Lost, Object, Scene, Stage, Timeline};
 use crate::nearest::nearest;
+
+/// Whether a scene leaves rate and frames to its shot.
+fn is_unstated(timeline: &Timeline) -> bool {
+    *timeline == Timeline { animation: timeline.animation.clone(), ..Timeline::default() }
+}
 
 /// See [`crate::document::Brought::enter`].
 pub(super) fn enter(shot: Arc<Shot>, scene: &mut Scene) -> Vec<Lost> {
@@ -31,6 +36,12 @@ pub(super) fn enter(shot: Arc<Shot>, scene: &mut Scene) -> Vec<Lost> {
         if scene.lights.iter().all(|light| light.name != brought.name) {
             scene.lights.push(brought.clone());
         }
+    }
+    if let Some(sky) = shot.sky().filter(|_| scene.background == Color::default()) {
+        scene.background = sky;
+    }
+    if is_unstated(&scene.timeline) {
+        scene.timeline.fps = shot.rate();
     }
     if (scene.timeline.first, scene.timeline.last) == (0, 0) {
         (scene.timeline.first, scene.timeline.last) = shot.frames(scene.timeline.fps);
@@ -60,8 +71,14 @@ pub(super) fn left(shot: &Shot, scene: &Scene) -> Scene {
         .chain(scene.stage.lost.iter().cloned())
         .collect();
     left.lights.retain(|light| shot.lights.iter().all(|(brought, _)| brought != light));
+    if shot.sky() == Some(scene.background) {
+        left.background = Color::default();
+    }
     if shot.frames(scene.timeline.fps) == (scene.timeline.first, scene.timeline.last) {
         (left.timeline.first, left.timeline.last) = (0, 0);
+        if scene.timeline.fps == shot.rate() {
+            left.timeline.fps = Timeline::default().fps;
+        }
     }
     left
 }

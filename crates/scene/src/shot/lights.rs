@@ -1,7 +1,7 @@
 //! The lights of a shot, with an exposure that brings them to the scale of a scene's lights.
 
 use glam::DVec3;
-use impasto_core::color::srgb_from_linear;
+use impasto_core::color::{linear_from_srgb, srgb_from_linear};
 use impasto_gltf::{LightKind as ShotKind, LightProperty, LightValues, Posed, Target};
 
 use super::Shot;
@@ -25,7 +25,7 @@ const NO_LUX: f64 = 0.01;
 const DARKNESS: f64 = 0.6;
 
 /// The soft light all around, which no exporter writes, over the light of suns and over that of lamps.
-const AROUND: [f64; 2] = [0.15, 0.25];
+const AROUND: [f64; 2] = [0.11, 0.25];
 
 /// A lamp counts as at least this far from an object, over the size of the scene.
 const NEAREST: f64 = 0.05;
@@ -91,10 +91,16 @@ impl Shot {
         brought
     }
 
-    /// How bright the shot is, over a well-lit one: at most 1.
-    pub(crate) fn brightness(&self) -> f64 {
-        let found: f64 = self.light_at_middle().iter().sum();
-        if found > 0.0 { (found * self.exposure / LEAST).min(1.0) } else { 1.0 }
+    /// What shows behind the shot, since the world does not come along: a plain sky, as bright as the shot. `None` without lights.
+    pub(super) fn sky(&self) -> Option<Color> {
+        const OF_DAY: [f32; 3] = [0.66, 0.735, 0.80];
+        const OF_LAMPS: f64 = 0.35;
+        let [suns, lamps] = self.light_at_middle();
+        // Suns light the sky, lamps hardly do; and it darkens sooner than what stands below.
+        let share = ((suns + OF_LAMPS * lamps) * self.exposure / LEAST).min(1.0).powi(2) as f32;
+        let sky = OF_DAY.map(|channel| srgb_from_linear(linear_from_srgb(channel) * share));
+        // As a scene file can state it.
+        self.has_lights().then(|| Color::from_hex(&Color(sky).to_hex()).unwrap_or_default())
     }
 
     /// The lights as they are at rest, and a soft light all around where there are any.
