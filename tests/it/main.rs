@@ -35,6 +35,7 @@ mod rotating_strokes;
 mod scenes_in_motion;
 mod shift;
 mod shipped_scenes;
+mod shot_looks;
 mod shots;
 mod steadiness;
 mod sumi_e;

@@ -86,6 +86,16 @@ pub fn write(path: &Path, nodes: &[Node<'_>]) {
     std::fs::write(path, bytes(&root, bin)).expect("written");
 }
 
+/// Writes a shot anew with another document: `change` gets that of the file.
+pub fn edit(path: &Path, change: impl FnOnce(&mut Value)) {
+    let file = std::fs::read(path).expect("a shot");
+    let number = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize;
+    let text_end = 20 + number(12);
+    let mut root = serde_json::from_slice(&file[20..text_end]).expect("a document");
+    change(&mut root);
+    std::fs::write(path, bytes(&root, file[text_end + 8..].to_vec())).expect("written");
+}
+
 /// The bytes of a `.glb`.
 pub fn bytes(root: &Value, mut bin: Vec<u8>) -> Vec<u8> {
     let mut text = root.to_string().into_bytes();

@@ -246,11 +246,10 @@ fn plain(
         regions: Arc::default(),
     });
     let bounds: Vec<_> = caches.iter().map(ObjectCache::bounds).collect();
-    let is_lit = |cache: &ObjectCache| cache.surface().materials.iter().any(|material| !material.unlit);
     let lit: Vec<_> = caches
         .iter()
         .zip(&scene.objects)
-        .map(|(cache, object)| cache.bounds().filter(|_| !object.hidden && is_lit(cache)))
+        .map(|(cache, object)| cache.bounds().filter(|_| !object.hidden && cache.surface().is_lit()))
         .collect();
     let noises: Vec<Option<Arc<BodyNoise>>> = caches.iter().map(ObjectCache::noise).collect();
     let reference_shapes = shapes(scene, &noises, motion::referred_to(scene, &scene.reference).1);

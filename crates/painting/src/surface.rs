@@ -168,6 +168,15 @@ fn placed(mut mesh: TriangleMesh, scale: Scale, up: Up) -> TriangleMesh {
 }
 
 impl BodySurface {
+    /// Whether light falls on any of it.
+    pub(crate) fn is_lit(&self) -> bool {
+        let is_lit = |triangle| {
+            let material = self.materials.get(self.material_of_triangle(triangle));
+            material.is_none_or(|material| !material.unlit)
+        };
+        (0..self.mesh.triangles.len()).any(is_lit)
+    }
+
     /// The vertices of the surface in this shape.
     pub(crate) fn vertices_at(&self, shape: &BodyShape) -> Vertices {
         let morphed = self.morphed(shape.morph);

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use impasto_core::TriangleMesh;
+pub use impasto_gltf::Wrap;
 
 /// A mesh with the names and materials of its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,18 +43,6 @@ impl Material {
         let sampling = Sampling::default();
         Self { name, color, texture: None, sampling, cutoff: None, gloss: 0.0, unlit: false }
     }
-}
-
-/// What lies beyond the border of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Wrap {
-    /// The picture again.
-    #[default]
-    Repeat,
-    /// The picture mirrored, then again.
-    Mirror,
-    /// The pixels of the border.
-    Clamp,
 }
 
 /// How a texture is read.

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use impasto_core::color::srgb_from_linear;
-use impasto_gltf::{AlphaMode, Gltf, Material as Stated, Sampler, Wrap as StatedWrap};
+use impasto_gltf::{AlphaMode, Gltf, Material as Stated, Sampler};
 
-use crate::mesh_file::{Material, Sampling, Texture, Wrap};
+use crate::mesh_file::{Material, Sampling, Texture};
 use crate::problem::{Problem, Severity};
 use crate::texture;
 
@@ -55,12 +55,7 @@ fn cutoff(stated: &Stated) -> Option<f32> {
 }
 
 fn sampling(sampler: Sampler) -> Sampling {
-    let wrap = |wrap| match wrap {
-        StatedWrap::Repeat => Wrap::Repeat,
-        StatedWrap::Mirror => Wrap::Mirror,
-        StatedWrap::Clamp => Wrap::Clamp,
-    };
-    Sampling { wrap: [sampler.wrap_u, sampler.wrap_v].map(wrap), is_nearest: sampler.is_nearest }
+    Sampling { wrap: [sampler.wrap_u, sampler.wrap_v], is_nearest: sampler.is_nearest }
 }
 
 /// A warning that a material is too clear to be painted.
