@@ -86,14 +86,16 @@ pub fn write(path: &Path, nodes: &[Node<'_>]) {
     std::fs::write(path, bytes(&root, bin)).expect("written");
 }
 
-/// Writes a shot anew with another document: `change` gets that of the file.
-pub fn edit(path: &Path, change: impl FnOnce(&mut Value)) {
+/// Writes a shot anew: `change` gets the file's document and its bytes.
+pub fn edit(path: &Path, change: impl FnOnce(&mut Value, &mut Vec<u8>)) {
     let file = std::fs::read(path).expect("a shot");
     let number = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize;
     let text_end = 20 + number(12);
     let mut root = serde_json::from_slice(&file[20..text_end]).expect("a document");
-    change(&mut root);
-    std::fs::write(path, bytes(&root, file[text_end + 8..].to_vec())).expect("written");
+    let mut bin = file[text_end + 8..].to_vec();
+    change(&mut root, &mut bin);
+    root["buffers"][0]["byteLength"] = json!(bin.len());
+    std::fs::write(path, bytes(&root, bin)).expect("written");
 }
 
 /// The bytes of a `.glb`.

@@ -1,6 +1,6 @@
 //! `impasto info`: what is in a scene or a mesh.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::io::Write as _;
 use std::sync::Arc;
 
@@ -109,14 +109,14 @@ fn facts(painting: &Painting) -> serde_json::Value {
     let loaded = painting.loaded();
     let scene = &loaded.scene;
     // Nodes that share a mesh in memory are told of once.
-    let same = |file: &Arc<MeshFile>| {
-        let named = loaded.meshes.iter().filter(|(_, other)| Arc::ptr_eq(file, other));
-        named.map(|(path, _)| path).collect::<Vec<_>>()
-    };
+    let mut same: HashMap<*const MeshFile, Vec<&String>> = HashMap::new();
+    for (path, file) in &loaded.meshes {
+        same.entry(Arc::as_ptr(file)).or_default().push(path);
+    }
     let meshes: Vec<serde_json::Value> = loaded
         .meshes
         .iter()
-        .map(|(path, file)| (path, file, same(file)))
+        .map(|(path, file)| (path, file, &same[&Arc::as_ptr(file)]))
         .filter(|(path, _, same)| same[0] == *path)
         .map(|(path, file, same)| {
             let (low, high) = file.mesh.bounds().unwrap_or_default();

@@ -107,7 +107,8 @@ impl MeshOnGpu {
         let mut ranges = Vec::with_capacity(self.parts.len());
         for part in &self.parts {
             let first = indices.len();
-            let showing = part.triangles.iter().filter(|&&triangle| shows(triangle));
+            // Through holes the far side is seen too.
+            let showing = part.triangles.iter().filter(|&&triangle| part.cutoff.is_some() || shows(triangle));
             indices.extend(showing.map(|&triangle| mesh.triangles[triangle as usize]));
             ranges.push([first, indices.len() - first].map(|count| count as u32 * 3));
         }
@@ -248,7 +249,7 @@ impl MeshCache {
         }
         let bytes = bytemuck::cast_slice(&texels);
         let texture = Texture::with_driver_levels(gpu, Format::SrgbAlpha8, picture.size_px, bytes)?;
-        texture.set_sampling(material.sampling);
+        texture.set_sampler(material.sampler);
         Ok(Rc::new(texture))
     }
 }

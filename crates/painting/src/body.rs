@@ -7,7 +7,7 @@ use impasto_core::TriangleMesh;
 use impasto_core::noise_displace::{Lookup, Tile, VertexNoise};
 use impasto_core::shells::Side;
 use impasto_scene::document::NoiseDisplace;
-use impasto_scene::mesh_file::{Sampling, Texture};
+use impasto_scene::mesh_file::{Sampler, Texture};
 use impasto_scene::morph::MorphTarget;
 
 /// A surface with its materials, in model space (static scale applied).
@@ -31,7 +31,7 @@ pub struct BodyMaterial {
     /// Multiplies `albedo`; sRGB bytes.
     pub texture: Option<Arc<Texture>>,
     /// How the texture is read.
-    pub sampling: Sampling,
+    pub sampler: Sampler,
     /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1.
     pub cutoff: Option<f32>,
     /// Whether it is shown as it is, without light or shadow.

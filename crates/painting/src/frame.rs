@@ -10,7 +10,7 @@ mod stroke;
 
 pub use crate::body::{BodyMaterial, BodySurface, FrameNoise};
 pub use impasto_scene::document::{InkDrawing, InkLight, InkRule, Style, SumiE};
-pub use impasto_scene::mesh_file::{Sampling, Wrap};
+pub use impasto_scene::mesh_file::{Sampler, Wrap};
 pub use impasto_scene::presets::LayerKind;
 pub use stroke::{ANY_COLOR, LayerRun, Mixing, Paint, Stroke, StrokeSource, Strokes};
 

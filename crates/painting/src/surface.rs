@@ -11,7 +11,7 @@ use impasto_core::sampling::Particle;
 use impasto_core::shells::sides;
 use impasto_scene::document::{Color, MaterialOverride, Object, Scale, Up};
 use impasto_scene::loaded::LoadedScene;
-use impasto_scene::mesh_file::{MeshFile, Sampling, Texture};
+use impasto_scene::mesh_file::{MeshFile, Sampler, Texture};
 use impasto_scene::morph::{self, MorphTarget};
 use rayon::prelude::*;
 
@@ -126,7 +126,7 @@ impl SurfaceInputs {
             Some(over) if over.color.is_some() || self.texture.is_some() => BodyMaterial {
                 albedo: linear(over.color.unwrap_or(Color::white())),
                 texture: self.texture.clone(),
-                sampling: Sampling::default(),
+                sampler: Sampler::default(),
                 cutoff: None,
                 unlit: is_unlit,
                 gloss,
@@ -134,7 +134,7 @@ impl SurfaceInputs {
             _ => BodyMaterial {
                 albedo: linear(Color(from_file.color)),
                 texture: from_file.texture.clone(),
-                sampling: from_file.sampling,
+                sampler: from_file.sampler,
                 cutoff: from_file.cutoff,
                 unlit: from_file.unlit || is_unlit,
                 gloss,
@@ -251,7 +251,7 @@ impl BodySurface {
         let Some(material) = self.materials.get(material) else { return NO_MATERIAL };
         let mut albedo = material.albedo;
         if let (Some(texture), Some(uv)) = (&material.texture, particle.uv(&self.mesh)) {
-            let [red, green, blue, alpha] = texture.pixel(material.sampling, uv.to_array());
+            let [red, green, blue, alpha] = texture.pixel(material.sampler, uv.to_array());
             if material.cutoff.is_some_and(|cutoff| f32::from(alpha) / 255.0 < cutoff) {
                 return HOLE;
             }

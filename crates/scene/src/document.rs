@@ -109,7 +109,7 @@ fn default_size() -> (u32, u32) {
 usual_fields! {
     /// Frame range and rate.
     pub struct Timeline {
-        /// Frames per second, more than 0 and at most 1000000. Where a scene with a shot states neither rate nor frames, that of the shot's keys.
+        /// Frames per second, more than 0 and at most 1000000. In a scene with a shot, 24 without frames counts as not stated: then it is that of the shot's keys.
         pub fps: f64 = 24.0; saved always,
         /// First frame of the shot.
         pub first: i64 = 0; saved always,

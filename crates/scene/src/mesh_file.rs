@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use impasto_core::TriangleMesh;
-pub use impasto_gltf::Wrap;
+pub use impasto_gltf::{Sampler, Wrap};
 
 /// A mesh with the names and materials of its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Material {
     /// Multiplies `color` where the mesh has texture coordinates.
     pub texture: Option<Arc<Texture>>,
     /// How the texture is read.
-    pub sampling: Sampling,
+    pub sampler: Sampler,
     /// Where the texture's alpha, 0..=1, is less than this, there is no surface; without a texture, alpha is 1. `None`: alpha means
     /// nothing.
     pub cutoff: Option<f32>,
@@ -40,18 +40,9 @@ impl Material {
     /// A matt material of one colour (sRGB, each channel in 0..=1).
     pub fn plain(name: impl Into<String>, color: [f32; 3]) -> Self {
         let name = name.into();
-        let sampling = Sampling::default();
-        Self { name, color, texture: None, sampling, cutoff: None, gloss: 0.0, unlit: false }
+        let sampler = Sampler::default();
+        Self { name, color, texture: None, sampler, cutoff: None, gloss: 0.0, unlit: false }
     }
-}
-
-/// How a texture is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Sampling {
-    /// Beyond the left and right border, and beyond the upper and lower border.
-    pub wrap: [Wrap; 2],
-    /// Whether pixels show as squares when the picture is enlarged.
-    pub is_nearest: bool,
 }
 
 /// A decoded picture: 8 bits per channel, sRGB, straight alpha, first row on top.
@@ -68,17 +59,18 @@ impl Texture {
     pub const MAX_SIDE_PX: u32 = 4096;
 
     /// The pixel at texture coordinates whose V points up, (0, 0) the lower left corner.
-    pub fn pixel(&self, sampling: Sampling, uv: [f32; 2]) -> [u8; 4] {
-        let at = |axis: usize| {
-            let unit = match sampling.wrap[axis] {
-                Wrap::Repeat => uv[axis].rem_euclid(1.0),
-                Wrap::Mirror => 1.0 - (uv[axis].rem_euclid(2.0) - 1.0).abs(),
-                Wrap::Clamp => uv[axis],
+    pub fn pixel(&self, sampler: Sampler, [u, v]: [f32; 2]) -> [u8; 4] {
+        let at = |wrap: Wrap, along: f32, size: u32| {
+            let unit = match wrap {
+                Wrap::Repeat => along.rem_euclid(1.0),
+                Wrap::Mirror => 1.0 - (along.rem_euclid(2.0) - 1.0).abs(),
+                Wrap::Clamp => along,
             };
             // The cast brings numbers below 0 to 0.
-            ((unit * self.size_px[axis] as f32) as u32).min(self.size_px[axis] - 1)
+            ((unit * size as f32) as u32).min(size - 1)
         };
-        let row = self.size_px[1] - 1 - at(1);
-        self.rgba8[(row * self.size_px[0] + at(0)) as usize]
+        let [width, height] = self.size_px;
+        let row = height - 1 - at(sampler.wrap_v, v, height);
+        self.rgba8[(row * width + at(sampler.wrap_u, u, width)) as usize]
     }
 }

@@ -51,6 +51,9 @@ const fn sweep(
 /// Makes blades of grass broad enough to show their shape.
 const BROAD: (&str, &str) = ("regions.grass.strokes.width_px", "18");
 
+/// Lets blades of grass stand apart.
+const SPARSE: (&str, &str) = ("regions.grass.strokes.coverage", "0.3");
+
 /// A part of the meadow with other values in each panel.
 const fn meadow(
     name: &'static str,
@@ -79,11 +82,11 @@ pub(super) const PICTURES: &[Picture] = &[
     whole("lane", "lane", 24),
     meadow(
         "stroke_taper",
-        [760, 560, 360, 160],
+        [100, 550, 300, 150],
         &[
-            &[("regions.grass.strokes.taper", "0"), BROAD],
-            &[("regions.grass.strokes.taper", "0.6"), BROAD],
-            &[("regions.grass.strokes.taper", "1"), BROAD],
+            &[("regions.grass.strokes.taper", "0"), BROAD, SPARSE],
+            &[("regions.grass.strokes.taper", "0.6"), BROAD, SPARSE],
+            &[("regions.grass.strokes.taper", "1"), BROAD, SPARSE],
         ],
     ),
     meadow(

@@ -1,7 +1,7 @@
 //! Textures: pictures that shaders read, and targets that passes draw into.
 
 use glow::{HasContext as _, PixelUnpackData};
-use impasto_painting::frame::{Sampling, Wrap};
+use impasto_painting::frame::{Sampler, Wrap};
 
 use super::{GlError, Gpu};
 
@@ -112,13 +112,13 @@ impl Texture {
     }
 
     /// Reads the texture as a material states it.
-    pub(crate) fn set_sampling(&self, sampling: Sampling) {
+    pub(crate) fn set_sampler(&self, sampler: Sampler) {
         let wrap = |wrap| match wrap {
             Wrap::Repeat => glow::REPEAT,
             Wrap::Mirror => glow::MIRRORED_REPEAT,
             Wrap::Clamp => glow::CLAMP_TO_EDGE,
         };
-        let [across, up] = sampling.wrap.map(|way| wrap(way) as i32);
+        let [across, up] = [sampler.wrap_u, sampler.wrap_v].map(|way| wrap(way) as i32);
         let kind = self.kind();
         let gl = self.gpu.gl();
         // SAFETY: the context is current; these parameters exist in OpenGL 3.3.
@@ -126,7 +126,7 @@ impl Texture {
             gl.bind_texture(kind, Some(self.id));
             gl.tex_parameter_i32(kind, glow::TEXTURE_WRAP_S, across);
             gl.tex_parameter_i32(kind, glow::TEXTURE_WRAP_T, up);
-            if sampling.is_nearest {
+            if sampler.is_nearest {
                 gl.tex_parameter_i32(kind, glow::TEXTURE_MAG_FILTER, glow::NEAREST as i32);
             }
         }

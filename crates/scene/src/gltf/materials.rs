@@ -6,7 +6,7 @@ use std::sync::Arc;
 use impasto_core::color::srgb_from_linear;
 use impasto_gltf::{AlphaMode, Gltf, Material as Stated, Sampler};
 
-use crate::mesh_file::{Material, Sampling, Texture};
+use crate::mesh_file::{Material, Texture};
 use crate::problem::{Problem, Severity};
 use crate::texture;
 
@@ -31,13 +31,13 @@ pub(super) fn of(path: &Path, gltf: &Gltf, warnings: &mut Vec<Problem>) -> Vec<M
         let used = if glows { stated.emissive_texture } else { stated.base_color_texture };
         let used = used.map(|used| &gltf.textures[used.texture]);
         let texture = used.and_then(|used| used.image).and_then(|image| picture(image, warnings));
-        let sampling = used.map_or(Sampling::default(), |used| sampling(used.sampler));
+        let sampler = used.map_or(Sampler::default(), |used| used.sampler);
         // Alpha is that of the base colour: a picture of emission has none.
         let cutoff = cutoff(stated).filter(|cutoff| !glows || *cutoff > 1.0);
         if stated.alpha == AlphaMode::Blend && cutoff.is_some_and(|cutoff| cutoff > 1.0) {
             warnings.push(unseen(path, materials.len(), &stated.name));
         }
-        materials.push(Material { texture, sampling, cutoff, ..plain(stated, glows) });
+        materials.push(Material { texture, sampler, cutoff, ..plain(stated, glows) });
     }
     materials.push(Material::plain(String::new(), GREY));
     materials
@@ -52,10 +52,6 @@ fn cutoff(stated: &Stated) -> Option<f32> {
         AlphaMode::Blend => HALF,
     };
     Some(of_all / stated.values.base_color[3].max(1e-6))
-}
-
-fn sampling(sampler: Sampler) -> Sampling {
-    Sampling { wrap: [sampler.wrap_u, sampler.wrap_v], is_nearest: sampler.is_nearest }
 }
 
 /// A warning that a material is too clear to be painted.
